@@ -17,14 +17,19 @@ LEAST = 0.019  # of a quantity; its chart spans 2 % of it at least, and its tick
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 
 
-def read_chart(page, name):
-    """Values of the curve of a chart, and the span of its axis, by the labels of its ticks."""
+def read_axis(page, name):
+    """A value of the vertical axis of a chart, its height, and the change by a unit of height."""
     ticks = page.tab.locator(f"#{name} text.tick[text-anchor=end]").evaluate_all(
         "all => all.map(e => [Number(e.textContent), Number(e.getAttribute('y')) - 3])"
     )
     (first, lowest), (last, highest) = ticks[0], ticks[-1]
     assert lowest != highest
-    scale = (last - first) / (highest - lowest)
+    return first, lowest, (last - first) / (highest - lowest)
+
+
+def read_chart(page, name):
+    """Values of the curve of a chart, and the span of its axis."""
+    first, lowest, scale = read_axis(page, name)
     curve = page.tab.locator(f"#{name} path[stroke-width='1.8']").first.get_attribute("d")
     heights = np.array([float(y) for y in re.findall(r"[ML][-\d.]+ ([-\d.]+)", curve)])
     return first + scale * (heights - lowest), abs(scale) * HEIGHT

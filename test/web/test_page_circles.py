@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from web.opened import FEW_FRAMES, UNDRAWN
+from web.test_page_charts import read_axis
 from web.test_page_numbers import Shown
 
 # Two circles of 96 pieces, of six corners with eight numbers each; keeps the heights of all points.
@@ -19,11 +20,15 @@ WebGL2RenderingContext.prototype.bufferData = function (target, numbers, ...rest
     load.call(this, target, numbers, ...rest);
 };
 """
-# The level of the energy, the place on it, and the curve; test_js_physics.py has their numbers.
-READ_WELL = """() => [document.querySelector("#well path[stroke='var(--gold)']").getAttribute("d"),
-    document.querySelector("#well circle").getAttribute("cy"),
-    document.querySelector("#potential").getAttribute("d")]"""
+# The heights of the level of the energy and of the place on it, and the curve.
+READ_WELL = """() => {
+    const level = document.querySelector("#well path[stroke='var(--gold)']").getAttribute("d");
+    const place = document.querySelector("#well circle").getAttribute("cy");
+    const curve = document.querySelector("#potential").getAttribute("d");
+    return [Number(level.match(/M44 ([\\d.]+)H/)[1]), Number(place), curve];
+}"""
 SINGLE = 2.0**-23  # a coordinate of the scene, rounded
+TENTH = 0.1001  # units of a chart: two coordinates are written in tenths, of a level and of a tick
 
 
 def is_right(page, seconds):
@@ -36,6 +41,16 @@ def is_right(page, seconds):
     circles, cosines = page.tab.evaluate("window.circles"), np.cos(shown.free.turning_angles)
     are_right = len(circles) == 2 and np.abs(circles - cosines).max() <= SINGLE
     return are_right and float(page.tab.get_attribute("body", "data-time")) == seconds
+
+
+def read_well(page):
+    """What the well shows, which is the energy of the state but for its spin."""
+    (*heights, curve), shown = page.tab.evaluate(READ_WELL), Shown(page)
+    first, lowest, scale = read_axis(page, "well")
+    spin = shown.top.Iz * shown.state.angular_velocity[2] ** 2 / 2
+    found = first + scale * (np.array(heights) - lowest)
+    assert np.abs(found - (shown.top.energy(shown.state) - spin)).max() <= 2 * TENTH * abs(scale)
+    return [*heights, curve]
 
 
 @pytest.mark.parametrize("scene", ["friction", "vertical_torque"])
@@ -51,6 +66,6 @@ def test_circles_and_energy_are_those_of_a_driven_state_after_waiting_and_a_seek
         page.seek(time)
         page.until(lambda time=time: is_right(page, time))
         page.wait_for_frames()
-        wells.append(page.tab.evaluate(READ_WELL))
+        wells.append(read_well(page))
     first, early, last = wells
     assert first == last != early
