@@ -29,15 +29,10 @@ def motion_of(scene):
     return start_motion(Settings.from_scene(scene))
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_scene_starts_the_motion_that_its_name_promises(kind):
-    for scene in KINDS[kind].split():
-        motion = motion_of(scene)
-        assert (scene, "driven" if motion.is_driven else motion.kind) == (scene, kind)
-
-
-def test_every_scene_has_a_kind():
-    assert set(scene_names()) == set(" ".join(KINDS.values()).split())
+def test_every_scene_starts_the_motion_that_its_name_promises():
+    motions = {name: motion_of(name) for name in scene_names()}
+    found = {name: "driven" if each.is_driven else each.kind for name, each in motions.items()}
+    assert found == {name: kind for kind, names in KINDS.items() for name in names.split()}
 
 
 def test_what_a_class_has_at_hand_is_computed_from_its_mass_and_size():

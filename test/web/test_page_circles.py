@@ -1,10 +1,12 @@
 """Turning circles and the well of the energy follow a motion with friction or a torque."""
 
+import re
+
 import numpy as np
 import pytest
 from web.opened import FEW_FRAMES, UNDRAWN
 from web.test_page_charts import read_axis
-from web.test_page_numbers import Shown
+from web.test_page_numbers import NUMBER, Shown, is_rounded
 
 # Two circles of 96 pieces, of six corners with eight numbers each; keeps the heights of all points.
 CIRCLES = """
@@ -20,12 +22,14 @@ WebGL2RenderingContext.prototype.bufferData = function (target, numbers, ...rest
     load.call(this, target, numbers, ...rest);
 };
 """
-# The heights of the level of the energy and of the place on it, and the curve.
+# The heights of the level of the energy and of the place on it, the angles below, and the curve.
 READ_WELL = """() => {
     const level = document.querySelector("#well path[stroke='var(--gold)']").getAttribute("d");
     const place = document.querySelector("#well circle").getAttribute("cy");
     const curve = document.querySelector("#potential").getAttribute("d");
-    return [Number(level.match(/M44 ([\\d.]+)H/)[1]), Number(place), curve];
+    const names = document.querySelectorAll("#well text.tick[text-anchor=middle]");
+    const angles = [...names].map((each) => each.textContent);
+    return [Number(level.match(/M44 ([\\d.]+)H/)[1]), Number(place), angles, curve];
 }"""
 SINGLE = 2.0**-23  # a coordinate of the scene, rounded
 TENTH = 0.1001  # units of a chart: two coordinates are written in tenths, of a level and of a tick
@@ -44,12 +48,16 @@ def is_right(page, seconds):
 
 
 def read_well(page):
-    """What the well shows, which is the energy of the state but for its spin."""
-    (*heights, curve), shown = page.tab.evaluate(READ_WELL), Shown(page)
+    """What the well shows: the energy of the state but for its spin, and the turning angles."""
+    (*heights, names, curve), shown = page.tab.evaluate(READ_WELL), Shown(page)
     first, lowest, scale = read_axis(page, "well")
     spin = shown.top.Iz * shown.state.angular_velocity[2] ** 2 / 2
     found = first + scale * (np.array(heights) - lowest)
     assert np.abs(found - (shown.top.energy(shown.state) - spin)).max() <= 2 * TENTH * abs(scale)
+    angles = shown.free.turning_angles
+    angles = angles if len(names) == 2 else [sum(angles) / 2]  # one name stands for both
+    for name, angle in zip(names, angles, strict=True):
+        assert is_rounded(re.match(NUMBER, name)[0], angle)
     return [*heights, curve]
 
 

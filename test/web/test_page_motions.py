@@ -99,6 +99,7 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened):
     before = read_motion(kick).at(find_time(kick, up))
     after = apply_impulse(Top(*up["top"]), before, up["act"]["angular_impulse"])
     assert up["angular_velocity"] == after.angular_velocity.tolist()
+    assert after.euler_rates.theta - before.euler_rates.theta == pytest.approx(-1.0, rel=1e-12)
 
 
 def test_the_camera_is_turned_by_a_drag_and_moved_by_the_wheel(opened):

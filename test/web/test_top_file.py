@@ -1,5 +1,7 @@
 """The page as one file: opened from a disk without a network, saved and opened again."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -16,6 +18,8 @@ def test_a_saved_page_holds_the_run_and_goes_on(opened, open_page, tmp_path):
     assert grown < 20_000
     other = open_page(file=saved)
     assert other.read_events() == wanted["events"]
+    as_json = opened.save("This run (JSON)", tmp_path).read_text()
+    assert json.loads(as_json)["events"] == wanted["events"]
     other.tab.click("#hurry")
     events = other.read_events()
     assert events[:-1] == wanted["events"]
