@@ -154,6 +154,12 @@ class Opened:
         download.value.save_as(target)
         return target
 
+    def read_labels(self):
+        """Return the places of the labels, which move with the camera."""
+        self.wait_for_frames()
+        labels = self.tab.locator(".label:visible")
+        return labels.evaluate_all("all => all.map(e => e.style.transform)")
+
     def read_run(self):
         return self.tab.evaluate("window.symtop.run()")
 

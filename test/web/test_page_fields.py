@@ -93,16 +93,10 @@ def test_a_scene_that_is_picked_with_the_pointer_starts_at_once(opened):
 def test_the_view_is_turned_and_moved_by_keys_and_the_top_is_not_touched(opened):
     opened.press("Space")
     opened.show_arrows("torque")
-
-    def read():
-        """Return the places of the labels, which move with the camera."""
-        labels = opened.tab.locator(".label:visible")
-        return labels.evaluate_all("all => all.map(e => e.style.transform)")
-
     for key in ("Shift+ArrowLeft", "Shift+ArrowUp", "+", "-"):
-        before = read()
+        before = opened.read_labels()
         opened.press(key)
-        opened.until(lambda before=before: read() != before)
+        opened.until(lambda before=before: opened.read_labels() != before)
     assert len(opened.read_events()) == 1
     opened.press("ArrowLeft")
     assert len(opened.read_events()) == 2

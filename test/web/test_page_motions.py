@@ -106,22 +106,15 @@ def test_the_camera_is_turned_by_a_drag_and_moved_by_the_wheel(opened):
     opened.tab.click("#pause")
     opened.show_arrows("torque")
     opened.wait_for_frames()
-
-    def read():
-        """Return the places of the labels, which move with the camera."""
-        opened.wait_for_frames()
-        labels = opened.tab.locator(".label:visible")
-        return labels.evaluate_all("all => all.map(e => e.style.transform)")
-
     box = opened.tab.locator("canvas").bounding_box()
     x, y = box["x"] + 60, box["y"] + 60
-    before = read()
+    before = opened.read_labels()
     opened.drag(x, y, 80, 20)
     opened.tab.mouse.up()
-    turned = read()
+    turned = opened.read_labels()
     assert turned != before
     opened.tab.mouse.wheel(0, 300)
-    assert read() != turned
+    assert opened.read_labels() != turned
     assert len(opened.read_events()) == 1  # the top is not touched
 
 
