@@ -96,8 +96,9 @@ def test_a_log_holds_applied_torques_as_they_were_received(start_top, tmp_path):
         run.wait_for(heard)
     run.spin_until(lambda: any("0.0 0.0 0.0001" in str(each) for each in events))
     path = run.end_log()
-    logged = [data for name, _, data in messages_of(path) if name == "/top/applied_torque"]
-    assert logged == heard
+    logged = [each for name, *each in messages_of(path) if name == "/top/applied_torque"]
+    assert [data for _, data in logged] == heard
+    assert min(stamp for stamp, _ in logged) > 0
     assert_exact(path)
 
 

@@ -54,6 +54,7 @@ def test_no_combination_of_numbers_breaks_anything(block):
         assert off <= 16 * EPS
         low, high = motion.turning_angles
         assert 0.0 <= low <= high + 8 * EPS
+        assert high <= math.pi
         assert str(perrys_rule(top, start))
         after = kick(start)
         if isinstance(after, str):
