@@ -9,6 +9,10 @@ from physics.tops import ARTICLE, EPS, random_case
 from symtop_ros.physics import Motion, State, Top
 
 CASES = [random_case(seed, "any") for seed in range(400)]
+MOTIONS = [  # each fifth one without weight
+    Motion(Top(case.top.Ix, case.top.Iz, case.top.Mgl if k % 5 else 0.0), case.start)
+    for k, case in enumerate(CASES)
+]
 SAMPLES = 2001
 
 
@@ -25,16 +29,22 @@ def sampled_spin(motion):
 
 def test_the_spin_reverses_where_samples_of_a_nutation_have_both_signs():
     reversing = 0
-    for case in CASES:
-        motion = Motion(case.top, case.start)
+    for motion in MOTIONS:
         spins = sampled_spin(motion)
         size = np.abs(spins).max()
         low, high = spins.min() / (size or 1.0), spins.max() / (size or 1.0)
         # within a millionth of zero 2001 samples may miss the extreme value
         if min(abs(low), abs(high)) > 1e-6:
-            assert motion.spin_reverses == (low < 0 < high), case
+            assert motion.spin_reverses == (low < 0 < high), motion
             reversing += motion.spin_reverses
     assert 40 < reversing < 300
+
+
+def test_the_precession_of_a_nutation_is_the_mean_rate_over_its_period():
+    for motion in MOTIONS:
+        turns = motion.mean_precession_rate * motion.nutation_period / (2 * math.pi)
+        if math.isfinite(turns):
+            assert motion.precession_per_nutation == pytest.approx(turns, rel=4 * EPS)
 
 
 @pytest.mark.parametrize("Mgl", [0.068, -0.068, 0.0])
