@@ -122,8 +122,8 @@ class Simulation:
         """
         with self._lock:
             found = self.take_turn(f"~/{name}", partial(attempt, act))
-            # The first sample of the new motion need not wait for the pacing thread.
-            self.tick()
+            # The first sample of the new motion need not wait for the next tick.
+            self.publish()
         return (False, str(found)) if isinstance(found, Failure) else found
 
     def tick(self) -> float | None:
