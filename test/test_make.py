@@ -100,6 +100,7 @@ def test_the_page_needs_no_compiler_and_no_compiled_kernel(tmp_path):
     compiled = shutil.ignore_patterns("libsymtop.*", "symtop.dll", "__pycache__")
     shutil.copytree(ROOT / "symtop_ros", tmp_path / "symtop_ros", ignore=compiled)
     shutil.copytree(ROOT / "config", tmp_path / "config")
+    shutil.copy(ROOT / "package.xml", tmp_path)
     programs = tmp_path / ".venv/bin"
     programs.mkdir(parents=True)
     python = programs / "python"

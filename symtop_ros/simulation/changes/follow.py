@@ -6,9 +6,10 @@ compares. Nothing here has a clock, a lock or a side effect.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, NamedTuple
 
-from symtop_ros.physics import State, kick_verdict
+from symtop_ros.physics import KickVerdict, State, kick_verdict
 from symtop_ros.simulation.changes.outcomes import (
     ClockJump,
     Outcome,
@@ -48,8 +49,13 @@ class Following(NamedTuple):
 
     before: State  # right before it
     segment: Segment
-    outcome: Outcome | None
+    told: "Told"
     pushes: int | None = None  # that the motion before it has got, if it was pushed
+
+    @property
+    def outcome(self) -> Outcome | None:
+        """What is said of it. The first sample of a kick need not wait for its verdict."""
+        return self.told() if isinstance(self.told, partial) else self.told
 
 
 def follow(segment: Segment, act: Act) -> Following:
@@ -86,7 +92,8 @@ def demand_a_day(segment: Segment) -> Segment:
     return segment
 
 
-Ruled = tuple[Segment, Outcome | None]  # the segment that follows, and what is said of it
+Told = Outcome | partial[KickVerdict] | None  # what is said of an act, or what will find it
+Ruled = tuple[Segment, Told]  # the segment that follows, and what is said of it
 
 
 def _restart(segment: Segment, act: Act, before: State) -> Ruled:
@@ -97,7 +104,7 @@ def _restart(segment: Segment, act: Act, before: State) -> Ruled:
 def _kick(segment: Segment, act: Act, before: State) -> Ruled:
     motion, hold = plan_kick(segment.motion, before, act.request)
     segment = demand_a_day(segment.replace_motion(motion, act.stamp))
-    return segment, kick_verdict(motion, before, hold)
+    return segment, partial(kick_verdict, motion, before, hold)
 
 
 def _push(segment: Segment, act: Act, before: State) -> Ruled:
