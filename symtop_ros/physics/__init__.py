@@ -13,7 +13,6 @@ Examples
 'cusps'
 """
 
-from symtop_ros.physics.arguments import ExactTimes
 from symtop_ros.physics.body import Body
 from symtop_ros.physics.dynamics import (
     STANDARD_GRAVITY,
@@ -54,6 +53,7 @@ from symtop_ros.physics.rule.kick_effect import (
 from symtop_ros.physics.rule.perry import Direction
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
 from symtop_ros.physics.state import Angles, State
+from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 
 __all__ = [

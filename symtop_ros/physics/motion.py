@@ -14,7 +14,6 @@ from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
     TORQUE_UNIT,
-    ExactTimes,
     find_shape,
     pack_start,
     validate_times,
@@ -26,6 +25,7 @@ from symtop_ros.physics.jacobian import differentiate
 from symtop_ros.physics.kernel import states
 from symtop_ros.physics.kernel.door import Engine, KernelMotion, Kind, RatesRecord
 from symtop_ros.physics.state import State
+from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import (
     ignore_underflow,

@@ -13,7 +13,6 @@ from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
     STARTS,
-    ExactTimes,
     describe_starts,
     fill_states,
     find_shape,
@@ -27,6 +26,7 @@ from symtop_ros.physics.arguments import (
 from symtop_ros.physics.kernel.door import ENGINES, KINDS
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
+from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import refuse, validate_array
 

@@ -3,9 +3,9 @@
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics.arguments import ExactTimes, to_rough_seconds
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.door import KernelMotion
+from symtop_ros.physics.times import ExactTimes, to_rough_seconds
 from symtop_ros.physics.values import refuse
 
 STATES, STEPS = 2**16, 256.0  # in one call of the kernel, some ms
