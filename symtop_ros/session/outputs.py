@@ -16,8 +16,9 @@ from symtop_ros.arrays import Real, Stamps, Vector
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.models.urdf import LENGTH, robot_description
 from symtop_ros.physics import Body
-from symtop_ros.simulation.block import Block, Host
+from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.host import Host
 from symtop_ros.simulation.sensor.imu import ALONG, Imu, find_body
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import (

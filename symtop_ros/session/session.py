@@ -16,11 +16,11 @@ from symtop_ros.log.recorder import Recorder, describe_error
 from symtop_ros.session.diagnostics import collect_statuses, summarize_state
 from symtop_ros.session.outputs import OutputHost, Outputs
 from symtop_ros.session.services import SERVICES, Response
-from symtop_ros.simulation.block import Clock
 from symtop_ros.simulation.budget import StepBudget
 from symtop_ros.simulation.changes.follow import Act
 from symtop_ros.simulation.changes.outcomes import Failure, Record
 from symtop_ros.simulation.changes.requests import initial_state, name_kick
+from symtop_ros.simulation.host import Clock
 from symtop_ros.simulation.own_time import simulate
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Simulation
@@ -136,7 +136,7 @@ class Requests:
         return simulation.apply_at_once(simulation.timeline.restart(simulation.stamp))
 
     def kick(self, values: Values) -> str:
-        """Kick by named values; see `kick.plan_kick` and `kick.plan_pushes`."""
+        """Kick by named values; see `plan_kick` and `plan_pushes`."""
         simulation = self._simulation
         act = Act(name_kick(values), simulation.stamp, values)
         return simulation.apply_at_once(simulation.timeline.follow(act))

@@ -1,20 +1,15 @@
-"""The grid of stamps, the samples of the next ones, and the surroundings that they are for.
+"""The grid of stamps, and the samples of the next ones.
 
 Tick k is at start + k/rate, whenever it is published. The samples of several ticks are computed
-together, as arrays. The surroundings of a simulation are its clock, its program, and where samples
-go.
+together, as arrays.
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from contextlib import AbstractContextManager
-from typing import Protocol
 
 import numpy as np
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -140,51 +135,3 @@ class Ticker:
         """Return the nearest integer to the time of a tick; halves are rounded up."""
         nanoseconds = (2 * k * self._nanoseconds + self._ticks) // (2 * self._ticks)
         return self._start + nanoseconds
-
-
-class Clock(Protocol):
-    """Source of the stamps."""
-
-    @property
-    def now(self) -> int:
-        """Current time in ns."""
-
-    @property
-    def is_simulated(self) -> bool:
-        """True if the time is set from outside (use_sim_time)."""
-
-
-class Host(Protocol):
-    """The program around a run: the node, or the page."""
-
-    @property
-    def is_open(self) -> bool:
-        """False when the program is shutting down and nothing can be sent."""
-
-    def inform(self, text: str) -> None:
-        """Inform the user."""
-
-    def warn(self, text: str) -> None:
-        """Warn the user."""
-
-    def report_error(self, text: str) -> None:
-        """Report an error to the user."""
-
-
-class Sink(Protocol):
-    """Destination of samples and events."""
-
-    def encode(self, topic: str, stamps: Stamps, numbers: Real) -> list[bytes]:
-        """Encode samples of a topic from their stamps (n,) in ns and their doubles (n, width)."""
-
-    def send_sample(self, stamp: int, block: Block) -> None:
-        """Send the sample of a stamp (ns) on all topics that somebody needs."""
-
-    def send_event(self, event: Event) -> None:
-        """Send an event."""
-
-    def send_description(self, stamp: int, settings: Settings) -> None:
-        """Send the description of the top and its fixed frames."""
-
-    def put_events_first(self) -> AbstractContextManager[None]:
-        """In the log, put the events sent in this context before its samples."""

@@ -5,7 +5,8 @@ real-time factor, stands still in a pause and never goes back, so that rates are
 stamps at every factor. The factor of its segments is 1.
 """
 
-from symtop_ros.simulation.block import CATCH_UP, Clock, Host, Sink
+from symtop_ros.simulation.block import CATCH_UP
+from symtop_ros.simulation.host import Clock, Host, Sink
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
 from symtop_ros.wire.layout import NANOSECONDS

@@ -11,11 +11,12 @@ from functools import partial
 from typing import TypeVar
 
 from symtop_ros.physics import State
-from symtop_ros.simulation.block import CATCH_UP, Block, Clock, Host, Sink, Ticker
+from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
 from symtop_ros.simulation.changes.follow import Act, Request
 from symtop_ros.simulation.changes.outcomes import Failure, Outcome
 from symtop_ros.simulation.changes.timeline import Change, Timeline
+from symtop_ros.simulation.host import Clock, Host, Sink
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import attempt, one_line

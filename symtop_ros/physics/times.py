@@ -1,0 +1,171 @@
+"""Exact times of a motion: integer nanoseconds of a clock, a factor, and an exact elapsed time.
+
+A published sample belongs to an integer number of nanoseconds, so its exact time is known to the
+last bit. As a double of seconds it would be rounded: after a day by 7 ps, in which a top of 200
+rad/s turns by 7 million EPS. The integers are therefore kept until phases are reduced to one turn.
+"""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symtop_ros.physics.values import ignore_underflow, refuse, validate_number
+
+SECOND = 10**9  # ns
+LARGEST_STAMP = 2**63 - 1  # ns
+SMALLEST, LARGEST_FACTOR = 1e-100, 1e100
+ELAPSED_PARTS = 4  # of `symtop_clock`
+LARGEST_ELAPSED = 10**300  # ns; so that the sum is a double of seconds
+
+
+@dataclass(frozen=True, eq=False)
+class ExactTimes:
+    """Times of a motion that are exact: elapsed + factor * nanoseconds.
+
+    Parameters
+    ----------
+    nanoseconds : int or ndarray (n,) of int64
+        Nanoseconds of a clock since the elapsed time was read, of either sign.
+    factor : float
+        Time of the motion per time of the clock; 1e-100 to 1e100. The exact value of the double
+        counts.
+    elapsed : Fraction
+        Time of the motion in ns at which `nanoseconds` is 0. Its denominator is a power of two, as
+        that of every sum of products of integers and doubles; states need a sum of four doubles.
+
+    Raises
+    ------
+    ValueError
+        If an argument is refused.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from symtop_ros.physics import ExactTimes, Motion, State, Top
+    >>> times = ExactTimes(2_000_000_000, factor=0.5, elapsed=Fraction(1, 2))
+    >>> times.seconds
+    1.0000000005
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> year = 365 * 86_400 * 10**9
+    >>> motion.at(ExactTimes(year + 1)) == motion.at(ExactTimes(year))
+    False
+    """
+
+    nanoseconds: int | NDArray[np.int64]
+    factor: float = 1.0
+    elapsed: Fraction = Fraction(0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "nanoseconds", _validate_nanoseconds(self.nanoseconds))
+        if type(self.factor) is not float or not math.isfinite(self.factor):
+            object.__setattr__(self, "factor", validate_number("factor", self.factor))
+        if not SMALLEST <= self.factor <= LARGEST_FACTOR:
+            raise refuse("factor", f"{SMALLEST:g} to {LARGEST_FACTOR:g}", self.factor)
+        object.__setattr__(self, "elapsed", _validate_elapsed(self.elapsed))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """() for one time, (n,) for an array."""
+        return np.shape(self.nanoseconds)
+
+    @cached_property
+    def seconds(self) -> Any:
+        """The nearest doubles in s, a float or (n,)."""
+        start, step, divisor = self._line
+        # Python's quotient of integers of any size is the nearest double.
+        if isinstance(self.nanoseconds, int):
+            return (start + step * self.nanoseconds) / divisor
+        return np.array([(start + step * n) / divisor for n in self.nanoseconds.tolist()])
+
+    @property
+    def _line(self) -> tuple[int, int, int]:
+        """The times in s as (start + step * nanoseconds)/divisor, in integers of any size."""
+        ticks, parts = self.factor.as_integer_ratio()
+        elapsed, pieces = self.elapsed.as_integer_ratio()
+        return elapsed * parts, ticks * pieces, parts * pieces * SECOND
+
+    @cached_property
+    def clock(self) -> tuple[float, tuple[float, ...]]:
+        """The factor, and the elapsed time in ns as a sum of four doubles, for the kernel.
+
+        Raises
+        ------
+        ValueError
+            If these are not enough, or not 0 or 1e-100 to 1e100 in size.
+        """
+        parts, left = [0.0] * ELAPSED_PARTS, self.elapsed
+        for place in range(ELAPSED_PARTS):
+            if not left:
+                break
+            parts[place] = float(left)
+            if not SMALLEST <= abs(parts[place]) <= LARGEST_FACTOR:
+                break
+            left -= Fraction(parts[place])
+        if left:
+            condition = "a sum of four doubles, each 0 or 1e-100 to 1e100 ns in size"
+            raise refuse("elapsed", condition, f"{float(self.elapsed):.17g}")
+        return self.factor, tuple(parts)
+
+    def advance(self, nanoseconds: int) -> Fraction:
+        """Return the time of the motion in ns at another reading of the clock, exactly.
+
+        Parameters
+        ----------
+        nanoseconds : int
+            Nanoseconds of the clock since the elapsed time was read.
+
+        Examples
+        --------
+        >>> ExactTimes(0, factor=0.25, elapsed=Fraction(3)).advance(5)
+        Fraction(17, 4)
+        """
+        return self.elapsed + Fraction(self.factor) * nanoseconds
+
+    @property
+    @ignore_underflow
+    def rough_seconds(self) -> Any:
+        """Seconds, a float or (n,), up to a few roundings; much faster than `seconds`."""
+        elapsed, pieces = self.elapsed.as_integer_ratio()
+        return elapsed / (pieces * SECOND) + self.factor * (self.nanoseconds * 1e-9)
+
+    def ravel(self) -> "ExactTimes":
+        """Return the times as an array (n,), of one time (1,)."""
+        return ExactTimes(np.atleast_1d(self.nanoseconds), self.factor, self.elapsed)
+
+    def __getitem__(self, part: slice | NDArray[np.bool_ | np.intp]) -> "ExactTimes":
+        """Return a part of an array of times."""
+        return ExactTimes(np.asarray(self.nanoseconds)[part], self.factor, self.elapsed)
+
+
+def to_rough_seconds(times: Any) -> Any:
+    """Return times in s up to a few roundings: those of exact times, others unchanged."""
+    return times.rough_seconds if isinstance(times, ExactTimes) else times
+
+
+def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
+    array = None if isinstance(value, bool | np.timedelta64) else np.asarray(value)
+    if array is not None and array.dtype.kind in "iu" and array.ndim <= 1:
+        if array.ndim == 0:
+            value = int(array)
+        elif array.dtype.kind == "i" or array.max(initial=0) <= LARGEST_STAMP:
+            return array.astype(np.int64, copy=False)
+    if isinstance(value, int) and not isinstance(value, bool) and abs(value) <= LARGEST_STAMP:
+        return value
+    condition = "an int or an array (n,) of ints, of at most 63 bits (ns)"
+    raise refuse("nanoseconds", condition, repr(value))
+
+
+def _validate_elapsed(value: Any) -> Fraction:
+    is_exact = isinstance(value, Fraction | int) and not isinstance(value, bool)
+    if is_exact and value.denominator & (value.denominator - 1) == 0:
+        # without a division: this is asked for every sample
+        if abs(value.numerator) <= LARGEST_ELAPSED * value.denominator:
+            return value if isinstance(value, Fraction) else Fraction(value)
+        raise refuse("elapsed", "at most 1e300 ns in size", f"{value.numerator:.3e}")
+    raise refuse("elapsed", "a Fraction with a power of two as denominator (ns)", repr(value))
