@@ -124,6 +124,7 @@ class Simulation:
         with self._lock:
             found = self.take_turn(f"~/{name}", partial(attempt, act))
             # The first sample of the new motion need not wait for the next tick.
+            self._follow_jump()
             self.publish()
         return (False, str(found)) if isinstance(found, Failure) else found
 

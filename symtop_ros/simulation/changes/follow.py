@@ -54,7 +54,7 @@ class Following(NamedTuple):
 
     @property
     def outcome(self) -> Outcome | None:
-        """What is said of it. The first sample of a kick need not wait for its verdict."""
+        """Return what is said of it; of a kick it is found now, after the first sample is sent."""
         return self.told() if isinstance(self.told, partial) else self.told
 
 
