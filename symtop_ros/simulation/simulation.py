@@ -96,6 +96,7 @@ class Simulation:
         be refused is an action of `attempt`.
         """
         with self._lock:
+            self._follow_jump()
             self.settle()
             stamp, before = self.stamp, self.timeline
             try:
@@ -124,7 +125,6 @@ class Simulation:
         with self._lock:
             found = self.take_turn(f"~/{name}", partial(attempt, act))
             # The first sample of the new motion need not wait for the next tick.
-            self._follow_jump()
             self.publish()
         return (False, str(found)) if isinstance(found, Failure) else found
 

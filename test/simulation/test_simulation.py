@@ -77,6 +77,21 @@ def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
     assert run.sink.samples[-1][0] == 10 * SECOND
 
 
+def test_a_request_between_a_jump_and_the_next_tick_belongs_to_the_time_after_the_jump():
+    run = Run("hurry_slow")
+    run.advance(0.5)
+    state = run.simulation.state
+    run.jump(90 * SECOND)
+    assert run.ask("hurry_precession")[0]
+    assert [event.name for event in run.sink.events] == ["start", "clock", "kick"]
+    kick = run.sink.events[-1]
+    assert kick.stamp == 90 * SECOND
+    before = kick.values["before.orientation"].split()
+    assert [float(each) for each in before] == state.orientation.tolist()
+    assert run.simulation.ticker.missed == 0
+    run.assert_recomputed()
+
+
 def test_while_the_clock_jumps_no_sample_gets_a_stamp_of_the_new_time():
     run = Run()
     run.advance(0.5)
