@@ -16,6 +16,7 @@ from symtop_ros.simulation.budget import SHARE, ComputeBudget
 from symtop_ros.simulation.changes.follow import Act, Request
 from symtop_ros.simulation.changes.outcomes import Failure, Outcome
 from symtop_ros.simulation.changes.timeline import Change, Timeline
+from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.host import Clock, Host, Sink
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
@@ -280,21 +281,25 @@ class Simulation:
 
     def apply(self, change: Change) -> str:
         """Continue with the timeline of a change and announce it; return the verdict."""
-        event = change.event(self._events + 1)
         self.timeline = change.following
-        self._events += 1
-        self._sink.send_event(event)
-        return event.verdict
+        return self._announce(change.event(self._events + 1))
 
     def apply_at_once(self, change: Change) -> str:
-        """Like `apply`, but publish the first sample before the event is written.
+        """Like `apply`, but publish samples that are due before the event is written, and after it.
 
         In the log the event still precedes its samples.
         """
         self.timeline = change.following
         with self._sink.put_events_first():
             self.publish()
-            return self.apply(change)
+            event = change.event(self._events + 1)
+            self.publish()
+            return self._announce(event)
+
+    def _announce(self, event: Event) -> str:
+        self._events += 1
+        self._sink.send_event(event)
+        return event.verdict
 
     def do(self, name: str, request: Request, told: Outcome | None = None) -> str:
         """Carry out an act at the next stamp; return the verdict."""

@@ -9,14 +9,11 @@ field that is None is left out.
 import types
 import typing
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, fields, is_dataclass
+from dataclasses import fields, is_dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from symtop_ros.wire.layout import Reader, Writer
-
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
 
 DIAGNOSTIC_ARRAY = "diagnostic_msgs/msg/DiagnosticArray"
 OK, WARN, ERROR = range(3)
@@ -76,10 +73,10 @@ def write_text(value: Any) -> str:
     return repr(float(value)) if isinstance(value, float) else str(value)
 
 
-def write_fields(prefix: str, record: "DataclassInstance") -> dict[str, str]:
-    """Return the fields of a record; their names begin with a prefix."""
+def write_fields(prefix: str, fields: Mapping[str, Any]) -> dict[str, str]:
+    """Return the fields of a record as texts; their names begin with a prefix."""
     found: dict[str, str] = {}
-    _flatten(found, prefix, asdict(record))
+    _flatten(found, prefix, fields)
     return found
 
 
