@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 # What is compiled at the installation.
 SOURCES := setup.py build_kernel.py $(wildcard symtop_ros/physics/kernel/*.* symtop_ros/physics/kernel/*/*.hpp)
-NUMPY1 := .venv/numpy1
+UBUNTU := .venv/ubuntu
 KILTED := .venv/kilted
 BIN := $(VENV)/bin
 TOOLS := pytest hypothesis mpmath rosbags coverage
@@ -18,7 +18,7 @@ HOUSE := $(CURDIR)
 include $(dir $(abspath $(firstword $(MAKEFILE_LIST))))workshop/environment.mk
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-kilted lint style types types-js docs wheels kernel-wasm clean
+.PHONY: help demo panel test $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-ubuntu test-kilted lint style types types-js docs wheels kernel-wasm clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:.*## /\t/' | expand -t 20
@@ -35,7 +35,7 @@ test: $(VENV)/test  ## style, types and all tests (10 minutes with the set-up; 3
 	@$(BIN)/python test/groups.py
 
 # What each group needs; `make test-physics` and the like run one of them.
-test-nodes: $(VENV)/test $(VENV)/messages/done $(NUMPY1)/test
+test-nodes: $(VENV)/test $(VENV)/messages/done
 test-rest: $(VENV)/test $(VENV)/vulkan
 test-judge: $(VENV)/test
 test-plain: $(VENV)/test
@@ -48,15 +48,19 @@ test-realtime: $(VENV)/test $(VENV)/chromium
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: $(VENV)/peers $(VENV)/aarch64 $(VENV)/wine $(VENV)/zig/done test-keys test-elsewhere test-kilted  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/peers $(VENV)/aarch64 $(VENV)/wine $(VENV)/zig/done test-keys test-elsewhere test-ubuntu test-kilted  ## trials that take longer (two hours), coverage, and the matrix
 	@$(MAKE) --no-print-directory -C workshop coverage matrix
 	@$(BIN)/python -m pytest -m long test
 
-test-keys: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium $(NUMPY1)/test  ## tests of all but wording, every template replaced by its key
+test-keys: $(VENV)/test $(VENV)/messages/done $(VENV)/vulkan $(VENV)/chromium  ## tests of all but wording, every template replaced by its key
 	@$(BIN)/python test/groups.py --keys
 
 test-elsewhere: $(VENV)/test  ## tests of numbers and logs as on other processors, in other countries, for a stranger (20 minutes)
 	@$(BIN)/python test/elsewhere.py
+
+test-ubuntu: $(UBUNTU)/test  ## tests of node and client with NumPy 1.26 and pytest 7.4, as on Ubuntu 24.04
+	@$(UBUNTU)/bin/python -m pytest -q -m "not realtime and not long" \
+	  test/client test/node/test_topics.py test/node/test_recording.py
 
 test-kilted: $(KILTED)/test  ## tests of node, client and log on ROS 2 Kilted
 	@$(KILTED)/bin/python workshop/messages.py
@@ -136,10 +140,10 @@ $(VENV)/docs: setup.py $(VENV)/ros
 	$(INSTALL) '.[ros,playback,docs]'
 	@touch $@
 
-$(NUMPY1)/test: setup.py $(VENV)/bin/activate
-	@echo "Setting up $(NUMPY1): ROS 2 Jazzy, NumPy 1.26 and pytest 7.4 (about 300 MB, once) ..."
-	@$(TICK) $(BIN)/python -m venv --clear $(NUMPY1)
-	@$(TICK) $(NUMPY1)/bin/python -m pip install --editable '.[jazzy]' 'numpy<2' 'pytest==7.4.4' $(TOOLS)
+$(UBUNTU)/test: setup.py $(VENV)/bin/activate
+	@echo "Setting up $(UBUNTU): ROS 2 Jazzy, NumPy 1.26 and pytest 7.4 (about 300 MB, once) ..."
+	@$(TICK) $(BIN)/python -m venv --clear $(UBUNTU)
+	@$(TICK) $(UBUNTU)/bin/python -m pip install --editable '.[jazzy]' 'numpy<2' 'pytest==7.4.4' $(TOOLS)
 	@touch $@
 
 $(KILTED)/test: setup.py $(VENV)/bin/activate

@@ -33,10 +33,7 @@ BIN = Path(sys.executable).parent
 OUTPUT = Path(sys.prefix, "test-output")
 AT_A_TIME = 3
 PERIOD = 15.0  # s between two lines of progress
-# These run with NumPy 1.26, pytest 7.4 and without Rerun, as with the ROS 2 Jazzy of Ubuntu 24.04.
-NUMPY1 = Path(sys.prefix, "numpy1", "bin", "python")
-WITH_NUMPY1 = ("test/client", "test/node/test_topics.py", "test/node/test_recording.py")
-NODES = ("test/node", "test/system", "test/load", "test/test_colcon.py")
+NODES = ("test/node", "test/system", "test/load", "test/client")
 PLAIN = ("test/speed", "test/releases", "test/wire", "test/models", "test/testset")
 JUDGE = ("test/judge", "test/imu", "test/check")
 # These run once more as on an old processor, on which BLAS, NumPy and libm round otherwise; those
@@ -49,7 +46,7 @@ NOT_TWICE = (
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")
 WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_bridge.py")
-ELSEWHERE = (*NODES, "test/physics", *PLAIN, *JUDGE, *WITHOUT_ROS, *WITH_NUMPY1)
+ELSEWHERE = (*NODES, "test/physics", *PLAIN, *JUDGE, *WITHOUT_ROS)
 REALTIME = ("test/node", "test/system", "test/load", "test/web")
 # These read no wording: they pass with every template replaced by its key, but for marked ones.
 KEYS = Path(__file__).with_name("keys")
@@ -104,13 +101,13 @@ def closing(text: str) -> str:
 
 def pytest(
     *words: str,
-    python: Path = BIN / "python",
     options: Sequence[str] = (),
     trace: bool = False,
     before: Sequence[str] = (),
     folder: Path | None = None,
 ) -> Command:
     """Return the command for some tests that follow a simulated clock; `before` it may be env."""
+    python = BIN / "python"
     start = [*before, str(python), "-m", *(("coverage", "run", "-m") if trace else ()), "pytest"]
     marked = () if "-m" in words else ("-m", MARKS)
     name = os.path.relpath(python, ROOT)
@@ -151,11 +148,7 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         return pytest(*words, trace=trace, **options)
 
     return {
-        "nodes": [
-            *fetch("messages/done", "numpy1/test"),
-            run(*WITH_NUMPY1, python=NUMPY1),
-            run(*NODES, *ignore(WITH_NUMPY1)),
-        ],
+        "nodes": [*fetch("messages/done"), run(*NODES)],
         "without-ros": [*fetch("chromium"), run(*WITHOUT_ROS, options=("-p", "without_ros"))],
         "rest": [*fetch("vulkan", "chromium"), run("test", *ignore(ELSEWHERE))],
         "judge": [run(*JUDGE)],

@@ -1,15 +1,16 @@
 """`colcon test` where only what package.xml declares is installed, as on Ubuntu 24.04."""
 
 import os
+import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
 from conftest import UNDECLARED
-from groups import NUMPY1
 from programs import execute
 
 ROOT = Path(__file__).parents[1]
+UBUNTU = Path(sys.prefix, "ubuntu", "bin", "python")
 # A plugin of pytest without which modules would be found that only `make test` installs.
 HIDE = f"""
 import sys
@@ -23,22 +24,17 @@ sys.meta_path.insert(0, Hidden())
 """
 # Files that need nothing else, files that cannot be imported, and one that finds no browser.
 SOME = ("test/wire", "test/check", "test/playback/view", "test/web/test_page_sizes.py")
-ALL = pytest.param(("--collect-only", "test"), marks=pytest.mark.long, id="all")
+ALL = ("--collect-only", "test")
 
 
-needs_ubuntu = pytest.mark.skipif(
-    not NUMPY1.exists(), reason="no environment as on Ubuntu 24.04: make test-nodes"
-)
-
-
-@needs_ubuntu
-@pytest.mark.parametrize("words", [pytest.param(SOME, id="some"), ALL])
+@pytest.mark.long
+@pytest.mark.parametrize("words", [SOME, ALL])
 def test_what_can_run_is_run_and_the_rest_is_skipped_with_its_reason(words, tmp_path):
     (tmp_path / "hide.py").write_text(HIDE)
     variables = {**os.environ, "PYTHONPATH": str(tmp_path)}
     # As colcon starts it, in the folder of the package.
     start = [
-        NUMPY1,
+        UBUNTU,
         "-m",
         "pytest",
         "-p",
@@ -56,10 +52,10 @@ def test_what_can_run_is_run_and_the_rest_is_skipped_with_its_reason(words, tmp_
         assert int(suite.get("tests")) - int(suite.get("skipped")) > 30
 
 
-@needs_ubuntu
+@pytest.mark.long
 def test_a_module_that_is_missing_by_mistake_is_an_error(tmp_path):
     (tmp_path / "test_it.py").write_text("import no_such_module\n")
-    done = execute([NUMPY1, "-m", "pytest", f"--rootdir={ROOT}", tmp_path], cwd=ROOT)
+    done = execute([UBUNTU, "-m", "pytest", f"--rootdir={ROOT}", tmp_path], cwd=ROOT)
     assert done.returncode == 2
     assert "No module named 'no_such_module'" in done.stdout
 
