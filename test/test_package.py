@@ -73,6 +73,7 @@ def workspace(sources, tmp_path):
     return tmp_path
 
 
+@pytest.mark.long
 def test_colcon_build_with_links_leads_to_the_sources(workspace):
     prefix, printed = build(workspace, "--symlink-install")
     (link,) = prefix.glob("lib/python*/site-packages/symtop-ros.egg-link")

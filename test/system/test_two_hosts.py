@@ -16,6 +16,7 @@ from symtop_ros.node.host import VARIABLES, distribution_name
 from workshop.load.endings import bound
 
 pytestmark = [
+    pytest.mark.long,
     pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}"),
     pytest.mark.untraced,
 ]
@@ -100,7 +101,6 @@ def test_the_top_is_found_from_another_host_where_the_settings_say_so(hosts):
     assert found == [expected for *_, expected in DISCOVERIES]
 
 
-@pytest.mark.long
 def test_on_a_link_that_loses_delays_and_reorders_no_message_is_missing(hosts):
     here, there, cable = hosts
     with top(here, 10, LOSSY), witness(there, 10, LOSSY) as user:

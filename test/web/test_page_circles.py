@@ -61,7 +61,9 @@ def read_well(page):
     return [*heights, curve]
 
 
-@pytest.mark.parametrize("scene", ["friction", "vertical_torque"])
+@pytest.mark.parametrize(
+    "scene", ["friction", pytest.param("vertical_torque", marks=pytest.mark.long)]
+)
 def test_circles_and_energy_are_those_of_a_driven_state_after_waiting_and_a_seek(open_page, scene):
     page = open_page(f"#scene={scene}", script=FEW_FRAMES + UNDRAWN + CIRCLES)
     page.open_charts("well")

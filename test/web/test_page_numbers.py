@@ -85,22 +85,22 @@ class Shown:
 
 
 @pytest.mark.parametrize(
-    ("seed", "count"), [(1, 25), *(pytest.param(n, 400, marks=pytest.mark.long) for n in (2, 3))]
+    ("seed", "rounds"), [(1, 2), *(pytest.param(n, 70, marks=pytest.mark.long) for n in (2, 3))]
 )
-def test_every_number_shown_is_that_of_the_state_drawn(browser, tmp_path, seed, count):
-    trial, kinds = Trial(browser, tmp_path, seed), []
+def test_every_number_shown_is_that_of_the_state_drawn(browser, tmp_path, seed, rounds):
+    trial = Trial(browser, tmp_path, seed)
     trial.page.follow("scene=friction")
     trial.page.tab.select_option("#speed", "1")
-    for _ in range(count):
-        kinds.append(trial.act(ACTS))
-        if trial.page.say("pause") == "Pause":
-            trial.page.press("Space")
-        trial.page.tab.wait_for_timeout(FOLLOWS)
-        if trial.page.say("refusal"):
-            trial.page.press("Escape")
-        Shown(trial.page).check(trial.page)
+    for _ in range(rounds):
+        for name in trial.rng.sample(ACTS, len(ACTS)):
+            trial.act([name])
+            if trial.page.say("pause") == "Pause":
+                trial.page.press("Space")
+            trial.page.tab.wait_for_timeout(FOLLOWS)
+            if trial.page.say("refusal"):
+                trial.page.press("Escape")
+            Shown(trial.page).check(trial.page)
     trial.page.close()
-    assert {"run", "scrub"} <= {*kinds}
 
 
 def test_a_kick_under_friction_is_said_to_be_past(open_page):

@@ -105,6 +105,7 @@ def test_the_one_source_is_the_kernel_word_for_word(drop_in):
     assert found.replace(of_warnings, "", 1).split() == expected.split()
 
 
+@pytest.mark.long
 @needs_compiler
 def test_the_example_says_what_is_refused(example):
     done = execute([example, "1e101"])
@@ -120,6 +121,7 @@ def test_the_first_commands_of_its_readme_print_what_it_shows(drop_in, tmp_path)
     assert len(shown) == 2
 
 
+@pytest.mark.long
 @needs_cmake
 def test_the_other_commands_of_its_readme_install_it_for_cmake_and_pkg_config(drop_in, tmp_path):
     built = shutil.copytree(drop_in, tmp_path / "built")
@@ -132,6 +134,7 @@ def test_the_other_commands_of_its_readme_install_it_for_cmake_and_pkg_config(dr
     check_project(drop_in, tmp_path, find, f"-DCMAKE_PREFIX_PATH={folder}/installed")
 
 
+@pytest.mark.long
 @needs_cmake
 def test_a_project_of_cmake_takes_the_folder_as_a_part(drop_in, tmp_path):
     shutil.copytree(drop_in, tmp_path / "symtop")
@@ -148,6 +151,7 @@ def check_project(drop_in, project, find, *options):
     assert run_script("build/my_test", project) == read_console(drop_in, 0)[1]
 
 
+@pytest.mark.long
 @needs_cmake
 @pytest.mark.parametrize(
     ("shared", "flags"),
