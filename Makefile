@@ -48,7 +48,7 @@ test-realtime: $(VENV)/test $(VENV)/chromium
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: $(VENV)/peers $(VENV)/aarch64 $(VENV)/wine $(VENV)/zig/done test-keys test-elsewhere test-ubuntu test-kilted  ## trials that take longer (two hours), coverage, and the matrix
+test-long: $(VENV)/peers $(VENV)/docs $(VENV)/aarch64 $(VENV)/wine $(VENV)/zig/done test-keys test-elsewhere test-ubuntu test-kilted  ## trials that take longer (two hours), coverage, and the matrix
 	@$(MAKE) --no-print-directory -C workshop coverage matrix
 	@$(BIN)/python -m pytest -m long test
 
@@ -126,7 +126,7 @@ $(VENV)/peers: setup.py $(VENV)/ros
 
 $(VENV)/test: setup.py $(VENV)/ros
 	@echo "Setting up .venv: test tools (once) ..."
-	$(INSTALL) '.[ros,playback,report,test,lint,docs]'
+	$(INSTALL) '.[ros,playback,report,test,lint]'
 	@touch $@
 
 $(VENV)/messages/done: workshop/messages.py $(wildcard test/interfaces/*/*/*) $(VENV)/test

@@ -64,6 +64,7 @@ PEERS = [
     "exudyn>=1.13",
     "diffrax>=0.7",
     "ahrs>=0.4",  # attitude filters
+    "distributed>=2024.8",  # a local cluster of Dask computes a map
 ]
 TEST = [
     "pytest>=8",
@@ -77,7 +78,7 @@ TEST = [
     *REFERENCE,
     "mujoco>=3.3",  # reads the MJCF of the top
     "ahrs>=0.4",  # filters that are fed with its sensor
-    "distributed>=2024.8",  # a local cluster of Dask computes a map
+    "docutils>=0.18",  # reads the changelog
 ]
 # The HTML site of `make docs`.
 DOCS = [

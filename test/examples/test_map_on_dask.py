@@ -10,7 +10,7 @@ from programs import execute
 
 from symtop_ros.physics import Motion, State
 
-pytest.importorskip("distributed", reason="no distributed: pip install '.[test]' in the checkout")
+pytest.importorskip("distributed", reason="no distributed: pip install distributed")
 from examples.map_on_dask import SPINS, TILTS, TOP, compute_rows
 
 ROOT = Path(__file__).parents[2]
