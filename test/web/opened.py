@@ -71,6 +71,11 @@ class Opened:
             count,
         )
 
+    def wait_for_texts(self):
+        """Wait until the page has written the texts that follow the motion, four times a second."""
+        self.tab.evaluate("() => new Promise((done) => setTimeout(done, 250))")
+        self.wait_for_frames()
+
     def is_stored(self, name, value, tab=None):
         """Return True if a tab, one's own or another of the browser, finds a value in the store.
 

@@ -17,7 +17,6 @@ from symtop_ros.physics import (
 
 FIELDS = "theta", "phi_dot", "psi_dot"
 ACTS = "run", "run", "scrub", "key", "torque", "friction"  # after which numbers may be old ones
-FOLLOWS = 700  # ms; the page writes its texts every 250 ms, and draws a frame every 120 ms here
 NUMBER = r"-?[\d.]+(?:e[+-]?\d+)?"
 READ = """() => ({
     time: document.body.dataset.time,
@@ -96,7 +95,7 @@ def test_every_number_shown_is_that_of_the_state_drawn(browser, tmp_path, seed, 
             trial.act([name])
             if trial.page.say("pause") == "Pause":
                 trial.page.press("Space")
-            trial.page.tab.wait_for_timeout(FOLLOWS)
+            trial.page.wait_for_texts()
             if trial.page.say("refusal"):
                 trial.page.press("Escape")
             Shown(trial.page).check(trial.page)
@@ -132,12 +131,12 @@ def test_fields_show_the_start_while_they_are_edited(opened):
     opened.press("Space")
     opened.wait_for_time(0.02)
     opened.press("Space")
-    opened.tab.wait_for_timeout(FOLLOWS)
+    opened.wait_for_texts()
     read = [opened.tab.input_value(f"#field-{name}") for name in FIELDS]
     assert read[1] != "0"
     opened.tab.focus("#field-theta")
-    opened.tab.wait_for_timeout(FOLLOWS)
+    opened.wait_for_texts()
     assert [opened.tab.input_value(f"#field-{name}") for name in FIELDS] == ["0.5", "0", "200"]
     opened.press("Escape")
-    opened.tab.wait_for_timeout(FOLLOWS)
+    opened.wait_for_texts()
     assert [opened.tab.input_value(f"#field-{name}") for name in FIELDS] == read

@@ -109,7 +109,7 @@ def test_labels_do_not_cover_each_other(open_page):
     page.tab.click("#pause")
     for _ in range(5):
         page.tab.click("text=Step")
-        page.tab.wait_for_timeout(200)
+        page.wait_for_frames()
         boxes = [each.bounding_box() for each in page.tab.locator(".label:visible").all()]
         assert len(boxes) >= 3
         for k, a in enumerate(boxes):
