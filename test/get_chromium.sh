@@ -18,5 +18,5 @@ apt-get download chromium $missing > download.log 2>&1 ||
 for package in *.deb; do
   [ -e "$package" ] && dpkg -x "$package" . && rm "$package"
 done
-rm -rf usr/share/doc usr/share/locale
+rm -rf usr/share/doc usr/share/locale usr/lib/chromium/libVkLayer_*
 exit 0

@@ -15,4 +15,6 @@ apt-get download $packages $missing > download.log 2>&1 ||
 for package in *.deb; do
   [ -e "$package" ] && dpkg -x "$package" . && rm "$package"
 done
+# those of graphics cards
+rm -rf usr/share/doc usr/lib/*/dri usr/lib/*/libvulkan_intel* usr/lib/*/libvulkan_radeon.so
 exit 0
