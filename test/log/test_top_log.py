@@ -62,13 +62,16 @@ def test_of_several_tops_that_of_the_default_name_is_chosen(tmp_path):
     assert log.node == "/top"
 
 
-def test_a_sample_at_the_stamp_of_an_event_belongs_to_it_if_it_was_logged_before(tmp_path):
+@pytest.mark.parametrize("shift", [1, 60, -60])
+def test_a_sample_belongs_to_an_event_by_its_stamp_wherever_it_was_logged(shift, tmp_path):
     run = Run(seconds=1.0)
     place = run.places("events")[1]
-    run.messages.insert(place + 1, run.messages.pop(place))
-    name, stamp, _ = run.messages[place]
-    *_, (event, columns) = (e for b in run.open(tmp_path).batches() for e in b.stretches())
-    assert event.stamp == stamp == columns[name].stamps[0]
+    run.messages.insert(place + shift, run.messages.pop(place))
+    stretches = [each for b in run.open(tmp_path).batches() for each in b.stretches() if each[0]]
+    (_, before), (event, after) = stretches[-2:]
+    for name in STATES:
+        assert max(before[name].stamps) < event.stamp == min(after[name].stamps)
+        assert sum(len(columns[name].stamps) for _, columns in stretches) == len(run.places(name))
 
 
 def test_missing_topics_are_listed(tmp_path):
