@@ -239,8 +239,8 @@ class RecordSettings:
     enabled: bool
     directory: str
     # of one file; the recording then continues in a new one
-    max_size: float = 0.0  # in bytes; 0: no limit
-    max_duration: float = 0.0  # in s, between the stamps of its messages; 0: no limit
+    max_size: float  # in bytes; 0: no limit
+    max_duration: float  # in s, between the stamps of its messages; 0: no limit
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,8 @@ PLAIN = Topic("/plain", "std_msgs/msg/String")
 
 
 def create(folder, **limits):
-    recorder = Recorder(RecordSettings(True, str(folder), **limits))
+    unlimited = {"max_size": 0.0, "max_duration": 0.0}
+    recorder = Recorder(RecordSettings(True, str(folder), **{**unlimited, **limits}))
     recorder.add_channel("/latched", LATCHED)
     recorder.add_channel("/plain", PLAIN)
     return recorder
@@ -52,7 +53,9 @@ def test_all_messages_are_in_the_file_in_order(tmp_path):
     given = [(k, bytes([k % 251]) * (k % 50)) for k in range(5000)]
     for stamp, data in given:
         recorder.add(1, stamp, data)
+    assert recorder.running
     recorder.stop()
+    assert not recorder.running
     assert [(stamp, data) for _, stamp, data in contents(path)] == given
     assert recorder.dropped == 0
     file = read_whole(path)

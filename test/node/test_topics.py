@@ -66,13 +66,14 @@ def test_all_state_topics_say_what_the_library_says_at_their_stamp(start_top):
 
 def test_the_description_is_latched_and_its_joints_are_those_of_the_euler_angles(start_top):
     run = start_top()
-    late = run.collect(String, "/robot_description", LATCHED)
+    assert run.change({"top.Iz": 6e-05})[0]
+    late = run.collect(String, "/robot_description", LATCHED)  # of both it gets the present one
     run.spin_until(lambda: late)
     robot = ElementTree.fromstring(late[0].data)
     assert [joint.get("name") for joint in robot.iter("joint")] == JOINTS
     assert [axis.get("xyz") for axis in robot.iter("axis")] == ["0 0 1", "1 0 0", "0 0 1"]
     inertia = next(robot.iter("inertia"))
-    assert float(inertia.get("izz")) == 5.72e-05
+    assert float(inertia.get("izz")) == 6e-05
 
 
 def test_diagnostics_report_the_motion_and_constants_that_do_not_drift(start_top):

@@ -35,6 +35,16 @@ def test_the_default_of_a_parameter_is_valid_and_what_no_parameter_takes_is_refu
         assert refusal({name: value}).startswith(f"{name} must "), value
 
 
+def test_sensors_frames_topics_and_the_log_are_chosen_at_the_start():
+    fixed = {name for name, parameter in PARAMETERS.items() if parameter.read_only}
+    groups = ("imu.", "magnetic_field.", "odometry.")
+    assert fixed - {name for name in PARAMETERS if name.startswith(groups)} == {
+        *("gravity", "publish_clock", "publish_markers", "record.directory", "record.enabled"),
+        *("scheduling_priority", "top_frame", "world_frame"),
+    }
+    assert fixed >= {name for name in PARAMETERS if name.startswith(groups)}
+
+
 @pytest.mark.parametrize("name", RANGED)
 def test_a_number_may_be_at_the_limits_of_its_range_and_is_refused_beyond_them(name):
     parameter = PARAMETERS[name]

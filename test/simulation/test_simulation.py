@@ -7,6 +7,7 @@ from itertools import pairwise
 import pytest
 from simulation.runs import SECOND, Run
 
+from symtop_ros.simulation.budget import SHARE
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.simulation import MAX_BLOCK
 from symtop_ros.simulation.topics import STATE_TOPICS
@@ -90,6 +91,16 @@ def test_a_request_between_a_jump_and_the_next_tick_belongs_to_the_time_after_th
     assert [float(each) for each in before] == state.orientation.tolist()
     assert run.simulation.ticker.missed == 0
     run.assert_recomputed()
+
+
+@pytest.mark.parametrize(("used", "factor"), [(0.45, 1.0), (0.55, 0.25)])
+def test_the_pace_returns_if_half_of_the_share_is_left(used, factor):
+    run = Run()
+    simulation = run.simulation
+    simulation.apply(simulation.timeline.set_pace(simulation.stamp, 1.0, 0.25))
+    simulation.budget.spent += used * SHARE
+    simulation.speed_up()
+    assert simulation.factor == factor
 
 
 def test_while_the_clock_jumps_no_sample_gets_a_stamp_of_the_new_time():
