@@ -121,7 +121,7 @@ def list_strides(t: float, step: float) -> list[int]:
 
 def time_strides(t: float, step: float) -> Real:
     """Return the times in s of the states that are recorded."""
-    return np.cumsum(list_strides(t, step)) * step
+    return np.cumsum(list_strides(t, step), dtype=np.float64) * step
 
 
 def choose_steps(number: int) -> slice:
