@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from io import BytesIO
 from itertools import islice
 from pathlib import Path
-from typing import BinaryIO, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
 import lz4.frame
 import zstandard
@@ -44,6 +44,7 @@ MAX_MESSAGES = 65_536  # in memory: a chunk of a few bytes may decompress to mil
 Description = Schema | Channel | Metadata
 Parse = Callable[[ReadDataStream], Description]
 Span = tuple[int, int, int]
+Contents = tuple[list[Description], Iterator[Message]]  # of a record
 PARSED_IN_CHUNK: dict[int, Parse] = {Opcode.SCHEMA: Schema.read, Opcode.CHANNEL: Channel.read}
 PARSED: dict[int, Parse] = {**PARSED_IN_CHUNK, Opcode.METADATA: Metadata.read}
 SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX)
@@ -78,13 +79,6 @@ class FileRecord(NamedTuple):
     opcode: int
     data: bytes
     end: int
-
-
-class Contents(NamedTuple):
-    """The descriptions (schemas, channels, metadata) and the messages in a record."""
-
-    descriptions: list[Description]
-    messages: Iterator[Message]
 
 
 def list_problems(problems: Sequence[str]) -> list[str]:
@@ -128,7 +122,8 @@ class McapFile(MessageSource):
             for record in self._records(file):
                 self.offset = record.end
                 if damaged and record.opcode == Opcode.MESSAGE_INDEX:
-                    lost += _count_indexed(record.data)
+                    # of 16 bytes each, after channel and size
+                    lost += max(0, len(record.data) - 6) // 16
                     continue
                 self._report_damage(damaged, lost)
                 lost = 0
@@ -143,15 +138,15 @@ class McapFile(MessageSource):
                     continue
                 chunked = chunked or record.opcode == Opcode.CHUNK
                 try:
-                    contents = _contents(record)
+                    descriptions, messages = _contents(record)
                 except DAMAGE:
                     chunk = _chunk_of(record)
                     damaged += chunk
                     if not chunk:  # its times are not readable either
                         self.problems.append(f"the record before byte {record.end} is damaged")
                     continue
-                self._describe(contents.descriptions)
-                yield from self._runs(contents.messages)
+                self._describe(descriptions)
+                yield from self._runs(messages)
             self._report_damage(damaged, lost)
         self._report_ending()
 
@@ -181,7 +176,7 @@ class McapFile(MessageSource):
                     index = ChunkIndex.read(open_stream(record.data))
                     self._chunk_offsets.append(index.chunk_start_offset)
                 else:
-                    self._describe(_contents(record).descriptions)
+                    self._describe(_contents(record)[0])
 
     def _records_at(self, file: BinaryIO, offset: int, *wanted: int) -> Iterator[FileRecord]:
         """Yield the readable records with some opcodes from an offset on."""
@@ -216,24 +211,19 @@ class McapFile(MessageSource):
     def _describe(self, descriptions: Iterable[Description]) -> None:
         """Keep descriptions, within a limit: a small chunk may decompress to a lot of them."""
         for each in descriptions:
-            if self._replace(each) != each:
+            if isinstance(each, Metadata):
+                self.metadata[each.name] = each.metadata
+                self._described += _size(each)
+                continue
+            known: dict[int, Any] = self.schemas if isinstance(each, Schema) else self.channels
+            if known.get(each.id) != each:  # most are repeated in each chunk
+                known[each.id] = each
                 self._described += _size(each)
         if self._described > MAX_DESCRIPTIONS:
             raise LogError(
                 f"{self.path} must have at most {MAX_DESCRIPTIONS} bytes of schemas, channels and "
                 "metadata, got more: it is not a log"
             )
-
-    def _replace(self, each: Description) -> Description | None:
-        """Keep a description and return the one it replaces; most are repeated in each chunk."""
-        before: Description | None
-        if isinstance(each, Schema):
-            before, self.schemas[each.id] = self.schemas.get(each.id), each
-        elif isinstance(each, Channel):
-            before, self.channels[each.id] = self.channels.get(each.id), each
-        else:
-            before, self.metadata[each.name] = None, each.metadata
-        return before
 
     def _runs(self, messages: Iterator[Message]) -> Iterator[list[Message]]:
         while run := list(islice(messages, MAX_MESSAGES)):
@@ -283,11 +273,6 @@ def _size(description: Description) -> int:
     if isinstance(description, Schema):
         return 500 + len(description.data)
     return 500 + sum(len(key) + len(value) for key, value in description.metadata.items())
-
-
-def _count_indexed(data: bytes) -> int:
-    """Return the number of messages in an index: 16 bytes each after channel and size."""
-    return max(0, len(data) - 6) // 16
 
 
 def _chunk_of(record: FileRecord) -> list[Chunk]:
@@ -341,7 +326,7 @@ def _parse(data: bytes, places: Iterable[Span], parsed: Mapping[int, Parse]) -> 
             descriptions.append(parsed[opcode](open_stream(data[begin:end])))
         if opcode == Opcode.MESSAGE and end - begin < MESSAGE_START.size:
             raise DamageError("not a message")
-    return Contents(descriptions, _messages(data, places))
+    return descriptions, _messages(data, places)
 
 
 def _messages(data: bytes, places: Iterable[Span]) -> Iterator[Message]:
@@ -360,13 +345,9 @@ def _decompress(chunk: Chunk) -> bytes:
     if chunk.compression == "zstd":
         with zstandard.ZstdDecompressor().stream_reader(BytesIO(chunk.data)) as reader:
             return bytes(reader.read(size))
-    if chunk.compression == "lz4":
-        return _decompress_lz4(chunk.data, size)
-    return bytes(chunk.data)
-
-
-def _decompress_lz4(data: bytes, size: int) -> bytes:
+    if chunk.compression != "lz4":
+        return bytes(chunk.data)
     try:
-        return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, max_length=size))
+        return bytes(lz4.frame.LZ4FrameDecompressor().decompress(chunk.data, max_length=size))
     except RuntimeError as error:  # of lz4 for any damage
         raise DamageError(str(error)) from None

@@ -69,8 +69,9 @@ class Recorder:
         self.dropped, self.failure = 0, ""
         self._queue.clear()
         self._ending.clear()
-        work = (file, metadata, latched)
-        self._thread = threading.Thread(target=self._work, args=work, daemon=True)
+        self._thread = threading.Thread(
+            target=self._work, args=(file, metadata, latched), daemon=True
+        )
         self._thread.start()
         self.running = True
         return file.path
@@ -127,12 +128,13 @@ class Recorder:
         self, file: "LogFile", metadata: Mapping[str, str], latched: dict[int, bytes]
     ) -> None:
         try:
-            while not self._fill(file, latched):
-                file.finish(self._counts())
-                if not self._await_message():
+            while True:
+                is_last = self._fill(file, latched)
+                missed = str(self.count_missed())
+                file.finish({"dropped": str(self.dropped), "missed": missed})
+                if is_last or not self._await_message():
                     return  # a file without any message would be no log of a run
                 self._file = file = self._open(metadata, latched)
-            file.finish(self._counts())
         except Exception as error:
             file.abandon()
             self._queue.clear()
@@ -146,9 +148,6 @@ class Recorder:
             if self._ending.wait(WRITE_PERIOD):
                 return bool(self._queue)
         return True
-
-    def _counts(self) -> dict[str, str]:
-        return {"dropped": str(self.dropped), "missed": str(self.count_missed())}
 
     def _fill(self, file: "LogFile", latched: dict[int, bytes]) -> bool:
         """Write one file; return True if the recording ends, False if a new file is due."""

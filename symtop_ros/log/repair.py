@@ -1,7 +1,8 @@
 """Repair of a damaged log: everything readable is written to a new, complete file."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack
+from functools import cache, partial
+from itertools import chain
 from pathlib import Path
 
 from mcap.writer import CompressionType, Writer
@@ -14,38 +15,25 @@ def repair(file: McapFile, target: Path) -> int:
     with log_errors("write", target):
         if target.exists():
             raise LogError(f"{target} must not exist (nothing is overwritten)")
-        with target.open("xb") as stream, _remove_on_failure(target):
+        with target.open("xb") as stream, ExitStack() as undo:
+            undo.callback(target.unlink)
             writer = Writer(stream, compression=CompressionType.ZSTD)
             writer.start(file.profile, "symtop_ros top_replay --repair")
             count = _copy(file, writer)
             writer.finish()  # type: ignore[no-untyped-call]
+            undo.pop_all()  # the file stays
     return count
 
 
-@contextmanager
-def _remove_on_failure(target: Path) -> Iterator[None]:
-    try:
-        yield
-    except BaseException:
-        target.unlink()
-        raise
-
-
 def _copy(file: McapFile, writer: Writer) -> int:
-    channels: dict[int, int] = {}
+    register = cache(partial(_copy_channel, file, writer))
     count = 0
-    for messages in file.chunks():
-        for message in messages:
-            number = channels.get(message.channel_id)
-            if number is None:
-                number = channels[message.channel_id] = _copy_channel(
-                    file, writer, message.channel_id
-                )
-            if number:
-                writer.add_message(
-                    number, message.log_time, message.data, message.publish_time, message.sequence
-                )
-                count += 1
+    for message in chain.from_iterable(file.chunks()):
+        if number := register(message.channel_id):
+            writer.add_message(
+                number, message.log_time, message.data, message.publish_time, message.sequence
+            )
+            count += 1
     for name, metadata in file.metadata.items():
         writer.add_metadata(name, metadata)
     return count

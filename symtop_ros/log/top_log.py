@@ -55,15 +55,14 @@ class TopLog:
     def batches(self) -> Iterator[Batch]:
         """Yield the run from its start to its end."""
         # /tf is shared, and samples may precede the event that says which frame is the top's.
-        first = next(self.events(), None)
-        if first:
+        if first := next(self.events(), None):
             self._reader.frame = first.values.get("top_frame")
         for messages in self._runs():
             yield self._reader.read(self._select(messages))
         if not set(self.topics) - {TF}:
-            known = sorted(channel.topic for channel in self.file.channels.values())
-            msg = f"no run of a top{self._asked} in {self.file.path}: topics "
-            raise LogError(msg + (", ".join(known[:20]) or "none"))
+            topics = sorted(channel.topic for channel in self.file.channels.values())
+            known = ", ".join(topics[:20]) or "none"
+            raise LogError(f"no run of a top{self._asked} in {self.file.path}: topics {known}")
 
     def events(self) -> Iterator[Event]:
         """Yield the events of the run in the order of the log."""
@@ -100,7 +99,13 @@ class TopLog:
         for chunk in self.file.chunks():
             messages += chunk
             while len(messages) > (most := ROWS * max(1, len(self.topics))):
-                cut = _boundary(messages, most)
+                # the last place up to `most` at which a sample begins
+                begins = (
+                    k
+                    for k in range(most, 0, -1)
+                    if messages[k - 1].log_time != messages[k].log_time
+                )
+                cut = next(begins, most)
                 yield messages[:cut]
                 messages = messages[cut:]
         yield messages
@@ -136,14 +141,6 @@ class TopLog:
         tops = {self._node_and_name(number) for number in self.file.channels}
         nodes = {node for node, name in tops if name and name != TF}
         return min(nodes, key=lambda node: (node != DEFAULT_NODE, node), default=None)
-
-
-def _boundary(messages: list[Message], most: int) -> int:
-    """Return the last index up to `most` at which a sample begins, `most` by default."""
-    cut = most
-    while cut and messages[cut - 1].log_time == messages[cut].log_time:
-        cut -= 1
-    return cut or most
 
 
 def open_run(paths: Sequence[Path]) -> MessageSource:

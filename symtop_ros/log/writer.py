@@ -118,13 +118,10 @@ class LogFile:
         return False
 
     def _register(self, topic: Topic) -> int:
-        known = load_definitions()[topic.type]
+        known, qos = load_definitions()[topic.type], _qos_profile(topic)
         data = known["text"].encode()
         schema = self._writer.register_schema(topic.type, SchemaEncoding.ROS2, data)
-        metadata = {
-            "offered_qos_profiles": _qos_profile(topic),
-            "topic_type_hash": known["hash"],
-        }
+        metadata = {"offered_qos_profiles": qos, "topic_type_hash": known["hash"]}
         return self._writer.register_channel(topic.ros_name, MessageEncoding.CDR, schema, metadata)
 
 

@@ -8,9 +8,10 @@ field that is None is left out.
 
 import types
 import typing
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import lru_cache
+from itertools import takewhile
 from typing import Any, NamedTuple, TypeVar
 
 from symtop_ros.wire.layout import Reader, Writer
@@ -103,28 +104,29 @@ def read_fields(prefix: str, kind: type[T], values: Mapping[str, str]) -> T:
         If a field is missing, or if its text is not of its type.
     """
     own = {name: text for name, text in values.items() if name.startswith(f"{prefix}.")}
-    record: T = _read(kind, prefix, own)
-    return record
+    return typing.cast(T, _read(kind, prefix, own))
 
 
 def _read(hint: Any, name: str, values: Mapping[str, str]) -> Any:
     """Return the value of a type hint: a record, a tuple or a plain value."""
     choices = _list_choices(hint)
-    if type(None) in choices:
-        if name not in values and not any(each.startswith(f"{name}.") for each in values):
-            return None
-        choices = tuple(each for each in choices if each is not type(None))
-    (only, *others) = choices
-    if not others and is_dataclass(only):
-        types_of = _get_hints(typing.cast(type, only))
-        names = [each.name for each in fields(only)]
-        build = typing.cast("Callable[..., Any]", only)
-        return build(**{each: _read(types_of[each], f"{name}.{each}", values) for each in names})
-    if not others and typing.get_origin(only) is tuple:
-        return _read_tuple(typing.get_args(only), name, values)
+    if type(None) in choices and not any(f"{each}.".startswith(f"{name}.") for each in values):
+        return None
+    kind, *others = given = [each for each in choices if each is not type(None)]
+    if not others and is_dataclass(kind):
+        return _read_record(kind, name, values)
+    if typing.get_origin(kind) is tuple and is_dataclass(typing.get_args(kind)[0]):
+        return _read_records(typing.get_args(kind)[0], name, values)
     if name not in values:
         raise ValueError(f"{name} must be given, got nothing")
-    return _read_plain(choices, name, values[name])
+    if typing.get_origin(kind) is tuple:
+        return _read_tuple(typing.get_args(kind), name, values[name])
+    return _read_plain(given, name, values[name])
+
+
+def _read_record(kind: Any, name: str, values: Mapping[str, str]) -> Any:
+    hints = _get_hints(kind)
+    return kind(**{k.name: _read(hints[k.name], f"{name}.{k.name}", values) for k in fields(kind)})
 
 
 def _list_choices(hint: Any) -> tuple[Any, ...]:
@@ -134,30 +136,27 @@ def _list_choices(hint: Any) -> tuple[Any, ...]:
     return typing.get_args(hint) if typing.get_origin(hint) is typing.Literal else (hint,)
 
 
-def _read_tuple(members: tuple[Any, ...], name: str, values: Mapping[str, str]) -> tuple[Any, ...]:
-    first, *others = members
-    if is_dataclass(first):
-        count = 0
-        while count < MAX_RECORDS and any(key.startswith(f"{name}.{count}.") for key in values):
-            count += 1
-        return tuple(_read(first, f"{name}.{place}", values) for place in range(count))
-    if name not in values:
-        raise ValueError(f"{name} must be given, got nothing")
-    parts = values[name].split()
-    if others != [...] and len(parts) != len(members):
+def _read_records(kind: Any, name: str, values: Mapping[str, str]) -> tuple[Any, ...]:
+    """Return the records of a tuple, which are numbered from 0 on."""
+    names = (f"{name}.{place}" for place in range(MAX_RECORDS))
+    given = takewhile(lambda each: any(key.startswith(f"{each}.") for key in values), names)
+    return tuple(_read(kind, each, values) for each in given)
+
+
+def _read_tuple(members: tuple[Any, ...], name: str, text: str) -> tuple[Any, ...]:
+    parts = text.split()
+    if members[-1] is not ... and len(parts) != len(members):
         raise ValueError(f"{name} must have {len(members)} elements, got {len(parts)}")
-    return tuple(_read_plain(_list_choices(first), name, each) for each in parts)
+    return tuple(_read_plain(_list_choices(members[0]), name, each) for each in parts)
 
 
-def _read_plain(choices: tuple[Any, ...], name: str, text: str) -> Any:
+def _read_plain(choices: Sequence[Any], name: str, text: str) -> Any:
     """Return a number, a flag, a text, or one of some words."""
-    (only, *_) = choices
+    only = choices[0]
     if only is bool:
-        choices, found = ("true", "false"), text == "true"
+        choices = ("true", "false")
     elif isinstance(only, type):
         return only(text)
-    else:
-        found = text  # type: ignore[assignment]
     if text not in choices:
         raise ValueError(f"{name} must be one of {', '.join(choices)}, got {text[:60]!r}")
-    return found
+    return text == "true" if only is bool else text

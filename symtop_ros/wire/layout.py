@@ -68,6 +68,14 @@ class Layout:
         self._append(HEADER)
         for part in parts:
             self._add(part)
+        self._kind = np.dtype(
+            {
+                "names": ["seconds", "nanoseconds", *map(str, range(len(self._blocks)))],
+                "formats": ["<i4", "<u4", *(f"({count},)<f8" for _, count in self._blocks)],
+                "offsets": [self._stamp, self._stamp + 4, *(offset for offset, _ in self._blocks)],
+                "itemsize": self.size,
+            }
+        )
 
     @property
     def size(self) -> int:
@@ -89,14 +97,12 @@ class Layout:
         if len(stamps) == 1:  # NumPy takes twice the time for one
             return [self.encode(int(stamps[0]), numbers[0].tolist())]
         rows = np.tile(np.frombuffer(self._template, np.uint8), (len(stamps), 1))
-        seconds, nanoseconds = np.divmod(stamps[:, np.newaxis], NANOSECONDS)
-        parts = [(self._stamp, seconds.astype("<i4")), (self._stamp + 4, nanoseconds.astype("<u4"))]
-        ends = np.cumsum([count for _, count in self._blocks])
-        columns = np.split(np.asarray(numbers, "<f8"), ends[:-1], axis=1)
-        parts += zip((offset for offset, _ in self._blocks), columns, strict=True)
-        for offset, part in parts:
-            data = np.ascontiguousarray(part).view(np.uint8)
-            rows[:, offset : offset + data.shape[1]] = data
+        fields = rows.view(self._kind)[:, 0]
+        fields["seconds"], fields["nanoseconds"] = np.divmod(stamps, NANOSECONDS)
+        first = 0
+        for place, (_, count) in enumerate(self._blocks):
+            fields[str(place)] = numbers[:, first : first + count]
+            first += count
         return [row.tobytes() for row in rows]
 
     def match(self, rows: Bytes) -> NDArray[np.bool_]:
@@ -110,14 +116,14 @@ class Layout:
 
     def decode(self, rows: Bytes) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Decode matching messages (n, size) into stamps (n,) in ns and doubles (n, width)."""
-        seconds = _column(rows, self._stamp, 4, "<i4").astype(np.int64)
-        stamps = seconds * NANOSECONDS + _column(rows, self._stamp + 4, 4, "<u4")
-        blocks = [_column(rows, offset, 8 * count, "<f8") for offset, count in self._blocks]
-        return stamps[:, 0], np.concatenate(blocks, axis=1)
+        fields = np.ascontiguousarray(rows).view(self._kind)[:, 0]
+        stamps = fields["seconds"].astype(np.int64) * NANOSECONDS + fields["nanoseconds"]
+        blocks = [fields[str(place)] for place in range(len(self._blocks))]
+        return stamps, np.concatenate(blocks, axis=1)
 
     def _add(self, part: Part) -> None:
         alignment = 8 if isinstance(part, Doubles) else 4
-        self._skip(-(self.size - len(HEADER)) % alignment)
+        self._append(bytes(-(self.size - len(HEADER)) % alignment), is_constant=False)
         match part:
             case Text(value):
                 text = value.encode() + b"\0"
@@ -126,22 +132,14 @@ class Layout:
                 self._append(struct.pack("<I", value))
             case Stamp():
                 self._stamp = self.size
-                self._skip(8)
+                self._append(bytes(8), is_constant=False)
             case Doubles(count):
                 self._blocks.append((self.size, count))
-                self._skip(8 * count)
+                self._append(bytes(8 * count), is_constant=False)
 
-    def _append(self, data: bytes) -> None:
+    def _append(self, data: bytes, *, is_constant: bool = True) -> None:
         self._template += data
-        self._constant += b"\1" * len(data)
-
-    def _skip(self, size: int) -> None:
-        self._template += bytes(size)
-        self._constant += bytes(size)
-
-
-def _column(rows: Bytes, offset: int, size: int, kind: str) -> NDArray[Any]:
-    return np.ascontiguousarray(rows[:, offset : offset + size]).view(kind)
+        self._constant += bytes([is_constant]) * len(data)
 
 
 class DecodeError(ValueError):
@@ -197,15 +195,11 @@ class Reader:
 
     def skip(self, size: int, count: int) -> None:
         """Skip `count` numbers of `size` bytes each."""
-        self._align(size)
-        self._take(size * count)
+        self._take(size * count, size)
 
     def integer(self, code: str = "I") -> int:
         """Return an integer; `code` is its format character of the struct module."""
-        size = struct.calcsize(f"<{code}")
-        self._align(size)
-        (value,) = struct.unpack(f"<{code}", self._take(size))
-        return int(value)
+        return int(self._number(code))
 
     def stamp(self) -> int:
         """Return a stamp in ns."""
@@ -213,9 +207,7 @@ class Reader:
 
     def number(self) -> float:
         """Return a double."""
-        self._align(8)
-        (value,) = struct.unpack("<d", self._take(8))
-        return float(value)
+        return float(self._number("d"))
 
     def string(self) -> str:
         """Return a string; invalid UTF-8 is replaced."""
@@ -236,10 +228,12 @@ class Reader:
         """Return a sequence of strings."""
         return tuple(self.string() for _ in range(self.count()))
 
-    def _align(self, size: int) -> None:
-        self.offset += -(self.offset - len(HEADER)) % size
+    def _number(self, code: str) -> Any:
+        size = struct.calcsize(f"<{code}")
+        return struct.unpack(f"<{code}", self._take(size, size))[0]
 
-    def _take(self, size: int) -> bytes:
+    def _take(self, size: int, alignment: int = 1) -> bytes:
+        self.offset += -(self.offset - len(HEADER)) % alignment
         part = self._data[self.offset : self.offset + size]
         if len(part) < size:
             raise DecodeError(
