@@ -62,9 +62,8 @@ class NodePublisher:
 
 def _check_depth(profile: QoSProfile) -> SetParametersResult:
     """Refuse a depth that the middleware would report in several lines, or read as the default."""
-    if profile.depth > 0:
-        return SetParametersResult(successful=True)
-    return SetParametersResult(successful=False, reason=f"depth {profile.depth} (must be >= 1)")
+    reason = f"depth {profile.depth} (must be >= 1)"  # is read if it is refused
+    return SetParametersResult(successful=profile.depth > 0, reason=reason)
 
 
 class NodeHost:
@@ -101,14 +100,18 @@ class NodeHost:
                     message_class, topic.ros_name, qos, qos_overriding_options=options
                 )
         except Exception as error:
-            name = f"qos_overrides.{self.resolve(topic)}.publisher"
-            raise RefusedError(f"{name} must be valid, got: {one_line(error)}") from None
+            raise RefusedError(
+                f"qos_overrides.{self.resolve(topic)}.publisher must be valid, got: "
+                f"{one_line(error)}"
+            ) from None
         return NodePublisher(publisher, self._node)
 
     def update_statuses(self) -> list[Status]:
         """Return statuses on duplicates; log when these appear and when they are gone."""
-        clocks = _look_for_clocks(self._node, self._publishes_clock)
-        statuses = [_look_for_nodes(self._node), clocks]
+        statuses = [
+            _look_for_nodes(self._node),
+            _look_for_clocks(self._node, self._publishes_clock),
+        ]
         for status in statuses:
             before = self._levels.get(status.name, OK)
             if status.level > before:

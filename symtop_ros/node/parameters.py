@@ -8,6 +8,7 @@ package, at start-up as well as later.
 import difflib
 from collections.abc import Callable, Iterable, Sequence
 from copy import copy
+from functools import partial
 from typing import Any
 
 from rcl_interfaces.msg import (
@@ -27,7 +28,7 @@ from std_srvs.srv import SetBool, Trigger
 from symtop_ros.session.services import ServiceKind
 from symtop_ros.simulation.presets import load_scene, scene_names
 from symtop_ros.simulation.settings import PARAMETERS, Settings
-from symtop_ros.simulation.validation import RefusedError, reject, show
+from symtop_ros.simulation.validation import RefusedError, attempt, reject, show, validate_names
 
 DEFAULT_SCENE = "cusps"
 QOS = "qos_overrides."  # of topics, which declare these parameters themselves
@@ -66,9 +67,7 @@ def declare_parameters(node: Node) -> Settings:
         ),
     ).value
     scene = load_scene(name)
-    for key in scene:
-        if key not in PARAMETERS:
-            raise reject(f"parameter in scene {name}", f"one of {', '.join(PARAMETERS)}", key)
+    validate_names(scene, PARAMETERS, f"parameter in scene {name}")
     # /tf is shared by all tops, of other names or namespaces.
     defaults = {"top_frame": node.get_fully_qualified_name().lstrip("/"), **scene}
     given = {name: each.value for name, each in node._parameter_overrides.items()}
@@ -98,8 +97,8 @@ def _declare(node: Node, parameter: Parameter) -> None:
 
 def _typed(name: str, value: Any) -> Parameter:
     """Return a validated value as a ROS parameter."""
-    value = list(value) if isinstance(value, tuple) else value
-    return Parameter(name, TYPES[type(PARAMETERS[name].default)], value)
+    kind = TYPES[type(PARAMETERS[name].default)]
+    return Parameter(name, kind, list(value) if isinstance(value, tuple) else value)
 
 
 def _check_unknown_names(node: Node) -> None:
@@ -150,14 +149,12 @@ def guard_parameters(node: Node, name: str, handler: Handler) -> Handler:
         return response
 
     def set_each(request: Any, response: Any) -> Any:
-        try:
-            refuse_too_many(request.parameters)
-        except RefusedError as refusal:
-            refused = SetParametersResult(successful=False, reason=str(refusal))
-            response.results = [refused] * len(request.parameters)
-            return response
+        is_read, reason = attempt(partial(refuse_too_many, request.parameters))
         response.results = [
-            _set(node, [each], handler, SetParameters) for each in request.parameters
+            _set(node, [each], handler, SetParameters)
+            if is_read
+            else SetParametersResult(successful=False, reason=reason)
+            for each in request.parameters
         ]
         return response
 
@@ -193,7 +190,7 @@ def _set(
     try:
         refuse_too_many(parameters)
         refuse_unknown_types(parameters)
-        changes = [_convert(each) for each in parameters if not _is_kept(node, each)]
+        changes = [each for each in map(_convert, parameters) if not _is_kept(node, each)]
     except RefusedError as refusal:
         return SetParametersResult(successful=False, reason=str(refusal))
     if not changes:
@@ -214,12 +211,8 @@ def _convert(message: ParameterMessage) -> ParameterMessage:
 def _is_kept(node: Node, message: ParameterMessage) -> bool:
     """Return True for the value that a read-only parameter has: a dumped file sets all of them."""
     name = message.name
-    if not node.has_parameter(name) or not node.describe_parameter(name).read_only:
-        return False
-    new, old = parameter_value_to_python(message.value), node.get_parameter(name).value
-    if isinstance(old, bool | str | int | float):
-        return bool(new == old)
-    return new is not None and not isinstance(new, bool | str | int | float) and [*new] == [*old]
+    is_fixed = node.has_parameter(name) and node.describe_parameter(name).read_only
+    return is_fixed and node.get_parameter(name).get_parameter_value() == message.value
 
 
 def fill_response(response: Any, granted: bool, answer: str) -> Any:

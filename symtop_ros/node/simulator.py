@@ -144,8 +144,7 @@ class Simulator:
     # The simulation
 
     def _get_features(self, _: Any, response: Any) -> None:
-        response.features.features = list(FEATURES)
-        response.features.custom_info = INFO
+        response.features = SimulatorFeatures(features=[*FEATURES], custom_info=INFO)
 
     @property
     def _state(self) -> int:
@@ -172,11 +171,8 @@ class Simulator:
             self._demand("pause", target != PLAYING)
         self._stopped = None
         if target == STOPPED:
-            self._begin_again()
+            self._demand("set_initial_conditions", {})
             self._stopped = self._simulation.segment
-
-    def _begin_again(self) -> None:
-        self._demand("set_initial_conditions", {})
 
     def _reset(self, request: Any, _: Any) -> str:
         """Reset the state, for each scope that includes it; nothing is ever spawned."""
@@ -184,7 +180,7 @@ class Simulator:
         if not scope & STATE or (scope != ALL and scope & ~(TIME | STATE | SPAWNED)):
             condition = f"one that includes the state ({STATE}), 0 or {ALL}"
             raise ResultError(UNSUPPORTED, reject("scope", condition, request.scope))
-        self._begin_again()
+        self._demand("set_initial_conditions", {})
         return TIME_IS_KEPT if scope & TIME else ""
 
     def _step(self, request: Any, _: Any) -> None:
@@ -241,15 +237,16 @@ class Simulator:
 
     def _get_entity_state(self, request: Any, response: Any) -> None:
         self._check_name(request.entity)
-        stamp, found = self._simulation.stamp, response.state
-        state = self._simulation.state
+        state, found = self._simulation.state, response.state
         found.header.frame_id = self._simulation.settings.world_frame
-        found.header.stamp.sec, found.header.stamp.nanosec = divmod(stamp, NANOSECONDS)
+        stamp = found.header.stamp
+        stamp.sec, stamp.nanosec = divmod(self._simulation.stamp, NANOSECONDS)
         w, x, y, z = state.orientation.tolist()
         found.pose.orientation = Quaternion(x=x, y=y, z=z, w=w)
         found.twist.angular = _to_message(state.to_world(state.angular_velocity))
-        alpha = angular_acceleration(self._simulation.segment.motion, state)
-        found.acceleration.angular = _to_message(alpha)
+        found.acceleration.angular = _to_message(
+            angular_acceleration(self._simulation.segment.motion, state)
+        )
 
     def _set_entity_state(self, request: Any, _: Any) -> None:
         self._check_name(request.entity)
@@ -293,12 +290,10 @@ def _matches(pattern: str, name: str) -> bool:
     try:
         return bool(re2.search(pattern, name, options))
     except (re2.error, UnicodeError) as error:
-        condition = f"a POSIX extended regular expression ({one_line(_to_text(error.args[0]))})"
+        reason = error.args[0]
+        text = reason.decode(errors="replace") if isinstance(reason, bytes) else reason
+        condition = f"a POSIX extended regular expression ({one_line(text)})"
         raise reject("filter", condition, pattern) from None
-
-
-def _to_text(reason: Any) -> str:
-    return reason.decode(errors="replace") if isinstance(reason, bytes) else str(reason)
 
 
 def _to_message(vector: Any) -> Vector3:

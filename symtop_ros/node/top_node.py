@@ -167,19 +167,19 @@ class TopNode(Node):
 
     def _follow_clock(self) -> JumpHandle:
         """Wake the pacer whenever simulated time is set."""
-        threshold = JumpThreshold(
-            min_forward=Duration(nanoseconds=1),
-            min_backward=Duration(nanoseconds=-1),
-            on_clock_change=True,
-        )
         return self.get_clock().create_jump_callback(
-            threshold, pre_callback=self.simulation.begin_jump, post_callback=self._clock_set
+            JumpThreshold(
+                min_forward=Duration(nanoseconds=1),
+                min_backward=Duration(nanoseconds=-1),
+                on_clock_change=True,
+            ),
+            pre_callback=self.simulation.begin_jump,
+            post_callback=self._clock_set,
         )
 
     def _clock_set(self, jump: TimeJump) -> None:
-        changed = jump.clock_change in CLOCK_CHANGES
-        jumped = changed or not 0 <= jump.delta.nanoseconds < JUMP * NANOSECONDS
-        self.simulation.end_jump(jumped)
+        is_small = 0 <= jump.delta.nanoseconds < JUMP * NANOSECONDS
+        self.simulation.end_jump(jump.clock_change in CLOCK_CHANGES or not is_small)
         self._pacer.wake()
 
     # Requests
@@ -201,13 +201,12 @@ class TopNode(Node):
     def _apply_torque(self, data: bytes) -> None:
         self.session.log_torque(data)
         message = deserialize_message(data, WrenchStamped)
-        torque, force = message.wrench.torque, message.wrench.force
-        if (force.x, force.y, force.z) == (0.0, 0.0, 0.0):
-            vector = (torque.x, torque.y, torque.z)
-            reason = self.session.hold_torque(vector, message.header.frame_id)
+        wrench = message.wrench.force, message.wrench.torque
+        force, torque = ((each.x, each.y, each.z) for each in wrench)
+        if any(force):
+            reason = str(reject("applied_torque force", "0 (only the torque acts)", force))
         else:
-            got = (force.x, force.y, force.z)
-            reason = str(reject("applied_torque force", "0 (only the torque acts)", got))
+            reason = self.session.hold_torque(torque, message.header.frame_id)
         if reason:
             self.get_logger().warning(reason, throttle_duration_sec=1.0)
 
@@ -230,11 +229,9 @@ class TopNode(Node):
             raise RefusedError("publish_clock must be false together with use_sim_time, got true")
 
     def _apply_parameters(self, parameters: list[Parameter]) -> None:
-        def change() -> None:
-            self.session.apply_settings(_own_values(parameters))
-            self._pacer.wake()
-
+        change = partial(self.session.apply_settings, _own_values(parameters))
         self.simulation.take_turn("a change of parameters", change)
+        self._pacer.wake()
 
 
 def _own_values(parameters: list[Parameter]) -> dict[str, Any]:

@@ -43,11 +43,13 @@ def show(value: object) -> str:
     return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 3]}..."
 
 
-def validate_names(values: Mapping[str, Any], names: Collection[str]) -> None:
+def validate_names(
+    values: Mapping[str, Any], names: Collection[str], what: str = "field name"
+) -> None:
     """Refuse a mapping with a name that is not one of `names`."""
     for name in values:
         if name not in names:
-            raise reject("field name", f"one of {', '.join(names)}", name)
+            raise reject(what, f"one of {', '.join(names)}", name)
 
 
 def number(
