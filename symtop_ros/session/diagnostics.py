@@ -15,12 +15,11 @@ MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very 
 
 def collect_statuses(simulation: Simulation, recorder: Recorder) -> list[Status]:
     """Return the statuses of a simulation at its next stamp."""
-    segment, stamp = simulation.segment, simulation.stamp
     return [
-        motion_status(segment, stamp),
+        motion_status(simulation.segment, simulation.stamp),
         _pace_status(simulation),
         _log_status(recorder),
-        balance_status(segment, stamp),
+        balance_status(simulation.segment, simulation.stamp),
     ]
 
 
@@ -62,12 +61,11 @@ def balance_status(segment: Segment, stamp: int) -> Status:
 
 def _pace_status(simulation: Simulation) -> Status:
     asked, kept, ticker = simulation.settings.real_time_factor, simulation.factor, simulation.ticker
-    achieved = kept if simulation.segment.running else 0.0
     facts = {
         "late": ticker.late,
         "missed": ticker.missed,
         "real_time_factor": asked,
-        "real_time_factor.achieved": achieved,
+        "real_time_factor.achieved": kept if simulation.segment.running else 0.0,
         "kernel_version": kernel_version(),
     }
     level = WARN if kept < asked or ticker.missed >= CATCH_UP * ticker.rate else OK
@@ -81,12 +79,12 @@ def _pace_status(simulation: Simulation) -> Status:
 
 
 def _log_status(recorder: Recorder) -> Status:
-    facts = {"file": recorder.path or "", "dropped": recorder.dropped}
     level, message = OK, "recording" if recorder.running else "not recording"
     if recorder.failure:
         level, message = ERROR, recorder.failure
     elif recorder.dropped:
         level, message = WARN, f"{recorder.dropped} messages dropped: the disk is too slow"
+    facts = {"file": recorder.path or "", "dropped": recorder.dropped}
     return make_status("log", level, message, facts)
 
 

@@ -112,7 +112,6 @@ class Outputs:
         add = partial(Output, host=host, recorder=recorder)
         self._recorder, self._name = recorder, name
         self._frame = settings.world_frame
-        frames = settings.world_frame, settings.top_frame
         self._events, self._description = add(EVENTS), add(choose_description(name))
         topics = {
             n: each
@@ -120,7 +119,10 @@ class Outputs:
             if not each.switch or settings.values[each.switch]
         }
         self._samples = {name: add(topic) for name, topic in topics.items()}
-        self._layouts = {name: topic.layout(*frames) for name, topic in topics.items()}
+        self._layouts = {
+            name: topic.layout(settings.world_frame, settings.top_frame)
+            for name, topic in topics.items()
+        }
         self._fixed_frames = add(TF_STATIC) if settings.imu or settings.odometry else None
         self._diagnostics = add(DIAGNOSTICS)
         self._clock = add(CLOCK) if settings.publish_clock else None
@@ -175,10 +177,10 @@ class Outputs:
 
     def send_diagnostics(self, stamp: int, collect: Callable[[], list[Status]]) -> None:
         """Publish and log diagnostics if needed; each status bears the name of the node."""
-        prefix = self._name.lstrip("/")
 
         def encode() -> bytes:
-            named = [each._replace(name=f"{prefix}: {each.name}") for each in collect()]
+            prefix = f"{self._name.lstrip('/')}: "
+            named = [each._replace(name=prefix + each.name) for each in collect()]
             return encode_statuses(stamp, self._frame, named, self._name)
 
         self._diagnostics.send(stamp, encode)
@@ -273,5 +275,8 @@ def _write(writer: Writer, stamp: int, frame: str, marker: Marker) -> None:
 def _axis_end(quaternion: Sequence[float]) -> Vector:
     """Return the upper end of the axis for an orientation x, y, z, w."""
     x, y, z, w = quaternion
-    up = 1.0 - 2.0 * (x * x + y * y)
-    return 2 * LENGTH * (x * z + w * y), 2 * LENGTH * (y * z - w * x), LENGTH * up
+    return (
+        2 * LENGTH * (x * z + w * y),
+        2 * LENGTH * (y * z - w * x),
+        LENGTH * (1.0 - 2.0 * (x * x + y * y)),
+    )

@@ -87,9 +87,13 @@ class _Again:
 
     def __init__(self, first: RunEvent, rate: float, folder: str) -> None:
         self._clock, self._host = SetClock(), Silent()
-        settings = Settings.from_values(_initial_values(first, rate, folder))
         self._session = Session(
-            settings, self._clock, self._host, "run.json", {"program": "top_replay"}, NODE
+            Settings.from_values(_initial_values(first, rate, folder)),
+            self._clock,
+            self._host,
+            "run.json",
+            {"program": "top_replay"},
+            NODE,
         )
         self._simulation = self._session.simulation
         self._told = 0  # s of the last diagnostics
@@ -119,10 +123,11 @@ class _Again:
 
     def do(self, event: RunEvent, name: str, *, is_first: bool) -> None:
         """Do what an event says, at its time."""
-        before = self._simulation.segment
         if not is_first:
+            old = _list_values(self._simulation.segment.motion)
+            new = _list_values(event.motion)
             self._simulation.restart_grid(event.time)
-            if changes := _list_changes(before.motion, event.motion):
+            if changes := {key: value for key, value in new.items() if value != old[key]}:
                 self._session.apply_settings(changes)
             self._ask(event, name)
         self._compare(event, name)
@@ -131,8 +136,9 @@ class _Again:
         if event.kind in KICKS:
             granted, answer = self._session.answer("kick", lambda: event.act)
         elif event.kind == "start":
-            values = _start_values(event)
-            granted, answer = self._session.answer("set_initial_conditions", lambda: values)
+            granted, answer = self._session.answer(
+                "set_initial_conditions", lambda: _start_values(event)
+            )
         else:
             return
         if not granted:
@@ -151,11 +157,10 @@ class _Again:
         )
         changed = float(np.abs(right.angular_velocity - given.angular_velocity).max())
         if turned > near or changed > near * max(1.0, rate):
-            got = given.angular_velocity.tolist()
-            condition = (
-                f"the state after the {event.kind} ({right.angular_velocity.tolist()} rad/s)"
+            raise RefusedError(
+                f"{name}: angular_velocity must be the state after the {event.kind} "
+                f"({right.angular_velocity.tolist()} rad/s), got {given.angular_velocity.tolist()}"
             )
-            raise RefusedError(f"{name}: angular_velocity must be {condition}, got {got}")
 
     def close(self) -> Path:
         """End the recording; return the path of its file."""
@@ -168,10 +173,9 @@ class _Again:
 
 
 def _initial_values(first: RunEvent, rate: float, folder: str) -> dict[str, Any]:
-    start = _start_values(first)
     return {
         **_list_values(first.motion),
-        **{f"initial.{name}": value for name, value in start.items()},
+        **{f"initial.{name}": value for name, value in _start_values(first).items()},
         "publish_rate": rate,
         "record.enabled": True,
         "record.directory": folder,
@@ -191,8 +195,3 @@ def _start_values(event: RunEvent) -> dict[str, Any]:
 def _list_values(motion: Motion) -> dict[str, Any]:
     """Return the parameters that say what moves, and what acts on it."""
     return {**list_body(motion), "steady_torque": list(motion.applied_torque)}
-
-
-def _list_changes(before: Motion, after: Motion) -> dict[str, Any]:
-    old = _list_values(before)
-    return {name: value for name, value in _list_values(after).items() if value != old[name]}

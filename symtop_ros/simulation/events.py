@@ -142,8 +142,11 @@ class Event:
         if not self.has_fields:
             pairs = self.values.get("request", "").split("; ")
             return {name: text for name, _, text in (pair.partition("=") for pair in pairs) if name}
-        own = (name for name in self.values if name.startswith("request."))
-        return {name.partition(".")[2]: self.values[name] for name in own}
+        return {
+            name.removeprefix("request."): text
+            for name, text in self.values.items()
+            if name.startswith("request.")
+        }
 
     @property
     def previous_end(self) -> int:
@@ -191,8 +194,10 @@ class Event:
         values = self.values
         factor = "motion.real_time_factor"
         if values["format"] not in (FORMAT, WITHOUT_FIELDS):
-            got = one_line(values["format"], 20)
-            raise ValueError(f"format of an event must be {WITHOUT_FIELDS} or {FORMAT}, got {got}")
+            raise ValueError(
+                f"format of an event must be {WITHOUT_FIELDS} or {FORMAT}, got "
+                f"{one_line(values['format'], 20)}"
+            )
         return Segment(
             motion=_read_motion(values),
             stamp=_limit(-MAX_STAMP, "motion.stamp", int(values["motion.stamp"]), MAX_STAMP),

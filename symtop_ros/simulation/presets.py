@@ -73,9 +73,8 @@ def load_scene(name: object) -> dict[str, Any]:
 
 
 def _cause(error: Exception) -> str:
-    if isinstance(error, KeyError | TypeError | AttributeError):
-        return "no parameters"
-    return one_line(error)
+    is_empty = isinstance(error, KeyError | TypeError | AttributeError)
+    return "no parameters" if is_empty else one_line(error)
 
 
 def _flatten(parameters: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

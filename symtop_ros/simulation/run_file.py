@@ -127,8 +127,11 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
 
 def write_run(events: Iterable[RunEvent], end: int) -> dict[str, Any]:
     """Return the content of run.json, of a run that has reached a time in ns."""
-    written = [event.to_json() for event in events]
-    return {"format": FORMATS[-1], "events": written, "end": end / NANOSECONDS}
+    return {
+        "format": FORMATS[-1],
+        "events": [event.to_json() for event in events],
+        "end": end / NANOSECONDS,
+    }
 
 
 def read_run(path: Path) -> tuple[list[RunEvent], int]:
@@ -178,10 +181,8 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
     if before and time < before[-1].time:
         raise reject("time", "that of the event before it or later", values["time"])
     act = _read_kick(given.get("act")) if kind in KICKS else {}
-    Ix, Iz, Mgl = values["top"]
-    top, start = Top(Ix, Iz, Mgl), State(values["orientation"], values["angular_velocity"])
-    friction, torque = Friction(*values["friction"]), values["torque"]
-    motion = Motion(top, start, friction, torque)
+    top, start = Top(*values["top"]), State(values["orientation"], values["angular_velocity"])
+    motion = Motion(top, start, Friction(*values["friction"]), values["torque"])
     if kind == "push":
         motion = PushedMotion(top, start, read_pushes(act, motion))
         act = motion.pushes.request

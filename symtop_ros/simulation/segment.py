@@ -101,8 +101,7 @@ class PushedMotion(Motion):
 
     def cut(self, elapsed: int) -> "PushedMotion":
         """Return the motion whose pushes end at a time in ns."""
-        pushes = self.pushes._replace(number=self.count(elapsed))
-        return PushedMotion(self.top, self.start, pushes)
+        return PushedMotion(self.top, self.start, self.pushes._replace(number=self.count(elapsed)))
 
     def piece_at(self, elapsed: Fraction) -> tuple[Motion, int]:
         """Return the piece at a time in ns, and the time in ns at which it begins."""
@@ -199,14 +198,16 @@ class Segment:
 
     def count_pushes(self, stamp: int) -> int | None:
         """Return how many pushes the motion got up to a stamp (ns); None if nothing pushes it."""
-        motion = self.motion
-        return motion.count(self.elapsed_at(stamp)) if isinstance(motion, PushedMotion) else None
+        return (
+            self.motion.count(self.elapsed_at(stamp))
+            if isinstance(self.motion, PushedMotion)
+            else None
+        )
 
     @property
     def final_motion(self) -> Motion:
         """The motion that its pushes lead to; without pushes the motion itself."""
-        motion = self.motion
-        return motion.pieces[-1] if isinstance(motion, PushedMotion) else motion
+        return self.motion.pieces[-1] if isinstance(self.motion, PushedMotion) else self.motion
 
     def without_pushes(self, stamp: int) -> "Segment":
         """Return the segment of what moves at a stamp (ns), from the last push on."""
@@ -224,14 +225,13 @@ class Segment:
         torque: Sequence[float] | None = None,
     ) -> "Segment":
         """Continue from a state at a stamp, with another top, friction or applied torque."""
-        motion = self.motion
-        following = Motion(
-            motion.top if top is None else top,
+        motion = Motion(
+            self.motion.top if top is None else top,
             start,
-            motion.friction if friction is None else friction,
-            motion.applied_torque if torque is None else torque,
+            self.motion.friction if friction is None else friction,
+            self.motion.applied_torque if torque is None else torque,
         )
-        return self.replace_motion(following, stamp)
+        return self.replace_motion(motion, stamp)
 
     def replace_motion(self, motion: Motion, stamp: int) -> "Segment":
         """Continue with another motion from its start."""

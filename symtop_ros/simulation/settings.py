@@ -78,16 +78,24 @@ def _vector(description: str, size: int, limit: float, unit: str) -> Parameter:
         empty = not isinstance(value, str) and isinstance(value, Sized) and len(value) == 0
         return () if empty else vector(name, value, size, limit, unit)
 
-    condition = f"{size} numbers ({unit}), or empty: not set"
-    return Parameter([0.0] * 0, f"{description} ({unit})", condition, validate)
+    return Parameter(
+        [0.0] * 0,
+        f"{description} ({unit})",
+        f"{size} numbers ({unit}), or empty: not set",
+        validate,
+    )
 
 
 def _printable(condition: str, max_length: int, name: str, value: Any) -> str:
     """Return text that can stand in a message or a path."""
-    is_short = isinstance(value, str) and len(value) <= max_length
-    if not (is_short and value.strip() and value.isprintable()):
+    if (
+        not isinstance(value, str)
+        or len(value) > max_length
+        or not value.strip()
+        or not value.isprintable()
+    ):
         raise reject(name, condition, value)
-    return str(value)
+    return value
 
 
 def _frame(default: str, description: str) -> Parameter:
@@ -304,8 +312,9 @@ class Settings:
 
     def rig(self, begin: int) -> Rig:
         """Return gravity and the sensor; its biases are zero at the stamp `begin` (ns)."""
-        imu = self.imu and replace(self.imu, rate=self.publish_rate, begin=begin)
-        return Rig(self.gravity, imu)
+        return Rig(
+            self.gravity, self.imu and replace(self.imu, rate=self.publish_rate, begin=begin)
+        )
 
     @classmethod
     def from_scene(cls, name: object, **changes: Any) -> "Settings":
@@ -327,7 +336,10 @@ def read_body(values: Mapping[str, Any]) -> tuple[Top, Friction]:
 
 def _build_imu(clean: Mapping[str, Any]) -> Imu | None:
     """Return the sensor, or None if nothing of it is published."""
-    magnetometer = _build_magnetometer(clean)
+    magnetometer = None
+    if clean["magnetic_field.enabled"]:
+        vector = clean["magnetic_field.vector"] or EARTH
+        magnetometer = Magnetometer(vector, **_group(clean, "magnetic_field.noise."))
     try:
         imu = Imu(
             clean["imu.position"] or CENTRE,
@@ -338,14 +350,6 @@ def _build_imu(clean: Mapping[str, Any]) -> Imu | None:
     except ValueError as error:
         raise RefusedError(f"imu.{error}") from None
     return imu if clean["imu.enabled"] or magnetometer else None
-
-
-def _build_magnetometer(clean: Mapping[str, Any]) -> Magnetometer | None:
-    """Return the magnetometer of the sensor, or None if it is off."""
-    if not clean["magnetic_field.enabled"]:
-        return None
-    vector = clean["magnetic_field.vector"] or EARTH
-    return Magnetometer(vector, **_group(clean, "magnetic_field.noise."))
 
 
 def _group(values: Mapping[str, Any], prefix: str) -> dict[str, Any]:

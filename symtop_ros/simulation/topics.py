@@ -121,8 +121,7 @@ def _wrench(samples: Samples) -> Real:
 
 def _joints(samples: Samples) -> Real:
     """Euler angles phi, theta, psi, then their rates."""
-    state = samples.state
-    return np.stack([*state.euler_angles, *state.euler_rates], axis=-1)
+    return np.stack([*samples.state.euler_angles, *samples.state.euler_rates], axis=-1)
 
 
 def _imu(samples: Samples) -> Real:
@@ -148,8 +147,9 @@ def _magnetic_field(samples: Samples) -> Real:
         return np.full((*shape, form.width), np.nan)
     exact, errors = imu.measure_field(samples.state, samples.stamps)
     variance = imu.magnetometer.variance(imu.rate)
-    values = {"magnetic_field": exact + errors, "magnetic_field_covariance": variance}
-    return form.arrange(shape, values)
+    return form.arrange(
+        shape, {"magnetic_field": exact + errors, "magnetic_field_covariance": variance}
+    )
 
 
 def _odometry(samples: Samples) -> Real:
@@ -157,15 +157,17 @@ def _odometry(samples: Samples) -> Real:
     state, body = samples.state, find_body(samples.segment.motion.top, samples.segment.rig.gravity)
     omega, arm = state.angular_velocity, body.arm if body else np.nan
     x, y, _ = split(omega)
-    values = {
-        "position": state.to_world([0.0, 0.0, 1.0]) * arm,
-        "orientation": _quaternion(samples),
-        "pose_covariance": EXACT,
-        "linear": stack(y * arm, -x * arm, 0.0 * abs(x)),  # omega x (0, 0, arm)
-        "angular": omega,
-        "twist_covariance": EXACT,
-    }
-    return messages.ODOMETRY.arrange(omega.shape[:-1], values)
+    return messages.ODOMETRY.arrange(
+        omega.shape[:-1],
+        {
+            "position": state.to_world([0.0, 0.0, 1.0]) * arm,
+            "orientation": _quaternion(samples),
+            "pose_covariance": EXACT,
+            "linear": stack(y * arm, -x * arm, 0.0 * abs(x)),  # omega x (0, 0, arm)
+            "angular": omega,
+            "twist_covariance": EXACT,
+        },
+    )
 
 
 def choose_description(node: str) -> Topic:

@@ -36,10 +36,7 @@ def reject(name: str, condition: str, got: object) -> RefusedError:
 
 def show(value: object) -> str:
     """Return a value as text of at most `MAX_SHOWN` characters, however long the value is."""
-    start: Any = value
-    if isinstance(value, Sequence | array):
-        start = value[:MAX_SHOWN]
-    text = repr(start)
+    text = repr(value[:MAX_SHOWN] if isinstance(value, Sequence | array) else value)
     return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 3]}..."
 
 

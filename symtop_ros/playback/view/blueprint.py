@@ -60,20 +60,15 @@ class Framing:
         if before is None:
             return self
         both = self.ranges.keys() & before.ranges.keys()
-        pairs = {each: (self.ranges[each], before.ranges[each]) for each in both}
-        ranges = {
-            each: (min(low for low, _ in pair), max(high for _, high in pair))
-            for each, pair in pairs.items()
-        }
-        return replace(self, ranges=ranges)
+        ends = {each: (*self.ranges[each], *before.ranges[each]) for each in both}
+        return replace(self, ranges={each: (min(four), max(four)) for each, four in ends.items()})
 
 
 def _find_ranges(motion: Motion) -> dict[str, tuple[float, float]]:
     """Return a range for each plotted quantity that hardly changes, `LEAST_SPAN` of it wide."""
     if motion.is_driven:
         return {}
-    times = np.linspace(0.0, _clip(0.01, motion.nutation_period, 10.0), 201)
-    states = motion.at(times)
+    states = motion.at(np.linspace(0.0, _clip(0.01, motion.nutation_period, 10.0), 201))
     rates = states.euler_rates
     horizontal = motion.top.angular_momentum(states)[:, :2]
     found = {}
@@ -125,15 +120,17 @@ def _lay_out_rest(plots: list[rrb.TimeSeriesView]) -> rrb.Vertical:
     """Return the tab of all that the first one leaves out."""
     half = (len(plots) + 1) // 2
     motion = rrb.TextDocumentView(origin=entities.PANEL, name="this motion")
-    left = rrb.Vertical(motion, _chart(entities.CUBIC, "f(u), u = cos(theta)"))
-    events = rrb.TextLogView(
-        origin=entities.EVENTS,
-        name="events",
-        columns=rrb.TextLogColumns(text_log_columns=["Body"]),
-    )
     return rrb.Vertical(
-        rrb.Horizontal(left, rrb.Vertical(*plots[:half]), rrb.Vertical(*plots[half:])),
-        events,
+        rrb.Horizontal(
+            rrb.Vertical(motion, _chart(entities.CUBIC, "f(u), u = cos(theta)")),
+            rrb.Vertical(*plots[:half]),
+            rrb.Vertical(*plots[half:]),
+        ),
+        rrb.TextLogView(
+            origin=entities.EVENTS,
+            name="events",
+            columns=rrb.TextLogColumns(text_log_columns=["Body"]),
+        ),
         row_shares=[5, 1],
         name="momenta, energy, events",
     )
@@ -169,11 +166,13 @@ def create_space_view(framing: Framing) -> rrb.Spatial3DView:
 
 
 def _chart(entity: str, name: str) -> rrb.Spatial2DView:
-    bounds = rrb.VisualBounds2D(
-        x_range=(-MARGIN, WIDTH + MARGIN), y_range=(-HEIGHT - MARGIN, BELOW)
-    )
     return rrb.Spatial2DView(
-        origin=entity, name=name, background=entities.BACKGROUND, visual_bounds=bounds
+        origin=entity,
+        name=name,
+        background=entities.BACKGROUND,
+        visual_bounds=rrb.VisualBounds2D(
+            x_range=(-MARGIN, WIDTH + MARGIN), y_range=(-HEIGHT - MARGIN, BELOW)
+        ),
     )
 
 

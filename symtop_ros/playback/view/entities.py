@@ -85,13 +85,12 @@ STEPS = 10  # facets of a sector
 Profile = Sequence[tuple[float, float]]  # radius and height, from the lowest point upwards
 
 
-def lighten(color: tuple[int, ...]) -> tuple[int, int, int]:
+def lighten(color: tuple[int, ...]) -> tuple[int, ...]:
     """Return the colour of a label, halfway to white.
 
     Labels stand on grey in the light theme of the viewer, where the full colours are hard to read.
     """
-    red, green, blue = color[:3]
-    return (red + 255) // 2, (green + 255) // 2, (blue + 255) // 2
+    return tuple((each + 255) // 2 for each in color[:3])
 
 
 class Mesh(NamedTuple):
@@ -131,20 +130,22 @@ def create_body(top: Top | None) -> Mesh:
         (0.034, 0.985),
         (0.0, 1.0),
     )
-    parts = [
-        create_lathe(axle, (STEEL, STEEL)),
-        create_lathe(_rotor(radius, height), (IVORY, ENAMEL)),
-        create_lathe(_rim(radius, height), (BRASS, BRASS)),
-    ]
-    return _join(parts)
+    return _join(
+        [
+            create_lathe(axle, (STEEL, STEEL)),
+            create_lathe(_rotor(radius, height), (IVORY, ENAMEL)),
+            create_lathe(_rim(radius, height), (BRASS, BRASS)),
+        ]
+    )
 
 
 def create_lathe(
     profile: Profile, colors: tuple[tuple[int, int, int], tuple[int, int, int]]
 ) -> Mesh:
     """Return the surface of a profile turned about the z axis, in sectors of two colours."""
-    bands = [_band(*edge, colors[k % 2], k) for edge in pairwise(profile) for k in range(SECTORS)]
-    return _join(bands)
+    return _join(
+        [_band(*edge, colors[k % 2], k) for edge in pairwise(profile) for k in range(SECTORS)]
+    )
 
 
 def _band(
@@ -254,24 +255,30 @@ class Stream:
         self, entity: str, labels: list[str], color: tuple[int, ...], positions: Real | None = None
     ) -> None:
         """Log texts at points that are too small to be seen."""
-        points = rr.Points3D.from_fields(
-            positions=positions,
-            radii=[0.001],
-            colors=[lighten(color)],
-            labels=labels,
-            show_labels=True,
+        self.log(
+            entity,
+            rr.Points3D.from_fields(
+                positions=positions,
+                radii=[0.001],
+                colors=[lighten(color)],
+                labels=labels,
+                show_labels=True,
+            ),
+            static=True,
         )
-        self.log(entity, points, static=True)
 
     def log_mesh(
         self, entity: str, mesh: Mesh, opacity: int | None = None, static: bool = False
     ) -> None:
         """Log a body; it is translucent if an opacity (of 255) is given."""
-        body = rr.Mesh3D(
-            vertex_positions=mesh.positions,
-            vertex_normals=mesh.normals,
-            vertex_colors=mesh.colors,
-            triangle_indices=mesh.triangles,
-            albedo_factor=None if opacity is None else [255, 255, 255, opacity],
+        self.log(
+            entity,
+            rr.Mesh3D(
+                vertex_positions=mesh.positions,
+                vertex_normals=mesh.normals,
+                vertex_colors=mesh.colors,
+                triangle_indices=mesh.triangles,
+                albedo_factor=None if opacity is None else [255, 255, 255, opacity],
+            ),
+            static=static,
         )
-        self.log(entity, body, static=static)

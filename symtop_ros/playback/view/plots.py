@@ -8,7 +8,7 @@ import rerun as rr
 
 from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
-from symtop_ros.physics import EffectivePotential, Motion, State, Top, perrys_rule
+from symtop_ros.physics import Motion, State, Top, perrys_rule
 from symtop_ros.playback.view import entities, quantities
 from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE, Stream
 from symtop_ros.playback.view.potential import PotentialView
@@ -51,9 +51,7 @@ class Plots:
         self._energy.follow(event, before, after)
         old, new = before.motion if before else None, after.motion
         if old is None or (old.top, old.friction, old.start) != (new.top, new.friction, new.start):
-            final = after.final_motion
-            potential = EffectivePotential.of(final.top, final.start)
-            self._potential.log_motion(final, potential)
+            self._potential.log_motion(after.final_motion)
 
     def send(self, columns: Mapping[str, Columns], segment: Segment | None) -> None:
         """Send the samples of a segment; without it (None) the top is unknown."""
@@ -81,12 +79,8 @@ class Plots:
             stamps, values = found
             if self._reference is None:
                 self._reference = values[0]
-            drift = (
-                (values - self._reference)
-                / quantities.scales_of_constants(top, self._reference)
-                / EPS
-            )
-            self._stream.send_scalars(entities.DRIFT, stamps, drift)
+            scales = EPS * quantities.scales_of_constants(top, self._reference)
+            self._stream.send_scalars(entities.DRIFT, stamps, (values - self._reference) / scales)
 
     def _send_constants(self, columns: Mapping[str, Columns], motion: Motion) -> None:
         """Send the moving dots of the potential, the energies and the inertial torque."""
@@ -95,8 +89,8 @@ class Plots:
             step = quantities.find_step(euler.stamps, RATE_OF_DOTS)
             heights = quantities.heights_of_dots(motion.top, euler.numbers[::step])
             for entity, points in self._potential.place(*heights).items():
-                positions = rr.Points2D.columns(positions=points)
-                self._stream.send(f"{entity}/state", euler.stamps[::step], positions)
+                dots = rr.Points2D.columns(positions=points)
+                self._stream.send(f"{entity}/state", euler.stamps[::step], dots)
             if motion.is_driven:
                 self._send_drifting_curves(euler, motion)
         parts = Torques.of(columns)
@@ -111,8 +105,9 @@ class Plots:
         instants = np.unique(euler.stamps // DRIFT_INTERVAL, return_index=True)[1]
         potentials = quantities.potentials_at(motion.top, euler.numbers[instants])
         for entity, strips in self._potential.draw(potentials).items():
-            lines = rr.LineStrips2D.columns(strips=strips)
-            self._stream.send(entity, euler.stamps[instants], lines)
+            self._stream.send(
+                entity, euler.stamps[instants], rr.LineStrips2D.columns(strips=strips)
+            )
 
 
 def describe_motion(
@@ -148,10 +143,9 @@ def _added_torques(motion: Motion) -> dict[str, str]:
     if not motion.is_driven:
         return {}
     friction = motion.friction
-    torque = " ".join(f"{part:g}" for part in motion.applied_torque)
     return {
         "friction axial, transverse": f"{friction.axial:g}, {friction.transverse:g} N m s",
-        "applied torque": f"{torque} N m",
+        "applied torque": "{:g} {:g} {:g} N m".format(*motion.applied_torque),
     }
 
 

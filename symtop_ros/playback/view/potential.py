@@ -3,6 +3,7 @@
 Both are drawn as curves in a box, with what is allowed hatched and the state as a moving dot.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,6 +23,7 @@ ABOVE, LEAST = 1.0, 0.02
 HATCHES = 40
 HATCHED, DRAWN = 10.0, 20.0  # what is drawn later is in front
 CLEAR = rr.Clear(recursive=False)
+FRAME = np.array([(0, -HEIGHT), (0, 0), (WIDTH, 0)], dtype=float)  # left and lower edge of the box
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,9 +49,10 @@ class Chart:
         parts = np.split(np.arange(len(x)), np.flatnonzero(np.diff(inside)) + 1)
         return [self.place(x[part], y[part]) for part in parts if inside[part[0]] and len(part) > 1]
 
-    def frame(self) -> Real:
-        """Return the edges of the box."""
-        return np.array([(0, -HEIGHT), (0, 0), (WIDTH, 0)], dtype=float)
+    @property
+    def sides(self) -> Real:
+        """Smallest and largest x."""
+        return np.array([self.left, self.right])
 
 
 def frame_potential(motion: Motion, potential: EffectivePotential) -> Chart:
@@ -83,27 +86,27 @@ def frame_cubic(motion: Motion, potential: EffectivePotential) -> Chart:
 class PotentialView:
     """Both charts of one recording."""
 
+    _charts: tuple[Chart, Chart]  # of the last motion, without which nothing is drawn
+
     def __init__(self, stream: Stream) -> None:
         self._stream = stream
         self._potential: EffectivePotential | None = None
-        self._charts: tuple[Chart, Chart] | None = None
         for entity in (entities.POTENTIAL, entities.CUBIC):
             dot = rr.Points2D.from_fields(
                 colors=[WHITE], radii=_in_pixels(5.0), draw_order=DRAWN + 2
             )
             stream.log(f"{entity}/state", dot, static=True)
 
-    def log_motion(self, motion: Motion, potential: EffectivePotential) -> None:
+    def log_motion(self, motion: Motion) -> None:
         """Draw the curves of a motion from the current time on, and those before it in grey."""
-        chart, cubic = frame_potential(motion, potential), frame_cubic(motion, potential)
-        self._log_potential(motion, potential, chart)
-        self._log_cubic(motion, potential, cubic)
-        self._potential, self._charts = potential, (chart, cubic)
+        potential = EffectivePotential.of(motion.top, motion.start)
+        self._charts = frame_potential(motion, potential), frame_cubic(motion, potential)
+        self._log_potential(motion, potential, self._charts[0])
+        self._log_cubic(motion, potential, self._charts[1])
+        self._potential = potential
 
     def place(self, tilts: Real, energies: Real, squares: Real) -> dict[str, Real]:
         """Return the positions (n, 2) of the dot in each chart, by its entity."""
-        if self._charts is None:
-            return {}
         chart, cubic = self._charts
         return {
             entities.POTENTIAL: chart.place(tilts, energies),
@@ -115,16 +118,15 @@ class PotentialView:
 
         Friction and torques change the constants of motion, and the curves with them.
         """
-        if self._charts is None:
-            return {}
         chart, cubic = self._charts
-        ends = np.array([chart.left, chart.right])
         heights = np.linspace(cubic.left, cubic.right, 501)
         return {
             f"{entities.POTENTIAL}/curve": [
                 _join(chart.cut(TILTS[::8], each.at(TILTS[::8]))) for each in potentials
             ],
-            f"{entities.POTENTIAL}/energy": [chart.place(ends, each.energy) for each in potentials],
+            f"{entities.POTENTIAL}/energy": [
+                chart.place(chart.sides, each.energy) for each in potentials
+            ],
             f"{entities.CUBIC}/curve": [
                 _join(cubic.cut(heights, each.cubic(heights))) for each in potentials
             ],
@@ -132,44 +134,49 @@ class PotentialView:
 
     def _log_potential(self, motion: Motion, potential: EffectivePotential, chart: Chart) -> None:
         low, high = motion.turning_angles
-        line = chart.place(np.array([chart.left, chart.right]), potential.energy)
         between = np.linspace(low, high, HATCHES)
-        hatches = np.stack(
-            [
-                chart.place(between, np.minimum(potential.at(between), potential.energy)),
-                chart.place(between, potential.energy),
-            ],
-            axis=1,
-        )
-        self._log_lines(entities.POTENTIAL, "curve", chart.cut(TILTS, potential.at(TILTS)), BLUE)
+        floor = np.minimum(potential.at(between), potential.energy)
+        hatches = [chart.place(between, floor), chart.place(between, potential.energy)]
+        self._log_curve(entities.POTENTIAL, chart, EffectivePotential.at, TILTS, potential, hatches)
+        line = chart.place(chart.sides, potential.energy)
         self._log_lines(entities.POTENTIAL, "energy", [line], GOLD)
-        self._log_lines(entities.POTENTIAL, "allowed", list(hatches), (*GOLD, 40), 2.0)
-        self._log_lines(entities.POTENTIAL, "frame", [chart.frame()], GREY, 1.0)
-        old = self._potential
-        before = chart.cut(TILTS, old.at(TILTS)) if old and old != potential else []
-        self._log_lines(entities.POTENTIAL, "before", before, ASH, 1.0)
+        self._log_lines(entities.POTENTIAL, "frame", [FRAME], GREY, 1.0)
         marks = {f"{low:.3f} rad": low, f"{high:.3f}": high} if high > low else {f"{low:.3f}": low}
         self._log_marks(entities.POTENTIAL, chart, marks, chart.bottom)
 
     def _log_cubic(self, motion: Motion, potential: EffectivePotential, chart: Chart) -> None:
         u2, u1 = (float(np.cos(angle)) for angle in motion.turning_angles)
-        third = potential.find_third_root(*motion.turning_angles)
-        heights = np.linspace(chart.left, chart.right, 2001)
         between = np.linspace(u1, u2, HATCHES)
         values = np.maximum(potential.cubic(between), 0.0)
-        hatches = np.stack([chart.place(between, 0.0), chart.place(between, values)], axis=1)
-        self._log_lines(entities.CUBIC, "curve", chart.cut(heights, potential.cubic(heights)), BLUE)
-        self._log_lines(entities.CUBIC, "allowed", list(hatches), (*GOLD, 40), 2.0)
-        zero = chart.place(np.array([chart.left, chart.right]), 0.0)
+        hatches = [chart.place(between, 0.0), chart.place(between, values)]
+        heights = np.linspace(chart.left, chart.right, 2001)
+        self._log_curve(
+            entities.CUBIC, chart, EffectivePotential.cubic, heights, potential, hatches
+        )
         poles = [chart.place(end, np.array([chart.bottom, chart.top])) for end in (-1.0, 1.0)]
-        self._log_lines(entities.CUBIC, "frame", [zero, *poles], GREY, 1.0)
-        old = self._potential
-        before = chart.cut(heights, old.cubic(heights)) if old and old != potential else []
-        self._log_lines(entities.CUBIC, "before", before, ASH, 1.0)
+        frame = [chart.place(chart.sides, 0.0), *poles]
+        self._log_lines(entities.CUBIC, "frame", frame, GREY, 1.0)
         roots = {f"u1 = {u1:.3f}": u1, f"u2 = {u2:.3f}": u2}
+        third = potential.find_third_root(*motion.turning_angles)
         if chart.left < third < chart.right:
             roots[f"u3 = {third:.3f}"] = third
         self._log_marks(entities.CUBIC, chart, roots, 0.0)
+
+    def _log_curve(
+        self,
+        entity: str,
+        chart: Chart,
+        curve: Callable[[EffectivePotential, Real], Real],
+        x: Real,
+        potential: EffectivePotential,
+        hatches: list[Real],
+    ) -> None:
+        """Draw a curve, that of the potential before, and hatches from their lower and upper ends."""
+        old = self._potential
+        before = chart.cut(x, curve(old, x)) if old and old != potential else []
+        self._log_lines(entity, "curve", chart.cut(x, curve(potential, x)), BLUE)
+        self._log_lines(entity, "allowed", [*np.stack(hatches, axis=1)], (*GOLD, 40), 2.0)
+        self._log_lines(entity, "before", before, ASH, 1.0)
 
     def _log_lines(
         self,
@@ -188,11 +195,10 @@ class PotentialView:
         self._stream.log(f"{entity}/{name}", lines if strips else CLEAR)
 
     def _log_marks(self, entity: str, chart: Chart, marks: dict[str, float], y: float) -> None:
-        points = chart.place(np.array(list(marks.values())), y)
         self._stream.log(
             f"{entity}/marks",
             rr.Points2D(
-                points,
+                chart.place(np.array([*marks.values()]), y),
                 labels=list(marks),
                 colors=[GOLD],
                 radii=_in_pixels(3.5),

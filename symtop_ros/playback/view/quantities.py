@@ -15,15 +15,17 @@ ColumnsByTopic = Mapping[str, Columns]
 
 
 def _from_euler_angles(angles: Real) -> Real:
-    phi, theta, psi = angles[:, 0] / 2, angles[:, 1] / 2, angles[:, 2] / 2
+    phi, theta, psi = angles[:, :3].T / 2
     c, s = np.cos(theta), np.sin(theta)
-    parts = (
-        s * np.cos(phi - psi),
-        s * np.sin(phi - psi),
-        c * np.sin(phi + psi),
-        c * np.cos(phi + psi),
+    return np.stack(
+        [
+            s * np.cos(phi - psi),
+            s * np.sin(phi - psi),
+            c * np.sin(phi + psi),
+            c * np.cos(phi + psi),
+        ],
+        axis=1,
     )
-    return np.stack(parts, axis=1)
 
 
 # By the topic, first of all that of the attitude itself.

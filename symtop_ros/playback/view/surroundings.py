@@ -62,11 +62,11 @@ BEYOND = 1.08  # a letter's distance from the origin, in radii of its arc
 
 def log_surroundings(stream: Stream, below_pivot: bool) -> None:
     """Log the upper half of the sphere and a stand; the whole sphere if the axis goes below."""
-    tilts = np.pi / 12 * np.arange(1, 12 if below_pivot else 7)
     depth = np.pi if below_pivot else np.pi / 2
-    meridians = [draw_meridian(turn, depth) for turn in np.pi / 6 * np.arange(6)]
-    sphere = [*map(draw_parallel, tilts), *meridians]
-    stream.log(entities.SPHERE, rr.LineStrips3D(sphere, colors=[GREY], radii=[0.0014]))
+    parallels = map(draw_parallel, np.pi / 12 * np.arange(1, 12 if below_pivot else 7))
+    meridians = (draw_meridian(turn, depth) for turn in np.pi / 6 * np.arange(6))
+    sphere = rr.LineStrips3D([*parallels, *meridians], colors=[GREY], radii=[0.0014])
+    stream.log(entities.SPHERE, sphere)
     if below_pivot:
         stream.log(entities.STAND, rr.Clear(recursive=False))
     else:

@@ -10,12 +10,7 @@ import rerun as rr
 from symtop_ros.arrays import Real, rotate
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.playback.view import (
-    entities,
-    quantities,
-    surroundings,
-    torques,
-)
+from symtop_ros.playback.view import entities, quantities, surroundings, torques
 from symtop_ros.playback.view.blueprint import Framing, create_blueprint
 from symtop_ros.playback.view.entities import (
     BLUE,
@@ -29,8 +24,6 @@ from symtop_ros.playback.view.entities import (
 )
 from symtop_ros.playback.view.ghost import GhostView
 from symtop_ros.playback.view.plots import Plots, describe_motion
-from symtop_ros.playback.view.surroundings import Trace
-from symtop_ros.playback.view.torques import FictitiousView
 from symtop_ros.simulation.events import KICKS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS
@@ -82,14 +75,19 @@ class View:
         self._stream, self._live, self._options = Stream(recording), live, options
         self._plots = Plots(self._stream)
         self._ghost = GhostView(self._stream) if options.ghost else None
-        self._fictitious = FictitiousView(self._stream) if options.fictitious else None
+        self._fictitious = torques.FictitiousView(self._stream) if options.fictitious else None
         self._has_cones = False
         self._segment: Segment | None = None
         self._framing: Framing | None = None
         self._top: Top | None = None
         self._scales: dict[str, float] = {}  # of each arrow: value of one scene unit
-        self._trace = Trace()
-        self._log_styles()
+        self._trace = surroundings.Trace()
+        if options.angles:
+            surroundings.log_frames(self._stream)
+        if options.torques:
+            torques.log_styles(self._stream)
+        self._stream.style_lines(entities.TRACE, GOLD, 0.007)
+        self._stream.style_lines(entities.NODES, ORANGE, 0.005)
 
     @np.errstate(all="ignore")
     def send(self, batch: Batch) -> None:
@@ -129,8 +127,7 @@ class View:
         self._plots.follow(event, previous, self._segment)
         self._stream.log(entities.CIRCLES, surroundings.turning_circles(motion.turning_angles))
         asked = "; ".join(f"{name}={text}" for name, text in event.request.items())
-        sentence = f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}"
-        self.log_text(sentence, "INFO")
+        self.log_text(f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}", "INFO")
         scales = {
             arrow.label: f"{self._scales[name]:g} {arrow.unit}"
             for name, arrow in ARROWS.items()
@@ -198,14 +195,6 @@ class View:
         self._trace.length = framing.trace
         self._stream.recording.send_blueprint(create_blueprint(framing, self._live))
 
-    def _log_styles(self) -> None:
-        if self._options.angles:
-            surroundings.log_frames(self._stream)
-        if self._options.torques:
-            torques.log_styles(self._stream)
-        self._stream.style_lines(entities.TRACE, GOLD, 0.007)
-        self._stream.style_lines(entities.NODES, ORANGE, 0.005)
-
     def _log_body(self, top: Top | None) -> None:
         self._top = top
         self._stream.log_mesh(entities.BODY, create_body(top))
@@ -223,5 +212,6 @@ def _find_vectors(topic: str, columns: Columns) -> Real:
 
 def _first_stamp(event: Event | None, columns: Mapping[str, Columns]) -> int | None:
     """Return the stamp of the first sample, or of the event if there is no sample."""
-    stamps = [int(each.stamps[0]) for each in columns.values()]
-    return min(stamps, default=event.stamp if event else None)
+    return min(
+        (int(each.stamps[0]) for each in columns.values()), default=event.stamp if event else None
+    )

@@ -5,7 +5,7 @@ A start has the `initial.*` parameters, overridden by the fields of the request.
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, astuple
+from dataclasses import astuple
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -83,8 +83,9 @@ def plan_kick(motion: Motion, state: State, request: Mapping[str, Any]) -> Kick:
     if kind.endswith("impulse") and "hold" in request:
         raise RefusedError(f"hold must be given without {kind}, got both")
     if kind == "angular_impulse":
-        impulse = vector(kind, request[kind], 3, MAX_IMPULSE, "N m s, world frame")
-        after = apply_impulse(top, state, impulse)
+        after = apply_impulse(
+            top, state, vector(kind, request[kind], 3, MAX_IMPULSE, "N m s, world frame")
+        )
     else:
         hold = HOLDS[HOLDS.index(choice("hold", request.get("hold", HOLDS[0]), HOLDS))]
         hold = "spin_momentum" if kind == "axle_impulse" else hold
@@ -142,8 +143,12 @@ def _change_precession(top: Top, state: State, kind: str, value: Any, hold: Hold
 
 def start_motion(settings: Settings) -> Motion:
     """Return the motion of a scene from its initial conditions."""
-    start = initial_state(settings.top, settings.initial, {})
-    return Motion(settings.top, start, settings.friction, settings.steady_torque)
+    return Motion(
+        settings.top,
+        initial_state(settings.top, settings.initial, {}),
+        settings.friction,
+        settings.steady_torque,
+    )
 
 
 def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, Any]) -> State:
@@ -154,8 +159,7 @@ def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, A
         return _from_quaternion(request["orientation"], request["angular_velocity"])
     if not request and defaults.orientation:
         return _from_quaternion(defaults.orientation, defaults.angular_velocity or AT_REST)
-    initial = asdict(defaults)
-    values = {name: initial[name] for name in (*ANGLES, *RATES, "precession")}
+    values = {name: getattr(defaults, name) for name in (*ANGLES, *RATES, "precession")}
     if "phi_dot" in request or "theta_dot" in request:
         values["precession"] = ""  # a requested rate replaces the default of regular precession
     return _from_euler(top, {**values, **request})
@@ -192,8 +196,10 @@ def _from_euler(top: Top, values: Mapping[str, Any]) -> State:
     rates = {name: number(name, values[name], "rad/s", -MAX_RATE, MAX_RATE) for name in RATES}
     if values["precession"]:
         which = choice("precession", values["precession"], PRECESSIONS)
-        rates["phi_dot"] = _regular_rate(top, which, theta, rates["psi_dot"])
-        rates["theta_dot"] = 0.0
+        rates |= {
+            "phi_dot": _regular_rate(top, which, theta, rates["psi_dot"]),
+            "theta_dot": 0.0,
+        }
     return State.from_euler(**angles, **rates)
 
 

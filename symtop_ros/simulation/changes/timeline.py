@@ -92,13 +92,11 @@ class Timeline:
             raise reject("applied_torque frame_id", f'"{world}" or empty', frame)
         x, y, z = vector("applied_torque", torque, 3, MAX_MOMENT, "N m, world frame")
         end = stamp + round(self.settings.applied_torque_timeout * NANOSECONDS)
-        held = replace(self, held_torque=(x, y, z), torque_end=end)
-        return held._apply_torque(stamp, "applied")
+        return replace(self, held_torque=(x, y, z), torque_end=end)._apply_torque(stamp, "applied")
 
     def release_torque(self, stamp: int) -> "Change":
         """Continue without the held torque."""
-        released = replace(self, held_torque=NO_TORQUE)
-        return released._apply_torque(stamp, "released")
+        return replace(self, held_torque=NO_TORQUE)._apply_torque(stamp, "released")
 
     def _apply_torque(self, stamp: int, kind: Literal["applied", "released", "steady"]) -> "Change":
         (a, b, c), (x, y, z) = self.settings.steady_torque, self.held_torque
@@ -115,9 +113,15 @@ class Timeline:
             return []
         if settings.initial != old.initial:  # ~/reset then starts from them
             start = initial_state(settings.top, settings.initial, {})
-        factor = self._find_factor(settings.real_time_factor)
         changed = replace(self, settings=settings, start=start)
-        first = changed.follow(Act("parameters", stamp, changes, factor=factor))
+        first = changed.follow(
+            Act(
+                "parameters",
+                stamp,
+                changes,
+                factor=self._find_factor(settings.real_time_factor),
+            )
+        )
         torque = first.following._apply_torque(stamp, "steady")
         return [first, torque] if torque.is_new else [first]
 

@@ -80,8 +80,14 @@ class Magnetometer:
 
     def noise(self, rate: float, begin: int) -> Noise:
         """Return its errors, for a rate in Hz; its biases are zero at the stamp `begin` (ns)."""
-        density, walk = self.magnetometer_noise_density, self.magnetometer_random_walk
-        return Noise((density,), (walk,), self.seed, rate, begin, FIRST_STREAM)
+        return Noise(
+            (self.magnetometer_noise_density,),
+            (self.magnetometer_random_walk,),
+            self.seed,
+            rate,
+            begin,
+            FIRST_STREAM,
+        )
 
     def variance(self, rate: float) -> float:
         """Return the variance of each axis in T^2."""
@@ -171,9 +177,13 @@ class Imu:
 
     @cached_property
     def _noise(self) -> Noise:
-        densities = self.gyroscope_noise_density, self.accelerometer_noise_density
-        walks = self.gyroscope_random_walk, self.accelerometer_random_walk
-        return Noise(densities, walks, self.seed, self.rate, self.begin)
+        return Noise(
+            (self.gyroscope_noise_density, self.accelerometer_noise_density),
+            (self.gyroscope_random_walk, self.accelerometer_random_walk),
+            self.seed,
+            self.rate,
+            self.begin,
+        )
 
     @cached_property
     def mount(self) -> State:
@@ -184,9 +194,11 @@ class Imu:
     def measure(self, motion: Motion, state: State, gravity: float) -> tuple[Real, Real, Real]:
         """Return what an exact sensor measures."""
         force = specific_force(motion, state, self.position, gravity)
-        orientation = compose(state.orientation, self.mount.orientation)
-        turned = self.mount.to_body(state.angular_velocity), self.mount.to_body(force)
-        return orientation[..., [1, 2, 3, 0]], *turned
+        return (
+            compose(state.orientation, self.mount.orientation)[..., [1, 2, 3, 0]],
+            self.mount.to_body(state.angular_velocity),
+            self.mount.to_body(force),
+        )
 
     def noise(self, stamps: Any) -> Real:
         """Return the errors of angular velocity and acceleration at stamps."""
@@ -225,10 +237,11 @@ class Rig:
                 "imu.begin": str(imu.begin),
             }
             if found := imu.magnetometer:
-                noise = [getattr(found, name) for name in MAGNETOMETER_NOISE]
                 values |= {
                     "magnetic_field.vector": write_text(found.vector),
-                    "magnetic_field.noise": write_text(noise),
+                    "magnetic_field.noise": write_text(
+                        [getattr(found, name) for name in MAGNETOMETER_NOISE]
+                    ),
                     "magnetic_field.seed": str(found.seed),
                 }
         return values
