@@ -7,6 +7,7 @@ import argparse
 import json
 import math
 import os
+import re
 import select
 import sys
 import time
@@ -34,6 +35,7 @@ PUSH = 1.0  # rad/s by which an arrow changes a rate
 WAIT = 0.1  # s between two checks that ROS is running
 QUIT = ("q", "\x04")  # also Ctrl-D; Ctrl-C is a signal
 UPDATE_PERIOD = 0.1  # s
+ONE_KEY = re.compile(r"\x1b\[.?|.", re.DOTALL)  # an arrow is an escape and two characters
 
 
 def main(args: list[str] | None = None) -> int:
@@ -98,11 +100,11 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Response:
-    if options.command == "keys":
-        follow_keys(top)
-        return True, ""
-    if options.command == "watch":
-        watch(top, options.seconds, options.timeout)
+    if options.command in UNTIL_INTERRUPTED:
+        if options.command == "keys":
+            follow_keys(top)
+        else:
+            watch(top, options.seconds, options.timeout)
         return True, ""
     if options.command == "resume":
         return top.request("pause", False)
@@ -244,15 +246,7 @@ def _read_keys(descriptor: int) -> Iterator[str]:
             data = os.read(descriptor, 64).decode(errors="replace")
             if not data:
                 return
-            yield from _split(data)
-
-
-def _split(data: str) -> Iterator[str]:
-    """Split what was read into keys; an arrow is an escape and two characters."""
-    while data:
-        length = 3 if data.startswith("\x1b[") else 1
-        yield data[:length]
-        data = data[length:]
+            yield from ONE_KEY.findall(data)
 
 
 def watch(connection: Connection, seconds: float, timeout: float) -> None:
@@ -277,9 +271,9 @@ def _show(message: JointState) -> None:
     phi, theta, _ = message.position
     phi_dot, theta_dot, psi_dot = message.velocity
     bar = "".join("|" if i == round(theta / 3.1416 * 24) else "." for i in range(25))
-    line = (
+    print(
         f"theta {theta:6.4f} rad [{bar}]  theta' {theta_dot:+8.3f}  phi {phi:+6.3f}  "
-        f"phi' {phi_dot:+8.3f}  psi' {psi_dot:+9.3f} rad/s"
+        f"phi' {phi_dot:+8.3f}  psi' {psi_dot:+9.3f} rad/s",
+        end="\r" if sys.stdout.isatty() else "\n",
+        flush=True,
     )
-    end = "\r" if sys.stdout.isatty() else "\n"
-    print(line, end=end, flush=True)

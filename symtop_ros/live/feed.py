@@ -36,9 +36,13 @@ class Feed:
             raw=True,
         )
         for topic in map(STATE_TOPICS.__getitem__, topics):
-            receive = partial(self.receive, topic.name)
-            message_class = topic.load_message_class()
-            node.create_subscription(message_class, topic.resolve(name), receive, DEPTH, raw=True)
+            node.create_subscription(
+                topic.load_message_class(),
+                topic.resolve(name),
+                partial(self.receive, topic.name),
+                DEPTH,
+                raw=True,
+            )
 
     def batch(self) -> Batch:
         """Return the messages since the last call."""

@@ -231,10 +231,11 @@ class Bridge:
         told: Message = {"running": segment.running, "factor": segment.factor}
         if event.name == "record":
             told["recording"] = event.values.get("outcome.kind") == "begun"
-        record = {"record": found.to_json()} if found else {}
+        if found:
+            told["record"] = found.to_json()
         # A stamp has more digits than a number of JavaScript.
         told |= {"name": event.name, "said": event.verdict, "stamp": str(event.stamp)}
-        self._events.append({**record, **told})
+        self._events.append(told)
         self._count += 1
 
     def _follow_sample(self, stamp: int, numbers: list[float]) -> None:

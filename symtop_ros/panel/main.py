@@ -9,7 +9,7 @@ import time
 import webbrowser
 from pathlib import Path
 
-from symtop_ros.command import has_screen, port
+from symtop_ros.command import has_screen, port, tell_failures
 from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES, Node, PageServer
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.web.join import LANGUAGES, write_file
@@ -32,14 +32,7 @@ def main(args: list[str] | None = None) -> int:
     options, rest = parser.parse_known_args(arguments)
     if rest and not (options.node and rest[0] == "--ros-args"):
         parser.error(f"unrecognized arguments: {one_line(' '.join(rest), 200)}")
-    try:
-        return _run(options, arguments)
-    except ModuleNotFoundError as error:
-        text = f"{error.name} is missing: source a ROS 2, or pip install '.[ros]' in the checkout"
-        print(f"top_panel: {text}", file=sys.stderr)
-    except Exception as error:
-        print(f"top_panel: {one_line(error) or type(error).__name__}", file=sys.stderr)
-    return 1
+    return tell_failures("top_panel", lambda: _run(options, arguments))
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -93,7 +86,7 @@ def _write(path: Path, page: str) -> None:
     try:
         path.write_text(page, encoding="utf-8")
     except OSError as error:
-        raise OSError(f"cannot write {path}: {error.strerror}") from None
+        raise ValueError(f"cannot write {path}: {error.strerror}") from None
 
 
 def _open_file(options: argparse.Namespace, page: str) -> int:
@@ -122,7 +115,7 @@ def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None 
         server = PageServer(host, port, page, node)
     except OSError as error:
         reason = (os.strerror(error.errno) if error.errno else str(error)).lower()
-        raise OSError(
+        raise ValueError(
             f"port must be free on an address of this machine, got {host} port {port} ({reason}); "
             "use --port for another port"
         ) from None
@@ -158,7 +151,7 @@ def _show_node(options: argparse.Namespace, arguments: list[str], opening: str) 
         page = write_file(opening=opening, node=bridge.name, language=options.language)
         return _serve(options, page, bridge.name, bridge)
     except Exception as error:
-        raise RuntimeError(describe_failure(error)) from None
+        raise ValueError(describe_failure(error)) from None
     finally:
         if bridge:
             bridge.close()

@@ -149,10 +149,14 @@ class PageHandler(BaseHTTPRequestHandler):
         close: bool = False,
     ) -> None:
         self.send_response(status)
-        default = {"Content-Type": "text/plain; charset=utf-8", "X-Content-Type-Options": "nosniff"}
-        closing = {"Connection": "close"} if close else {}
-        length = {"Content-Length": str(len(content))}
-        for name, value in {**default, **(fields or {}), **length, **closing}.items():
+        all_fields = {
+            "Content-Type": "text/plain; charset=utf-8",
+            "X-Content-Type-Options": "nosniff",
+            **(fields or {}),
+            "Content-Length": str(len(content)),
+            **({"Connection": "close"} if close else {}),
+        }
+        for name, value in all_fields.items():
             self.send_header(name, value)
         self.end_headers()
         if self.command != "HEAD":

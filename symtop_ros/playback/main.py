@@ -173,19 +173,17 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
     from symtop_ros.playback import viewer
     from symtop_ros.playback.view.view import ViewOptions
 
-    if options.save and options.save.suffix == ".html":
-        _save_page(log, options.save)
-        _print_problems(log.problems)
-        print(f"wrote {options.save}; open it in a browser")
-        return 0
-    drawn = ViewOptions(**view_options(options))
-    save: Path | None = options.save
+    drawn, save = ViewOptions(**view_options(options)), options.save
     if save:
-        if save.suffix != ".rrd":
+        if save.suffix == ".html":
+            _save_page(log, save)
+        elif save.suffix == ".rrd":
+            viewer.replay(log, save, drawn)
+        else:
             raise LogError(f"--save must be a name that ends in .rrd or .html, got {save}")
-        viewer.replay(log, save, drawn)
         _print_problems(log.problems)
-        print(f"wrote {save}; open it with: rerun {save}")
+        program = "in a browser" if save.suffix == ".html" else f"with: rerun {save}"
+        print(f"wrote {save}; open it {program}")
         return 0
     if not options.web and not has_screen():
         raise LogError(

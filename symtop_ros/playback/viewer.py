@@ -41,11 +41,15 @@ def settings() -> dict[str, str]:
     if sys.prefix == sys.base_prefix:
         return {**os.environ}
     folder = Path(sys.prefix, "rerun")
-    own = {"XDG_CONFIG_HOME": str(folder), "XDG_DATA_HOME": str(folder / "data")}
-    environment = {**os.environ, **own}
+    environment = {
+        **os.environ,
+        "XDG_CONFIG_HOME": str(folder),
+        "XDG_DATA_HOME": str(folder / "data"),
+    }
     if not (folder / "rerun" / "analytics.json").exists():
-        command = [str(PROGRAM), "analytics", "disable"]
-        subprocess.run(command, env=environment, capture_output=True, check=False)
+        subprocess.run(
+            [PROGRAM, "analytics", "disable"], env=environment, capture_output=True, check=False
+        )
     return environment
 
 
@@ -141,7 +145,8 @@ def _handler(page: int, data: int) -> type[http.server.BaseHTTPRequestHandler]:
 def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) -> None:
     """Write a log as a Rerun recording; problems of the log are listed with its events."""
     try:
-        _require_space(target, GROWTH * log.file.size)
+        if shutil.disk_usage(target.parent).free < GROWTH * log.file.size:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))  # else Rerun waits for ever
         recording = create_recording(target, log.file.path.stem)
     except (OSError, RuntimeError) as error:
         raise LogError(
@@ -155,12 +160,6 @@ def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) ->
         view.log_text(problem)
     recording.flush()
     view.close()
-
-
-def _require_space(target: Path, size: int) -> None:
-    """Raise OSError if the disk has fewer bytes left: on a full disk Rerun waits for ever."""
-    if shutil.disk_usage(target.parent).free < size:
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 def create_recording(file: Path, name: str) -> rr.RecordingStream:

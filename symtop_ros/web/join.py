@@ -58,11 +58,10 @@ def write_file(
         (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
     )
     script = join_modules()
-    policy = POLICY.format(
-        script=_sign(script), style=_sign(style), server="'self'" if node else "'none'"
-    )
     parts = {
-        "POLICY": policy,
+        "POLICY": POLICY.format(
+            script=_sign(script), style=_sign(style), server="'self'" if node else "'none'"
+        ),
         "STYLE": style,
         "LANGUAGE": f'lang="{language}" data-own' if language else 'lang="en"',
         "CONTENT": _write_data(
@@ -104,18 +103,19 @@ def collect_content() -> dict[str, Any]:
 
 def _read_step(step: Mapping[str, Any]) -> dict[str, Any]:
     """Return the fields of a step that are the same in all languages."""
-    acts = [{**ACT, **act} for act in step["acts"]]
-    return {"acts": acts, **{name: step.get(name, default) for name, default in STEP.items()}}
+    return {
+        "acts": [{**ACT, **act} for act in step["acts"]],
+        **{name: step.get(name, default) for name, default in STEP.items()},
+    }
 
 
 def _read_values(name: str) -> dict[str, Any]:
     """Return the parameters of a scene; the page's kernel computes the start, as a node's does."""
     settings = Settings.from_scene(name)
-    friction = settings.friction
     return {
         "initial": dataclasses.asdict(settings.initial),
         "top": settings.top.moments,
-        "friction": (friction.axial, friction.transverse),
+        "friction": dataclasses.astuple(settings.friction),
         "torque": settings.steady_torque,
     }
 
@@ -124,8 +124,7 @@ def join_modules() -> str:
     """Return all modules as one script, which starts the page."""
     ordered: list[Path] = []
     _order(MAIN, ordered)
-    functions = [_write_function(path) for path in ordered]
-    return "\n".join([*functions, f"module_{MAIN.stem}.start();"])
+    return "\n".join([*map(_write_function, ordered), f"module_{MAIN.stem}.start();"])
 
 
 def _order(path: Path, ordered: list[Path]) -> None:
@@ -171,5 +170,4 @@ def read_texts(language: str) -> dict[str, str]:
 def read_steps() -> list[dict[str, Any]]:
     """Return the steps of the lesson; each has its texts by their keys."""
     text = (FOLDER / "lesson.yaml").read_text(encoding="utf-8")
-    steps: list[dict[str, Any]] = yaml.safe_load(text)
-    return steps
+    return list(yaml.safe_load(text))

@@ -171,7 +171,7 @@ class PotentialView:
         potential: EffectivePotential,
         hatches: list[Real],
     ) -> None:
-        """Draw a curve, that of the potential before, and hatches from their lower and upper ends."""
+        """Draw a curve, that of the potential before, and hatches between two rows of ends."""
         old = self._potential
         before = chart.cut(x, curve(old, x)) if old and old != potential else []
         self._log_lines(entity, "curve", chart.cut(x, curve(potential, x)), BLUE)
