@@ -132,7 +132,8 @@ class McapFile(MessageSource):
                     # flipped bit can turn an index into a message that no checksum would catch.
                     self.problems.append("a record between chunks is damaged")
                     continue
-                if record.opcode != Opcode.CHUNK and self._is_listed_as_chunk(record):
+                start = record.end - len(record.data) - RECORD_START.size
+                if record.opcode != Opcode.CHUNK and start in self._chunk_offsets:
                     # A flipped bit in its type makes it a record that readers pass over.
                     self.problems.append(f"the chunk before byte {record.end} is damaged")
                     continue
@@ -149,9 +150,6 @@ class McapFile(MessageSource):
                 yield from self._runs(messages)
             self._report_damage(damaged, lost)
         self._report_ending()
-
-    def _is_listed_as_chunk(self, record: FileRecord) -> bool:
-        return record.end - len(record.data) - RECORD_START.size in self._chunk_offsets
 
     def since_start(self, log_time: int) -> float:
         """Return the seconds between the first message and a log time in ns."""

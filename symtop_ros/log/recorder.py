@@ -158,16 +158,12 @@ class Recorder:
             if ending:
                 return True
             # Asked last: an empty file may be larger than a small limit, and would be for ever.
-            if self._is_full(file):
+            size, duration = self.settings.max_size, self.settings.max_duration  # 0: no limit
+            if 0 < size <= file.size or 0 < duration <= file.duration:
                 return False
             if time.monotonic() - flushed > FLUSH_PERIOD - WRITE_PERIOD:
                 flushed = time.monotonic()
                 file.flush()
-
-    def _is_full(self, file: "LogFile") -> bool:
-        """Return True if a file has reached a limit; 0 means no limit."""
-        size, duration = self.settings.max_size, self.settings.max_duration
-        return 0 < size <= file.size or 0 < duration <= file.duration
 
     def _drain(self, file: "LogFile", latched: dict[int, bytes]) -> None:
         for _ in range(len(self._queue)):

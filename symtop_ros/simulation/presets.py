@@ -66,15 +66,15 @@ def load_scene(name: object) -> dict[str, Any]:
         content = yaml.safe_load(path.read_text(encoding="utf-8"))
         parameters = dict(_flatten(content["/**"]["ros__parameters"]))
     except Exception as error:
+        is_empty = isinstance(error, KeyError | TypeError | AttributeError)
+        cause = "no parameters" if is_empty else one_line(error)
         raise RefusedError(
-            f"scene file {path.name} must be a ROS parameter file for /**, got {_cause(error)}"
+            f"scene file {path.name} must be a ROS parameter file for /**, got {cause}"
         ) from None
-    return {key: _value(key, value) for key, value in parameters.items()}
-
-
-def _cause(error: Exception) -> str:
-    is_empty = isinstance(error, KeyError | TypeError | AttributeError)
-    return "no parameters" if is_empty else one_line(error)
+    for key, value in parameters.items():
+        if not all(map(_has_ros_type, value if isinstance(value, list) else [value])):
+            raise reject(show(key), "a number, a text, true, false, or a list of them", value)
+    return parameters
 
 
 def _flatten(parameters: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
@@ -103,12 +103,6 @@ def _refuse_bombs(path: Path) -> None:
                 raise ValueError(f"aliases or more than {MAX_DEPTH} levels")
 
 
-def _value(name: str, value: Any) -> Any:
-    """Return a value if ROS has a type for it: YAML also knows dates, sets and big integers."""
-    if not all(map(_has_ros_type, value if isinstance(value, list) else [value])):
-        raise reject(show(name), "a number, a text, true, false, or a list of them", value)
-    return value
-
-
 def _has_ros_type(value: object) -> bool:
+    """Return True for a value that ROS has a type for: YAML also has dates and big integers."""
     return abs(value) < 2**63 if isinstance(value, int) else isinstance(value, float | str)

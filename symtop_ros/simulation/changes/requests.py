@@ -6,7 +6,7 @@ A start has the `initial.*` parameters, overridden by the fields of the request.
 import math
 from collections.abc import Mapping
 from dataclasses import astuple
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -68,15 +68,13 @@ def read_kick(texts: Mapping[str, str]) -> dict[str, Any]:
     return {name: read(name, text) for name, text in texts.items()}
 
 
-class Kick(NamedTuple):
-    """A kick that was validated."""
+def plan_kick(
+    motion: Motion, state: State, request: Mapping[str, Any]
+) -> tuple[Motion, Hold | None]:
+    """Return the motion that follows if a state of a motion is kicked, and what the kick holds.
 
-    motion: Motion  # the motion after the kick
-    hold: Hold | None  # the quantity that the kick leaves unchanged; None for an angular impulse
-
-
-def plan_kick(motion: Motion, state: State, request: Mapping[str, Any]) -> Kick:
-    """Return the motion that follows if a state of a motion is kicked."""
+    That is the quantity that it leaves unchanged; None for an angular impulse.
+    """
     validate_names(request, KICK_FIELDS)
     top, kind = motion.top, exactly_one(request, KINDS)
     hold: Hold | None = None
@@ -91,7 +89,7 @@ def plan_kick(motion: Motion, state: State, request: Mapping[str, Any]) -> Kick:
         hold = "spin_momentum" if kind == "axle_impulse" else hold
         after = _change_precession(top, state, kind, request[kind], hold)
     _limit_rates(kind, request, after)
-    return Kick(Motion(top, after, motion.friction, motion.applied_torque), hold)
+    return Motion(top, after, motion.friction, motion.applied_torque), hold
 
 
 def name_kick(request: Mapping[str, Any]) -> str:
