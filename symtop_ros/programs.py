@@ -14,7 +14,8 @@ from typing import Any, NoReturn
 # that the output is no longer read.
 INTERRUPTED, BROKEN_PIPE = 130, 141
 TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
-PYPI = {"mcap", "numpy", "scipy", "yaml"}  # packages that pip installs under one name
+# Packages that pip installs, by the names under which they are imported.
+PYPI = {"mcap": "mcap", "numpy": "numpy", "scipy": "scipy", "yaml": "pyyaml"}
 EXTRAS = {
     **dict.fromkeys(("rerun", "rerun_cli"), "playback"),
     **dict.fromkeys(("matplotlib", "tqdm", "pyarrow", "PIL"), "report"),
@@ -106,7 +107,7 @@ def _set_signals(handler: Any) -> None:
 
 def _remedy(package: str) -> str:
     if package in PYPI:
-        name = "pyyaml" if package == "yaml" else package
+        name = PYPI[package]
         return f"pip install {name}, on Debian and Ubuntu into a venv (docs/ros.md, Installing)"
     if package in EXTRAS:
         return f"pip install '.[{EXTRAS[package]}]' in the checkout"

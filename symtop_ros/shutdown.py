@@ -8,7 +8,6 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from types import FrameType
 
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -55,9 +54,6 @@ def ros_context(arguments: list[str], is_last: bool = False) -> Iterator[Callabl
     """
     noted: list[int] = []
 
-    def note(number: int, _: FrameType | None) -> None:
-        noted.append(number)
-
     def listen() -> None:
         install_signal_handlers(SignalHandlerOptions.ALL)
         if signal.SIGHUP in before:  # a closed terminal; rclpy knows the other two
@@ -67,7 +63,9 @@ def ros_context(arguments: list[str], is_last: bool = False) -> Iterator[Callabl
 
     # nohup ignores SIGHUP
     heeded = SIGNALS if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN else SIGNALS[:2]
-    before = {number: signal.signal(number, note) for number in heeded}
+    before = {
+        number: signal.signal(number, lambda number, _: noted.append(number)) for number in heeded
+    }
     try:
         # Not as a context manager: rclpy 7 (Jazzy) returns None here.
         rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)

@@ -107,8 +107,9 @@ class BatchReader:
             expected = self._names.setdefault(topic, part.names)
             if part.names != expected:
                 got, wanted = (one_line(", ".join(names), 100) for names in (part.names, expected))
-                found = f"{len(part.indices)} messages name {got}, not {wanted}"
-                self.unreadable.setdefault(topic, found)
+                self.unreadable.setdefault(
+                    topic, f"{len(part.indices)} messages name {got}, not {wanted}"
+                )
 
     def _events(self, data: list[bytes], where: list[int]) -> list[tuple[int, Event]]:
         found = []

@@ -62,8 +62,9 @@ class NodePublisher:
 
 def _check_depth(profile: QoSProfile) -> SetParametersResult:
     """Refuse a depth that the middleware would report in several lines, or read as the default."""
-    reason = f"depth {profile.depth} (must be >= 1)"  # is read if it is refused
-    return SetParametersResult(successful=profile.depth > 0, reason=reason)
+    return SetParametersResult(
+        successful=profile.depth > 0, reason=f"depth {profile.depth} (must be >= 1)"
+    )
 
 
 class NodeHost:

@@ -203,8 +203,8 @@ def _convert(message: ParameterMessage) -> ParameterMessage:
     """Return a parameter with a valid value of its type."""
     if message.name not in PARAMETERS:
         return message
-    value = parameter_value_to_python(message.value)
-    clean = PARAMETERS[message.name].validate(message.name, value)
+    validate = PARAMETERS[message.name].validate
+    clean = validate(message.name, parameter_value_to_python(message.value))
     return _typed(message.name, clean).to_parameter_msg()
 
 

@@ -266,8 +266,10 @@ class Simulator:
         if sets_pose or sets_twist:
             w, x, y, z = attitude.orientation.tolist()
             body = attitude.to_body(omega).tolist()
-            values = {"orientation": [x, y, z, w], "angular_velocity": body}
-            self._demand("set_initial_conditions", values)
+            self._demand(
+                "set_initial_conditions",
+                {"orientation": [x, y, z, w], "angular_velocity": body},
+            )
 
 
 def _matches(pattern: str, name: str) -> bool:

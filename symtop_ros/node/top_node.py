@@ -106,20 +106,16 @@ class TopNode(Node):
         self.create_timer(1.0, self.session.keep_up)
         self._announce_speed(settings)
         self._clock_is_missing = False
-        steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.create_timer(CLOCK_WAIT, self._check_clock, clock=steady)
+        self.create_timer(
+            CLOCK_WAIT, self._check_clock, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
         self._pacer = Pacer(self.simulation.tick, self._fail)
-        self._simulator = self._offer_standard_interface()
+        if find_spec("simulation_interfaces"):
+            from symtop_ros.node.simulator import Simulator  # noqa: PLC0415 - it needs its messages
+
+            self._simulator = Simulator(self, self.session, self._pacer.wake)
         # kept, because rclpy forgets a callback whose handle is gone
         self._clock_handle = self._follow_clock()
-
-    def _offer_standard_interface(self) -> Any:
-        """Offer the interface of all simulators where its messages are installed."""
-        if find_spec("simulation_interfaces") is None:
-            return None
-        from symtop_ros.node.simulator import Simulator  # noqa: PLC0415 - it needs them
-
-        return Simulator(self, self.session, self._pacer.wake)
 
     def _announce_speed(self, settings: Settings) -> None:
         """Report what computes the states, and whether real-time scheduling is granted."""
@@ -187,8 +183,9 @@ class TopNode(Node):
     def create_service(self, *arguments: Any, **options: Any) -> Any:
         """Create a service; rclpy creates its parameter services by this method too."""
         kind, name, handler, *others = arguments
-        guarded = guard_parameters(self, name, handler)
-        return super().create_service(kind, name, guarded, *others, **options)
+        return super().create_service(
+            kind, name, guard_parameters(self, name, handler), *others, **options
+        )
 
     def _handler(self, name: str, read: Callable[[Any], Any]) -> Any:
         def handle(request: Any, response: Any) -> Any:
@@ -229,8 +226,10 @@ class TopNode(Node):
             raise RefusedError("publish_clock must be false together with use_sim_time, got true")
 
     def _apply_parameters(self, parameters: list[Parameter]) -> None:
-        change = partial(self.session.apply_settings, _own_values(parameters))
-        self.simulation.take_turn("a change of parameters", change)
+        self.simulation.take_turn(
+            "a change of parameters",
+            partial(self.session.apply_settings, _own_values(parameters)),
+        )
         self._pacer.wake()
 
 

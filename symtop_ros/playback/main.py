@@ -55,8 +55,12 @@ def add_view_options(parser: argparse.ArgumentParser) -> None:
 
 def view_options(options: argparse.Namespace) -> dict[str, bool]:
     """Return the fields of `ViewOptions` that the options ask for."""
-    drawn = {name: vars(options)[name] for name in ("angles", "torques", "fictitious")}
-    return {"ghost": not options.no_ghost, **drawn}
+    return {
+        "ghost": not options.no_ghost,
+        "angles": options.angles,
+        "torques": options.torques,
+        "fictitious": options.fictitious,
+    }
 
 
 def _parser() -> argparse.ArgumentParser:

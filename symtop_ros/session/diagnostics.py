@@ -152,11 +152,10 @@ def summarize_motion(motion: Motion, state: State) -> dict[str, Any]:
         "fast_top_precession_rate": free.fast_top_precession_rate,
         "fast_top_nutation_rate": free.fast_top_nutation_rate,
     }
-    finite = {name: value if math.isfinite(value) else None for name, value in numbers.items()}
     return {
         "kind": free.kind,
         "engine": motion.engine,
         "turning_angles": list(free.turning_angles),
         "spin_reverses": free.spin_reverses,
-        **finite,
+        **{name: value if math.isfinite(value) else None for name, value in numbers.items()},
     }

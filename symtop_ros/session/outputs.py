@@ -48,7 +48,8 @@ ARROWS = {
     "torque": ((0.85, 0.2, 0.25), 0.7),
 }
 TRACE_COLOR = (0.95, 0.95, 0.95)
-WIDTH = 0.02  # of shafts and of the trace, in lengths of the top
+WIDTH = 0.02 * LENGTH  # of shafts and of the trace
+ARROW_WIDTHS, TRACE_WIDTHS = (WIDTH, 2.5 * WIDTH, 0.0), (0.5 * WIDTH, 0.0, 0.0)  # shaft, head
 ARROW, LINE_STRIP, ADD = 0, 4, 0  # constants of visualization_msgs/Marker
 POSE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)  # in the world frame itself
 ORIGIN = (0.0, 0.0, 0.0)
@@ -200,17 +201,6 @@ def list_fixed_frames(frame: str, imu: Imu | None, body: Body | None) -> list[Tr
     return transforms
 
 
-@dataclass(frozen=True, slots=True)
-class Marker:
-    """A marker: its namespace, type, scale, colour and points."""
-
-    name: str
-    kind: int
-    scale: Vector
-    color: Vector
-    points: Sequence[Vector]
-
-
 @dataclass
 class Markers:
     """The content of `~/markers`, in a fixed frame."""
@@ -230,43 +220,44 @@ class Markers:
     def encode(self, stamp: int, block: Block) -> bytes:
         """Encode the MarkerArray of a sample (stamp in ns)."""
         self.trace.append(_axis_end(block.numbers("orientation", stamp)))
-        scale = (0.5 * WIDTH * LENGTH, 0.0, 0.0)
-        markers = [Marker("trace", LINE_STRIP, scale, TRACE_COLOR, list(self.trace))]
-        # the last three numbers: messages with six have zeros before the vector
-        markers += [self._arrow(name, block.numbers(name, stamp)[-3:]) for name in ARROWS]
-        writer = Writer()
-        writer.integer(len(markers))
-        for each in markers:
-            _write(writer, stamp, self.frame, each)
+        writer, trace = Writer(), list(self.trace)
+        writer.integer(1 + len(ARROWS))
+        _write(writer, stamp, (self.frame, "trace"), LINE_STRIP, TRACE_WIDTHS, TRACE_COLOR, trace)
+        for name, (color, length) in ARROWS.items():
+            # the last three numbers: messages with six have zeros before the vector
+            vector = block.numbers(name, stamp)[-3:]
+            self.largest[name] = max(self.largest[name], hypot(*vector))
+            scale = LENGTH * length / (self.largest[name] or 1.0)
+            x, y, z = (scale * each for each in vector)
+            points = (ORIGIN, (x, y, z))
+            _write(writer, stamp, (self.frame, name), ARROW, ARROW_WIDTHS, color, points)
         return writer.data
 
-    def _arrow(self, name: str, vector: Sequence[float]) -> Marker:
-        (color, length), size = ARROWS[name], hypot(*vector)
-        self.largest[name] = max(self.largest[name], size)
-        scale = LENGTH * length / self.largest[name] if size else 0.0
-        x, y, z = (scale * each for each in vector)
-        widths = (WIDTH * LENGTH, 2.5 * WIDTH * LENGTH, 0.0)  # shaft, head
-        return Marker(name, ARROW, widths, color, (ORIGIN, (x, y, z)))
 
-
-def _write(writer: Writer, stamp: int, frame: str, marker: Marker) -> None:
+def _write(
+    writer: Writer,
+    stamp: int,
+    names: tuple[str, str],  # the frame and the namespace
+    kind: int,
+    widths: Vector,
+    color: Vector,
+    points: Sequence[Vector],
+) -> None:
     """Write a visualization_msgs/Marker; its textures, texts and meshes are empty."""
     writer.stamp(stamp)
-    writer.strings([frame, marker.name])
-    for number in (0, marker.kind, ADD):  # id, type, action
-        writer.integer(number, "i")
-    writer.numbers([*POSE, *marker.scale])
-    writer.numbers([*marker.color, 1.0], "f")
+    writer.strings(names)
+    writer.numbers((0, kind, ADD), "i")  # id, type, action
+    writer.numbers([*POSE, *widths])
+    writer.numbers([*color, 1.0], "f")
     writer.stamp(0)  # lifetime: for ever
     writer.integer(0, "B")  # frame_locked
-    writer.integer(len(marker.points))
-    writer.numbers([each for point in marker.points for each in point])
+    writer.integer(len(points))
+    writer.numbers([each for point in points for each in point])
     writer.integer(0)  # colors
     writer.strings([""])  # texture_resource
     writer.stamp(0)  # of the texture, then its frame, format and data
     writer.strings(["", ""])
-    writer.integer(0)
-    writer.integer(0)  # uv_coordinates
+    writer.numbers((0, 0), "I")  # the latter's length, and that of uv_coordinates
     writer.strings(["", "", ""])  # text, mesh_resource, and the name of mesh_file
     writer.integer(0)  # its data
     writer.integer(0, "B")  # mesh_use_embedded_materials

@@ -59,8 +59,7 @@ def _number(default: float, description: str, unit: str, low: float, high: float
     )
 
 
-def _moment(default: float, description: str, unit: str, low: float) -> Parameter:
-    return _number(default, description, unit, low, MAX_MOMENT)
+_moment = partial(_number, high=MAX_MOMENT)
 
 
 def _read_list(text: str) -> Any:

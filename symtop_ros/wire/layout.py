@@ -111,8 +111,8 @@ class Layout:
         Padding is not compared: ROS leaves arbitrary bytes of memory there.
         """
         known = np.frombuffer(self._constant, dtype=bool)
-        expected = np.frombuffer(self._template, dtype=np.uint8)
-        return np.asarray((rows[:, known] == expected[known]).all(axis=1))
+        expected = np.frombuffer(self._template, dtype=np.uint8)[known]
+        return np.asarray((rows[:, known] == expected).all(axis=1))
 
     def decode(self, rows: Bytes) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Decode matching messages (n, size) into stamps (n,) in ns and doubles (n, width)."""

@@ -211,8 +211,8 @@ class Stream:
 
     def set_time(self, stamp: int) -> None:
         """Set the time of an event; events before the first sample are shown at that sample."""
-        nanoseconds = max(0, stamp - (self.origin or 0))
-        self.recording.set_time(TIMELINE, duration=np.timedelta64(nanoseconds, "ns"))
+        duration = np.timedelta64(max(0, stamp - (self.origin or 0)), "ns")
+        self.recording.set_time(TIMELINE, duration=duration)
 
     def send(self, entity: str, stamps: Stamps, columns: Any) -> None:
         """Send one value for each stamp."""

@@ -51,8 +51,8 @@ class GhostView:
         elif old is None or self.segment.motion.top != old.motion.top:
             self._stream.log_mesh(GHOST, create_body(self.segment.motion.top), OPACITY)
             # The axis is seen where the bodies overlap.
-            color = (*WHITE, 190)
-            axis = rr.LineStrips3D([[(0, 0, 0), (0, 0, 1)]], colors=[color], radii=[0.005])
+            line = [(0, 0, 0), (0, 0, 1)]
+            axis = rr.LineStrips3D([line], colors=[(*WHITE, 190)], radii=[0.005])
             self._stream.log(f"{GHOST}/axis", axis)
 
     def send(self, stamps: Stamps, length: float) -> None:

@@ -42,8 +42,11 @@ class Plots:
         self._potential, self._energy = PotentialView(stream), quantities.EnergyBook()
         self._reference: Real | None = None  # constants of motion when the segment began
         for entity, (names, colors) in LINES.items():
-            series = rr.SeriesLines(names=names, colors=colors, widths=[1.6] * len(names))
-            stream.log(entity, series, static=True)
+            stream.log(
+                entity,
+                rr.SeriesLines(names=names, colors=colors, widths=[1.6] * len(names)),
+                static=True,
+            )
 
     def follow(self, event: Event, before: Segment | None, after: Segment) -> None:
         """Take over an event; a new motion has another potential."""
@@ -89,8 +92,9 @@ class Plots:
             step = quantities.find_step(euler.stamps, RATE_OF_DOTS)
             heights = quantities.heights_of_dots(motion.top, euler.numbers[::step])
             for entity, points in self._potential.place(*heights).items():
-                dots = rr.Points2D.columns(positions=points)
-                self._stream.send(f"{entity}/state", euler.stamps[::step], dots)
+                self._stream.send(
+                    f"{entity}/state", euler.stamps[::step], rr.Points2D.columns(positions=points)
+                )
             if motion.is_driven:
                 self._send_drifting_curves(euler, motion)
         parts = Torques.of(columns)

@@ -92,10 +92,13 @@ class PotentialView:
         self._stream = stream
         self._potential: EffectivePotential | None = None
         for entity in (entities.POTENTIAL, entities.CUBIC):
-            dot = rr.Points2D.from_fields(
-                colors=[WHITE], radii=_in_pixels(5.0), draw_order=DRAWN + 2
+            stream.log(
+                f"{entity}/state",
+                rr.Points2D.from_fields(
+                    colors=[WHITE], radii=_in_pixels(5.0), draw_order=DRAWN + 2
+                ),
+                static=True,
             )
-            stream.log(f"{entity}/state", dot, static=True)
 
     def log_motion(self, motion: Motion) -> None:
         """Draw the curves of a motion from the current time on, and those before it in grey."""
@@ -138,8 +141,9 @@ class PotentialView:
         floor = np.minimum(potential.at(between), potential.energy)
         hatches = [chart.place(between, floor), chart.place(between, potential.energy)]
         self._log_curve(entities.POTENTIAL, chart, EffectivePotential.at, TILTS, potential, hatches)
-        line = chart.place(chart.sides, potential.energy)
-        self._log_lines(entities.POTENTIAL, "energy", [line], GOLD)
+        self._log_lines(
+            entities.POTENTIAL, "energy", [chart.place(chart.sides, potential.energy)], GOLD
+        )
         self._log_lines(entities.POTENTIAL, "frame", [FRAME], GREY, 1.0)
         marks = {f"{low:.3f} rad": low, f"{high:.3f}": high} if high > low else {f"{low:.3f}": low}
         self._log_marks(entities.POTENTIAL, chart, marks, chart.bottom)

@@ -103,19 +103,14 @@ class Trace:
         """Return the stamps at which new lines end, and the lines (n, 2, 3)."""
         stamps = np.concatenate([self._stamps, stamps])
         points = np.concatenate([self._points, points])
-        step = self._step(stamps)
+        # A line spans so many samples that at most `MAX_LINES` are visible.
+        period = float(np.median(np.diff(stamps))) * 1e-9 if len(stamps) > 1 else math.inf
+        step = max(1, math.ceil(self.length / max(period, 1e-9) / MAX_LINES))
         stamps, points = stamps[::step], points[::step]
         self._stamps, self._points = stamps[-1:], points[-1:]
         lasted = np.diff(stamps)
         near = (lasted > 0) & (lasted <= MAX_GAP * np.median(lasted)) if len(lasted) else lasted > 0
         return stamps[1:][near], np.stack([points[:-1], points[1:]], axis=1)[near]
-
-    def _step(self, stamps: Stamps) -> int:
-        """Return how many samples a line spans, so that at most `MAX_LINES` are visible."""
-        if len(stamps) < 2:
-            return 1
-        period = float(np.median(np.diff(stamps))) * 1e-9
-        return max(1, math.ceil(self.length / max(period, 1e-9) / MAX_LINES))
 
 
 def has_cones(motion: Motion) -> bool:

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 import rerun as rr
@@ -31,7 +30,8 @@ from symtop_ros.simulation.topics import SAMPLE_TOPICS
 SPOKEN = ("start", "reset", *KICKS)  # events whose verdict is shown
 
 
-class Arrow(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Arrow:
     """An arrow of the scene."""
 
     entity: str  # path of the entity
