@@ -48,8 +48,8 @@ ARROWS = {
     "torque": ((0.85, 0.2, 0.25), 0.7),
 }
 TRACE_COLOR = (0.95, 0.95, 0.95)
-WIDTH = 0.02 * LENGTH  # of shafts and of the trace
-ARROW_WIDTHS, TRACE_WIDTHS = (WIDTH, 2.5 * WIDTH, 0.0), (0.5 * WIDTH, 0.0, 0.0)  # shaft, head
+# of the shaft and the head of an arrow, and of the trace
+ARROW_WIDTHS, TRACE_WIDTHS = (0.02 * LENGTH, 0.05 * LENGTH, 0.0), (0.01 * LENGTH, 0.0, 0.0)
 ARROW, LINE_STRIP, ADD = 0, 4, 0  # constants of visualization_msgs/Marker
 POSE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)  # in the world frame itself
 ORIGIN = (0.0, 0.0, 0.0)

@@ -10,7 +10,6 @@ from symtop_ros.arrays import Real
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import Motion, State, Top, perrys_rule
 from symtop_ros.playback.view import entities, quantities
-from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, ORANGE, RED, WHITE, Stream
 from symtop_ros.playback.view.potential import PotentialView
 from symtop_ros.playback.view.torques import Torques
 from symtop_ros.simulation.events import Event
@@ -20,24 +19,27 @@ EPS = float(np.finfo(float).eps)
 RATE_OF_DOTS = 125.0  # positions per s of the clock
 DRIFT_INTERVAL = 100_000_000  # ns between two curves of a potential that drifts
 LINES = {
-    entities.THETA: (["theta"], [GOLD]),
-    entities.PHI_DOT: (["phi'"], [ORANGE]),
-    entities.PSI_DOT: (["psi'"], [GREEN]),
-    entities.L: (["L_x'", "L_y'", "L_z'"], [RED, GREEN, BLUE]),
-    entities.L_HORIZONTAL: (["L\u00b2 - L_z'\u00b2"], [BLUE]),
+    entities.THETA: (["theta"], [entities.GOLD]),
+    entities.PHI_DOT: (["phi'"], [entities.ORANGE]),
+    entities.PSI_DOT: (["psi'"], [entities.GREEN]),
+    entities.L: (["L_x'", "L_y'", "L_z'"], [entities.RED, entities.GREEN, entities.BLUE]),
+    entities.L_HORIZONTAL: (["L\u00b2 - L_z'\u00b2"], [entities.BLUE]),
     entities.ENERGY: (
         ["kinetic", "+ potential", "+ lost to friction", "start + work"],
-        [GREEN, GOLD, RED, WHITE],
+        [entities.GREEN, entities.GOLD, entities.RED, entities.WHITE],
     ),
-    entities.NODES_TORQUE: (["torque", "dL/dt in the body", "omega x L"], [RED, GREEN, BLUE]),
-    entities.DRIFT: (["E", "L_z", "L_z'"], [GOLD, RED, BLUE]),
+    entities.NODES_TORQUE: (
+        ["torque", "dL/dt in the body", "omega x L"],
+        [entities.RED, entities.GREEN, entities.BLUE],
+    ),
+    entities.DRIFT: (["E", "L_z", "L_z'"], [entities.GOLD, entities.RED, entities.BLUE]),
 }
 
 
 class Plots:
     """The plots and the charts of the potential in a recording."""
 
-    def __init__(self, stream: Stream) -> None:
+    def __init__(self, stream: entities.Stream) -> None:
         self._stream = stream
         self._potential, self._energy = PotentialView(stream), quantities.EnergyBook()
         self._reference: Real | None = None  # constants of motion when the segment began

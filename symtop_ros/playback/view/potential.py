@@ -13,7 +13,6 @@ import rerun as rr
 from symtop_ros.arrays import Real
 from symtop_ros.physics import EffectivePotential, Motion
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import ASH, BLUE, GOLD, GREY, WHITE, Stream
 
 WIDTH, HEIGHT = 2.0, 1.0  # of the box in scene units; y points down
 TILTS = np.linspace(1e-4, np.pi - 1e-4, 4001)
@@ -88,14 +87,14 @@ class PotentialView:
 
     _charts: tuple[Chart, Chart]  # of the last motion, without which nothing is drawn
 
-    def __init__(self, stream: Stream) -> None:
+    def __init__(self, stream: entities.Stream) -> None:
         self._stream = stream
         self._potential: EffectivePotential | None = None
         for entity in (entities.POTENTIAL, entities.CUBIC):
             stream.log(
                 f"{entity}/state",
                 rr.Points2D.from_fields(
-                    colors=[WHITE], radii=_in_pixels(5.0), draw_order=DRAWN + 2
+                    colors=[entities.WHITE], radii=_in_pixels(5.0), draw_order=DRAWN + 2
                 ),
                 static=True,
             )
@@ -142,9 +141,12 @@ class PotentialView:
         hatches = [chart.place(between, floor), chart.place(between, potential.energy)]
         self._log_curve(entities.POTENTIAL, chart, EffectivePotential.at, TILTS, potential, hatches)
         self._log_lines(
-            entities.POTENTIAL, "energy", [chart.place(chart.sides, potential.energy)], GOLD
+            entities.POTENTIAL,
+            "energy",
+            [chart.place(chart.sides, potential.energy)],
+            entities.GOLD,
         )
-        self._log_lines(entities.POTENTIAL, "frame", [FRAME], GREY, 1.0)
+        self._log_lines(entities.POTENTIAL, "frame", [FRAME], entities.GREY, 1.0)
         marks = {f"{low:.3f} rad": low, f"{high:.3f}": high} if high > low else {f"{low:.3f}": low}
         self._log_marks(entities.POTENTIAL, chart, marks, chart.bottom)
 
@@ -159,7 +161,7 @@ class PotentialView:
         )
         poles = [chart.place(end, np.array([chart.bottom, chart.top])) for end in (-1.0, 1.0)]
         frame = [chart.place(chart.sides, 0.0), *poles]
-        self._log_lines(entities.CUBIC, "frame", frame, GREY, 1.0)
+        self._log_lines(entities.CUBIC, "frame", frame, entities.GREY, 1.0)
         roots = {f"u1 = {u1:.3f}": u1, f"u2 = {u2:.3f}": u2}
         third = potential.find_third_root(*motion.turning_angles)
         if chart.left < third < chart.right:
@@ -178,9 +180,9 @@ class PotentialView:
         """Draw a curve, that of the potential before, and hatches between two rows of ends."""
         old = self._potential
         before = chart.cut(x, curve(old, x)) if old and old != potential else []
-        self._log_lines(entity, "curve", chart.cut(x, curve(potential, x)), BLUE)
-        self._log_lines(entity, "allowed", [*np.stack(hatches, axis=1)], (*GOLD, 40), 2.0)
-        self._log_lines(entity, "before", before, ASH, 1.0)
+        self._log_lines(entity, "curve", chart.cut(x, curve(potential, x)), entities.BLUE)
+        self._log_lines(entity, "allowed", [*np.stack(hatches, axis=1)], (*entities.GOLD, 40), 2.0)
+        self._log_lines(entity, "before", before, entities.ASH, 1.0)
 
     def _log_lines(
         self,
@@ -204,7 +206,7 @@ class PotentialView:
             rr.Points2D(
                 chart.place(np.array([*marks.values()]), y),
                 labels=list(marks),
-                colors=[GOLD],
+                colors=[entities.GOLD],
                 radii=_in_pixels(3.5),
                 draw_order=DRAWN + 1,
                 show_labels=True,

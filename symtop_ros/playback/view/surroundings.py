@@ -20,23 +20,6 @@ from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import (
-    BLUE,
-    GOLD,
-    GREEN,
-    GREY,
-    ORANGE,
-    PALE_BLUE,
-    PALE_GREEN,
-    STONE,
-    VIOLET,
-    WHITE,
-    Mesh,
-    Stream,
-    create_lathe,
-    draw_meridian,
-    draw_parallel,
-)
 from symtop_ros.playback.view.quantities import find_step, nodes_of
 
 MAX_LINES = 3000  # visible at one time
@@ -56,16 +39,17 @@ WORLD_AXES, BODY_AXES = 1.3, (0.8, 0.8, 1.55)
 RADII = {"phi": 0.5, "theta": 1.08, "psi": 0.66}
 NODES_LENGTH = 0.95
 LETTERS = {"phi": "\u03c6", "theta": "\u03b8", "psi": "\u03c8"}
-COLORS = {"phi": ORANGE, "theta": GOLD, "psi": GREEN}  # of their curves in the plots
+# Those of their curves in the plots.
+COLORS = {"phi": entities.ORANGE, "theta": entities.GOLD, "psi": entities.GREEN}
 BEYOND = 1.08  # a letter's distance from the origin, in radii of its arc
 
 
-def log_surroundings(stream: Stream, below_pivot: bool) -> None:
+def log_surroundings(stream: entities.Stream, below_pivot: bool) -> None:
     """Log the upper half of the sphere and a stand; the whole sphere if the axis goes below."""
     depth = np.pi if below_pivot else np.pi / 2
-    parallels = map(draw_parallel, np.pi / 12 * np.arange(1, 12 if below_pivot else 7))
-    meridians = (draw_meridian(turn, depth) for turn in np.pi / 6 * np.arange(6))
-    sphere = rr.LineStrips3D([*parallels, *meridians], colors=[GREY], radii=[0.0014])
+    parallels = map(entities.draw_parallel, np.pi / 12 * np.arange(1, 12 if below_pivot else 7))
+    meridians = (entities.draw_meridian(turn, depth) for turn in np.pi / 6 * np.arange(6))
+    sphere = rr.LineStrips3D([*parallels, *meridians], colors=[entities.GREY], radii=[0.0014])
     stream.log(entities.SPHERE, sphere)
     if below_pivot:
         stream.log(entities.STAND, rr.Clear(recursive=False))
@@ -73,16 +57,18 @@ def log_surroundings(stream: Stream, below_pivot: bool) -> None:
         stream.log_mesh(entities.STAND, create_stand())
 
 
-def create_stand() -> Mesh:
+def create_stand() -> entities.Mesh:
     """Return the stand below the pivot."""
-    return create_lathe(STAND, (STONE, STONE))
+    return entities.create_lathe(STAND, (entities.STONE, entities.STONE))
 
 
 def turning_circles(
-    turning_angles: tuple[float, float], color: tuple[int, int, int] = ORANGE
+    turning_angles: tuple[float, float], color: tuple[int, int, int] = entities.ORANGE
 ) -> rr.LineStrips3D:
     """Return the circles between which the axis nutates."""
-    return rr.LineStrips3D([*map(draw_parallel, turning_angles)], colors=[color], radii=[0.004])
+    return rr.LineStrips3D(
+        [*map(entities.draw_parallel, turning_angles)], colors=[color], radii=[0.004]
+    )
 
 
 def line_of_nodes(phi: Real) -> Real:
@@ -118,10 +104,12 @@ def has_cones(motion: Motion) -> bool:
     return motion.top.Mgl == 0 and not motion.is_driven
 
 
-def log_cones(stream: Stream, motion: Motion, state: State, scale: float) -> None:
+def log_cones(stream: entities.Stream, motion: Motion, state: State, scale: float) -> None:
     """Draw both cones of a free motion from the current time on."""
     wx, wy, wz = (state.angular_velocity / scale).tolist()
-    _log_cone(stream, entities.POLHODE, math.hypot(wx, wy), wz, (GREEN, PALE_GREEN))
+    _log_cone(
+        stream, entities.POLHODE, math.hypot(wx, wy), wz, (entities.GREEN, entities.PALE_GREEN)
+    )
     L = motion.top.angular_momentum(state)
     size = float(np.linalg.norm(L))
     if size == 0.0:
@@ -129,19 +117,19 @@ def log_cones(stream: Stream, motion: Motion, state: State, scale: float) -> Non
     direction, omega = L / size, state.to_world(state.angular_velocity) / scale
     along = float(omega @ direction)
     across = float(np.linalg.norm(omega - along * direction))
-    _log_cone(stream, entities.HERPOLHODE, across, along, (BLUE, PALE_BLUE))
+    _log_cone(stream, entities.HERPOLHODE, across, along, (entities.BLUE, entities.PALE_BLUE))
     turned = rr.Transform3D(quaternion=rr.Quaternion(xyzw=_turn_up_to(direction)))
     stream.log(entities.HERPOLHODE, turned)
 
 
-def clear_cones(stream: Stream) -> None:
+def clear_cones(stream: entities.Stream) -> None:
     """Remove both cones from the current time on."""
     for entity in (entities.POLHODE, entities.HERPOLHODE):
         stream.log(entity, rr.Clear(recursive=True))
 
 
 def _log_cone(
-    stream: Stream,
+    stream: entities.Stream,
     entity: str,
     radius: float,
     height: float,
@@ -153,7 +141,7 @@ def _log_cone(
         stream.log(f"{entity}/rim", rr.Clear(recursive=False))
         return
     profile = sorted([(0.0, 0.0), (radius, height)], key=lambda point: point[1])
-    stream.log_mesh(f"{entity}/cone", create_lathe(profile, (colors[1],) * 2), OPACITY)
+    stream.log_mesh(f"{entity}/cone", entities.create_lathe(profile, (colors[1],) * 2), OPACITY)
     rim = np.stack(
         [radius * np.cos(AROUND), radius * np.sin(AROUND), np.full_like(AROUND, height)], axis=1
     )
@@ -169,11 +157,11 @@ def _turn_up_to(direction: Real) -> Real:
     return np.asarray(q / np.linalg.norm(q))
 
 
-def log_frames(stream: Stream) -> None:
+def log_frames(stream: entities.Stream) -> None:
     """Log the static parts: both frames, and the styles of the arcs."""
     for entity, lengths, color, mark in (
-        (f"{entities.ANGLES}/world", (WORLD_AXES,) * 3, WHITE, "'"),
-        (f"{entities.BODY}/axes", BODY_AXES, VIOLET, ""),
+        (f"{entities.ANGLES}/world", (WORLD_AXES,) * 3, entities.WHITE, "'"),
+        (f"{entities.BODY}/axes", BODY_AXES, entities.VIOLET, ""),
     ):
         ends = np.diag(lengths)
         stream.log(entity, rr.Arrows3D(vectors=ends, colors=[color], radii=[0.005]), static=True)
@@ -182,10 +170,10 @@ def log_frames(stream: Stream) -> None:
     for name, color in COLORS.items():
         stream.style_lines(f"{entities.ANGLES}/{name}", color, 0.008)
         stream.log_labels(f"{entities.ANGLES}/{name}/letter", [LETTERS[name]], color)
-    stream.style_arrows(f"{entities.ANGLES}/nodes", ORANGE, 0.006, "N")
+    stream.style_arrows(f"{entities.ANGLES}/nodes", entities.ORANGE, 0.006, "N")
 
 
-def send_angles(stream: Stream, euler: Columns) -> None:
+def send_angles(stream: entities.Stream, euler: Columns) -> None:
     """Send the arcs, their letters and the line of nodes, at some of the stamps."""
     step = find_step(euler.stamps, RATE)
     stamps, angles = euler.stamps[::step], euler.numbers[::step]

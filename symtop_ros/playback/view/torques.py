@@ -20,7 +20,6 @@ from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import FrameTorques, State, Top, precessing_frame_torques
 from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.entities import BLUE, GOLD, GREEN, RED, SKY, WHITE, Stream
 from symtop_ros.playback.view.quantities import ColumnsByTopic, find_step, join, nodes_of
 from symtop_ros.simulation.validation import MAX_RATE
 
@@ -33,7 +32,12 @@ EQUATIONS = {
 DEPTHS = {"gravity": 0.08, "Coriolis": 0.15, "centrifugal": 0.22, "sum": -0.08}  # below the pivot
 HIGHEST, LONGEST = 1.0, 2.5  # in scene units: of the largest at the start, and of any
 GAP, RAISED = 0.3, 0.05  # of labels: beyond the tip, and up; the viewer draws them below a point
-COLORS = {"gravity": RED, "Coriolis": SKY, "centrifugal": GOLD, "sum": WHITE}
+COLORS = {
+    "gravity": entities.RED,
+    "Coriolis": entities.SKY,
+    "centrifugal": entities.GOLD,
+    "sum": entities.WHITE,
+}
 EQUATION = "Ix \u03b8'' = gravity + Coriolis + centrifugal"
 
 
@@ -49,9 +53,9 @@ class TorqueArrow(NamedTuple):
 
 
 ARROWS = {
-    "body": TorqueArrow("dL/dt (body)", GREEN, 0.10, (1.15, 0.0)),
-    "turning": TorqueArrow("\u03c9 x L (body)", BLUE, 0.20, (0.2, -0.22)),
-    "precession": TorqueArrow("\u03c6' z' x L (nodes)", GOLD, -0.10, (-0.9, 0.12)),
+    "body": TorqueArrow("dL/dt (body)", entities.GREEN, 0.10, (1.15, 0.0)),
+    "turning": TorqueArrow("\u03c9 x L (body)", entities.BLUE, 0.20, (0.2, -0.22)),
+    "precession": TorqueArrow("\u03c6' z' x L (nodes)", entities.GOLD, -0.10, (-0.9, 0.12)),
 }
 
 
@@ -89,13 +93,13 @@ class Torques(NamedTuple):
         return float(f"{longest / LENGTH:.2g}") or 1.0
 
 
-def log_styles(stream: Stream) -> None:
+def log_styles(stream: entities.Stream) -> None:
     """Log colours and labels of the arrows."""
     for name, arrow in ARROWS.items():
         stream.style_arrows(f"{entities.INERTIAL}/{name}", arrow.color, 0.010, arrow.label)
 
 
-def send_arrows(stream: Stream, stamps: Stamps, torques: Torques, scale: float) -> None:
+def send_arrows(stream: entities.Stream, stamps: Stamps, torques: Torques, scale: float) -> None:
     """Send the arrows at some of the stamps; a scale is the torque in N m of one scene unit."""
     step = find_step(stamps, RATE)
     _, body, turning, precession, _ = (part[::step] / scale for part in torques)
@@ -115,7 +119,7 @@ def send_arrows(stream: Stream, stamps: Stamps, torques: Torques, scale: float) 
 class FictitiousView:
     """The arrows of the torques in the precessing frame."""
 
-    def __init__(self, stream: Stream) -> None:
+    def __init__(self, stream: entities.Stream) -> None:
         self._stream = stream
         self._top: Top | None = None
         self._scale = 1.0  # N m of one scene unit

@@ -11,16 +11,6 @@ from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback.view import entities, quantities, surroundings, torques
 from symtop_ros.playback.view.blueprint import Framing, create_blueprint
-from symtop_ros.playback.view.entities import (
-    BLUE,
-    GOLD,
-    GREEN,
-    ORANGE,
-    RED,
-    VIOLET,
-    Stream,
-    create_body,
-)
 from symtop_ros.playback.view.ghost import GhostView
 from symtop_ros.playback.view.plots import Plots, describe_motion
 from symtop_ros.simulation.events import KICKS, Event
@@ -43,10 +33,12 @@ class Arrow:
 
 
 ARROWS = {
-    "angular_momentum": Arrow(entities.MOMENTUM, "L", "N m s", BLUE, 1.45, "vector"),
-    "angular_velocity": Arrow(entities.VELOCITY, "omega", "rad/s", GREEN, 1.2, "angular"),
-    "torque": Arrow(entities.TORQUE, "torque", "N m", RED, 0.6, "torque"),
-    "imu": Arrow(entities.SPECIFIC_FORCE, "a + g z'", "m/s^2", VIOLET, 0.8, "linear_acceleration"),
+    "angular_momentum": Arrow(entities.MOMENTUM, "L", "N m s", entities.BLUE, 1.45, "vector"),
+    "angular_velocity": Arrow(entities.VELOCITY, "omega", "rad/s", entities.GREEN, 1.2, "angular"),
+    "torque": Arrow(entities.TORQUE, "torque", "N m", entities.RED, 0.6, "torque"),
+    "imu": Arrow(
+        entities.SPECIFIC_FORCE, "a + g z'", "m/s^2", entities.VIOLET, 0.8, "linear_acceleration"
+    ),
 }
 
 
@@ -72,7 +64,7 @@ class View:
         live: bool = False,
         options: ViewOptions = DEFAULT_OPTIONS,
     ) -> None:
-        self._stream, self._live, self._options = Stream(recording), live, options
+        self._stream, self._live, self._options = entities.Stream(recording), live, options
         self._plots = Plots(self._stream)
         self._ghost = GhostView(self._stream) if options.ghost else None
         self._fictitious = torques.FictitiousView(self._stream) if options.fictitious else None
@@ -86,8 +78,8 @@ class View:
             surroundings.log_frames(self._stream)
         if options.torques:
             torques.log_styles(self._stream)
-        self._stream.style_lines(entities.TRACE, GOLD, 0.007)
-        self._stream.style_lines(entities.NODES, ORANGE, 0.005)
+        self._stream.style_lines(entities.TRACE, entities.GOLD, 0.007)
+        self._stream.style_lines(entities.NODES, entities.ORANGE, 0.005)
 
     @np.errstate(all="ignore")
     def send(self, batch: Batch) -> None:
@@ -197,7 +189,7 @@ class View:
 
     def _log_body(self, top: Top | None) -> None:
         self._top = top
-        self._stream.log_mesh(entities.BODY, create_body(top))
+        self._stream.log_mesh(entities.BODY, entities.create_body(top))
 
 
 def _find_vectors(topic: str, columns: Columns) -> Real:
