@@ -24,16 +24,14 @@ from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.command import positive
 from symtop_ros.session.services import SERVICES, Response
 from symtop_ros.shutdown import describe_failure, ros_context
-from symtop_ros.simulation.validation import one_line, plain
+from symtop_ros.simulation.validation import MAX_SHOWN, one_line, plain
 
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
-MAX_SHOWN = 60  # characters of a word in a message
 # Undoes a hurry with the default hurry_factor.
 DELAY = {"precession_rate_factor": 1 / 1.4}
 PUSH = 1.0  # rad/s by which an arrow changes a rate
 WAIT = 0.1  # s between two checks that ROS is running
-QUIT = ("q", "\x04")  # also Ctrl-D; Ctrl-C is a signal
 UPDATE_PERIOD = 0.1  # s
 ONE_KEY = re.compile(r"\x1b\[.?|.", re.DOTALL)  # an arrow is an escape and two characters
 
@@ -167,7 +165,7 @@ def follow_keys(top: Connection) -> None:
         print("\n".join(f"{key.name:<12}{key.effect}" for key in KEYS.values()))
         print(f"{'q':<12}quit", flush=True)
         for key in _read_keys(descriptor):
-            if key in QUIT:
+            if key in ("q", "\x04"):  # the second one is Ctrl-D; Ctrl-C is a signal
                 return
             if key in KEYS:
                 granted, text = KEYS[key].act(top)

@@ -119,17 +119,16 @@ def _stream(
 
 def _connect(view: View | None, feed: Feed, options: argparse.Namespace) -> View | None:
     """Return the view while the viewer runs, None without one, a new view for a new viewer."""
-    port: int = options.port
-    if not _listens(port):
+    if not _listens(options.port):
         if view:
             print("the viewer ended; waiting for a new one", file=sys.stderr, flush=True)
             _end(view)
         return None
     if view is None:
-        print(f"showing the top in the viewer on port {port}", flush=True)
+        print(f"showing the top in the viewer on port {options.port}", flush=True)
         feed.repeat_event()
         recording = rr.RecordingStream(viewer.APPLICATION)
-        recording.connect_grpc(f"rerun+http://{viewer.HOST}:{port}/proxy")
+        recording.connect_grpc(f"rerun+http://{viewer.HOST}:{options.port}/proxy")
         view = View(recording, live=True, options=ViewOptions(**view_options(options)))
     return view
 

@@ -28,16 +28,12 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.topics import EVENTS, SAMPLE_TOPICS, SENSOR_TOPICS
 from symtop_ros.simulation.validation import full_name
 
-DEFAULT_NODE = "/top"
 ROWS = 4096  # samples of a topic in a batch: Rerun's viewer is fastest with columns of this length
 TYPES = {topic.name: topic.type for topic in (EVENTS, *SAMPLE_TOPICS.values())}
 MCAP, SQLITE, ZSTD = ".mcap", ".db3", ".zstd"
 SUFFIXES = (MCAP, SQLITE, f"{MCAP}{ZSTD}", f"{SQLITE}{ZSTD}")
 MAX_FILES = 10_000  # of one run
 PIECE = 2**20  # bytes
-# In the order in which they arrived: simulated times may go back.
-MESSAGES = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
-TOPICS = "SELECT id, name, type, serialization_format FROM topics"
 
 
 class TopLog:
@@ -140,7 +136,7 @@ class TopLog:
             next(self.file.chunks(), [])
         tops = {self._node_and_name(number) for number in self.file.channels}
         nodes = {node for node, name in tops if name and name != TF}
-        return min(nodes, key=lambda node: (node != DEFAULT_NODE, node), default=None)
+        return min(nodes, key=lambda node: (node != "/top", node), default=None)
 
 
 def open_run(paths: Sequence[Path]) -> MessageSource:
@@ -198,7 +194,7 @@ class SqliteBag(MessageSource):
         super().__init__(path)
         try:
             self.size = path.stat().st_size
-            for row in self._rows(TOPICS):
+            for row in self._rows("SELECT id, name, type, serialization_format FROM topics"):
                 number, (name, kind, encoding) = int(row[0]), map(str, row[1:])
                 self.schemas[number] = Schema(number, b"", "ros2msg", kind)
                 self.channels[number] = Channel(number, name, encoding, {}, number)
@@ -210,8 +206,10 @@ class SqliteBag(MessageSource):
     def _read(self) -> Iterator[list[Message]]:
         """Yield messages in the order of their arrival."""
         messages: list[Message] = []
+        # In the order in which they arrived: simulated times may go back.
+        query = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
         try:
-            for number, time, data in self._rows(MESSAGES):
+            for number, time, data in self._rows(query):
                 messages.append(Message(number, time, bytes(data), time, 0))
                 if len(messages) == MAX_MESSAGES:
                     yield messages

@@ -21,7 +21,6 @@ from symtop_ros.simulation.topics import Topic
 MAGIC = b"\x89MCAP0\r\n"
 CHUNK_SIZE = 4 * 2**20  # bytes; at 1 kHz the flush every half second closes chunks earlier
 METADATA = "symtop_ros"  # name of the metadata record written at the start
-ROSBAG2 = "rosbag2"  # name of the metadata record that rosbag2 reads
 ENDING = "symtop_ros.end"  # name of the metadata record written at the end
 
 
@@ -47,7 +46,9 @@ class LogFile:
             self._writer.add_metadata(METADATA, dict(metadata))
             if name := metadata.get("ros_distro"):
                 # for `ros2 bag info`; it takes an empty text as no further metadata
-                self._writer.add_metadata(ROSBAG2, {"serialized_metadata": "", "ROS_DISTRO": name})
+                self._writer.add_metadata(
+                    "rosbag2", {"serialized_metadata": "", "ROS_DISTRO": name}
+                )
             self._ids = [self._register(channel) for channel in channels]
             self.flush()
         except Exception:

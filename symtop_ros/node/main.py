@@ -21,8 +21,6 @@ examples:
 
 scenes: {scenes}
 """
-# Fast DDS announces this node every 0.1 s instead of 3 s: the file says why.
-PROFILE = "fastdds_discovery.xml"
 SWITCH_INTERVAL = 1e-4  # s that a tick may wait for the thread that writes the log
 
 
@@ -35,7 +33,8 @@ def main(args: list[str] | None = None) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     sys.setswitchinterval(SWITCH_INTERVAL)
-    use_profile(PROFILE)
+    # Fast DDS announces this node every 0.1 s instead of 3 s: the file says why.
+    use_profile("fastdds_discovery.xml")
     return run_with_ros(parser, args, _run)
 
 

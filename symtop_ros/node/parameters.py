@@ -30,7 +30,6 @@ from symtop_ros.simulation.presets import load_scene, scene_names
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.validation import RefusedError, attempt, reject, show, validate_names
 
-DEFAULT_SCENE = "cusps"
 QOS = "qos_overrides."  # of topics, which declare these parameters themselves
 Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
 # By the Python type of a default; the lists are vectors.
@@ -59,7 +58,7 @@ def declare_parameters(node: Node) -> Settings:
     """Declare all parameters with the defaults of the scene; return their values."""
     name: object = node.declare_parameter(
         "scene",
-        DEFAULT_SCENE,
+        "cusps",
         _descriptor(
             "file in config/ with the defaults of all parameters",
             f"one of {', '.join(scene_names())}",

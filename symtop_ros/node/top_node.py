@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from geometry_msgs.msg import WrenchStamped
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.clock import Clock, ClockChange, JumpHandle, JumpThreshold, ROSClock, TimeJump
+from rclpy.clock import Clock, ClockChange, JumpThreshold, ROSClock, TimeJump
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.node import Node
@@ -104,7 +104,10 @@ class TopNode(Node):
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
         self.create_timer(1.0, self.session.keep_up)
-        self._announce_speed(settings)
+        self.get_logger().info(f"states are computed by the kernel, version {kernel_version()}")
+        priority = settings.scheduling_priority
+        if priority and (failure := use_real_time(priority)):
+            self.get_logger().warning(failure)
         self._clock_is_missing = False
         self.create_timer(
             CLOCK_WAIT, self._check_clock, clock=Clock(clock_type=ClockType.STEADY_TIME)
@@ -114,15 +117,16 @@ class TopNode(Node):
             from symtop_ros.node.simulator import Simulator  # noqa: PLC0415 - it needs its messages
 
             self._simulator = Simulator(self, self.session, self._pacer.wake)
-        # kept, because rclpy forgets a callback whose handle is gone
-        self._clock_handle = self._follow_clock()
-
-    def _announce_speed(self, settings: Settings) -> None:
-        """Report what computes the states, and whether real-time scheduling is granted."""
-        self.get_logger().info(f"states are computed by the kernel, version {kernel_version()}")
-        priority = settings.scheduling_priority
-        if priority and (failure := use_real_time(priority)):
-            self.get_logger().warning(failure)
+        # Whenever simulated time is set. Kept, as rclpy forgets a callback whose handle is gone.
+        self._clock_handle = self.get_clock().create_jump_callback(
+            JumpThreshold(
+                min_forward=Duration(nanoseconds=1),
+                min_backward=Duration(nanoseconds=-1),
+                on_clock_change=True,
+            ),
+            pre_callback=self.simulation.begin_jump,
+            post_callback=self._clock_set,
+        )
 
     @property
     def simulation(self) -> Simulation:
@@ -161,19 +165,8 @@ class TopNode(Node):
             )
         self._clock_is_missing = missing
 
-    def _follow_clock(self) -> JumpHandle:
-        """Wake the pacer whenever simulated time is set."""
-        return self.get_clock().create_jump_callback(
-            JumpThreshold(
-                min_forward=Duration(nanoseconds=1),
-                min_backward=Duration(nanoseconds=-1),
-                on_clock_change=True,
-            ),
-            pre_callback=self.simulation.begin_jump,
-            post_callback=self._clock_set,
-        )
-
     def _clock_set(self, jump: TimeJump) -> None:
+        """Follow a jump of simulated time; any change of it wakes the pacer."""
         is_small = 0 <= jump.delta.nanoseconds < JUMP * NANOSECONDS
         self.simulation.end_jump(jump.clock_change in CLOCK_CHANGES or not is_small)
         self._pacer.wake()

@@ -16,12 +16,7 @@ from symtop_ros.web.join import LANGUAGES, write_file
 
 PORT = 8015
 PERIOD = 0.2  # s between two looks for the end
-LESSON = "lesson=1"
 FILE = Path("top.html")  # in the folder where the program is started: browsers may not read others
-WARNING = (
-    "warning: anyone who can reach {host} may kick this top and change its parameters; "
-    "nothing is encrypted"
-)
 
 
 def main(args: list[str] | None = None) -> int:
@@ -66,7 +61,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _run(options: argparse.Namespace, arguments: list[str]) -> int:
-    opening = LESSON if options.lesson else ""
+    opening = "lesson=1" if options.lesson else ""
     if options.node and not options.write:
         return _show_node(options, ["top_panel", *arguments], opening)
     page = write_file(opening=opening, language=options.language)
@@ -120,7 +115,11 @@ def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None 
             "use --port for another port"
         ) from None
     if node and host not in LOCAL_NAMES:
-        print(f"top_panel: {WARNING.format(host=host)}", file=sys.stderr)
+        print(
+            f"top_panel: warning: anyone who can reach {host} may kick this top and change its "
+            "parameters; nothing is encrypted",
+            file=sys.stderr,
+        )
     threading.Thread(target=server.serve_forever, daemon=True).start()
     try:
         print(f"{name}: open {server.url} in a browser; Ctrl-C ends it", flush=True)

@@ -20,7 +20,6 @@ from urllib.parse import urlsplit
 
 LOCAL_HOST = "127.0.0.1"
 LOCAL_NAMES = ("localhost", "127.0.0.1", "::1")
-ALL_NETWORKS = ("0.0.0.0", "::")  # no addresses that a browser can open
 MAX_REQUEST = 65_536  # bytes
 # Of what is sent and not yet received: a page behind a slow line would see what was seconds ago.
 SENT = 16_384  # bytes
@@ -178,7 +177,7 @@ class PageHandler(BaseHTTPRequestHandler):
 
 def _find_name(host: str) -> str:
     """Return a name by which other machines may find this one: its address on their network."""
-    if host not in ALL_NETWORKS:
+    if host not in ("0.0.0.0", "::"):  # which no browser can open
         return f"[{host}]" if ":" in host else host
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         try:  # no packet is sent: only the route is looked up

@@ -21,8 +21,6 @@ from symtop_ros.simulation.topics import EVENTS
 from symtop_ros.simulation.validation import number, one_line
 from symtop_ros.web.join import write_file
 
-SUFFIX = ".json"  # of a run of the page
-
 
 def main(args: list[str] | None = None) -> int:
     """Replay, check or repair a log; return 0 (success), 1 (failure) or 2 (usage)."""
@@ -217,7 +215,7 @@ def _read_run(paths: Sequence[Path]) -> tuple[list[RunEvent], int]:
 @contextmanager
 def _open_file(paths: Sequence[Path], node: str | None) -> Iterator[TopLog]:
     """Open a log, or the log that a node would have written of a run of the page."""
-    if all(path.suffix != SUFFIX for path in paths):
+    if all(path.suffix != ".json" for path in paths):
         yield TopLog(open_run(paths), node)
         return
     with tempfile.TemporaryDirectory() as folder:

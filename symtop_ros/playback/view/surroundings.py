@@ -165,8 +165,7 @@ def log_frames(stream: entities.Stream) -> None:
     ):
         ends = np.diag(lengths)
         stream.log(entity, rr.Arrows3D(vectors=ends, colors=[color], radii=[0.005]), static=True)
-        names = [f"{letter}{mark}" for letter in "xyz"]
-        stream.log_labels(f"{entity}/names", names, color, 1.06 * ends)
+        stream.log_labels(f"{entity}/names", [f"{k}{mark}" for k in "xyz"], color, 1.06 * ends)
     for name, color in COLORS.items():
         stream.style_lines(f"{entities.ANGLES}/{name}", color, 0.008)
         stream.log_labels(f"{entities.ANGLES}/{name}/letter", [LETTERS[name]], color)
@@ -189,20 +188,20 @@ def send_angles(stream: entities.Stream, euler: Columns) -> None:
 
 def draw_arcs(phi: Real, theta: Real, psi: Real) -> dict[str, Real]:
     """Return the arcs (n, 33, 3) of angles (n,) in rad, by the name of the angle."""
-    part = np.linspace(0.0, 1.0, POINTS)
+    part = np.linspace(0.0, 1.0, POINTS)[:, None]
     nodes = nodes_of(phi)
     ahead = np.stack([np.sin(phi), -np.cos(phi), np.zeros_like(phi)], axis=-1)  # where z leans to
-    up = np.array([0.0, 0.0, 1.0])
+    up = np.array([[0.0, 0.0, 1.0]])
     sine, cosine = np.sin(theta)[:, None], np.cos(theta)[:, None]
     across = sine * up - cosine * ahead  # z x N
-    starts = {"phi": np.broadcast_to([1.0, 0.0, 0.0], nodes.shape), "theta": up, "psi": nodes}
-    quarters = {"phi": np.array([0.0, 1.0, 0.0]), "theta": ahead, "psi": across}
-    turned = {"phi": phi, "theta": theta, "psi": psi}
+    # of each angle its size, the axis at which it begins, and that after a quarter of a turn
+    turns = {
+        "phi": (phi, np.array([[1.0, 0.0, 0.0]]), np.array([[0.0, 1.0, 0.0]])),
+        "theta": (theta, up, ahead),
+        "psi": (psi, nodes, across),
+    }
     arcs = {}
-    for name, radius in RADII.items():
-        angle = turned[name][:, None] * part
-        start, quarter = (np.atleast_2d(each[name])[:, None] for each in (starts, quarters))
-        arcs[name] = radius * (
-            np.cos(angle)[..., None] * start + np.sin(angle)[..., None] * quarter
-        )
+    for name, (angle, start, quarter) in turns.items():
+        cosine, sine = (turn(angle[:, None, None] * part) for turn in (np.cos, np.sin))
+        arcs[name] = RADII[name] * (cosine * start[:, None] + sine * quarter[:, None])
     return arcs
