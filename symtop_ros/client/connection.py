@@ -77,8 +77,7 @@ class Connection:
     def prepare(self, *services: str) -> None:
         """Create the clients of some services: at the first call they have found the top."""
         for name in services:
-            kind = SERVICES[name].kind if name in SERVICES else "named"
-            self._client(TYPES[kind], name)
+            self._client(TYPES[SERVICES[name].kind if name in SERVICES else "named"], name)
         self._find_question()
 
     def _client(self, kind: Any, service: str) -> Client:

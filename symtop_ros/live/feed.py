@@ -47,8 +47,7 @@ class Feed:
     def batch(self) -> Batch:
         """Return the messages since the last call."""
         # Each removal is atomic, so that a message that arrives meanwhile is kept.
-        messages = [self._messages.popleft() for _ in range(len(self._messages))]
-        return self._reader.read(messages)
+        return self._reader.read([self._messages.popleft() for _ in range(len(self._messages))])
 
     def repeat_event(self) -> None:
         """Put the last event into the next batch, for a new recording."""

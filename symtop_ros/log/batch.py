@@ -56,8 +56,7 @@ class Batch:
         there the stamps decide. Those that a clock repeats after a jump back leave it open, and the
         place decides.
         """
-        places = [place for place, _ in self.events]
-        owners = np.searchsorted(places, columns.places, side="right")
+        owners = np.searchsorted([place for place, _ in self.events], columns.places, side="right")
         bounds = [sorted((event.stamp, event.previous_end)) for _, event in self.events]
         for number, (_, after) in enumerate(bounds, start=1):
             owners[(owners == number - 1) & (columns.stamps >= after)] = number

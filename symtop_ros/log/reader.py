@@ -31,7 +31,7 @@ from mcap.records import (
     Schema,
 )
 
-from symtop_ros.log.source import MessageSource
+from symtop_ros.log.source import MessageSource, decompress
 from symtop_ros.log.writer import ENDING, METADATA
 from symtop_ros.simulation.validation import one_line
 
@@ -225,8 +225,7 @@ class McapFile(MessageSource):
 
     def _runs(self, messages: Iterator[Message]) -> Iterator[list[Message]]:
         while run := list(islice(messages, MAX_MESSAGES)):
-            first = self._span[0] if self._span else run[0].log_time
-            self._span = first, run[-1].log_time
+            self._span = self._span[0] if self._span else run[0].log_time, run[-1].log_time
             yield run
 
     def _report_damage(self, damaged: list[Chunk], lost: int) -> None:
@@ -341,8 +340,7 @@ def _decompress(chunk: Chunk) -> bytes:
     if size > MAX_RECORD:
         raise DamageError(f"{size} bytes are more than {MAX_RECORD}")
     if chunk.compression == "zstd":
-        with zstandard.ZstdDecompressor().stream_reader(BytesIO(chunk.data)) as reader:
-            return bytes(reader.read(size))
+        return decompress(chunk.data, size)
     if chunk.compression != "lz4":
         return bytes(chunk.data)
     try:

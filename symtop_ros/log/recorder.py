@@ -130,8 +130,7 @@ class Recorder:
         try:
             while True:
                 is_last = self._fill(file, latched)
-                missed = str(self.count_missed())
-                file.finish({"dropped": str(self.dropped), "missed": missed})
+                file.finish({"dropped": str(self.dropped), "missed": str(self.count_missed())})
                 if is_last or not self._await_message():
                     return  # a file without any message would be no log of a run
                 self._file = file = self._open(metadata, latched)

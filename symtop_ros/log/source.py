@@ -50,10 +50,14 @@ def _unpack(messages: list[Message]) -> Iterator[Message]:
     for message in messages:
         is_packed = message.data.startswith(ZSTD_START)
         with suppress(zstandard.ZstdError):
-            yield replace(message, data=_decompress(message.data)) if is_packed else message
+            yield (
+                replace(message, data=decompress(message.data, MAX_MESSAGE))
+                if is_packed
+                else message
+            )
 
 
-def _decompress(data: bytes) -> bytes:
-    """Return what a frame holds, up to a size: hostile data may contain far more."""
+def decompress(data: bytes, most: int) -> bytes:
+    """Return what a zstd frame holds, up to a number of bytes: hostile data may hold far more."""
     with zstandard.ZstdDecompressor().stream_reader(BytesIO(data)) as reader:
-        return bytes(reader.read(MAX_MESSAGE))
+        return bytes(reader.read(most))

@@ -120,8 +120,9 @@ class LogFile:
 
     def _register(self, topic: Topic) -> int:
         known, qos = load_definitions()[topic.type], _qos_profile(topic)
-        data = known["text"].encode()
-        schema = self._writer.register_schema(topic.type, SchemaEncoding.ROS2, data)
+        schema = self._writer.register_schema(
+            topic.type, SchemaEncoding.ROS2, known["text"].encode()
+        )
         metadata = {"offered_qos_profiles": qos, "topic_type_hash": known["hash"]}
         return self._writer.register_channel(topic.ros_name, MessageEncoding.CDR, schema, metadata)
 

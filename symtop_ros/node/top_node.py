@@ -206,8 +206,7 @@ class TopNode(Node):
         simulated = any(each.name == SIM_TIME and each.value for each in parameters)
 
         def check() -> None:
-            settings = self.session.plan_settings(_own_values(parameters))
-            self._refuse_own_clock(settings, simulated)
+            self._refuse_own_clock(self.session.plan_settings(_own_values(parameters)), simulated)
 
         found = self.simulation.take_turn("a check of parameters", partial(attempt, check))
         granted, reason = (False, str(found)) if isinstance(found, Failure) else found

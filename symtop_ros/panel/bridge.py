@@ -204,8 +204,8 @@ class Bridge:
                 self._follow_event(event)
             if columns := batch.columns.get(DRAWN):
                 self._follow_sample(int(columns.stamps[-1]), columns.numbers[-1].tolist())
-            running = self._last is None or self._last.segment().running
-            if columns or not running:  # with publish_clock a pause has no samples
+            # with publish_clock a pause has no samples
+            if columns or (self._last and not self._last.segment().running):
                 self._heard = time.monotonic()
             self._lost = self._samples is not None and time.monotonic() > self._heard + SILENCE
             self._news.notify_all()

@@ -30,14 +30,18 @@ def motion_status(segment: Segment, stamp: int) -> Status:
     now = constants_of_motion(motion.top, state)
     start = constants_of_motion(motion.top, motion.start)
     verdict = perrys_rule(motion.top, state)
-    facts = {
-        **now,
-        **{f"{name}.drift": value - start[name] for name, value in now.items()},
-        **summarize_motion(motion, state),
-        "regular_precession_rates": list(verdict.regular_rates),
-        "running": segment.running,
-    }
-    return make_status("motion", OK, str(verdict), facts)
+    return make_status(
+        "motion",
+        OK,
+        str(verdict),
+        {
+            **now,
+            **{f"{name}.drift": value - start[name] for name, value in now.items()},
+            **summarize_motion(motion, state),
+            "regular_precession_rates": list(verdict.regular_rates),
+            "running": segment.running,
+        },
+    )
 
 
 def balance_status(segment: Segment, stamp: int) -> Status:

@@ -6,7 +6,8 @@ the same nanoseconds, and records what it publishes.
 
 import os
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -101,18 +102,13 @@ class _Again:
 
     def go(self, time: int) -> None:
         """Publish what is due before a time in ns, with diagnostics once a second."""
-        for stamp in self._list_stops(time):
+        now, step = self._clock.now, NANOSECONDS // 4  # so near that the recorder keeps up
+        for stamp in chain(range((now // step + 1) * step, time, step), [max(time - 1, now)]):
             self._clock.now = stamp
             self._publish()
             if stamp // NANOSECONDS > self._told:
                 self._told = stamp // NANOSECONDS
                 self._session.keep_up()
-
-    def _list_stops(self, time: int) -> Iterator[int]:
-        """Yield times up to the last one before `time`, so near that the recorder keeps up."""
-        step = NANOSECONDS // 4
-        yield from range((self._clock.now // step + 1) * step, time, step)
-        yield max(time - 1, self._clock.now)
 
     def _publish(self) -> None:
         while self._simulation.stamp <= self._clock.now:

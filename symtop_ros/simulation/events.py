@@ -167,8 +167,21 @@ class Event:
 
         `event.segment().state_at(stamp)` is the published state at each stamp up to the next event.
         """
+        values, factor = self.values, "motion.real_time_factor"
         try:
-            return self._segment()
+            if values["format"] not in (FORMAT, WITHOUT_FIELDS):
+                raise ValueError(
+                    f"format of an event must be {WITHOUT_FIELDS} or {FORMAT}, got "
+                    f"{one_line(values['format'], 20)}"
+                )
+            return Segment(
+                motion=_read_motion(values),
+                stamp=_limit(-MAX_STAMP, "motion.stamp", int(values["motion.stamp"]), MAX_STAMP),
+                elapsed=_read_elapsed(values["motion.elapsed_ns"]),
+                factor=_limit(MIN_FACTOR, factor, float(values[factor]), MAX_FACTOR),
+                running=values["motion.running"] == "true",
+                rig=Rig.from_values(values),
+            )
         except (KeyError, TypeError) as error:
             raise ValueError(
                 f"event {self.name!r} must have all values, {error} is missing or incomplete"
@@ -189,23 +202,6 @@ class Event:
     def _read_state(self, when: str) -> State:
         names = (f"{when}.orientation", f"{when}.angular_velocity")
         return State(*(_numbers(self.values.get(name, "")) for name in names))
-
-    def _segment(self) -> Segment:
-        values = self.values
-        factor = "motion.real_time_factor"
-        if values["format"] not in (FORMAT, WITHOUT_FIELDS):
-            raise ValueError(
-                f"format of an event must be {WITHOUT_FIELDS} or {FORMAT}, got "
-                f"{one_line(values['format'], 20)}"
-            )
-        return Segment(
-            motion=_read_motion(values),
-            stamp=_limit(-MAX_STAMP, "motion.stamp", int(values["motion.stamp"]), MAX_STAMP),
-            elapsed=_read_elapsed(values["motion.elapsed_ns"]),
-            factor=_limit(MIN_FACTOR, factor, float(values[factor]), MAX_FACTOR),
-            running=values["motion.running"] == "true",
-            rig=Rig.from_values(values),
-        )
 
 
 def start_event(motion: Motion, rig: Rig = NO_RIG) -> Event:

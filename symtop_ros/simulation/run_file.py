@@ -97,8 +97,7 @@ class RunRecorder:
 
     def time_at(self, stamp: int) -> int:
         """Return the time of the run (ns) at a stamp (ns) after the last event."""
-        elapsed = self._segment.elapsed_at(stamp) if self._segment else 0
-        return round(self._begin + elapsed)
+        return round(self._begin + (self._segment.elapsed_at(stamp) if self._segment else 0))
 
 
 def _read_act(event: Event, motion: Motion) -> dict[str, Any]:

@@ -166,8 +166,7 @@ class Segment:
 
         While paused there is one time for all stamps.
         """
-        offset = stamp - self.stamp if self.running else 0
-        return ExactTimes(offset, self.factor, self.elapsed)
+        return ExactTimes(stamp - self.stamp if self.running else 0, self.factor, self.elapsed)
 
     def elapsed_at(self, stamp: int) -> Fraction:
         """Return the exact time of the motion in ns at a stamp (ns)."""

@@ -102,11 +102,6 @@ def _quaternion(samples: Samples) -> Real:
     return samples.state.orientation[..., [1, 2, 3, 0]]
 
 
-def _twist(samples: Samples) -> Real:
-    """Linear velocity (zero: the pivot is fixed), angular velocity."""
-    return _after_zeros(samples.state.to_world(samples.state.angular_velocity))
-
-
 def _wrench(samples: Samples) -> Real:
     """Force of the pivot on the top, total torque about the pivot.
 
@@ -117,11 +112,6 @@ def _wrench(samples: Samples) -> Real:
     body = find_body(motion.top, samples.segment.rig.gravity)
     wrench[..., :3] = body.pivot_force(motion, state) if body else np.nan
     return wrench
-
-
-def _joints(samples: Samples) -> Real:
-    """Euler angles phi, theta, psi, then their rates."""
-    return np.stack([*samples.state.euler_angles, *samples.state.euler_rates], axis=-1)
 
 
 def _imu(samples: Samples) -> Real:
@@ -198,7 +188,12 @@ STATE_TOPICS: dict[str, StateTopic] = {
     topic.name: topic
     for topic in (
         _state_topic("~/orientation", messages.QUATERNION, _quaternion),
-        _state_topic("~/angular_velocity", messages.TWIST, _twist),
+        _state_topic(
+            "~/angular_velocity",
+            messages.TWIST,
+            # the linear velocity is zero: the pivot is fixed
+            lambda samples: _after_zeros(samples.state.to_world(samples.state.angular_velocity)),
+        ),
         _state_topic(
             "~/angular_momentum",
             messages.VECTOR,
@@ -208,7 +203,9 @@ STATE_TOPICS: dict[str, StateTopic] = {
         _state_topic(
             "~/euler_angles",
             messages.JOINT_STATE,
-            _joints,
+            lambda samples: np.stack(
+                [*samples.state.euler_angles, *samples.state.euler_rates], axis=-1
+            ),
             names=lambda world, _: (world, *messages.JOINTS),
             angles="position",
         ),

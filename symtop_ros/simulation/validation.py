@@ -93,8 +93,7 @@ def vector(name: str, value: Any, size: int, limit: float, unit: str) -> tuple[f
 
     `unit` may name the frame as well: "N m, world frame".
     """
-    is_text = isinstance(value, str | bytes)
-    count = 0 if is_text or not isinstance(value, Sized) else len(value)
+    count = len(value) if isinstance(value, Sized) and not isinstance(value, str | bytes) else 0
     if count != size:
         raise RefusedError(f"{name} must have {size} elements ({unit}), got {count or show(value)}")
     parts = tuple(value)

@@ -169,5 +169,4 @@ def read_texts(language: str) -> dict[str, str]:
 
 def read_steps() -> list[dict[str, Any]]:
     """Return the steps of the lesson; each has its texts by their keys."""
-    text = (FOLDER / "lesson.yaml").read_text(encoding="utf-8")
-    return list(yaml.safe_load(text))
+    return list(yaml.safe_load((FOLDER / "lesson.yaml").read_text(encoding="utf-8")))

@@ -97,9 +97,12 @@ def create_blueprint(framing: Framing, live: bool) -> rrb.Blueprint:
         for entity, name in entities.PLOTS.items()
     }
     first = [plots.pop(entity) for entity in (entities.THETA, entities.PHI_DOT)]
-    sentence = rrb.TextDocumentView(origin=entities.SENTENCE, name="what follows")
     top = rrb.Horizontal(
-        rrb.Vertical(create_space_view(framing), sentence, row_shares=[3, 1]),
+        rrb.Vertical(
+            create_space_view(framing),
+            rrb.TextDocumentView(origin=entities.SENTENCE, name="what follows"),
+            row_shares=[3, 1],
+        ),
         rrb.Vertical(*first, _chart(entities.POTENTIAL, "effective potential (J)")),
         column_shares=[3, 2],
         name="the top",
@@ -119,10 +122,12 @@ def create_blueprint(framing: Framing, live: bool) -> rrb.Blueprint:
 def _lay_out_rest(plots: list[rrb.TimeSeriesView]) -> rrb.Vertical:
     """Return the tab of all that the first one leaves out."""
     half = (len(plots) + 1) // 2
-    motion = rrb.TextDocumentView(origin=entities.PANEL, name="this motion")
     return rrb.Vertical(
         rrb.Horizontal(
-            rrb.Vertical(motion, _chart(entities.CUBIC, "f(u), u = cos(theta)")),
+            rrb.Vertical(
+                rrb.TextDocumentView(origin=entities.PANEL, name="this motion"),
+                _chart(entities.CUBIC, "f(u), u = cos(theta)"),
+            ),
             rrb.Vertical(*plots[:half]),
             rrb.Vertical(*plots[half:]),
         ),

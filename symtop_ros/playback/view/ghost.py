@@ -76,11 +76,10 @@ class GhostView:
         A motion under friction or a torque that is too fast or too long is given up.
         """
         segment = self.segment
-        if segment and len(stamps):
-            end = segment.time_at(int(stamps[-1]))
-            if not StepBudget().reach(segment.motion, end, MOST_STEPS):
-                self.segment = segment = None
         if segment is None or not len(stamps):
+            return stamps[:0], np.empty((0, 4))
+        if not StepBudget().reach(segment.motion, segment.time_at(int(stamps[-1])), MOST_STEPS):
+            self.segment = None
             return stamps[:0], np.empty((0, 4))
         chosen = stamps[:: find_step(stamps, RATE)]
         orientation = segment.state_at(chosen).orientation

@@ -160,8 +160,8 @@ class PotentialView:
             entities.CUBIC, chart, EffectivePotential.cubic, heights, potential, hatches
         )
         poles = [chart.place(end, np.array([chart.bottom, chart.top])) for end in (-1.0, 1.0)]
-        frame = [chart.place(chart.sides, 0.0), *poles]
-        self._log_lines(entities.CUBIC, "frame", frame, entities.GREY, 1.0)
+        zero = chart.place(chart.sides, 0.0)
+        self._log_lines(entities.CUBIC, "frame", [zero, *poles], entities.GREY, 1.0)
         roots = {f"u1 = {u1:.3f}": u1, f"u2 = {u2:.3f}": u2}
         third = potential.find_third_root(*motion.turning_angles)
         if chart.left < third < chart.right:

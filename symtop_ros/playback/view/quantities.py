@@ -140,16 +140,12 @@ class EnergyBook:
             self._begin, self._work, self._lost = energy, 0.0, 0.0
         else:
             left = float(before.motion.top.energy(event.state_before()))
-            self._settle(before, left)
+            gained = left - self._segment_energy
+            work = self._segment_work if before.motion.friction else gained
+            self._work += work
+            self._lost += work - gained
             self._work += energy - left
         self._segment_energy, self._segment_work, self._last = energy, 0.0, None
-
-    def _settle(self, segment: Segment, energy: float) -> None:
-        """Book the work and the loss of a segment, from its energy (J) at the end."""
-        gained = energy - self._segment_energy
-        work = self._segment_work if segment.motion.friction else gained
-        self._work += work
-        self._lost += work - gained
 
     def rows(self, samples: ColumnsByTopic, motion: Motion) -> tuple[Stamps, Real] | None:
         """Return stamps and four energies (n, 4) in J; None if a topic is missing.
