@@ -35,9 +35,8 @@ def _use_udp_only() -> None:
     Each call would open the port of shared memory that the call before it has just left. Fast DDS
     then waits for a third of a second if anybody still listens there.
     """
-    chosen = any(name.endswith("_DEFAULT_PROFILES_FILE") for name in os.environ)
-    if not chosen and not os.environ.get(TRANSPORTS):
-        os.environ[TRANSPORTS] = "UDPv4"
+    if not any(name.endswith("_DEFAULT_PROFILES_FILE") for name in os.environ):
+        os.environ[TRANSPORTS] = os.environ.get(TRANSPORTS) or "UDPv4"
 
 
 def _leave(status: int) -> NoReturn:

@@ -37,10 +37,9 @@ def describe_failure(error: Exception) -> str:
         return f"{found[1]} must have numbers of one kind, got {found[2]}: write 0.0 for 0"
     if os.environ.get("ROS_SECURITY_ENABLE") != "true":
         return text
-    domain = os.environ.get("ROS_DOMAIN_ID", "0")
     return (
         f"{text} (ROS_SECURITY_ENABLE is true: keys and permissions must be those of this program "
-        f"in domain {domain}, see SECURITY.md)"
+        f"in domain {os.environ.get('ROS_DOMAIN_ID', '0')}, see SECURITY.md)"
     )
 
 
@@ -80,8 +79,9 @@ def ros_context(arguments: list[str], is_last: bool = False) -> Iterator[Callabl
     finally:
         uninstall_signal_handlers()
         for number, handler in before.items():
-            ends_it = is_last and handler == signal.SIG_DFL
-            signal.signal(number, signal.SIG_IGN if ends_it else handler)
+            signal.signal(
+                number, signal.SIG_IGN if is_last and handler == signal.SIG_DFL else handler
+            )
 
 
 def run_with_ros(

@@ -190,8 +190,9 @@ def _push_tilt(change: float) -> Callable[[Connection], Response]:
     def push(top: Connection) -> Response:
         state = json.loads(top.request("get_state")[1])
         phi, size = state["euler_angles"]["phi"], state["top"]["Ix"] * change
-        impulse = [size * math.cos(phi), size * math.sin(phi), 0.0]
-        return top.request("kick", {"angular_impulse": impulse})
+        return top.request(
+            "kick", {"angular_impulse": [size * math.cos(phi), size * math.sin(phi), 0.0]}
+        )
 
     return push
 

@@ -72,17 +72,16 @@ def _viewer(port: int, web: bool) -> Iterator[subprocess.Popen[bytes] | None]:
         raise LogError(
             f"no viewer listens on port {port}, and there is no screen for a new one: use --web"
         )
-    process = viewer.start(port=port, web=web)
-    try:
-        deadline = time.monotonic() + START_TIMEOUT
-        while rclpy.ok() and not _listens(port):
-            if process.poll() is not None or time.monotonic() > deadline:
-                raise LogError(f"the Rerun viewer did not start within {START_TIMEOUT:g} s")
-            time.sleep(0.1)
-        yield process
-    finally:
-        process.terminate()
-        process.wait()
+    with viewer.start(port=port, web=web) as process:
+        try:
+            deadline = time.monotonic() + START_TIMEOUT
+            while rclpy.ok() and not _listens(port):
+                if process.poll() is not None or time.monotonic() > deadline:
+                    raise LogError(f"the Rerun viewer did not start within {START_TIMEOUT:g} s")
+                time.sleep(0.1)
+            yield process
+        finally:
+            process.terminate()
 
 
 def _stream(

@@ -242,9 +242,11 @@ class McapFile(MessageSource):
 
     def _report_gap(self, start: int, onward: int | None = None) -> None:
         latest = self.since_start(self._span[1]) if self._span else 0.0
-        where = f"the file ends or is unreadable at byte {start} of {self.size}"
-        if onward is not None:
-            where = f"bytes {start} to {onward} are damaged"
+        where = (
+            f"the file ends or is unreadable at byte {start} of {self.size}"
+            if onward is None
+            else f"bytes {start} to {onward} are damaged"
+        )
         self.problems.append(f"{where}: messages after {latest:.3f} s are lost")
 
     def _report_ending(self) -> None:

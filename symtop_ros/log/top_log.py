@@ -79,8 +79,10 @@ class TopLog:
         missing = [name for name in TYPES if name not in (*self.topics, *SENSOR_TOPICS)]
         found = [f"the log has no {', no '.join(missing)}"] if missing else []
         if self.others:
-            others = ", ".join(sorted(self.others))
-            found.append(f"the node is {self.node}; others can be chosen by --node: {others}")
+            found.append(
+                f"the node is {self.node}; others can be chosen by --node: "
+                f"{', '.join(sorted(self.others))}"
+            )
         return self.damage + found
 
     @property

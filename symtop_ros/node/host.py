@@ -88,17 +88,23 @@ class NodeHost:
         message_class = topic.load_message_class()
         if message_class is None:
             if topic in (SAMPLE_TOPICS["tf"], MARKERS):
-                package = topic.type.partition("/")[0]
-                self.inform(f"{package} is not installed: {topic.ros_name} is only logged")
+                self.inform(
+                    f"{topic.type.partition('/')[0]} is not installed: {topic.ros_name} is only "
+                    "logged"
+                )
             return None
         latched, volatile = QoSDurabilityPolicy.TRANSIENT_LOCAL, QoSDurabilityPolicy.VOLATILE
         qos = QoSProfile(depth=topic.depth, durability=latched if topic.latched else volatile)
-        options = QoSOverridingOptions.with_default_policies(callback=_check_depth)
         try:
             with warnings.catch_warnings():  # of a depth of 0, with the path of a file of rclpy
                 warnings.simplefilter("ignore")
                 publisher: Any = self._node.create_publisher(
-                    message_class, topic.ros_name, qos, qos_overriding_options=options
+                    message_class,
+                    topic.ros_name,
+                    qos,
+                    qos_overriding_options=QoSOverridingOptions.with_default_policies(
+                        callback=_check_depth
+                    ),
                 )
         except Exception as error:
             raise RefusedError(

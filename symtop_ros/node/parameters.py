@@ -162,12 +162,11 @@ def guard_parameters(node: Node, name: str, handler: Handler) -> Handler:
         response.descriptors = [_with_range(each) for each in response.descriptors]
         return response
 
-    guarded = {
+    return {
         "set_parameters": set_each,
         "set_parameters_atomically": set_all,
         "describe_parameters": describe,
-    }
-    return guarded.get(name.rpartition("/")[2], handler)
+    }.get(name.rpartition("/")[2], handler)
 
 
 def _with_range(descriptor: ParameterDescriptor) -> ParameterDescriptor:

@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 import rclpy
-from geometry_msgs.msg import WrenchStamped
+from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
 from rclpy.callback_groups import CallbackGroup
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
@@ -102,7 +102,10 @@ class Bridge:
         """Do what a page asks for; return the answer of the node."""
         try:
             if "torque" in request:
-                self._hold_torque(request["torque"])
+                # the node applies it until its time-out
+                x, y, z = vector("torque", request["torque"], 3, MAX_MOMENT, "N m, world frame")
+                wrench = Wrench(torque=Vector3(x=x, y=y, z=z))
+                self._torque.publish(WrenchStamped(wrench=wrench))
                 return {"granted": True, "answer": ""}
             name = choice("service", request.get("service"), SERVICES)
             argument = request.get("argument")
@@ -118,13 +121,6 @@ class Bridge:
                 f"argument must have numbers, words and lists of numbers: {error}",
             )
         return {"granted": granted, "answer": text}
-
-    def _hold_torque(self, torque: Any) -> None:
-        """Publish a torque; the node applies it until its time-out."""
-        message = WrenchStamped()
-        axes = message.wrench.torque
-        axes.x, axes.y, axes.z = vector("torque", torque, 3, MAX_MOMENT, "N m, world frame")
-        self._torque.publish(message)
 
     # What pages are sent
 

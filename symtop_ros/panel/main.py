@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 import webbrowser
+from contextlib import closing
 from pathlib import Path
 
 from symtop_ros.command import has_screen, port, tell_failures
@@ -141,19 +142,16 @@ def _show_node(options: argparse.Namespace, arguments: list[str], opening: str) 
     from symtop_ros.panel.bridge import Bridge
     from symtop_ros.shutdown import describe_failure
 
-    bridge = None
     try:
         # Without the handlers of rclpy, which would shut ROS down while the page still uses it.
         rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
         node = rclpy.create_node("top_panel", start_parameter_services=False)
-        bridge = Bridge(node, options.node)
-        page = write_file(opening=opening, node=bridge.name, language=options.language)
-        return _serve(options, page, bridge.name, bridge)
+        with closing(Bridge(node, options.node)) as bridge:
+            page = write_file(opening=opening, node=bridge.name, language=options.language)
+            return _serve(options, page, bridge.name, bridge)
     except Exception as error:
         raise ValueError(describe_failure(error)) from None
     finally:
-        if bridge:
-            bridge.close()
         rclpy.try_shutdown()
 
 

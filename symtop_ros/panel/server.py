@@ -127,10 +127,8 @@ class PageHandler(BaseHTTPRequestHandler):
     def _send_news(self, node: Node) -> None:
         """Send messages, each as soon as the page has taken most of those before it."""
         self.connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SENT)
-        self.send_response(HTTPStatus.OK)
-        self.send_header("Content-Type", "text/event-stream")
-        self.send_header("Cache-Control", "no-store")
-        self.end_headers()
+        fields = {"Content-Type": "text/event-stream", "Cache-Control": "no-store"}
+        self._send_head(HTTPStatus.OK, fields)
         self.close_connection = True
         if self.command == "HEAD":
             return
@@ -147,7 +145,6 @@ class PageHandler(BaseHTTPRequestHandler):
         *,
         close: bool = False,
     ) -> None:
-        self.send_response(status)
         all_fields = {
             "Content-Type": "text/plain; charset=utf-8",
             "X-Content-Type-Options": "nosniff",
@@ -155,11 +152,15 @@ class PageHandler(BaseHTTPRequestHandler):
             "Content-Length": str(len(content)),
             **({"Connection": "close"} if close else {}),
         }
-        for name, value in all_fields.items():
-            self.send_header(name, value)
-        self.end_headers()
+        self._send_head(status, all_fields)
         if self.command != "HEAD":
             self.wfile.write(content)
+
+    def _send_head(self, status: HTTPStatus, fields: Mapping[str, str]) -> None:
+        self.send_response(status)
+        for name, value in fields.items():
+            self.send_header(name, value)
+        self.end_headers()
 
     def _is_own_host(self) -> bool:
         """Return True for an address in numbers, with or without a port, or a name of this host."""

@@ -33,22 +33,19 @@ def main(args: list[str] | None = None) -> int:
 
 def add_view_options(parser: argparse.ArgumentParser) -> None:
     """Add the options for parts of the scene: those of `ViewOptions`, which needs Rerun."""
-    parser.add_argument(
-        "--no-ghost", action="store_true", help="do not draw the top that was not kicked"
-    )
-    parser.add_argument(
-        "--angles", action="store_true", help="draw both frames and Euler's angles phi, theta, psi"
-    )
-    parser.add_argument(
-        "--torques",
-        action="store_true",
-        help="draw dL/dt and the inertial torque, in the body frame and in that of the nodes",
-    )
-    parser.add_argument(
-        "--fictitious",
-        action="store_true",
-        help="draw the torques in the precessing frame: gravity's, Coriolis' and centrifugal",
-    )
+    for option, text in (
+        ("--no-ghost", "do not draw the top that was not kicked"),
+        ("--angles", "draw both frames and Euler's angles phi, theta, psi"),
+        (
+            "--torques",
+            "draw dL/dt and the inertial torque, in the body frame and in that of the nodes",
+        ),
+        (
+            "--fictitious",
+            "draw the torques in the precessing frame: gravity's, Coriolis' and centrifugal",
+        ),
+    ):
+        parser.add_argument(option, action="store_true", help=text)
 
 
 def view_options(options: argparse.Namespace) -> dict[str, bool]:

@@ -80,14 +80,13 @@ def start(*files: str, port: int | None = None, web: bool = False) -> subprocess
 def show(recording: Path, web: bool) -> int:
     """Show a recording until the viewer or this process is ended; return the exit status."""
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that the viewer is ended too
-    process = start(str(recording), web=web)
-    try:
-        return 0 if process.wait() == 0 else 1
-    except KeyboardInterrupt:
-        return 0
-    finally:
-        process.terminate()
-        process.wait()
+    with start(str(recording), web=web) as process:
+        try:
+            return 0 if process.wait() == 0 else 1
+        except KeyboardInterrupt:
+            return 0
+        finally:
+            process.terminate()
 
 
 def free_port() -> int:
@@ -127,12 +126,14 @@ def _handler(page: int, data: int) -> type[http.server.BaseHTTPRequestHandler]:
             finally:
                 source.close()
             self.send_response(answer.status)
-            for name in KEPT:
-                if value := answer.getheader(name):
-                    self.send_header(name, value)
-            self.send_header("Content-Length", str(len(content)))
-            self.send_header("Content-Security-Policy", policy)
-            self.send_header("Referrer-Policy", "no-referrer")
+            fields = {
+                **{name: value for name in KEPT if (value := answer.getheader(name))},
+                "Content-Length": str(len(content)),
+                "Content-Security-Policy": policy,
+                "Referrer-Policy": "no-referrer",
+            }
+            for name, value in fields.items():
+                self.send_header(name, value)
             self.end_headers()
             self.wfile.write(content)
 
@@ -174,5 +175,8 @@ def _show_progress(done: int, size: int) -> None:
     if size > MIN_SIZE_FOR_BAR and sys.stderr.isatty():
         filled = round(BAR_LENGTH * done / size)
         bar = "#" * filled + "." * (BAR_LENGTH - filled)
-        end = "\n" if done == size else "\r"
-        print(f"[{bar}] {done / 2**20:.0f} of {size / 2**20:.0f} MiB", end=end, file=sys.stderr)
+        print(
+            f"[{bar}] {done / 2**20:.0f} of {size / 2**20:.0f} MiB",
+            end="\n" if done == size else "\r",
+            file=sys.stderr,
+        )

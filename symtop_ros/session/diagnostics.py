@@ -51,16 +51,19 @@ def balance_status(segment: Segment, stamp: int) -> Status:
     t = segment.time_at(stamp)
     found = balance(motion, t, longest=max(abs(t), MIN_BALANCE))
     added = motion.added_torque(state)
-    facts = {
-        "friction.axial": motion.friction.axial,
-        "friction.transverse": motion.friction.transverse,
-        "applied_torque": list(motion.applied_torque),
-        "power": float((added * state.to_world(state.angular_velocity)).sum()),
-        "energy.balance": found.energy,
-        "angular_momentum.balance": found.angular_momentum.tolist(),
-    }
-    message = "friction or an applied torque acts" if motion.is_driven else "only gravity acts"
-    return make_status("balance", OK, message, facts)
+    return make_status(
+        "balance",
+        OK,
+        "friction or an applied torque acts" if motion.is_driven else "only gravity acts",
+        {
+            "friction.axial": motion.friction.axial,
+            "friction.transverse": motion.friction.transverse,
+            "applied_torque": list(motion.applied_torque),
+            "power": float((added * state.to_world(state.angular_velocity)).sum()),
+            "energy.balance": found.energy,
+            "angular_momentum.balance": found.angular_momentum.tolist(),
+        },
+    )
 
 
 def _pace_status(simulation: Simulation) -> Status:
@@ -88,8 +91,9 @@ def _log_status(recorder: Recorder) -> Status:
         level, message = ERROR, recorder.failure
     elif recorder.dropped:
         level, message = WARN, f"{recorder.dropped} messages dropped: the disk is too slow"
-    facts = {"file": recorder.path or "", "dropped": recorder.dropped}
-    return make_status("log", level, message, facts)
+    return make_status(
+        "log", level, message, {"file": recorder.path or "", "dropped": recorder.dropped}
+    )
 
 
 def make_status(name: str, level: int, message: str, facts: dict[str, Any]) -> Status:

@@ -89,7 +89,15 @@ class _Again:
     def __init__(self, first: RunEvent, rate: float, folder: str) -> None:
         self._clock, self._host = SetClock(), Silent()
         self._session = Session(
-            Settings.from_values(_initial_values(first, rate, folder)),
+            Settings.from_values(
+                {
+                    **_list_values(first.motion),
+                    **{f"initial.{name}": value for name, value in _start_values(first).items()},
+                    "publish_rate": rate,
+                    "record.enabled": True,
+                    "record.directory": folder,
+                }
+            ),
             self._clock,
             self._host,
             "run.json",
@@ -166,16 +174,6 @@ class _Again:
         if failure or path is None:
             raise RefusedError(f"the log cannot be written: {failure}")
         return path
-
-
-def _initial_values(first: RunEvent, rate: float, folder: str) -> dict[str, Any]:
-    return {
-        **_list_values(first.motion),
-        **{f"initial.{name}": value for name, value in _start_values(first).items()},
-        "publish_rate": rate,
-        "record.enabled": True,
-        "record.directory": folder,
-    }
 
 
 def _start_values(event: RunEvent) -> dict[str, Any]:

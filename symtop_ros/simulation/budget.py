@@ -7,6 +7,7 @@ the CPU time of a run, and says how fast the motion can be followed.
 import math
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from symtop_ros.arrays import Stamps
@@ -27,11 +28,11 @@ FREE_WORK = 0.02  # s of work that is allowed for any stretch
 SHARE = 0.25  # share of one core for a motion that cannot be followed in real time
 
 
+@dataclass
 class StepBudget:
     """A number of spare steps, for all motions that are reached with it."""
 
-    def __init__(self, spare: int = 0) -> None:
-        self._spare = spare
+    spare: int = 0
 
     def reach(self, motion: Motion, t: float, free: int) -> bool:
         """Integrate a motion to a time in s; return False if that takes too many steps.
@@ -39,14 +40,14 @@ class StepBudget:
         `free` steps are not counted. Work that would exceed the budget by far is not begun.
         """
         before = motion.reach(t, 0)
-        while free + self._spare > 0:
-            count = min(STEPS_OF_A_CHECK, free + self._spare)
+        while free + self.spare > 0:
+            count = min(STEPS_OF_A_CHECK, free + self.spare)
             reached = motion.reach(t, count)
             if reached == t:
                 return True
-            self._spare -= max(0, count - max(0, free))
+            self.spare -= max(0, count - max(0, free))
             free -= count
-            left = max(0, free) + self._spare
+            left = max(0, free) + self.spare
             if abs(t - reached) * count > OPTIMISM * left * abs(reached - before):
                 return False
             before = reached

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from itertools import takewhile
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import yaml
 
@@ -36,23 +36,13 @@ def scene_names() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in config_folder().glob("*.yaml")))
 
 
-class Scene(NamedTuple):
-    """A scene for people: the comment at the head of its file is `# Title: story`."""
-
-    name: str
-    title: str
-    story: str
-
-
-def describe_scenes() -> list[Scene]:
-    """Return names, titles and stories of all scenes."""
-    found = []
+def describe_scenes() -> Iterator[tuple[str, str, str]]:
+    """Yield names, titles and stories of all scenes: their files begin with `# Title: story`."""
     for name in scene_names():
         text = (config_folder() / f"{name}.yaml").read_text(encoding="utf-8")
         comment = takewhile(lambda line: line.startswith("#"), text.splitlines())
         title, _, story = " ".join(line.lstrip("# ") for line in comment).partition(": ")
-        found.append(Scene(name, title or name, story))
-    return found
+        yield name, title or name, story
 
 
 def load_scene(name: object) -> dict[str, Any]:

@@ -150,8 +150,9 @@ def read_run(path: Path) -> tuple[list[RunEvent], int]:
     except (ValueError, RecursionError):
         content = None
     if not isinstance(content, dict) or content.get("format") not in FORMATS:
-        formats = " or ".join(map(str, FORMATS))
-        raise RefusedError(f"{path} must be a run of the page (run.json, format {formats})")
+        raise RefusedError(
+            f"{path} must be a run of the page (run.json, format {' or '.join(map(str, FORMATS))})"
+        )
     given = content.get("events")
     if not isinstance(given, list) or not given:
         raise reject("events", "a list with a start at its beginning", given)

@@ -132,16 +132,14 @@ def _whole(largest: int, name: str, value: Any) -> int:
     return int(whole)
 
 
-def _seed() -> Parameter:
-    return Parameter(
-        0,
-        "seed of the noise",
-        f"a whole number, 0 to {MAX_SEED}",
-        partial(_whole, MAX_SEED),
-        read_only=True,
-        limits=(0, MAX_SEED),
-    )
-
+SEED = Parameter(
+    0,
+    "seed of the noise",
+    f"a whole number, 0 to {MAX_SEED}",
+    partial(_whole, MAX_SEED),
+    read_only=True,
+    limits=(0, MAX_SEED),
+)
 
 PARAMETERS: dict[str, Parameter] = {
     "top.Ix": _moment(2.28e-4, "moment of inertia across the axis", "kg m^2", 1 / MAX_MOMENT),
@@ -201,14 +199,14 @@ PARAMETERS: dict[str, Parameter] = {
     "imu.noise.gyroscope_random_walk": _noise("random walk of the bias", "rad/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_noise_density": _noise("white noise", "m/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_random_walk": _noise("random walk of the bias", "m/s^3/sqrt(Hz)"),
-    "imu.noise.seed": _seed(),
+    "imu.noise.seed": SEED,
     "magnetic_field.enabled": _flag(False, "publish ~/magnetic_field", read_only=True),
     "magnetic_field.vector": _fix(_vector("magnetic field, world frame", 3, MAX_FIELD, "T")),
     "magnetic_field.noise.magnetometer_noise_density": _noise("white noise", "T/sqrt(Hz)"),
     "magnetic_field.noise.magnetometer_random_walk": _noise(
         "random walk of the bias", "T/s/sqrt(Hz)"
     ),
-    "magnetic_field.noise.seed": _seed(),
+    "magnetic_field.noise.seed": SEED,
     "odometry.enabled": _flag(False, "publish ~/odometry", read_only=True),
     "scheduling_priority": Parameter(
         0,

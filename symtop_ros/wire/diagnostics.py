@@ -60,8 +60,8 @@ def decode_statuses(data: bytes) -> list[Status]:
 def _decode_status(reader: Reader, stamp: int) -> Status:
     level, name, message = reader.integer("B"), reader.string(), reader.string()
     reader.string()  # hardware_id
-    pairs = [(reader.string(), reader.string()) for _ in range(reader.count())]
-    return Status(stamp, level, name, message, dict(pairs))
+    values = {reader.string(): reader.string() for _ in range(reader.count())}
+    return Status(stamp, level, name, message, values)
 
 
 def write_text(value: Any) -> str:
@@ -87,11 +87,8 @@ def _flatten(found: dict[str, str], name: str, value: Any) -> None:
         value = {str(place): each for place, each in enumerate(value)}
     if isinstance(value, Mapping):
         for key, each in value.items():
-            if isinstance(each, Mapping | tuple):
-                _flatten(found, f"{name}.{key}", each)
-            elif each is not None:
-                found[f"{name}.{key}"] = write_text(each)
-    else:
+            _flatten(found, f"{name}.{key}", each)
+    elif value is not None:
         found[name] = write_text(value)
 
 

@@ -5,7 +5,6 @@ Both are drawn as curves in a box, with what is allowed hatched and the state as
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import rerun as rr
@@ -39,8 +38,9 @@ class Chart:
         """Return points (n, 2) of the scene; what lies outside is moved to the edge."""
         across = (np.asarray(x, dtype=float) - self.left) / (self.right - self.left)
         up = (np.asarray(y, dtype=float) - self.bottom) / (self.top - self.bottom)
-        points = np.broadcast_arrays(WIDTH * across.clip(0, 1), -HEIGHT * up.clip(0, 1))
-        return np.stack(points, axis=-1)
+        return np.stack(
+            np.broadcast_arrays(WIDTH * across.clip(0, 1), -HEIGHT * up.clip(0, 1)), axis=-1
+        )
 
     def cut(self, x: Real, y: Real) -> list[Real]:
         """Return the parts of a curve that lie inside, as strips of the scene."""
@@ -94,7 +94,7 @@ class PotentialView:
             stream.log(
                 f"{entity}/state",
                 rr.Points2D.from_fields(
-                    colors=[entities.WHITE], radii=_in_pixels(5.0), draw_order=DRAWN + 2
+                    colors=[entities.WHITE], radii=rr.Radius.ui_points([5.0]), draw_order=DRAWN + 2
                 ),
                 static=True,
             )
@@ -195,7 +195,7 @@ class PotentialView:
         lines = rr.LineStrips2D(
             strips,
             colors=[color],
-            radii=_in_pixels(width),
+            radii=rr.Radius.ui_points([width]),
             draw_order=HATCHED if name == "allowed" else DRAWN,
         )
         self._stream.log(f"{entity}/{name}", lines if strips else CLEAR)
@@ -207,7 +207,7 @@ class PotentialView:
                 chart.place(np.array([*marks.values()]), y),
                 labels=list(marks),
                 colors=[entities.GOLD],
-                radii=_in_pixels(3.5),
+                radii=rr.Radius.ui_points([3.5]),
                 draw_order=DRAWN + 1,
                 show_labels=True,
             ),
@@ -217,7 +217,3 @@ class PotentialView:
 def _join(strips: list[Real]) -> Real:
     """Return the longest strip, or a point."""
     return max(strips, key=len, default=np.zeros((1, 2)))
-
-
-def _in_pixels(width: float) -> Any:
-    return [rr.Radius.ui_points(width)]

@@ -122,12 +122,6 @@ def log_cones(stream: entities.Stream, motion: Motion, state: State, scale: floa
     stream.log(entities.HERPOLHODE, turned)
 
 
-def clear_cones(stream: entities.Stream) -> None:
-    """Remove both cones from the current time on."""
-    for entity in (entities.POLHODE, entities.HERPOLHODE):
-        stream.log(entity, rr.Clear(recursive=True))
-
-
 def _log_cone(
     stream: entities.Stream,
     entity: str,

@@ -140,7 +140,8 @@ class View:
             surroundings.log_cones(self._stream, motion, state, scale)
             self._has_cones = True
         elif self._has_cones:
-            surroundings.clear_cones(self._stream)
+            for entity in (entities.POLHODE, entities.HERPOLHODE):
+                self._stream.log(entity, rr.Clear(recursive=True))
             self._has_cones = False
 
     def _send_samples(self, columns: Mapping[str, Columns]) -> None:
@@ -161,8 +162,9 @@ class View:
                 self._stream.send_arrows(arrow.entity, columns[name].stamps, vectors, vectors)
         if "euler_angles" in columns:
             euler = columns["euler_angles"]
-            nodes = surroundings.line_of_nodes(euler.numbers[:, 0])
-            self._stream.send_lines(entities.NODES, euler.stamps, nodes)
+            self._stream.send_lines(
+                entities.NODES, euler.stamps, surroundings.line_of_nodes(euler.numbers[:, 0])
+            )
             if self._options.angles:
                 surroundings.send_angles(self._stream, euler)
             if self._fictitious:

@@ -193,11 +193,10 @@ class Imu:
 
     def measure(self, motion: Motion, state: State, gravity: float) -> tuple[Real, Real, Real]:
         """Return what an exact sensor measures."""
-        force = specific_force(motion, state, self.position, gravity)
         return (
             compose(state.orientation, self.mount.orientation)[..., [1, 2, 3, 0]],
             self.mount.to_body(state.angular_velocity),
-            self.mount.to_body(force),
+            self.mount.to_body(specific_force(motion, state, self.position, gravity)),
         )
 
     def noise(self, stamps: Any) -> Real:
