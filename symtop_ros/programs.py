@@ -106,8 +106,10 @@ def _set_signals(handler: Any) -> None:
 
 def _remedy(package: str) -> str:
     if package in PYPI:
-        name = PYPI[package]
-        return f"pip install {name}, on Debian and Ubuntu into a venv (docs/ros.md, Installing)"
+        return (
+            f"pip install {PYPI[package]}, on Debian and Ubuntu into a venv (docs/ros.md, "
+            "Installing)"
+        )
     if package in EXTRAS:
         return f"pip install '.[{EXTRAS[package]}]' in the checkout"
     return "source a ROS 2, or pip install '.[ros]' in the checkout"

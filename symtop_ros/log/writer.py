@@ -135,8 +135,8 @@ def load_definitions() -> dict[str, dict[str, str]]:
     the hash that of its description (REP-2016). They are shipped, so that a log can be written
     without ROS; a test compares them with those of the installed ROS 2.
     """
-    text = files("symtop_ros.log").joinpath("definitions.json").read_text(encoding="utf-8")
-    return dict(json.loads(text))
+    file = files("symtop_ros.log").joinpath("definitions.json")
+    return dict(json.loads(file.read_text(encoding="utf-8")))
 
 
 def _qos_profile(topic: Topic) -> str:

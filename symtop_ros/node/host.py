@@ -161,14 +161,13 @@ def _look_for_clocks(node: Node, publishes_clock: bool) -> Status:
     """Look for several publishers of /clock: the time steps back and forth between them."""
     concerns = publishes_clock or cast(ROSClock, node.get_clock()).ros_time_is_active
     count = node.count_publishers(CLOCK.ros_name)
-    level, sentence = OK, f"no duplicate publisher of {CLOCK.ros_name} concerns this node"
-    if concerns and count > 1:
-        level = WARN
+    sentence = f"no duplicate publisher of {CLOCK.ros_name} concerns this node"
+    if is_doubled := concerns and count > 1:
         sentence = (
             f"{count} programs publish {CLOCK.ros_name}, and the time steps back and forth between "
             "them: end all but one, or start this node with publish_clock:=false"
         )
-    return make_status("clock", level, sentence, {"publishers": count})
+    return make_status("clock", WARN if is_doubled else OK, sentence, {"publishers": count})
 
 
 class Pacer:

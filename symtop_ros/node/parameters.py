@@ -85,8 +85,12 @@ def declare_parameters(node: Node) -> Settings:
 def _declare(node: Node, parameter: Parameter) -> None:
     """Declare a parameter of a type; from a value rclpy takes an empty list for one of bytes."""
     name, entry = parameter.name, PARAMETERS[parameter.name]
-    descriptor = _descriptor(entry.description, entry.condition, read_only=False)
-    node.declare_parameter(name, parameter.type_, descriptor, ignore_override=True)
+    node.declare_parameter(
+        name,
+        parameter.type_,
+        _descriptor(entry.description, entry.condition, read_only=False),
+        ignore_override=True,
+    )
     node.set_parameters([parameter])
     if entry.read_only:
         fixed = _descriptor(entry.description, entry.condition, read_only=True)

@@ -119,11 +119,13 @@ class Simulator:
         def handle(request: Any, response: Any) -> Any:
             def attempt() -> Result:
                 try:
-                    said = act(request, response) or ""
-                    return Result(result=Result.RESULT_OK, error_message=said)
+                    return Result(
+                        result=Result.RESULT_OK, error_message=act(request, response) or ""
+                    )
                 except RefusedError as refusal:
-                    code = getattr(refusal, "code", FAILED)
-                    return Result(result=code, error_message=str(refusal))
+                    return Result(
+                        result=getattr(refusal, "code", FAILED), error_message=str(refusal)
+                    )
 
             result = self._simulation.take_turn(f"~/{name}", attempt)
             if isinstance(result, Failure):
@@ -265,10 +267,12 @@ class Simulator:
         omega = _read_twist(given.twist) if sets_twist else now.to_world(now.angular_velocity)
         if sets_pose or sets_twist:
             w, x, y, z = attitude.orientation.tolist()
-            body = attitude.to_body(omega).tolist()
             self._demand(
                 "set_initial_conditions",
-                {"orientation": [x, y, z, w], "angular_velocity": body},
+                {
+                    "orientation": [x, y, z, w],
+                    "angular_velocity": attitude.to_body(omega).tolist(),
+                },
             )
 
 

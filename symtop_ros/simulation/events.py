@@ -122,8 +122,12 @@ class Event:
 
     def encode(self, frame: str, node: str = "") -> bytes:
         """Encode the event of a node (full name) as a DiagnosticArray with one status."""
-        status = Status(self.stamp, OK, PREFIX + self.name, self.verdict, self.values)
-        return encode_statuses(self.stamp, frame, [status], node)
+        return encode_statuses(
+            self.stamp,
+            frame,
+            [Status(self.stamp, OK, PREFIX + self.name, self.verdict, self.values)],
+            node,
+        )
 
     @property
     def has_fields(self) -> bool:

@@ -104,9 +104,9 @@ def _read_act(event: Event, motion: Motion) -> dict[str, Any]:
     """Return the fields of a kick; none if a log has some that cannot be read."""
     if isinstance(motion, PushedMotion):
         return motion.pushes.request
-    given = {name: text for name, text in event.request.items() if name in KICK_FIELDS and text}
+    given = event.request.items()
     try:
-        return read_kick(given)
+        return read_kick({name: text for name, text in given if name in KICK_FIELDS and text})
     except ValueError:
         return {}
 

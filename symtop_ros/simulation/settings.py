@@ -10,7 +10,16 @@ from typing import Any
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Top
 from symtop_ros.simulation.presets import load_scene
-from symtop_ros.simulation.sensor.imu import ALONG, CENTRE, EARTH, MAX_FIELD, Imu, Magnetometer, Rig
+from symtop_ros.simulation.sensor.imu import (
+    ALONG,
+    CENTRE,
+    EARTH,
+    MAX_DISTANCE,
+    MAX_FIELD,
+    Imu,
+    Magnetometer,
+    Rig,
+)
 from symtop_ros.simulation.sensor.noise import MAX_NOISE
 from symtop_ros.simulation.validation import (
     MAX_RATE,
@@ -27,7 +36,6 @@ NO_TORQUE: Vector = (0.0, 0.0, 0.0)
 PRECESSIONS = ("slow", "fast")
 MAX_ANGLE = 1e3  # rad; beyond, the reduction of an angle to a turn loses digits
 MAX_MOMENT = 1e30  # kg m^2, J, N m or N m s; keeps every product of them finite
-MAX_ARM = 1e6  # m
 MAX_SEED = 2**53  # a larger number may not be a double
 MAX_PUBLISH_RATE = 2000.0  # Hz
 MAX_PRIORITY = 99  # of SCHED_FIFO
@@ -193,7 +201,7 @@ PARAMETERS: dict[str, Parameter] = {
     "record.max_duration": _number(0.0, "length at which a new log begins; 0: none", "s", 0.0, 1e9),
     "gravity": _fix(_number(STANDARD_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3)),
     "imu.enabled": _flag(False, "publish ~/imu", read_only=True),
-    "imu.position": _fix(_vector("place of the sensor, body frame", 3, MAX_ARM, "m")),
+    "imu.position": _fix(_vector("place of the sensor, body frame", 3, MAX_DISTANCE, "m")),
     "imu.orientation": _fix(_vector("quaternion, sensor -> body", 4, 2.0, "x, y, z, w")),
     "imu.noise.gyroscope_noise_density": _noise("white noise", "rad/s/sqrt(Hz)"),
     "imu.noise.gyroscope_random_walk": _noise("random walk of the bias", "rad/s^2/sqrt(Hz)"),

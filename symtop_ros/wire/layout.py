@@ -118,8 +118,8 @@ class Layout:
         """Decode matching messages (n, size) into stamps (n,) in ns and doubles (n, width)."""
         fields = np.ascontiguousarray(rows).view(self._kind)[:, 0]
         stamps = fields["seconds"].astype(np.int64) * NANOSECONDS + fields["nanoseconds"]
-        blocks = [fields[str(place)] for place in range(len(self._blocks))]
-        return stamps, np.concatenate(blocks, axis=1)
+        blocks = range(len(self._blocks))
+        return stamps, np.concatenate([fields[str(place)] for place in blocks], axis=1)
 
     def _add(self, part: Part) -> None:
         alignment = 8 if isinstance(part, Doubles) else 4

@@ -69,14 +69,13 @@ def _find_ranges(motion: Motion) -> dict[str, tuple[float, float]]:
     if motion.is_driven:
         return {}
     states = motion.at(np.linspace(0.0, _clip(0.01, motion.nutation_period, 10.0), 201))
-    rates = states.euler_rates
-    horizontal = motion.top.angular_momentum(states)[:, :2]
+    momentum, rates = motion.top.angular_momentum(states), states.euler_rates
     found = {}
     for entity, values in (
         (entities.THETA, np.asarray(states.euler_angles.theta)),
         (entities.PHI_DOT, np.asarray(rates.phi)),
         (entities.PSI_DOT, np.asarray(rates.psi)),
-        (entities.L_HORIZONTAL, (horizontal**2).sum(axis=1)),
+        (entities.L_HORIZONTAL, (momentum[:, :2] ** 2).sum(axis=1)),
     ):
         low, high = float(values.min()), float(values.max())
         least = LEAST_SPAN * max(abs(low), abs(high))

@@ -192,9 +192,9 @@ def _rotor(radius: float, height: float) -> Profile:
 
 def _rim(radius: float, height: float) -> Profile:
     """Return the profile of the round brass edge of the rotor."""
-    angles = np.linspace(-np.pi / 2, np.pi / 2, 9)
     return [
-        (0.94 * radius + 0.06 * radius * math.cos(a), height + 0.035 * math.sin(a)) for a in angles
+        (0.94 * radius + 0.06 * radius * math.cos(a), height + 0.035 * math.sin(a))
+        for a in np.linspace(-np.pi / 2, np.pi / 2, 9)
     ]
 
 

@@ -140,7 +140,7 @@ def describe_motion(
     }
     if scales:
         facts[f"1 unit of {', '.join(scales)}"] = ", ".join(scales.values())
-    rows = [f"| {name} | **{value}** |" for name, value in {**facts, **equations}.items()]
+    rows = (f"| {name} | **{value}** |" for name, value in {**facts, **equations}.items())
     return "\n".join(["| | |", "|---|---|", *rows])
 
 

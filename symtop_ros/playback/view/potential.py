@@ -76,8 +76,11 @@ def frame_cubic(motion: Motion, potential: EffectivePotential) -> Chart:
     """Return the box for the cubic: all heights u, and the third root if it is near."""
     u2, u1 = (float(np.cos(angle)) for angle in motion.turning_angles)
     third = potential.find_third_root(*motion.turning_angles)
-    largest = float(potential.cubic(np.linspace(u1, u2, 101)).max())
-    size = max(largest, 1e-3 * float(np.abs(potential.cubic(np.linspace(-1, 1, 101))).max()), 1e-12)
+    size = max(
+        float(potential.cubic(np.linspace(u1, u2, 101)).max()),
+        1e-3 * float(np.abs(potential.cubic(np.linspace(-1, 1, 101))).max()),
+        1e-12,
+    )
     ends = [-1.0, 1.0, third] if abs(third) < 3 else [-1.0, 1.0]
     return Chart(min(ends) - 0.1, max(ends) + 0.1, -size, 1.4 * size)
 

@@ -118,8 +118,10 @@ def log_cones(stream: entities.Stream, motion: Motion, state: State, scale: floa
     along = float(omega @ direction)
     across = float(np.linalg.norm(omega - along * direction))
     _log_cone(stream, entities.HERPOLHODE, across, along, (entities.BLUE, entities.PALE_BLUE))
-    turned = rr.Transform3D(quaternion=rr.Quaternion(xyzw=_turn_up_to(direction)))
-    stream.log(entities.HERPOLHODE, turned)
+    stream.log(
+        entities.HERPOLHODE,
+        rr.Transform3D(quaternion=rr.Quaternion(xyzw=_turn_up_to(direction))),
+    )
 
 
 def _log_cone(

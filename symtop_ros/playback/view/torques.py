@@ -76,8 +76,7 @@ class Torques(NamedTuple):
             return None
         stamps, (velocity, L, torque, euler) = found
         total, turning = torque[:, 3:], np.cross(velocity[:, 3:], L)
-        across = np.stack([-L[:, 1], L[:, 0], np.zeros(len(L))], axis=1)  # z' x L
-        precession = euler[:, 3:4] * across
+        precession = euler[:, 3:4] * np.stack([-L[:, 1], L[:, 0], np.zeros(len(L))], axis=1)
         return stamps, cls(total, total - turning, turning, precession, nodes_of(euler[:, 0]))
 
     def along_nodes(self) -> Real:

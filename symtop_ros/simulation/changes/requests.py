@@ -24,7 +24,13 @@ from symtop_ros.physics import (
     set_precession_rate,
 )
 from symtop_ros.simulation.segment import PushedMotion, Pushes
-from symtop_ros.simulation.settings import MAX_ANGLE, PRECESSIONS, InitialConditions, Settings
+from symtop_ros.simulation.settings import (
+    MAX_ANGLE,
+    MAX_MOMENT,
+    PRECESSIONS,
+    InitialConditions,
+    Settings,
+)
 from symtop_ros.simulation.validation import (
     MAX_RATE,
     RefusedError,
@@ -47,11 +53,9 @@ KINDS = (
 PUSHES = ("axle_impulse", "rate", "number")  # of a push
 KICK_FIELDS = (*KINDS, "hold", *PUSHES[1:])
 UNITS = {"precession_rate_factor": "", "axle_impulse": "N m s"}  # of others rad/s
-MAX_IMPULSE = 1e30  # N m s; keeps the angular velocity after it finite for every top
 ANGLES = ("theta", "phi", "psi")
 RATES = ("theta_dot", "phi_dot", "psi_dot")
 DIRECT = ("orientation", "angular_velocity")
-AT_REST = (0.0, 0.0, 0.0)
 START_FIELDS = (*ANGLES, *RATES, *DIRECT, "precession")
 
 
@@ -82,7 +86,7 @@ def plan_kick(
         raise RefusedError(f"hold must be given without {kind}, got both")
     if kind == "angular_impulse":
         after = apply_impulse(
-            top, state, vector(kind, request[kind], 3, MAX_IMPULSE, "N m s, world frame")
+            top, state, vector(kind, request[kind], 3, MAX_MOMENT, "N m s, world frame")
         )
     else:
         hold = HOLDS[HOLDS.index(choice("hold", request.get("hold", HOLDS[0]), HOLDS))]
@@ -156,7 +160,7 @@ def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, A
     if any(name in request for name in DIRECT):
         return _from_quaternion(request["orientation"], request["angular_velocity"])
     if not request and defaults.orientation:
-        return _from_quaternion(defaults.orientation, defaults.angular_velocity or AT_REST)
+        return _from_quaternion(defaults.orientation, defaults.angular_velocity or (0.0, 0.0, 0.0))
     values = {name: getattr(defaults, name) for name in (*ANGLES, *RATES, "precession")}
     if "phi_dot" in request or "theta_dot" in request:
         values["precession"] = ""  # a requested rate replaces the default of regular precession
