@@ -52,8 +52,11 @@ class Connection:
             answer = self._call(SetBool, service, SetBool.Request(data=argument))
         else:
             named = [Parameter(each, value=argument[each]).to_parameter_msg() for each in argument]
-            request = SetParametersAtomically.Request(parameters=named)
-            result = self._call(SetParametersAtomically, service, request).result
+            result = self._call(
+                SetParametersAtomically,
+                service,
+                SetParametersAtomically.Request(parameters=named),
+            ).result
             return result.successful, result.reason
         return answer.success, answer.message
 

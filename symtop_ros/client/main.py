@@ -108,8 +108,8 @@ def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -
         return top.request("pause", False)
     service = BY_COMMAND[options.command]
     on = vars(options).get("switch", "on") == "on"  # `pause` has no word: it means on
-    argument = {"named": values, "switch": on, "plain": None}[SERVICES[service].kind]
-    granted, text = top.request(service, argument)
+    arguments = {"named": values, "switch": on, "plain": None}
+    granted, text = top.request(service, arguments[SERVICES[service].kind])
     if options.command == "state" and granted and not options.json:
         text = _readable(json.loads(text))
     return granted, text

@@ -37,9 +37,8 @@ class Batch:
 
     def stretches(self) -> Iterator[tuple[Event | None, dict[str, Columns]]]:
         """Yield each event with the samples that follow it; first None with those before all."""
-        events = [None, *(event for _, event in self.events)]
         owners = {name: self._owners(columns) for name, columns in self.columns.items()}
-        for number, event in enumerate(events):
+        for number, event in enumerate([None, *(event for _, event in self.events)]):
             yield (
                 event,
                 {

@@ -171,8 +171,9 @@ class McapFile(MessageSource):
         if 0 < start < self.size:
             for record in self._records_at(file, start, *SUMMARY):
                 if record.opcode == Opcode.CHUNK_INDEX:
-                    index = ChunkIndex.read(open_stream(record.data))
-                    self._chunk_offsets.append(index.chunk_start_offset)
+                    self._chunk_offsets.append(
+                        ChunkIndex.read(open_stream(record.data)).chunk_start_offset
+                    )
                 else:
                     self._describe(_contents(record)[0])
 

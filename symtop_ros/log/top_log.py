@@ -136,7 +136,7 @@ class TopLog:
         """Return the node whose run is read by default, whatever the order of the files is."""
         if not self.file.channels:  # a file without an index: they are described in its chunks
             next(self.file.chunks(), [])
-        tops = {self._node_and_name(number) for number in self.file.channels}
+        tops = map(self._node_and_name, self.file.channels)
         nodes = {node for node, name in tops if name and name != TF}
         return min(nodes, key=lambda node: (node != "/top", node), default=None)
 
@@ -167,8 +167,7 @@ def _open(path: Path) -> MessageSource:
         weakref.finalize(source, folder.cleanup)  # when the source is no longer read
         return source
     source = SqliteBag(path) if path.suffix == SQLITE else McapFile(path)
-    first = next(source.chunks(), [])
-    source.is_packed = any(message.data.startswith(ZSTD_START) for message in first)
+    source.is_packed = any(each.data.startswith(ZSTD_START) for each in next(source.chunks(), []))
     return source
 
 

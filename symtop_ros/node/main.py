@@ -40,13 +40,12 @@ def main(args: list[str] | None = None) -> int:
 
 def _run(_: argparse.Namespace, listen: Callable[[], None]) -> int:
     """Spin until shutdown; return 1 if a tick or the recording failed (both were reported)."""
-    # Not rclpy's EventsExecutor: as it waits, other threads stand still (rclpy 9.1, Kilted).
-    executor = SingleThreadedExecutor()
     top = TopNode()
     gc.freeze()  # collecting garbage among the objects of the start would delay ticks
     try:
         listen()
-        rclpy.spin(top, executor)
+        # Not rclpy's EventsExecutor: as it waits, other threads stand still (rclpy 9.1, Kilted).
+        rclpy.spin(top, SingleThreadedExecutor())
     except Exception:
         if rclpy.ok():
             raise

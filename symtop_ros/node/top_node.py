@@ -37,7 +37,6 @@ from symtop_ros.wire.layout import NANOSECONDS
 
 SIM_TIME = "use_sim_time"
 CLOCK_WAIT = 2.0  # s between two checks that a simulated clock is there
-CLOCK_CHANGES = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
 
 
 class NodeClock:
@@ -167,8 +166,10 @@ class TopNode(Node):
 
     def _clock_set(self, jump: TimeJump) -> None:
         """Follow a jump of simulated time; any change of it wakes the pacer."""
-        is_small = 0 <= jump.delta.nanoseconds < JUMP * NANOSECONDS
-        self.simulation.end_jump(jump.clock_change in CLOCK_CHANGES or not is_small)
+        self.simulation.end_jump(
+            jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
+            or not 0 <= jump.delta.nanoseconds < JUMP * NANOSECONDS
+        )
         self._pacer.wake()
 
     # Requests
@@ -191,8 +192,8 @@ class TopNode(Node):
     def _apply_torque(self, data: bytes) -> None:
         self.session.log_torque(data)
         message = deserialize_message(data, WrenchStamped)
-        wrench = message.wrench.force, message.wrench.torque
-        force, torque = ((each.x, each.y, each.z) for each in wrench)
+        parts = message.wrench.force, message.wrench.torque
+        force, torque = ((each.x, each.y, each.z) for each in parts)
         if any(force):
             reason = str(reject("applied_torque force", "0 (only the torque acts)", force))
         else:

@@ -111,8 +111,11 @@ class PageHandler(BaseHTTPRequestHandler):
         if not isinstance(request, dict):
             self._send(HTTPStatus.BAD_REQUEST, b"a request must be a JSON object")
             return
-        answer = json.dumps(node.answer(request)).encode()
-        self._send(HTTPStatus.OK, answer, {"Content-Type": "application/json"})
+        self._send(
+            HTTPStatus.OK,
+            json.dumps(node.answer(request)).encode(),
+            {"Content-Type": "application/json"},
+        )
 
     def _send_page(self) -> None:
         packed = "gzip" in self.headers.get("Accept-Encoding", "")

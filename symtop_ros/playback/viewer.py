@@ -64,9 +64,9 @@ def start(*files: str, port: int | None = None, web: bool = False) -> subprocess
     if web:
         page = free_port()
         options += ["--serve-web", "--web-viewer-port", str(page)]
-        address = f"http://{HOST}:{serve_page(page, port)}/?url="
         source = f"rerun%2Bhttp%3A%2F%2F{HOST}%3A{port}%2Fproxy"
-        print(f"open {address}{source} in a browser; Ctrl-C ends it", flush=True)
+        address = f"http://{HOST}:{serve_page(page, port)}/?url={source}"
+        print(f"open {address} in a browser; Ctrl-C ends it", flush=True)
     if sys.platform != "win32":  # a closed terminal ends the caller, which ends the viewer
         signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
     return subprocess.Popen(

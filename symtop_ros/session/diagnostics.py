@@ -68,13 +68,6 @@ def balance_status(segment: Segment, stamp: int) -> Status:
 
 def _pace_status(simulation: Simulation) -> Status:
     asked, kept, ticker = simulation.settings.real_time_factor, simulation.factor, simulation.ticker
-    facts = {
-        "late": ticker.late,
-        "missed": ticker.missed,
-        "real_time_factor": asked,
-        "real_time_factor.achieved": kept if simulation.segment.running else 0.0,
-        "kernel_version": kernel_version(),
-    }
     level = WARN if kept < asked or ticker.missed >= CATCH_UP * ticker.rate else OK
     message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"
     if kept < asked:
@@ -82,7 +75,18 @@ def _pace_status(simulation: Simulation) -> Status:
             f"the motion is too fast for the compute budget: real-time factor {kept:.3g} "
             f"instead of {asked:.3g}"
         )
-    return make_status("pace", level, message, facts)
+    return make_status(
+        "pace",
+        level,
+        message,
+        {
+            "late": ticker.late,
+            "missed": ticker.missed,
+            "real_time_factor": asked,
+            "real_time_factor.achieved": kept if simulation.segment.running else 0.0,
+            "kernel_version": kernel_version(),
+        },
+    )
 
 
 def _log_status(recorder: Recorder) -> Status:

@@ -325,7 +325,7 @@ class Settings:
     def from_scene(cls, name: object, **changes: Any) -> "Settings":
         """Return the settings of a scene, with changes (`__` for the dots in their names)."""
         named = {key.replace("__", "."): value for key, value in changes.items()}
-        return cls.from_values({**load_scene(name), **named})
+        return cls.from_values(load_scene(name) | named)
 
 
 def list_body(motion: Motion) -> dict[str, float]:

@@ -52,8 +52,10 @@ class GhostView:
             self._stream.log_mesh(GHOST, create_body(self.segment.motion.top), OPACITY)
             # The axis is seen where the bodies overlap.
             line = [(0, 0, 0), (0, 0, 1)]
-            axis = rr.LineStrips3D([line], colors=[(*WHITE, 190)], radii=[0.005])
-            self._stream.log(f"{GHOST}/axis", axis)
+            self._stream.log(
+                f"{GHOST}/axis",
+                rr.LineStrips3D([line], colors=[(*WHITE, 190)], radii=[0.005]),
+            )
 
     def send(self, stamps: Stamps, length: float) -> None:
         """Send the states at some of the stamps, and the trace, visible for some time (s)."""

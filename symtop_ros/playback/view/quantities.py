@@ -105,8 +105,10 @@ def potentials_at(top: Top, angles: Real) -> list[EffectivePotential]:
     axial = top.Iz * (angles[:, 5] + angles[:, 3] * cosine)
     vertical = top.Ix * sine * sine * angles[:, 3] + axial * cosine
     _, energies, _ = heights_of_dots(top, angles)
-    rows = zip(vertical.tolist(), axial.tolist(), energies.tolist(), strict=True)
-    return [EffectivePotential(top, *row) for row in rows]
+    return [
+        EffectivePotential(top, *row)
+        for row in zip(vertical.tolist(), axial.tolist(), energies.tolist(), strict=True)
+    ]
 
 
 def scales_of_constants(top: Top, values: Real) -> Real:

@@ -109,10 +109,14 @@ def send_arrows(stream: entities.Stream, stamps: Stamps, torques: Torques, scale
         "precession": (pivot, precession),
     }
     for name, (tails, vectors) in placed.items():
-        origins = tails - [0.0, 0.0, ARROWS[name].depth]
         along, up = ARROWS[name].place
-        places = along * torques.nodes[::step] + [0.0, 0.0, up]
-        stream.send_arrows(f"{entities.INERTIAL}/{name}", stamps[::step], vectors, places, origins)
+        stream.send_arrows(
+            f"{entities.INERTIAL}/{name}",
+            stamps[::step],
+            vectors,
+            places=along * torques.nodes[::step] + [0.0, 0.0, up],
+            origins=tails - [0.0, 0.0, ARROWS[name].depth],
+        )
 
 
 class FictitiousView:
@@ -143,9 +147,12 @@ class FictitiousView:
         for name, (origins, vectors) in place_arrows(torques, phi, self._scale).items():
             # The label of an arrow without length has no place: it would be read as a torque.
             along = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
-            places = origins + vectors + GAP * along + [0.0, 0.0, RAISED]
             self._stream.send_arrows(
-                f"{entities.FICTITIOUS}/{name}", stamps, vectors, places, origins
+                f"{entities.FICTITIOUS}/{name}",
+                stamps,
+                vectors,
+                places=origins + vectors + GAP * along + [0.0, 0.0, RAISED],
+                origins=origins,
             )
 
 

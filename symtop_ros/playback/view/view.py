@@ -152,8 +152,9 @@ class View:
         if found := quantities.attitudes(columns):
             stamps, quaternions = found
             self._stream.send_turns(entities.BODY, stamps, quaternions)
-            traced = self._trace.strips(stamps, quantities.axis_of(quaternions))
-            self._stream.send_lines(entities.TRACE, *traced)
+            self._stream.send_lines(
+                entities.TRACE, *self._trace.strips(stamps, quantities.axis_of(quaternions))
+            )
             if self._ghost:
                 self._ghost.send(stamps, self._trace.length)
         for name, arrow in ARROWS.items():

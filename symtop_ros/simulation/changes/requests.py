@@ -119,8 +119,11 @@ def read_pushes(request: Mapping[str, Any], motion: Motion) -> Pushes:
     if {*given} != {*PUSHES}:
         raise RefusedError(f"pushes must have {', '.join(PUSHES)}, got {show(given)}")
     if motion.is_driven:
-        acting = [*astuple(motion.friction), *motion.applied_torque]
-        raise reject("friction and torque", "0 for a series of pushes", acting)
+        raise reject(
+            "friction and torque",
+            "0 for a series of pushes",
+            [*astuple(motion.friction), *motion.applied_torque],
+        )
     return Pushes.read(*(request[name] for name in PUSHES))
 
 

@@ -210,8 +210,10 @@ class Imu:
     def measure_field(self, state: State, stamps: Any) -> tuple[Real, Real]:
         """Return the field in T that an exact magnetometer measures, and the errors of this one."""
         assert self.magnetometer
-        noise = self.magnetometer.noise(self.rate, self.begin)
-        return self.magnetometer.measure(state, self.mount), noise.draw(stamps)
+        return (
+            self.magnetometer.measure(state, self.mount),
+            self.magnetometer.noise(self.rate, self.begin).draw(stamps),
+        )
 
 
 # A good consumer sensor (Bosch BMI088, with walks from its bias stability).
