@@ -40,12 +40,14 @@ def main(args: list[str] | None = None) -> int:
 
 def _run(_: argparse.Namespace, listen: Callable[[], None]) -> int:
     """Spin until shutdown; return 1 if a tick or the recording failed (both were reported)."""
+    # Not rclpy's EventsExecutor: as it waits, other threads stand still (rclpy 9.1, Kilted). It is
+    # created before a signal can shut ROS down, as the node is.
+    executor = SingleThreadedExecutor()
     top = TopNode()
     gc.freeze()  # collecting garbage among the objects of the start would delay ticks
     try:
         listen()
-        # Not rclpy's EventsExecutor: as it waits, other threads stand still (rclpy 9.1, Kilted).
-        rclpy.spin(top, SingleThreadedExecutor())
+        rclpy.spin(top, executor)
     except Exception:
         if rclpy.ok():
             raise
