@@ -12,6 +12,7 @@ import json
 import socket
 import sys
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from socketserver import TCPServer
@@ -169,11 +170,10 @@ class PageHandler(BaseHTTPRequestHandler):
         """Return True for an address in numbers, with or without a port, or a name of this host."""
         # Two headers of one name are an attempt to pass one check with each.
         hosts = self.headers.get_all("Host") or []
-        try:
+        with suppress(ValueError):  # of brackets that hold no address, and of a foreign name
             name = urlsplit(f"//{hosts[0]}").hostname or "" if len(hosts) == 1 else ""
-        except ValueError:  # brackets that hold no address
-            return False
-        return name in self.server.names or _is_address(name)
+            return name in self.server.names or bool(ipaddress.ip_address(name))
+        return False
 
     def log_message(self, format: str, *args: Any) -> None:  # noqa: A002
         """Log nothing: requests are no news."""
@@ -189,11 +189,3 @@ def _find_name(host: str) -> str:
             return str(probe.getsockname()[0])
         except OSError:
             return LOCAL_HOST
-
-
-def _is_address(name: str) -> bool:
-    try:
-        ipaddress.ip_address(name)
-    except ValueError:
-        return False
-    return True

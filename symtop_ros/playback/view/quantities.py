@@ -67,8 +67,9 @@ def join(samples: ColumnsByTopic, *topics: str) -> tuple[Stamps, list[Real]] | N
     if all(np.array_equal(stamps, each.stamps) for each in chosen):
         return stamps, [each.numbers for each in chosen]
     stamps = reduce(np.intersect1d, (each.stamps for each in chosen))
-    places = [np.intersect1d(each.stamps, stamps, return_indices=True)[1] for each in chosen]
-    numbers = [each.numbers[place] for each, place in zip(chosen, places, strict=True)]
+    numbers = [
+        each.numbers[np.intersect1d(each.stamps, stamps, return_indices=True)[1]] for each in chosen
+    ]
     return (stamps, numbers) if len(stamps) else None
 
 
