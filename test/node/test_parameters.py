@@ -27,7 +27,6 @@ from symtop_ros.simulation.validation import RefusedError
     [
         ({"scene": "nowhere"}, "scene must be one of backward_start, bicycle_wheel,"),
         ({"top__Mg": 1.0}, "parameter name must be known (the nearest is top.Mgl), got 'top.Mg'"),
-        ({"publish_rate": "fast"}, "publish_rate must be 1 to 2000 Hz, got 'fast'"),
         (
             {"use_sim_time": True, "publish_clock": True},
             "publish_clock must be false together with use_sim_time, got true",

@@ -34,11 +34,6 @@ def test_a_node_starts_from_its_dumped_parameters(start_top, start_from, capfd):
     assert "unknown" not in capfd.readouterr().err
 
 
-def test_an_empty_list_in_a_parameter_file_is_not_set(start_from):
-    text = "/**:\n  ros__parameters:\n    steady_torque: []\n    initial: {orientation: []}\n"
-    assert start_from(text).top.simulation.settings.steady_torque == (0.0, 0.0, 0.0)
-
-
 def test_unknown_parameters_of_other_nodes_are_warned_about(start_from, capfd):
     start_from("/**:\n  ros__parameters:\n    camera: {exposure: 3.0}\n")
     assert "'camera.exposure' is unknown" in capfd.readouterr().err

@@ -11,7 +11,6 @@ from symtop_ros.models.urdf import LENGTH
 from symtop_ros.physics import ExactTimes
 from symtop_ros.session.diagnostics import _log_status, _pace_status
 from symtop_ros.session.outputs import ARROWS, PERIOD, Markers, list_fixed_frames
-from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
@@ -184,19 +183,6 @@ def test_without_odometry_the_sensor_alone_has_a_fixed_frame():
     session, _ = start(host, imu__enabled=True)
     frames = list_fixed_frames("top", session.simulation.settings.imu, None)
     assert host.publishers["tf_static"].sent == [encode_transforms(0, frames)]
-
-
-@pytest.mark.parametrize("name", SERVICES)
-def test_each_service_is_answered_with_a_sentence(name, tmp_path):
-    host = Program()
-    session, clock = start(host, record__directory=str(tmp_path))
-    advance(session, clock, 0.1)
-    argument = {"named": {}, "switch": True, "plain": None}[SERVICES[name].kind]
-    granted, answer = session.answer(name, lambda: argument)
-    session.close()
-    assert granted == (name not in ("kick", "step")), answer
-    assert answer
-    assert host.errors == []
 
 
 @pytest.mark.parametrize(

@@ -24,20 +24,12 @@ def assert_rates_are_derivatives(run):
 
 
 @pytest.mark.parametrize("factor", [0.1, 1.0, 5.0])
-def test_stamps_advance_by_the_factor_and_differences_by_them_are_the_rates(factor):
-    run = start(real_time_factor=factor, publish_rate=400.0)
-    run.advance(0.6)
-    assert run.stamps == [k * SECOND // 400 for k in range(round(0.6 * factor * 400) + 1)]
-    assert_rates_are_derivatives(run)
-    run.assert_recomputed()
-
-
-@pytest.mark.parametrize("factor", [0.1, 1.0, 5.0])
 def test_time_stands_still_in_a_pause_and_no_period_is_lost(factor):
     run = start(real_time_factor=factor, publish_rate=400.0)
     run.advance(0.3)
     assert run.ask("pause", True)[0]
     before, last = len(run.sink.samples), run.sink.samples[-1][0]
+    assert before == round(0.3 * factor * 400) + 1
     run.advance(3.0)
     assert len(run.sink.samples) == before
     assert run.simulation.now == last

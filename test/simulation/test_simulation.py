@@ -15,13 +15,6 @@ from symtop_ros.simulation.topics import STATE_TOPICS
 MS = SECOND // 1000
 
 
-def test_samples_lie_on_the_grid_and_follow_the_closed_form():
-    run = Run()
-    run.advance(1.0)
-    assert run.stamps == [5 * MS * k for k in range(201)]
-    run.assert_recomputed()
-
-
 def test_the_tick_after_the_last_sample_waits_for_a_change_of_the_clock():
     run = Run()
     run.tick()

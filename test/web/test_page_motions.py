@@ -7,30 +7,12 @@ from web.opened import find_time, read_motion
 from symtop_ros.physics import (
     Body,
     ExactTimes,
-    Motion,
     Top,
     apply_impulse,
-    hurry,
-    kick_verdict,
 )
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.wording import write
-
-
-def test_a_hurry_is_that_of_python_to_the_last_bit_and_letter(opened):
-    opened.wait_for_time(0.05)
-    opened.tab.click("#hurry")
-    why = opened.say("why")
-    start, kick = opened.read_events()
-    before = read_motion(start).at(find_time(start, kick))
-    after = hurry(before, 1.4)
-    assert kick["orientation"] == after.given_orientation.tolist()
-    assert kick["angular_velocity"] == after.angular_velocity.tolist()
-    verdict = kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_rate")
-    assert why == write("kick", verdict)
-    assert opened.say("headline").startswith("The top rises 0.063")
 
 
 def test_every_scene_starts_with_the_doubles_of_a_node(opened):
