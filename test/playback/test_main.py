@@ -108,7 +108,6 @@ def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
     ("arguments", "sentence"),
     [
         (["none.mcap"], "cannot open none.mcap: No such file or directory"),
-        (["none.mcap", "--check"], "cannot open none.mcap: No such file or directory"),
         (["{log}", "--save", "out.mp4"], "--save must be a name that ends in .rrd or .html"),
         (["{log}", "--save", "none/out.rrd"], "cannot write none/out.rrd: No such file or dir"),
         (["{log}", "--save", "none/out.html"], "cannot write none/out.html: No such file or dir"),
