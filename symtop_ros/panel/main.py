@@ -109,8 +109,9 @@ def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None 
     port = PORT if options.port is None else options.port
     try:
         server = PageServer(host, port, page, node)
-    except OSError as error:
-        reason = (os.strerror(error.errno) if error.errno else str(error)).lower()
+    except (OSError, TypeError) as error:  # the latter for a host that is no name at all
+        code = getattr(error, "errno", None)
+        reason = (os.strerror(code) if code else str(error)).lower()
         raise ValueError(
             f"port must be free on an address of this machine, got {host} port {port} ({reason}); "
             "use --port for another port"
