@@ -62,9 +62,9 @@ class NodePublisher:
 
 def _check_depth(profile: QoSProfile) -> SetParametersResult:
     """Refuse a depth that the middleware would report in several lines, or read as the default."""
-    return SetParametersResult(
-        successful=profile.depth > 0, reason=f"depth {profile.depth} (must be >= 1)"
-    )
+    if profile.depth > 0:
+        return SetParametersResult(successful=True)
+    return SetParametersResult(successful=False, reason=f"depth {profile.depth} (must be >= 1)")
 
 
 class NodeHost:
