@@ -60,8 +60,7 @@ class Session:
 
     def answer(self, service: str, read: Callable[[], Any]) -> Response:
         """Carry out a request; `read` returns its argument, or raises RefusedError."""
-        act = SERVICES[service].act
-        return self.simulation.answer(service, lambda: act(self._requests, read()))
+        return self.simulation.answer(service, self._requests.find(service, read))
 
     def log_torque(self, data: bytes) -> None:
         """Log the bytes of an applied torque, accepted or not."""
@@ -116,7 +115,7 @@ class Session:
 
 @dataclass(frozen=True)
 class Requests:
-    """Requests to a simulation, from plain values: a method for each record of `services`.
+    """Requests to a simulation, from plain values: for each record of `services` a method.
 
     Call them in a turn. Each returns the text of its answer and raises RefusedError if it is
     refused; the motion is then unchanged.
@@ -124,6 +123,11 @@ class Requests:
 
     _simulation: Simulation
     record: Callable[[bool], str]
+
+    def find(self, service: str, read: Callable[[], Any]) -> Callable[[], str]:
+        """Return what carries out a request to a service; `read` returns its argument."""
+        act: Callable[..., str] = getattr(self, service)
+        return act if SERVICES[service].kind == "plain" else lambda: act(read())
 
     def set_initial_conditions(self, values: Values) -> str:
         """Restart from named values; see `initial_state`."""

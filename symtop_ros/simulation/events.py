@@ -112,7 +112,7 @@ class Event:
             **({} if pushes is None else {"before.pushes": str(pushes)}),
             "after.orientation": write_text(after.orientation.tolist()),
             "after.angular_velocity": write_text(after.angular_velocity.tolist()),
-            **following.rig.to_values(),
+            **following.rig.values,
             "kind": motion.kind,
             "engine": motion.engine,
             "kernel_version": kernel_version(),

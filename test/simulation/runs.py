@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from typing import Any
 
 from symtop_ros.arrays import Real, Stamps
-from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Requests
 from symtop_ros.simulation.block import Block
 from symtop_ros.simulation.events import Event
@@ -118,5 +117,4 @@ class Run:
 
     def ask(self, name: str, argument: Any = None) -> tuple[bool, str]:
         """Carry out a request by its name; return success and the answer."""
-        act = SERVICES[name].act
-        return self.simulation.answer(name, lambda: act(self.requests, argument))
+        return self.simulation.answer(name, self.requests.find(name, lambda: argument))

@@ -227,8 +227,9 @@ class Rig:
     gravity: float = STANDARD_GRAVITY  # m/s^2
     imu: Imu | None = None  # the sensor on the top, or None
 
-    def to_values(self) -> dict[str, str]:
-        """Return the values for an event, in decimals that read back to the same doubles."""
+    @cached_property
+    def values(self) -> Mapping[str, str]:
+        """The values for an event, in decimals that read back to the same doubles."""
         values = {"gravity": repr(self.gravity)}
         if imu := self.imu:
             values |= {
