@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 Real = NDArray[np.float64]
 Stamps = NDArray[np.int64]  # ns
+Mask = NDArray[np.bool_]
+Places = NDArray[np.intp]  # of elements of an array
 Vector = tuple[float, float, float]
 CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 

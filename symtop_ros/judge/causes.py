@@ -222,9 +222,8 @@ def _name_changes(found: Finding, of_sensor: bool) -> list[str]:
     several = {each.change: each for each in (found.best, *found.others)}
     if list(several) == [""]:
         return []
-    frame = "body" if of_sensor else "sensor"
-    keys = [frame if name == "frame" else name or "none" for name in several]
-    return [", or ".join(write(f"change.{key}", {}) for key in keys)]
+    names = {"": "none", "frame": "body" if of_sensor else "sensor"}
+    return [", or ".join(write(f"change.{names.get(name, name)}", {}) for name in several)]
 
 
 def _find_rates(some: Estimates, truth: Truth, offset: Offset) -> Iterator[str]:

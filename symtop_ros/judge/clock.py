@@ -7,7 +7,6 @@ the angular velocity, beyond what is left across it, is jitter.
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -44,8 +43,7 @@ def measure_clock(estimates: Estimates, truth: Truth, source: str, model: str = 
     _demand_enough(len(run), source)
     # In the middle delay and rate are independent: at an end the delay is half as sure.
     middle = int(run.stamps[0]) // 2 + int(run.stamps[-1]) // 2
-    rotations = model.split("+", maxsplit=1)[0]
-    fitted = align(estimates, truth, f"{rotations}+delay+clock", middle)
+    fitted = align(estimates, truth, f"{model.partition('+')[0]}+delay+clock", middle)
     left, omega, stamps = _find_left(fitted.offset, truth, run)
     _demand_enough(len(left), source)
     kind, jitter = _find_jitter(left, omega)
@@ -73,8 +71,8 @@ def _find_left(offset: Offset, truth: Truth, run: Estimates) -> tuple[Real, Real
     run, exact, rates = run.select(known), exact[known], rates[known]
     turned = compose(offset.turn_world(run.stamps), exact)
     model = compose(turned, offset.turn_body(run.stamps))
-    left = find_rotation_vectors(compose(run.orientations, invert(model)))
-    return left, to_rotation(turned).apply(rates), run.stamps
+    left = compose(run.orientations, invert(model))
+    return find_rotation_vectors(left), to_rotation(turned).apply(rates), run.stamps
 
 
 def _find_jitter(left: Real, omega: Real) -> tuple[str, float]:
@@ -96,14 +94,14 @@ def _find_jitter(left: Real, omega: Real) -> tuple[str, float]:
 
 def format_clocks(clocks: list[Clock]) -> str:
     """Return a sentence for each clock."""
-    return "\n".join(write("clock_of_stamps", _to_record(each)) for each in clocks)
-
-
-def _to_record(clock: Clock) -> dict[str, Any]:
-    return {
-        "source": clock.source,
-        "estimates": clock.estimates,
-        "delay": {"value": clock.delay, "deviation": clock.delay_deviation},
-        "rate": {"value": clock.rate, "deviation": clock.rate_deviation},
-        "jitter": {"kind": clock.kind, "value": clock.jitter},
-    }
+    records = (
+        {
+            "source": clock.source,
+            "estimates": clock.estimates,
+            "delay": {"value": clock.delay, "deviation": clock.delay_deviation},
+            "rate": {"value": clock.rate, "deviation": clock.rate_deviation},
+            "jitter": {"kind": clock.kind, "value": clock.jitter},
+        }
+        for clock in clocks
+    )
+    return "\n".join(write("clock_of_stamps", record) for record in records)

@@ -15,7 +15,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real, Stamps, compose, invert
@@ -71,7 +70,7 @@ NONE = Offset(IDENTITY, IDENTITY)
 class Errors:
     """Errors of estimates at their stamps."""
 
-    stamps: NDArray[np.int64]  # in ns
+    stamps: Stamps  # in ns
     total: Real  # angle of the rotation that would correct the attitude, in rad
     tilt: Real  # its part that turns the vertical (swing), in rad
     heading: Real  # its part about the vertical (twist), in rad, with its sign
@@ -84,6 +83,17 @@ class Errors:
     def seconds(self) -> Real:
         """Times since the first estimate in s, (n,)."""
         return (self.stamps - self.stamps[:1]) / NANOSECONDS
+
+    @property
+    def quantities(self) -> dict[str, Real]:
+        """Sizes of all errors, (n,), by the names that JSON has."""
+        rates = {} if self.rate is None else {"angular_velocity": self.rate}
+        return {
+            "attitude": self.total,
+            "tilt": self.tilt,
+            "heading": np.abs(self.heading),
+            **rates,
+        }
 
     def growth(self) -> Real:
         """Return the root mean square of the error in each tenth of the run, (10,), in rad."""
@@ -103,18 +113,17 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
     world = offset.turn_world(chosen.stamps)
     body = offset.turn_body(chosen.stamps)
     q = compose(compose(invert(world), chosen.orientations), invert(body))
-    wrong = compose(q, invert(exact))
     # |q - exact| is 2 sin(angle/4). An arccosine of their product would lose half of the digits.
     sine = np.linalg.norm(subtract(q, exact), axis=1) / 2
     total = 4 * np.arcsin(np.minimum(sine, 1.0))
-    w, x, y, z = wrong.T
+    w, x, y, z = compose(q, invert(exact)).T
     tilt = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
-    heading = _wrap(2 * np.arctan2(z, w))
+    heading = 2 * np.arctan2(z, w)
+    heading -= 2 * np.pi * np.rint(heading / (2 * np.pi))
     rate = None
     if chosen.angular_velocities is not None:
         rate = np.linalg.norm(to_rotation(body).apply(chosen.angular_velocities) - rates, axis=1)
-    late = truth.count_late(stamps)
-    early = truth.count_early(stamps)
+    early, late = truth.count_outside(stamps)
     unknown = int((~known).sum()) - late - early
     return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late, early)
 
@@ -142,10 +151,6 @@ def _turn_steadily(rate: float, nanoseconds: Stamps, start: Real) -> Real:
     return compose(np.stack((np.cos(half), zero, zero, np.sin(half)), axis=-1), start)
 
 
-def _wrap(angle: Real) -> Real:
-    return np.asarray(angle - 2 * np.pi * np.rint(angle / (2 * np.pi)))
-
-
 class Scaling:
     """The rotations D of each scale, at stamps (n,) in their order; the identity at the first."""
 
@@ -153,9 +158,9 @@ class Scaling:
         intervals = np.diff(stamps)
         counts = np.maximum(-(-intervals // STEP), 1)
         widths = np.repeat(intervals / counts, counts)
-        within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-        begins = np.repeat(stamps[:-1], counts) + within * widths
         self._ends = np.concatenate(([0], np.cumsum(counts)))
+        within = np.arange(counts.sum()) - np.repeat(self._ends[:-1], counts)
+        begins = np.repeat(stamps[:-1], counts) + within * widths
         parts = [self._rates(truth, begins + part * widths) for part in GAUSS]
         self._turns = (parts[0] + parts[1]) / 2 * widths[:, np.newaxis] / NANOSECONDS
 
@@ -203,8 +208,3 @@ def _accumulate(steps: Real) -> Real:
         shift *= 2
     rows[..., 1:, :, :] = compose(whole[..., :-1, np.newaxis, :], rows[..., 1:, :, :])
     return np.asarray(square[..., :count, :])
-
-
-def count_steps(stamps: Stamps) -> int:
-    """Return about how many steps the integration between stamps takes."""
-    return int((stamps[-1] - stamps[0]) // STEP) + len(stamps)

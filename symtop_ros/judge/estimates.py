@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real, Stamps
+from symtop_ros.arrays import Mask, Real, Stamps
 from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.layout import NANOSECONDS, DecodeError, Doubles, Layout, Reader, Stamp, Text
 from symtop_ros.wire.messages import (
@@ -67,14 +66,13 @@ class Estimates:
         rates = None if angular_velocities is None else angular_velocities[order]
         # Unit quaternions stay unchanged: a division would add the rounding that is measured.
         scale = np.where(np.abs(norms - 1) <= NORM_ROUNDING, 1.0, norms)[order, np.newaxis]
-        unit = q[order] / scale
-        return cls(times[order], unit, rates, left_out + int((~good).sum()))
+        return cls(times[order], q[order] / scale, rates, left_out + int((~good).sum()))
 
     def __len__(self) -> int:
         """Return the number of estimates."""
         return len(self.stamps)
 
-    def select(self, chosen: NDArray[np.bool_]) -> Estimates:
+    def select(self, chosen: Mask) -> Estimates:
         """Return the estimates for which `chosen` (n,) is True."""
         rates = self.angular_velocities
         return replace(
@@ -86,23 +84,25 @@ class Estimates:
 
     def thin(self, most: int) -> Estimates:
         """Return at least so many of the estimates, and less than twice, spread over the run."""
-        every = max(1, len(self) // most)
-        return self.select(np.arange(len(self)) % every == 0)
+        return self.select(np.arange(len(self)) % max(1, len(self) // most) == 0)
 
 
-TRANSFORM_STAMPED = Format(
-    "geometry_msgs/msg/TransformStamped",
-    TRANSFORM.quantities,
-    lambda frame, child: Layout(Stamp(), Text(frame), Text(child), Doubles(7)),
-    ODOMETRY.read_names,
-)
-POSE = define_stamped("geometry_msgs/msg/PoseStamped", position=3, orientation=4)
-POSE_WITH_COVARIANCE = define_stamped(
-    "geometry_msgs/msg/PoseWithCovarianceStamped", position=3, orientation=4, pose_covariance=36
-)
+POSE = {"position": 3, "orientation": 4}
 FORMATS = {
     form.type: form
-    for form in (QUATERNION, IMU, POSE, POSE_WITH_COVARIANCE, TRANSFORM_STAMPED, ODOMETRY)
+    for form in (
+        QUATERNION,
+        IMU,
+        define_stamped("geometry_msgs/msg/PoseStamped", **POSE),
+        define_stamped("geometry_msgs/msg/PoseWithCovarianceStamped", **POSE, pose_covariance=36),
+        Format(
+            "geometry_msgs/msg/TransformStamped",
+            TRANSFORM.quantities,
+            lambda frame, child: Layout(Stamp(), Text(frame), Text(child), Doubles(7)),
+            ODOMETRY.read_names,
+        ),
+        ODOMETRY,
+    )
 }
 
 

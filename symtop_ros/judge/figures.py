@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.judge.compare import Errors
 
 INK, BLUE, RED, GOLD = "#20242c", "#1f5f9e", "#cf5a2b", "#e3a72f"  # from dark to light
@@ -80,11 +80,6 @@ def write_figures(figures: Mapping[str, Callable[[], Figure]], folder: Path) -> 
             figure.savefig(folder / f"{name}.png", dpi=RESOLUTION)
 
 
-def write_plot(errors: Errors, folder: Path) -> None:
-    """Write judge.svg and judge.png into a folder: the errors against time."""
-    write_figures({"judge": lambda: draw_errors(errors)}, folder)
-
-
 def draw_errors(errors: Errors) -> Figure:
     """Draw the errors of attitude, heading, tilt, and of the angular velocity if there is one."""
     figure = new_figure(3.6 if errors.rate is None else 4.8)
@@ -105,6 +100,6 @@ def draw_errors(errors: Errors) -> Figure:
     return figure
 
 
-def _positive(values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _positive(values: Real) -> Real:
     """Return values for a logarithmic axis, on which an error of zero is not drawn."""
     return np.where(values > 0, values, np.nan)

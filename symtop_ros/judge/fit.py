@@ -4,10 +4,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.arrays import Real, compose, find_rotation_vectors, invert
+from symtop_ros.arrays import Mask, Real, compose, find_rotation_vectors, invert
 from symtop_ros.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
@@ -36,7 +35,7 @@ class Fit:
     some: Estimates
     truth: Truth
     # the last motion and gyroscope, by delay, clock and scale
-    _exact: dict[tuple[float, ...], tuple[Real, NDArray[np.bool_]]] = field(default_factory=dict)
+    _exact: dict[tuple[float, ...], tuple[Real, Mask]] = field(default_factory=dict)
     _scalings: dict[tuple[float, ...], Scaling] = field(default_factory=dict)
 
     @cached_property
@@ -44,7 +43,7 @@ class Fit:
         """No error, from the first estimate on."""
         return replace(NONE, begin=int(self.some.stamps[0]))
 
-    def exact(self, offset: Offset) -> tuple[Real, NDArray[np.bool_]]:
+    def exact(self, offset: Offset) -> tuple[Real, Mask]:
         """Return exact quaternions, as such a gyroscope shows them, and which are known."""
         key = offset.delay, offset.clock, offset.scale
         if key not in self._exact:
@@ -63,8 +62,8 @@ class Fit:
     def residuals(self, offset: Offset) -> tuple[Real, Real]:
         """Return the known estimates, and the model of them."""
         exact, known = self.exact(offset)
-        world = offset.turn_world(self.some.stamps)
-        model = compose(compose(world, exact), offset.turn_body(self.some.stamps))
+        turned = compose(offset.turn_world(self.some.stamps), exact)
+        model = compose(turned, offset.turn_body(self.some.stamps))
         return self.some.orientations[known], model[known]
 
     def find_left(self, offset: Offset) -> Real:

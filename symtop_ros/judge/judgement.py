@@ -6,8 +6,8 @@ from itertools import zip_longest
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from symtop_ros.arrays import Real
 from symtop_ros.judge.causes import Cause, Finding, find_mistakes
 from symtop_ros.judge.compare import NONE, PERCENTILES, Errors, compare
 from symtop_ros.judge.estimates import Estimates
@@ -48,13 +48,6 @@ class Judgement:
     def facts(self) -> dict[str, Any]:
         """Return all figures, for JSON."""
         errors = self.errors
-        quantities = {
-            "attitude": errors.total,
-            "tilt": errors.tilt,
-            "heading": np.abs(errors.heading),
-        }
-        if errors.rate is not None:
-            quantities["angular_velocity"] = errors.rate
         return {
             "source": self.source,
             "estimates": len(errors.total),
@@ -64,7 +57,7 @@ class Judgement:
             "left_out": self.left_out,
             "seconds": float(errors.seconds[-1]),
             "removed": list(self.removed),
-            **{name: summarize(values) for name, values in quantities.items()},
+            **{name: summarize(values) for name, values in errors.quantities.items()},
             "growth_rms": [None if np.isnan(x) else float(x) for x in errors.growth()],
             "aligned": self.aligned,
             "fitted": None if self.fitted is None else _describe_cause(self.fitted),
@@ -90,16 +83,14 @@ class Judgement:
     def _explain(self) -> str:
         """Return what explains the errors, and what the motion hides, in sentences."""
         if self.found is None:
+            parts = _list_parts(self.fitted) if self.fitted else []
+            several = {"several": parts} if parts else None
             rms = summarize(self.errors.total)["rms"]
-            record: dict[str, Any] = {"model": self.aligned, "parts": None, "residual": rms}
-            if self.fitted and (parts := _list_parts(self.fitted)):
-                record["parts"] = {"several": parts}
+            record = {"model": self.aligned, "parts": several, "residual": rms}
             return write("found.aligned", record)
         found, best = self.found, self.found.best
-        parts = _list_parts(best)
-        record = {"parts": parts, "residual": best.residual}
         key = _choose_key(found) if len(self.errors.total) > 1 else "single"
-        lines = [write(f"found.{key}", record)]
+        lines = [write(f"found.{key}", {"parts": _list_parts(best), "residual": best.residual})]
         if found.period is not None:
             world, body = found.repeated.angles
             lines.append(write("repeats", {"period": found.period, "world": world, "body": body}))
@@ -114,7 +105,7 @@ class Judgement:
             (self.left_out, "without a readable attitude"),
         )
         left_out = [f"left out: {number} estimates {what}" for number, what in counts if number]
-        return [*left_out, *(f"note: {note}" for note in self.notes)]
+        return left_out + [f"note: {note}" for note in self.notes]
 
 
 HIDDEN = {
@@ -145,9 +136,9 @@ def judge(
     found = find_causes(estimates, truth)
     taken = explain(estimates, truth, removed).offset if removed else NONE
     errors = compare(estimates, truth, taken)
-    mistakes = find_mistakes(estimates, truth, found)
-    notes = *(f"likely mistake: {each}" for each in mistakes), *estimates.notes
-    return Judgement(source, errors, found, None, None, removed, estimates.left_out, notes)
+    mistakes = (f"likely mistake: {each}" for each in find_mistakes(estimates, truth, found))
+    own = estimates.left_out, (*mistakes, *estimates.notes)
+    return Judgement(source, errors, found, None, None, removed, *own)
 
 
 def _choose_key(found: Finding) -> str:
@@ -202,13 +193,12 @@ def _describe_finding(found: Finding) -> dict[str, Any]:
     """Return what was found, for JSON."""
     best = found.best
     is_hidden = "delay" in found.hidden and "delay" not in best.parameters
-    hidden: dict[str, Any] = {"delay": None} if is_hidden else {}
     return {
         "explained": found.explained,
         "estimates_move": not found.still,
         "mistake": best.change or None,
         **_describe_cause(best),
-        **hidden,
+        **({"delay": None} if is_hidden else {}),
         "parameter_deviation": best.deviations[0] if best.deviations else None,
         "delay_period": found.period,
         "not_identifiable": list(found.hidden),
@@ -222,8 +212,9 @@ def _describe_absence(estimates: Estimates, truth: Truth, source: str) -> str:
     if not len(estimates):
         return f"{source} must have an attitude, got none of {estimates.left_out}{notes}"
     times = [estimates.stamps[0], estimates.stamps[-1], truth.begin or 0, truth.end]
-    spans = (None if t is None else f"{int(t) / NANOSECONDS:.3f} s" for t in times)
-    first, last, begin, end = spans
+    first, last, begin, end = (
+        None if t is None else f"{int(t) / NANOSECONDS:.3f} s" for t in times
+    )
     hint = "; times count from 0" if estimates.stamps[0] < YEAR <= (truth.begin or 0) else ""
     return (
         f"{source} must have stamps within the run, {begin} to {end or 'any later time'}, "
@@ -251,11 +242,11 @@ def _row(label: str, width: int, summary: dict[str, float]) -> str:
     return f"{label:{width}}" + "".join(f"{x:10.2e}" for x in summary.values())
 
 
-def summarize(values: NDArray[np.float64]) -> dict[str, float]:
+def summarize(values: Real) -> dict[str, float]:
     """Return root mean square, mean and percentiles."""
     marks = np.percentile(values, PERCENTILES).tolist()
     return {
         "rms": float(np.sqrt((values**2).mean())),
         "mean": float(values.mean()),
-        **{f"p{p}": float(x) for p, x in zip(PERCENTILES, marks, strict=True)},
+        **{f"p{p}": x for p, x in zip(PERCENTILES, marks, strict=True)},
     }

@@ -76,8 +76,7 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
                 spin_until(executor, min(end, time.monotonic() + PERIOD))
                 errors = court.judge()
                 worst = max(worst, float(errors.total.max()) if errors else 0.0)
-                text = _dump(errors) if options.json else _format(errors, court.truth)
-                print(text, flush=True)
+                print(_dump(errors) if options.json else _format(errors, court.truth), flush=True)
     except ExternalShutdownException:
         pass
     except RefusedError:
@@ -104,19 +103,16 @@ def _find_type(executor: SingleThreadedExecutor, node: Node, topic: str) -> str:
 
 def _dump(errors: Errors | None) -> str:
     """Return the figures of a second as a line of JSON."""
-    values = {} if errors is None else {"attitude": errors.total, "tilt": errors.tilt}
-    if errors is not None and errors.rate is not None:
-        values["angular_velocity"] = errors.rate
-    facts = {name: summarize(each) for name, each in values.items()}
-    return json.dumps({"estimates": 0 if errors is None else len(errors.total), **facts})
+    values = errors.quantities if errors else {}
+    facts = {name: summarize(each) for name, each in values.items() if name != "heading"}
+    return json.dumps({"estimates": len(errors.total) if errors else 0, **facts})
 
 
 def _format(errors: Errors | None, truth: Truth) -> str:
     if errors is None:
         return "no estimates" if truth.begin is not None else "no events of the top"
-    rms = np.sqrt((errors.total**2).mean())
     text = (
-        f"{len(errors.total)} estimates: attitude {rms:.2e} rad rms, "
+        f"{len(errors.total)} estimates: attitude {summarize(errors.total)['rms']:.2e} rad rms, "
         f"{errors.total.max():.2e} at most, tilt {errors.tilt.max():.2e}"
     )
     if errors.rate is not None:

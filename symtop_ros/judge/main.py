@@ -11,7 +11,7 @@ from symtop_ros.command import positive, tell_failures
 from symtop_ros.judge.clock import format_clocks, measure_clock
 from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.judgement import Judgement, format_several, judge
-from symtop_ros.judge.problems import run_testset
+from symtop_ros.judge.problems import run_testset, tell_limit
 from symtop_ros.judge.search import MODELS
 from symtop_ros.judge.tables import TABLES, read_table
 from symtop_ros.judge.truth import Truth, read_events, read_truth, scene_truth
@@ -20,8 +20,6 @@ from symtop_ros.simulation.validation import RefusedError, one_line
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
 top at the estimates' own stamps. The run must be in the log with its ~/events, or be a scene that
 starts at the stamp 0."""
-REMOVABLE = ("offset", "delay", "drift")
-EVENTS = ".json"  # of a run, as top_imu writes them
 SENSOR, BODY = "sensor", "body"
 
 
@@ -82,7 +80,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--remove",
         action="append",
-        choices=REMOVABLE,
+        choices=("offset", "delay", "drift"),
         default=[],
         help="subtract the constant rotations, the delay (up to 0.5 s), or the drift of the "
         "heading that were found",
@@ -151,20 +149,13 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
     print(_format(judgements, options.json))
     if options.output:
         _write(judgements, options.output)
-    largest = max(each.largest for each in judgements)
-    if options.max_error and largest > options.max_error:
-        limit = f"{options.max_error:g} rad"
-        print(
-            f"top_judge: the attitude is off by {largest:.3g} rad, limit {limit}", file=sys.stderr
-        )
-        return 1
-    return 0
+    return tell_limit(max(each.largest for each in judgements), options.max_error)
 
 
 def _read_run(options: argparse.Namespace) -> Truth:
     if options.scene:
         return scene_truth(options.scene)
-    if [path.suffix for path in options.files] == [EVENTS]:
+    if [path.suffix for path in options.files] == [".json"]:  # as top_imu writes them
         return read_events(options.files[0])
     from symtop_ros.log.top_log import (
         TopLog,
@@ -193,11 +184,11 @@ def _write(judgements: list[Judgement], folder: Path) -> None:
     if len(judgements) > 1:
         return
     try:
-        from symtop_ros.judge.figures import write_plot
+        from symtop_ros.judge.figures import draw_errors, write_figures
     except ModuleNotFoundError as error:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
     else:
-        write_plot(judgements[0].errors, folder)
+        write_figures({"judge": lambda: draw_errors(judgements[0].errors)}, folder)
 
 
 def _read_estimates(options: argparse.Namespace) -> Iterator[tuple[str, Estimates]]:

@@ -78,12 +78,16 @@ def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> i
         entries = [Entry(path.stem, score.score_file(problems, options.testset, path))]
         facts = json.dumps(entries[0].facts(), indent=1)
         print(facts if options.json else entries[0].score.format())
-    worst = max(each.error for each in entries)
-    if options.max_error and worst > options.max_error:
-        limit = f"limit {options.max_error:g} rad"
-        print(f"top_judge: the attitude is off by {worst:.3g} rad, {limit}", file=sys.stderr)
-        return 1
-    return 0
+    return tell_limit(max(each.error for each in entries), options.max_error)
+
+
+def tell_limit(error: float, limit: float | None) -> int:
+    """Return the status of an error of the attitude: 1, with a line, if it is above the limit."""
+    if not limit or error <= limit:
+        return 0
+    text = f"top_judge: the attitude is off by {error:.3g} rad, limit {limit:g} rad"
+    print(text, file=sys.stderr)
+    return 1
 
 
 def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
@@ -130,7 +134,7 @@ def _describe_models(facts: Mapping[str, Any]) -> dict[str, str]:
     """Return the models of a problem in all descriptions; without weight, also with no joint."""
     top = Top(facts["Ix"], facts["Iz"], facts["Mgl"])
     formats = FORMATS if top.Mgl else {**FORMATS, **FREE_FORMATS}
-    start, body, name = _read_start(facts), _read_body(facts), facts["name"]
+    (start, body), name = _read_motion(facts), facts["name"]
     texts = {f"{name}.{form}": write(top, start, body) for form, write in formats.items()}
     for each, (form, write) in product(score.DESCRIPTIONS, formats.items()):
         if (each, form) not in UNSAID:
@@ -138,12 +142,9 @@ def _describe_models(facts: Mapping[str, Any]) -> dict[str, str]:
     return texts
 
 
-def _read_start(facts: Mapping[str, Any]) -> State:
-    return State(facts["orientation"], facts["angular_velocity"])
-
-
-def _read_body(facts: Mapping[str, Any]) -> Body:
-    return Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
+def _read_motion(facts: Mapping[str, Any]) -> tuple[State, Body]:
+    body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
+    return State(facts["orientation"], facts["angular_velocity"]), body
 
 
 def _read_shared() -> dict[str, str]:
@@ -157,7 +158,7 @@ def _read_readme() -> str:
 
 def _introduce(facts: Mapping[str, Any]) -> str:
     """Return the README of a copied problem: how it starts in engines, then that of the set."""
-    start, body, duration = _read_start(facts), _read_body(facts), facts["times"][-1]
+    (start, body), duration = _read_motion(facts), facts["times"][-1]
     snippets = format_snippets(facts["name"], start, body, duration)
     sections = _read_readme().split("\n## ")
     return INTRODUCTION.format(

@@ -81,10 +81,9 @@ class Entry:
 
 def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
     """Return the scores of all PROBLEM/NAME.csv in a folder; PROBLEM.turned is a description."""
-    described = [f"{name}{end}" for name in problems for end in ENDINGS]
     entries = [
         Entry(path.stem, problem.score(*read_trajectory(path, problem)))
-        for problem in (find_problem(problems, name) for name in described)
+        for problem in (find_problem(problems, name + end) for name in problems for end in ENDINGS)
         for path in sorted((folder / problem.facts["name"]).glob("*.csv"))
         if path.name not in TABLES  # the problem and its exact motion are no entries
     ]
@@ -192,15 +191,18 @@ def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> s
 
 def format_json(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> str:
     """Return the same as JSON, with the errors at each time."""
-    orders = [
-        {"problem": problem, "method": method, "order": order}
-        for (problem, method), order in find_orders(entries).items()
-    ]
-    ranking = {str(level): [asdict(row) for row in rows] for level, rows in rank(entries, problems)}
-    differences = [
-        {"problem": problem, "entry": name, "errors": errors}
-        for (problem, name), errors in find_differences(entries).items()
-    ]
-    scores = [each.facts() for each in entries]
-    facts = {"scores": scores, "orders": orders, "differences": differences, "ranking": ranking}
+    facts = {
+        "scores": [each.facts() for each in entries],
+        "orders": [
+            {"problem": problem, "method": method, "order": order}
+            for (problem, method), order in find_orders(entries).items()
+        ],
+        "differences": [
+            {"problem": problem, "entry": name, "errors": errors}
+            for (problem, name), errors in find_differences(entries).items()
+        ],
+        "ranking": {
+            level: [asdict(row) for row in rows] for level, rows in rank(entries, problems)
+        },
+    }
     return json.dumps(facts, indent=1)

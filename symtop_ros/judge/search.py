@@ -20,7 +20,7 @@ from symtop_ros.judge.causes import (
     fit_rotations,
     set_parameter,
 )
-from symtop_ros.judge.compare import MOST_STEPS, NONE, Offset, compare, count_steps
+from symtop_ros.judge.compare import MOST_STEPS, NONE, STEP, Offset, compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES, Fit
 from symtop_ros.judge.truth import Truth
@@ -77,8 +77,8 @@ class Search:
         self.fit = self.fits[""]
         self.tables = Tables(truth, self.fit.fastest)
         self.hidden = HIDDEN.get(truth.kind, ())
-        is_long = count_steps(self.some.stamps) > MOST_STEPS
-        self.names = [name for name in PARAMETERS if name != "scale" or not is_long]
+        steps = int(np.ptp(self.some.stamps)) // STEP + len(self.some)
+        self.names = [name for name in PARAMETERS if name != "scale" or steps <= MOST_STEPS]
 
     def find(self) -> Finding:
         """Return the simplest of all explanations."""
@@ -115,8 +115,7 @@ class Search:
     def select(self, found: Sequence[Cause], count: int) -> list[Cause]:
         """Return those that are as good as the best one, in the noise of so many estimates."""
         lowest = min(found, key=lambda each: each.cost)
-        chance = 1 + CHANCE / (3 * count)
-        factor = min(chance, SIMPLER) if self.is_white(lowest) else SIMPLER
+        factor = min(1 + CHANCE / (3 * count), SIMPLER) if self.is_white(lowest) else SIMPLER
         return [each for each in found if each.cost <= factor * lowest.cost + self.fit.rounding]
 
     def choose(self, found: Sequence[Cause], count: int) -> tuple[Cause, list[Cause]]:
@@ -269,8 +268,12 @@ def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = No
     exact, known = fit.exact(fit.start)
     models = fit.some.orientations[None], exact[None], known[None].astype(float)
     _, world, body = fit_rotations(models, level)
-    at = fit.start.begin if begin is None else begin
-    start = replace(fit.start, world=world[0], body=body[0], begin=at)
+    start = replace(
+        fit.start,
+        world=world[0],
+        body=body[0],
+        begin=fit.start.begin if begin is None else begin,
+    )
     found = refine(fit, ("", level, tuple(names)), start, is_sure=True)
     for name in names:
         others = [*LEVELS[level][0], *(PARAMETERS[each] for each in names if each != name)]

@@ -73,8 +73,7 @@ def _split(line: str, separator: str | None) -> list[str]:
 
 
 def _is_named(head: Row) -> bool:
-    names = [name.lstrip("# ") for name in head if name.strip("# ")]
-    return set(COLUMNS) <= set(names)
+    return set(COLUMNS) <= {name.lstrip("# ") for name in head}
 
 
 def _find_columns(path: Path, head: Row, first: str, separator: str | None) -> ColumnPlaces:

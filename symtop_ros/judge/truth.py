@@ -8,9 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real, Stamps, compose
+from symtop_ros.arrays import Mask, Real, Stamps, compose
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.requests import start_motion
@@ -70,17 +69,12 @@ class Truth:
         period = segment.motion.nutation_period / segment.factor
         return float(period) if np.isfinite(period) and period > 0 else None
 
-    def count_early(self, stamps: Stamps) -> int:
-        """Return how many stamps are before the run."""
-        return 0 if self.begin is None else int((stamps < self.begin).sum())
+    def count_outside(self, stamps: Stamps) -> tuple[int, int]:
+        """Return how many stamps are before the run, and how many after its last sample."""
+        early = 0 if self.begin is None else int((stamps < self.begin).sum())
+        return early, 0 if self.end is None else int((stamps > self.end).sum())
 
-    def count_late(self, stamps: Stamps) -> int:
-        """Return how many stamps are after the last sample of the run."""
-        return 0 if self.end is None else int((stamps > self.end).sum())
-
-    def states_at(
-        self, stamps: Stamps, of_sensor: bool = False
-    ) -> tuple[Real, Real, NDArray[np.bool_]]:
+    def states_at(self, stamps: Stamps, of_sensor: bool = False) -> tuple[Real, Real, Mask]:
         """Return quaternions (n, 4), rates (n, 3) and the mask of those known, at stamps.
 
         They are those of the body and in its frame; with `of_sensor` those of the sensor that is
