@@ -15,9 +15,8 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from symtop_ros.arrays import Stamps
+from symtop_ros.arrays import Mask, Places, Real, Stamps
 from symtop_ros.log.batch import TF
 from symtop_ros.log.top_log import SeveralFiles, TopLog
 from symtop_ros.log.writer import ENDING, METADATA
@@ -52,24 +51,22 @@ class Course:
         gaps = [bool(self._find_missing(*pair)) for pair in pairwise(numbers)]
         self.has_gap = np.array([*gaps, not all_readable][: len(numbers)], dtype=np.bool_)
         # True if no stamp is repeated, so that the stamps alone decide.
-        self.is_ordered = bool((self._begins[1:] >= self._ends[:-1]).all())
-        self.is_ordered &= bool((self._begins <= self._ends).all())
+        follows, lasts = self._begins[1:] >= self._ends[:-1], self._begins <= self._ends
+        self.is_ordered = bool(follows.all() and lasts.all())
 
-    def list_missing(self) -> list[str]:
+    def list_missing(self) -> Iterator[str]:
         """Describe the events that are missing between others, with the stamps around them."""
-        found = []
         for place in np.flatnonzero(self.has_gap[:-1]).tolist():
-            before, after = self._events[place], self._events[place + 1]
+            before, after = self._events[place : place + 2]
             missing = self._find_missing(before.number, after.number)
             first, last = missing[0], missing[-1]
             which = f"event {first} is" if first == last else f"events {first} to {last} are"
-            found.append(
+            yield (
                 f"{which} missing, between {before.stamp} and {after.stamp} ns; samples that "
                 "follow from what is missing are not judged"
             )
-        return found
 
-    def list_repeated(self, allowed: int) -> list[str]:
+    def list_repeated(self, allowed: int) -> Iterator[str]:
         """Describe the events that are repeated.
 
         Each file of a run but the first may begin with the last event of the one before: `allowed`
@@ -77,8 +74,8 @@ class Course:
         """
         keys = [(event.number, event.stamp) for event in self._events]
         allowed = min(allowed, sum(before == after for before, after in pairwise(keys)))
-        repeated = len(keys) - len(set(keys)) - allowed
-        return [f"{repeated} events are repeated"] if repeated > 0 else []
+        if (repeated := len(keys) - len(set(keys)) - allowed) > 0:
+            yield f"{repeated} events are repeated"
 
     def list_unknown(self) -> Iterator[tuple[int, int]]:
         """Yield the stretches of stamps (ns) in which events are missing."""
@@ -86,7 +83,7 @@ class Course:
             end = self._begins[place + 1] if place + 1 < len(self._begins) else MAX_STAMP
             yield int(self._begins[place]), int(end)
 
-    def count_holding(self, stamps: Stamps) -> NDArray[np.intp]:
+    def count_holding(self, stamps: Stamps) -> Places:
         """Return the number of events that can hold at each stamp, if none is missing."""
         ends = np.sort(np.maximum(self._begins, self._ends))
         begun = np.searchsorted(np.sort(self._begins), stamps, side="right")
@@ -99,7 +96,7 @@ class Course:
         # A log that was sorted by time may have events in another order.
         return [number for number in range(before + 1, after) if number not in self._present]
 
-    def holds(self, number: int, stamps: Stamps, in_order: bool = True) -> NDArray[np.bool_]:
+    def holds(self, number: int, stamps: Stamps, in_order: bool = True) -> Mask:
         """Return the mask of the stamps at which an event can hold.
 
         If it is not taken for granted that the events are in order, that is at any later stamp.
@@ -107,21 +104,18 @@ class Course:
         later = stamps >= self._begins[number]
         return np.asarray(later & (stamps < self._ends[number]) if in_order else later)
 
-    def find_owners(self, stamps: Stamps, places: NDArray[np.intp]) -> NDArray[np.intp]:
+    def find_owners(self, stamps: Stamps, places: Places) -> Places:
         """Return the number of the event to which each sample belongs; -1: before all of them.
 
         `places` (n,) are the numbers of events before the samples in the log; they decide if the
         stamps do not.
         """
-        by_stamp = np.searchsorted(self._begins, stamps, side="right") - 1
         if self.is_ordered:
-            return by_stamp
+            return np.searchsorted(self._begins, stamps, side="right") - 1
         is_early = stamps < self._begins.min(initial=MAX_STAMP)
         return np.where(is_early, -1, np.maximum(places - 1, 0))
 
-    def candidates(
-        self, stamps: Stamps, owners: NDArray[np.intp], in_order: bool = True
-    ) -> Iterator[int]:
+    def candidates(self, stamps: Stamps, owners: Places, in_order: bool = True) -> Iterator[int]:
         """Yield the events that can hold at any of the stamps; the owners, or near ones, first."""
         if self.is_ordered:
             yield from np.unique(owners[owners >= 0]).tolist()
@@ -153,8 +147,8 @@ class Grid:
         self._course = course = Course(events, log.has_readable_events)
         rates = {event.stamp: event.request[RATE] for event in events if RATE in event.request}
         first = log.file.metadata.get(METADATA, {}).get(f"parameter.{RATE}", "")
-        texts = [first, *(rates[stamp] for stamp in sorted(rates))]
         self._rate_stamps = np.array(sorted(rates), dtype=np.int64)
+        texts = [first, *(rates[stamp] for stamp in sorted(rates))]
         self._periods = np.array([_read_period(text) for text in texts])
         self.gaps: dict[str, Gaps] = {}  # by the name of the topic
         empty = [*_list_jumps(events), *course.list_unknown()]
@@ -189,7 +183,7 @@ class Grid:
             gaps.widest = max(gaps.widest, found, key=lambda each: each[1] - each[0])
             gaps.missing += int(missing.sum())
 
-    def _find_period(self, stamps: Stamps, gaps: Gaps) -> NDArray[np.float64]:
+    def _find_period(self, stamps: Stamps, gaps: Gaps) -> Real:
         periods = self._periods[np.searchsorted(self._rate_stamps, stamps, side="right")]
         return np.where(np.isnan(periods), gaps.period, periods)
 
@@ -267,7 +261,7 @@ def _list_times_without_tf(events: Sequence[Event]) -> Iterator[Interval]:
             yield before.stamp, after.stamp if after else MAX_STAMP
 
 
-def _merge(intervals: Sequence[Interval]) -> NDArray[np.int64]:
+def _merge(intervals: Sequence[Interval]) -> Stamps:
     """Return disjoint intervals (n, 2) in their order, that cover the same stamps."""
     merged: list[list[int]] = []
     for begin, end in sorted(intervals):
@@ -278,7 +272,7 @@ def _merge(intervals: Sequence[Interval]) -> NDArray[np.int64]:
     return np.array(merged, dtype=np.int64).reshape(-1, 2)
 
 
-def _measure_overlap(intervals: NDArray[np.int64], begins: Stamps, ends: Stamps) -> Stamps:
+def _measure_overlap(intervals: Stamps, begins: Stamps, ends: Stamps) -> Stamps:
     """Return how much (ns) of each stretch between two stamps is in disjoint intervals."""
     lengths = np.concatenate(([0], np.cumsum(intervals[:, 1] - intervals[:, 0])))
 
@@ -287,8 +281,7 @@ def _measure_overlap(intervals: NDArray[np.int64], begins: Stamps, ends: Stamps)
         place = np.searchsorted(intervals[:, 1], stamps)  # of the first that ends later
         inside = np.zeros_like(stamps)
         is_open = place < len(intervals)
-        begin = intervals[place[is_open], 0]
-        inside[is_open] = np.maximum(stamps[is_open] - begin, 0)
+        inside[is_open] = np.maximum(stamps[is_open] - intervals[place[is_open], 0], 0)
         return np.asarray(lengths[place] + inside)
 
     return measure_before(ends) - measure_before(begins)

@@ -81,20 +81,18 @@ def compare_fields(
 def find_mismatches(events: Sequence[Event]) -> Iterator[Mismatch]:
     """Yield the fields of events that are not as computed."""
     budget = StepBudget(SPARE_STEPS)
-    for previous, event in pairwise([None, *events]):
-        if event is None or not is_of_this_version(event):
-            continue
-        is_known = (
-            previous is not None
-            and previous.number == event.number - 1
-            and is_of_this_version(previous)
-        )
-        yield from _judge(previous if is_known else None, event, budget)
+    for previous, event in zip([None, *events], events, strict=False):
+        if is_of_this_version(event):
+            is_known = (
+                previous is not None
+                and previous.number == event.number - 1
+                and is_of_this_version(previous)
+            )
+            yield from _judge(previous if is_known else None, event, budget)
 
 
 def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator[Mismatch]:
     """Yield the fields of one event; nothing is known before it if `previous` is None."""
-    got = {**event.values, "name": event.name, "message": event.verdict}
     if event.name not in RULES:
         yield Mismatch(EVENTS.name, event.stamp, "name", ", ".join(RULES), event.name)
         return
@@ -108,7 +106,9 @@ def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator
     except (ValueError, ArithmeticError) as error:  # a request that no node grants
         yield Mismatch(EVENTS.name, event.stamp, "request", str(error), str(event.request))
         return
-    right = {**expected.values, "name": expected.name, "message": expected.verdict}
+    right, got = (
+        {**each.values, "name": each.name, "message": each.verdict} for each in (expected, event)
+    )
     yield from compare_fields(EVENTS.name, event.stamp, right, got)
 
 
@@ -242,10 +242,8 @@ class TextCheck:
         if self._course.has_gap[owners].any():
             return
         for number in owners:
-            segment = self._course.segment(number)
-            stamps = np.array([status.stamp])
-            is_own = is_of_this_version(self._events[number])
-            if not is_own or not self._budget.reach_stamps(segment, stamps):
+            segment, is_own = self._course.segment(number), is_of_this_version(self._events[number])
+            if not is_own or not self._budget.reach_stamps(segment, np.array([status.stamp])):
                 return
             right = STATUSES[kind](segment, status.stamp)
             found.append(list(compare_fields(name, status.stamp, _texts(right), _texts(status))))

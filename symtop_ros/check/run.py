@@ -74,14 +74,14 @@ def check_run(log: TopLog) -> Findings:
         list_other_versions(given),
         _find_damage(log.file),
         given[0].number if given else 0,
-        [*_list_missing(log, given, deviations), *_describe_gaps(log, given, grid)],
+        list(_list_missing(log, given, deviations, grid)),
     )
 
 
 def _list_missing(
-    log: TopLog, given: list[Event], deviations: Mapping[str, Deviation]
+    log: TopLog, given: list[Event], deviations: Mapping[str, Deviation], grid: Grid
 ) -> Iterator[str]:
-    """Yield what is said of events that are missing or repeated."""
+    """Yield what is said of events and samples that are missing or repeated."""
     course = Course(given)
     files = len(log.file.sources) if isinstance(log.file, SeveralFiles) else 1
     yield from course.list_missing()
@@ -92,11 +92,8 @@ def _list_missing(
             f"the beginning is missing: {early} samples are before the first event, "
             f"which is number {given[0].number}"
         )
-
-
-def _describe_gaps(log: TopLog, given: list[Event], grid: Grid) -> list[str]:
     has_gaps = any(each.missing for each in grid.gaps.values())
-    return describe_gaps(grid.gaps, count_missed(log, given) if has_gaps else 0)
+    yield from describe_gaps(grid.gaps, count_missed(log, given) if has_gaps else 0)
 
 
 def _find_damage(file: MessageSource) -> list[str]:

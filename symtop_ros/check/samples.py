@@ -5,9 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Places, Real
 from symtop_ros.check.course import Course, Grid
 from symtop_ros.log.batch import Columns
 from symtop_ros.log.reader import LogError
@@ -79,7 +78,7 @@ class LogCheck:
         self.deviations: dict[str, Deviation] = {}
         self._course, self._budget = Course(events, all_readable), StepBudget(SPARE_STEPS)
 
-    def add(self, name: str, columns: Columns, places: NDArray[np.intp]) -> None:
+    def add(self, name: str, columns: Columns, places: Places) -> None:
         """Compare samples of a topic; `places` (n,) are the numbers of events before them."""
         deviation = self.deviations.setdefault(name, Deviation())
         owners = self._course.find_owners(columns.stamps, places)
@@ -100,10 +99,10 @@ class LogCheck:
         deviation: Deviation,
         name: str,
         left: Columns,
-        owners: NDArray[np.intp],
+        owners: Places,
         in_order: bool,
         bound: float,
-    ) -> tuple[Columns, NDArray[np.intp]]:
+    ) -> tuple[Columns, Places]:
         """Take the samples that agree with an event within a bound; return the others."""
         if not len(owners):
             return left, owners

@@ -8,37 +8,40 @@ import os
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, replace
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.imu.record import ImuRecord
+from symtop_ros.physics import State
 from symtop_ros.simulation.sensor.imu import EXACT, EXACT_FIELD, MAGNETOMETER_NOISE, NOISE
 from symtop_ros.simulation.topics import EVENTS, SENSOR_TOPICS, STATE_TOPICS, StateTopic, imu_frame
 from symtop_ros.wire.layout import NANOSECONDS
 from symtop_ros.wire.messages import IMU, MAGNETIC_FIELD, ODOMETRY
 
-XYZ = "xyz"
-# The columns of the table; those of the mean exist with --average.
+# The columns of the table, and those that there are with --average or a magnetometer.
 TABLE = ["stamp", *"wxyz", "px", "py", "pz", "vx", "vy", "vz", "wx", "wy", "wz", "fx", "fy", "fz"]
-MEANS = [f"mean_{name}" for name in TABLE[-6:]]
-MEASURED = [f"measured_{name}" for name in TABLE[-6:]]
-FIELD = ["mx", "my", "mz"]  # the columns of a magnetometer
-MEASURED_FIELD = [f"measured_{name}" for name in FIELD]
+MORE = {
+    "means": [f"mean_{name}" for name in TABLE[-6:]],
+    "measured": [f"measured_{name}" for name in TABLE[-6:]],
+    "fields": ["mx", "my", "mz"],
+    "measured_fields": ["measured_mx", "measured_my", "measured_mz"],
+}
 EUROC_IMU = [
     "#timestamp [ns]",
-    *(f"w_RS_S_{axis} [rad s^-1]" for axis in XYZ),
-    *(f"a_RS_S_{axis} [m s^-2]" for axis in XYZ),
+    *(f"w_RS_S_{axis} [rad s^-1]" for axis in "xyz"),
+    *(f"a_RS_S_{axis} [m s^-2]" for axis in "xyz"),
 ]
-EUROC_FIELD = ["#timestamp [ns]", *(f"m_S_{axis} [T]" for axis in XYZ)]
+EUROC_FIELD = ["#timestamp [ns]", *(f"m_S_{axis} [T]" for axis in "xyz")]
 EUROC_TRUTH = [
     "#timestamp",
-    *(f" p_RS_R_{axis} [m]" for axis in XYZ),
+    *(f" p_RS_R_{axis} [m]" for axis in "xyz"),
     *(f" q_RS_{axis} []" for axis in "wxyz"),
-    *(f" v_RS_R_{axis} [m s^-1]" for axis in XYZ),
-    *(f" b_w_RS_S_{axis} [rad s^-1]" for axis in XYZ),
-    *(f" b_a_RS_S_{axis} [m s^-2]" for axis in XYZ),
+    *(f" v_RS_R_{axis} [m s^-1]" for axis in "xyz"),
+    *(f" b_w_RS_S_{axis} [rad s^-1]" for axis in "xyz"),
+    *(f" b_a_RS_S_{axis} [m s^-2]" for axis in "xyz"),
 ]
 NODE, WORLD = "/top", "world"
 SENSOR = imu_frame("top")
@@ -48,16 +51,9 @@ Content = tuple[str, StateTopic, tuple[str, ...], Real]  # name, type, frames an
 def write_table(record: ImuRecord, path: Path) -> None:
     """Write one CSV file with everything, and the event of the run into a JSON file next to it."""
     truth = [record.orientations, record.positions, record.velocities, record.rates, record.forces]
-    names, columns = [*TABLE], truth
-    for more, values in (
-        (MEANS, record.means),
-        (MEASURED, record.measured),
-        (FIELD, record.fields),
-        (MEASURED_FIELD, record.measured_fields),
-    ):
-        if values is not None:
-            names += more
-            columns.append(values)
+    more = [name for name in MORE if getattr(record, name) is not None]
+    names = [*TABLE, *chain(*(MORE[name] for name in more))]
+    columns = [*truth, *(getattr(record, name) for name in more)]
     _write_csv(path, names, record.stamps.tolist(), columns)
     write_events(record, path.with_suffix(".json"))
 
@@ -139,9 +135,8 @@ def _contents(record: ImuRecord) -> Iterator[Content]:
     """Yield the attitude of the body, measurements, exact values, and odometry of the sensor."""
     imu, exact = record.imu, np.concatenate((record.rates, record.forces), axis=1)
     yield "orientation", STATE_TOPICS["orientation"], (WORLD,), record.attitudes[:, [1, 2, 3, 0]]
-    measured = exact + imu.noise(record.stamps)
     variances = tuple(imu.covariances.values())[1:]
-    yield _inertial("imu", record, measured, variances)
+    yield _inertial("imu", record, exact + imu.noise(record.stamps), variances)
     if record.means is not None:
         yield _inertial("imu_average", record, record.measured, variances)
         yield _inertial("imu_average_exact", record, record.means)
@@ -174,11 +169,12 @@ def _magnetic(name: str, fields: Real, variance: float) -> Content:
 
 def _odometry(record: ImuRecord) -> Real:
     """Return pose of the sensor in the world, and twist in its own frame."""
+    state = State.wrap(record.orientations, record.rates)
     values = {
         "position": record.positions,
         "orientation": record.orientations[:, [1, 2, 3, 0]],
         "pose_covariance": EXACT,
-        "linear": record.to_sensor(record.velocities),
+        "linear": state.to_body(record.velocities),
         "angular": record.rates,
         "twist_covariance": EXACT,
     }

@@ -23,8 +23,7 @@ files of EuRoC and poses as TUM has them. Stamps begin at 0."""
 
 def main(args: list[str] | None = None) -> int:
     """Write a record; return 0 (good), 1 (refused or failed) or 2 (usage)."""
-    options = _parser().parse_args(args)
-    return tell_failures("top_imu", lambda: _run(options))
+    return tell_failures("top_imu", lambda: _run(_parser().parse_args(args)))
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -67,8 +66,7 @@ def read_noise(name: str | None) -> dict[str, Any]:
         return {}
     if name == "consumer":
         return {each: getattr(CONSUMER, each) for each in NOISE} | {MAGNETOMETER_NOISE[0]: BMM150}
-    path = Path(name)
-    with path.open("rb") as file:
+    with open(name, "rb") as file:
         text = file.read(MAX_BYTES + 1)
     try:
         content = yaml.safe_load(text[:MAX_BYTES].removeprefix(b"%YAML:1.0"))
@@ -84,12 +82,7 @@ def read_noise(name: str | None) -> dict[str, Any]:
 
 def write(record: ImuRecord, path: Path) -> None:
     """Write a record in the form that the name of its path asks for."""
-    if path.suffix == ".mcap":
-        write_log(record, path)
-    elif path.suffix == ".csv":
-        write_table(record, path)
-    else:
-        write_folder(record, path)
+    {".mcap": write_log, ".csv": write_table}.get(path.suffix, write_folder)(record, path)
 
 
 def decimals(text: str) -> list[float]:

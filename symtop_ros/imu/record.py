@@ -13,8 +13,7 @@ from symtop_ros.simulation.sensor.imu import Imu, Rig
 from symtop_ros.simulation.validation import RefusedError, number
 from symtop_ros.wire.layout import NANOSECONDS
 
-MAX_SECONDS = 1e9
-MAX_SAMPLES = 20_000_000
+MAX_SECONDS, MAX_SAMPLES = 1e9, 20_000_000
 # Points of Gauss and Legendre in an interval: for each rad by which the integrand turns in it, and
 # for an interval without any turn. The error is then below 1e-20.
 POINTS_PER_RAD, FEWEST_POINTS = 1.0, 10
@@ -63,10 +62,6 @@ class ImuRecord:
     fields: Real | None
     measured_fields: Real | None
     event: Event
-
-    def to_sensor(self, vectors: Real) -> Real:
-        """Rotate vectors (n, 3) of the world frame into the sensor frame."""
-        return State.wrap(self.orientations, self.rates).to_body(vectors)
 
 
 def record_imu(
@@ -119,14 +114,13 @@ def record_imu(
     if imu.magnetometer:
         fields, errors = imu.measure_field(state, stamps)
         measured_fields = fields + errors
-    turning = np.cross(state.angular_velocity, imu.position)
     return ImuRecord(
         imu,
         stamps,
         state.orientation,
         orientations[:, [3, 0, 1, 2]],
         state.to_world(imu.position),
-        state.to_world(turning),
+        state.to_world(np.cross(state.angular_velocity, imu.position)),
         rates,
         forces,
         means,
@@ -142,8 +136,7 @@ def _make_stamps(rate: float, seconds: float) -> Stamps:
     count = math.floor(seconds * rate * (1 + 1e-12)) or 1
     if count > MAX_SAMPLES:
         raise RefusedError(f"seconds times rate must be at most {MAX_SAMPLES}, got {count}")
-    stamps: Stamps = np.rint(np.arange(count) * (NANOSECONDS / rate)).astype(np.int64)
-    return stamps
+    return np.asarray(np.rint(np.arange(count) * (NANOSECONDS / rate)).astype(np.int64))
 
 
 def _average(motion: Motion, imu: Imu, stamps: Stamps, state: State, gravity: float) -> Real:

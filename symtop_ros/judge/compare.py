@@ -20,6 +20,7 @@ from scipy.spatial.transform import Rotation
 from symtop_ros.arrays import Real, Stamps, compose, invert
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import Truth
+from symtop_ros.testset.score import measure_angles
 from symtop_ros.wire.layout import NANOSECONDS
 
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
@@ -110,12 +111,9 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
     stamps = offset.shift(estimates.stamps)
     exact, rates, known = truth.states_at(stamps, estimates.of_sensor)
     chosen, exact, rates = estimates.select(known), exact[known], rates[known]
-    world = offset.turn_world(chosen.stamps)
-    body = offset.turn_body(chosen.stamps)
+    world, body = offset.turn_world(chosen.stamps), offset.turn_body(chosen.stamps)
     q = compose(compose(invert(world), chosen.orientations), invert(body))
-    # |q - exact| is 2 sin(angle/4). An arccosine of their product would lose half of the digits.
-    sine = np.linalg.norm(subtract(q, exact), axis=1) / 2
-    total = 4 * np.arcsin(np.minimum(sine, 1.0))
+    total = measure_angles(q, exact, np.zeros(4))
     w, x, y, z = compose(q, invert(exact)).T
     tilt = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
     heading = 2 * np.arctan2(z, w)

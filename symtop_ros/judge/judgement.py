@@ -40,11 +40,6 @@ class Judgement:
     left_out: int  # messages without a readable attitude
     notes: tuple[str, ...]  # likely mistakes, and what is odd about the file
 
-    @property
-    def largest(self) -> float:
-        """Largest error of the attitude in rad."""
-        return float(self.errors.total.max())
-
     def facts(self) -> dict[str, Any]:
         """Return all figures, for JSON."""
         errors = self.errors
@@ -222,8 +217,10 @@ def _describe_absence(estimates: Estimates, truth: Truth, source: str) -> str:
     )
 
 
-def format_several(judgements: Sequence[Judgement]) -> str:
-    """Return one table of the attitude errors of several sources."""
+def format_judgements(judgements: Sequence[Judgement]) -> str:
+    """Return the figures of one source, or one table of the attitude errors of several."""
+    if len(judgements) == 1:
+        return judgements[0].format()
     width = max(len(each.source) for each in judgements)
     rows = [_row(each.source, width, each.facts()["attitude"]) for each in judgements]
     notes = [

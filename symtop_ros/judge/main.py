@@ -10,7 +10,7 @@ from pathlib import Path
 from symtop_ros.command import positive, tell_failures
 from symtop_ros.judge.clock import format_clocks, measure_clock
 from symtop_ros.judge.estimates import Estimates, read_topic
-from symtop_ros.judge.judgement import Judgement, format_several, judge
+from symtop_ros.judge.judgement import Judgement, format_judgements, judge
 from symtop_ros.judge.problems import run_testset, tell_limit
 from symtop_ros.judge.search import MODELS
 from symtop_ros.judge.tables import TABLES, read_table
@@ -146,10 +146,11 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
         judge(estimates, truth, source, tuple(options.remove), options.aligned)
         for source, estimates in _read_estimates(options)
     ]
-    print(_format(judgements, options.json))
+    print(_dump(judgements) if options.json else format_judgements(judgements))
     if options.output:
         _write(judgements, options.output)
-    return tell_limit(max(each.largest for each in judgements), options.max_error)
+    largest = max(float(each.errors.total.max()) for each in judgements)
+    return tell_limit(largest, options.max_error)
 
 
 def _read_run(options: argparse.Namespace) -> Truth:
@@ -163,12 +164,6 @@ def _read_run(options: argparse.Namespace) -> Truth:
     )
 
     return read_truth(TopLog(open_run(options.files), options.node))
-
-
-def _format(judgements: list[Judgement], as_json: bool) -> str:
-    if as_json:
-        return _dump(judgements)
-    return judgements[0].format() if len(judgements) == 1 else format_several(judgements)
 
 
 def _dump(judgements: list[Judgement]) -> str:

@@ -109,14 +109,13 @@ class Truth:
 def read_truth(log: TopLog) -> Truth:
     """Return the exact motion of the run in a log, up to its last sample."""
     events: list[Event] = []
-    end: int | None = None
+    ends: list[int] = []
     for batch in log.batches():
         events += (event for _, event in batch.events)
-        ends = [int(columns.stamps.max()) for columns in batch.columns.values()]
-        end = max(ends if end is None else [end, *ends], default=None)
+        ends += (int(columns.stamps.max()) for columns in batch.columns.values())
     if not events:
         raise RefusedError(f"{log.file.path} must have the events of a top (~/events), got none")
-    return Truth(events, end)
+    return Truth(events, max(ends, default=None))
 
 
 def scene_truth(name: str) -> Truth:

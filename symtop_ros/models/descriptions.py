@@ -89,8 +89,8 @@ class Description:
             return start
         q = multiply(map(Fraction, start.orientation.tolist()), TURN)
         omega = [Fraction(each) for each in start.angular_velocity.tolist()]
-        columns = zip(*MATRIX, strict=True)
-        return State([*map(float, q)], _round(_dot(column, omega) for column in columns))
+        turned = _round(_dot(column, omega) for column in zip(*MATRIX, strict=True))
+        return State([*map(float, q)], turned)
 
     def find_origin(self, start: State) -> tuple[Vector, Vector]:
         """Return place and velocity of the origin of the link in the world, with the pivot at 0."""

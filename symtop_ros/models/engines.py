@@ -27,41 +27,38 @@ def format_mjcf(top: Top, start: State, body: Body, described: Description = PLA
     if described.is_moved:
         place = f' pos="{join([-each for each in described.pivot])}"'
         joint = f'<joint name="pivot" type="ball" pos="{join(described.pivot)}"/>'
-    world = f"""\
-  <option integrator="RK4" timestep="{STEP!r}" gravity="0 0 {-body.gravity!r}">
-    <flag contact="disable" constraint="disable"/>
-  </option>"""
     q, omega = (each.tolist() for each in described.begin(start).parts)
     lines = [f'<body name="top"{place}>', f"  {joint}", *_fill(body, described), "</body>"]
-    return _write_mjcf(top, body, world, lines, (q, omega))
+    flag = '<flag contact="disable" constraint="disable"/>'
+    return _write_mjcf(top, body, f"0 0 {-body.gravity!r}", flag, lines, q, omega)
 
 
 def format_free_mjcf(top: Top, start: State, body: Body, described: Description = PLAIN) -> str:
     """Return the body as MJCF with a free joint; its start is the keyframe "start"."""
-    world = f"""\
-  <option integrator="RK4" timestep="{STEP!r}" gravity="0 0 0">
-    <flag contact="disable"/>
-  </option>"""
     place, velocity = described.find_origin(start)
     q, omega = (each.tolist() for each in described.begin(start).parts)
-    lines = [
-        '<body name="top">',
-        '  <freejoint name="free"/>',
-        *_fill(body, described),
-        "</body>",
-    ]
-    return _write_mjcf(top, body, world, lines, ([*place, *q], [*velocity, *omega]))
+    joint = '  <freejoint name="free"/>'
+    lines = ['<body name="top">', joint, *_fill(body, described), "</body>"]
+    flag, qpos, qvel = '<flag contact="disable"/>', [*place, *q], [*velocity, *omega]
+    return _write_mjcf(top, body, "0 0 0", flag, lines, qpos, qvel)
 
 
 def _write_mjcf(
-    top: Top, body: Body, world: str, lines: list[str], start: tuple[list[float], list[float]]
+    top: Top,
+    body: Body,
+    gravity: str,
+    flag: str,
+    lines: list[str],
+    qpos: list[float],
+    qvel: list[float],
 ) -> str:
-    qpos, qvel = start
     text = "\n".join(f"    {line}" for line in lines)
     return f"""<!-- {describe_body(top, body)} -->
 <mujoco model="symtop">
   <compiler angle="radian"/>
-{world}
+  <option integrator="RK4" timestep="{STEP!r}" gravity="{gravity}">
+    {flag}
+  </option>
   <worldbody>
     <light pos="0 0 {4 * measure_size(body)!r}" dir="0 0 -1"/>
 {text}

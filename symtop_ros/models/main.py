@@ -11,18 +11,15 @@ from symtop_ros.simulation.changes.requests import initial_state
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import number
 
-LARGEST_GRAVITY = 1e3  # m/s^2
-
 
 def main(args: list[str] | None = None) -> int:
     """Write a model; return 0 (good), 1 (refused or failed) or 2 (usage)."""
-    options = _parser().parse_args(args)
-    return tell_failures("top_model", lambda: _write(options))
+    return tell_failures("top_model", lambda: _write(_parser().parse_args(args)))
 
 
 def _write(options: argparse.Namespace) -> int:
     settings = Settings.from_scene(options.scene)
-    gravity = number("gravity", options.gravity, "m/s^2", 1e-3, LARGEST_GRAVITY)
+    gravity = number("gravity", options.gravity, "m/s^2", 1e-3, 1e3)
     start = initial_state(settings.top, settings.initial, {})
     text = FORMATS[options.format](settings.top, start, Body.of(settings.top, gravity))
     if options.output:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symtop_ros.arrays import Real, Vector
+from symtop_ros.arrays import Mask, Real, Vector
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
@@ -36,12 +36,10 @@ def validate_torque(torque: Any) -> Any:
 
 def validate_times(t: ArrayLike | ExactTimes) -> float | Real | ExactTimes:
     """Return one time as a float, many as an array, and exact times unchanged."""
-    if type(t) is float and math.isfinite(t):  # the common cases: no copy
+    if isinstance(t, ExactTimes) or (type(t) is float and math.isfinite(t)):
         return t
     if type(t) is np.ndarray and t.dtype == np.float64 and t.ndim and np.isfinite(t).all():
-        return t
-    if isinstance(t, ExactTimes):
-        return t
+        return t  # the common case: no copy
     array = validate_array("t", t, unit="s")
     return array if array.ndim else float(array)
 
@@ -108,7 +106,7 @@ def read_start(row: Real) -> tuple[Top, State, Friction, Vector]:
     return Top(Ix, Iz, Mgl), start, friction, (x, y, z)
 
 
-def fill_states(starts: Real, times: Real, orientation: Real, omega: Real) -> NDArray[np.bool_]:
+def fill_states(starts: Real, times: Real, orientation: Real, omega: Real) -> Mask:
     """Write the states at times (m,) in s into (n, m, 4) and (n, m, 3).
 
     Returns (n, m), True for the states that are left: those of driven motions, and those from a

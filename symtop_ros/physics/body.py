@@ -7,7 +7,6 @@ chosen here that exists for every top for which any exists.
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY, specific_force
@@ -15,7 +14,7 @@ from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, validate_one
-from symtop_ros.physics.values import refuse, validate_number
+from symtop_ros.physics.values import refuse, validate_number, validate_positive
 
 LONGEST_ARM = 10.0  # m, of a body that is chosen: a weight of 1e-9 J would have kilometres
 SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user
@@ -67,7 +66,7 @@ class Body:
     def __post_init__(self) -> None:
         units = {"mass": "kg", "arm": "m", "Ix": "kg m^2", "Iz": "kg m^2", "gravity": "m/s^2"}
         for name, unit in units.items():
-            validate = validate_number if name == "arm" else _validate_positive
+            validate = validate_number if name == "arm" else validate_positive
             object.__setattr__(self, name, validate(name, getattr(self, name), unit))
         if self.Iz > 2 * self.Ix:
             raise refuse("Iz", f"<= 2 Ix = {2 * self.Ix:g} kg m^2", self.Iz)
@@ -147,10 +146,10 @@ class Body:
         >>> Body.disc(mass=0.5, radius=0.25, distance=0.125, gravity=10.0).top
         Top(Ix=0.015625, Iz=0.015625, Mgl=0.625)
         """
-        mass = _validate_positive("mass", mass, "kg")
-        radius = _validate_positive("radius", radius, "m")
+        mass = validate_positive("mass", mass, "kg")
+        radius = validate_positive("radius", radius, "m")
         distance = validate_number("distance", distance, "m")
-        gravity = _validate_positive("gravity", gravity, "m/s^2")
+        gravity = validate_positive("gravity", gravity, "m/s^2")
         Ix, Iz, _ = door.find_disc_top(mass, radius, 0.0, gravity)  # about its centre
         return cls(mass, distance, float(Ix), float(Iz), gravity)
 
@@ -177,11 +176,11 @@ class Body:
         ValueError: Iz must be < 2 Ix = 2 kg m^2 for a body with Mgl = 1 J to exist, got 2
         """
         validate_one(top)
-        gravity = _validate_positive("gravity", gravity, "m/s^2")
+        gravity = validate_positive("gravity", gravity, "m/s^2")
         if top.Mgl == 0:
             return cls(1.0, 0.0, top.Ix, top.Iz, gravity)
-        largest = top.Ix - top.Iz / 2  # of M r^2
-        half = largest / 2 * (gravity / abs(top.Mgl))
+        # M r^2 <= Ix - Iz/2
+        half = (top.Ix - top.Iz / 2) / 2 * (gravity / abs(top.Mgl))
         arm = math.copysign(min(half, LONGEST_ARM), top.Mgl)
         if arm == 0:
             raise refuse(
@@ -240,10 +239,3 @@ class Body:
             raise refuse("motion.top", f"{self.top}, that of the body", motion.top)
         force = specific_force(motion, state, (0.0, 0.0, self.arm), self.gravity)
         return self.mass * state.to_world(force)
-
-
-def _validate_positive(name: str, value: Any, unit: str) -> float:
-    number = validate_number(name, value, unit)
-    if number <= 0:
-        raise refuse(name, f"> 0 {unit}", number)
-    return number

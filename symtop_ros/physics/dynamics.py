@@ -13,7 +13,7 @@ from symtop_ros.arrays import Real, split, stack
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import validate_one
-from symtop_ros.physics.values import refuse, validate_number, validate_vector
+from symtop_ros.physics.values import validate_number, validate_positive, validate_vector
 
 STANDARD_GRAVITY = 9.81  # m/s^2
 NODES = 24  # of the Gauss-Legendre quadrature: exact to rounding over a stretch of STRETCH radians
@@ -198,9 +198,7 @@ def balance(motion: Motion, end: float, longest: float) -> Balance:
     True
     """
     validate_one(motion, "motion")
-    end, longest = validate_number("end", end, "s"), validate_number("longest", longest, "s")
-    if longest <= 0:
-        raise refuse("longest", "> 0 s", longest)
+    end, longest = validate_number("end", end, "s"), validate_positive("longest", longest, "s")
     begin = end - min(longest, STRETCH / _fastest_rate(motion, end))
     points, weights = np.polynomial.legendre.leggauss(NODES)
     half = (end - begin) / 2

@@ -17,9 +17,8 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real, compose, find_rotation_vectors, invert
+from symtop_ros.arrays import Places, Real, compose, find_rotation_vectors, invert
 from symtop_ros.physics.arguments import STARTS, fill_states, read_start
 from symtop_ros.physics.kernel import states
 from symtop_ros.physics.kernel.door import KernelMotion
@@ -69,7 +68,6 @@ UNRESOLVED = (
 # Columns that are measured by their largest element: each moment, attitude, and omega.
 ROWS = np.arange(2), np.arange(3)  # attitude and omega, and their components
 FIRSTS, COUNTS = (0, 1, 2, 3, 6), (1, 1, 1, 3, 3)
-Places = NDArray[np.intp]
 
 
 def differentiate(motion: Any, times: Real) -> Real:
@@ -110,13 +108,11 @@ def _changes_nothing(motion: Any, times: Real) -> bool:
 
 def _limit(motion: Any, times: Real) -> None:
     """Refuse times that some ninety driven motions take too long to reach."""
-    longest, farthest = (
-        MOST_NUTATION / max(_find_rates(motion)[0], TINY),
-        np.abs(times).max(initial=0),
-    )
-    if farthest > longest:
-        condition = f"at most {longest:.3g} s for derivatives with friction or a torque"
-        raise refuse("t", condition, float(farthest))
+    longest = MOST_NUTATION / max(_find_rates(motion)[0], TINY)
+    if (farthest := float(np.abs(times).max(initial=0))) > longest:
+        raise refuse(
+            "t", f"at most {longest:.3g} s for derivatives with friction or a torque", farthest
+        )
 
 
 def _differentiate_disc(motion: Any, times: Real) -> Real:
@@ -222,11 +218,11 @@ class _Starts:
 
     def _find_allowed(self, derivatives: Real, some: Places) -> Real:
         """Return the promised errors of derivatives (m, 2, 3, 9), (m, 2, 1, 9)."""
-        largest = _spread_over_blocks(np.abs(derivatives).max(axis=2))
-        sizes = self._counted[some]
+        blocks = np.maximum.reduceat(np.abs(derivatives).max(axis=2), FIRSTS, axis=-1)
+        largest = np.repeat(blocks, COUNTS, axis=-1)
         # An absolute error is left of parameters that hardly count, such as those of the start in
         # the first instants.
-        least = SMALLEST * sizes / np.abs(self._parameters)
+        least = SMALLEST * self._counted[some] / np.abs(self._parameters)
         return np.asarray(PROMISED * np.maximum(largest, least)[:, :, None] + TINY)
 
     def _adapt(self, part: Any, excess: Real, faults: tuple[Real, ...]) -> bool:
@@ -306,10 +302,9 @@ class _Starts:
         changes[3:6, 3:7] = compose(self._start[3:7], np.eye(4)[1:]) / 2
         changes[6:, 7:10] = np.eye(3)
         changes *= self._steps[:, None]
-        starts = self._start + self._list_nodes()[..., None] * changes[:, None]
         if (self._start + changes / 2 == self._start).all(axis=1).any():
             raise refuse("t", UNRESOLVED, float(self._times[0]))
-        return np.asarray(starts)
+        return np.asarray(self._start + self._list_nodes()[..., None] * changes[:, None])
 
     def _measure(self, starts: Real) -> Real:
         """Return how far starts (c, 10, 15) are from the motion's, (c, 10, 9), to all digits."""
@@ -319,7 +314,7 @@ class _Starts:
         step[..., 0] += self._start[3:7] @ self._start[3:7]
         return np.concatenate((change[..., :3], find_rotation_vectors(step), change[..., 7:10]), -1)
 
-    def _follow(self, starts: Real, some: NDArray[np.intp]) -> Real:
+    def _follow(self, starts: Real, some: Places) -> Real:
         """Return how far the states of starts (c, 10, 15) are from its own, (c, 10, m, 2, 3)."""
         times, rows = self._times[some], starts.reshape(-1, STARTS[-1])
         q, omega = np.empty((len(rows), len(times), 4)), np.empty((len(rows), len(times), 3))
@@ -400,11 +395,6 @@ class _Estimates:
         self.errors[part] = np.where(weights + before > 0, means, np.inf)
         shortest = np.where(share > 0, steps, np.inf)
         self._shortest[part] = np.minimum(self._shortest[part], shortest)
-
-
-def _spread_over_blocks(values: Any) -> Any:
-    """Return the largest value of its block for each column, (..., 9)."""
-    return np.repeat(np.maximum.reduceat(values, FIRSTS, axis=-1), COUNTS, axis=-1)
 
 
 def _find_rates(motion: Any) -> tuple[float, float]:

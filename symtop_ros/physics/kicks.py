@@ -116,7 +116,7 @@ def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
     >>> apply_impulse(top, state, (0.000228, 0, 0)).angular_velocity.tolist()
     [1.0, 0.0, 200.0]
     """
-    J = np.asarray(validate_vectors("impulse", impulse, "N m s, world frame"))
+    J = validate_vectors("impulse", impulse, "N m s, world frame")
     return _kick(_stack_moments(top), state, IMPULSE, "spin_rate", J, "impulse")
 
 
@@ -176,9 +176,11 @@ def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: s
     if status == door.VERTICAL:
         raise _refuse_vertical(State.wrap(*(part[done].copy() for part in flat)))
     if status == door.BAD_KICK:
-        condition = f"so small that rates stay within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
-        amount = given.reshape(len(flat[0]), -1)[done]
-        raise refuse(name, condition, float(np.abs(amount).max()))
+        raise refuse(
+            name,
+            f"so small that rates stay within {LARGEST_ANGULAR_VELOCITY:g} rad/s",
+            float(np.abs(given.reshape(len(flat[0]), -1)[done]).max()),
+        )
     raise door.refuse_status(status)
 
 
@@ -188,8 +190,10 @@ def _spread(parts: tuple[Real, ...], axes: int) -> tuple[Real, ...]:
     listed = f"{shapes[1]} and {shapes[3] or shapes[0]}"
     shape = fit_shapes("state and kick", *shapes, listed=listed)
     widths = [part.shape[-1:] for part in parts[:3]] + [parts[3].shape[axes:]]
-    pairs = zip(parts, widths, strict=True)
-    return tuple(np.array(np.broadcast_to(part, shape + width)) for part, width in pairs)
+    return tuple(
+        np.array(np.broadcast_to(part, shape + width))
+        for part, width in zip(parts, widths, strict=True)
+    )
 
 
 def precession_rate(state: State) -> Any:
@@ -219,8 +223,11 @@ def precession_rate(state: State) -> Any:
 
 
 def _refuse_vertical(state: State) -> ValueError:
-    condition = "tilted (phi' is undefined on the vertical; an angular impulse works there)"
-    return refuse("axis", condition, f"theta = {state.euler_angles.theta:g} rad")
+    return refuse(
+        "axis",
+        "tilted (phi' is undefined on the vertical; an angular impulse works there)",
+        f"theta = {state.euler_angles.theta:g} rad",
+    )
 
 
 def validate_hold(hold: Any) -> Hold:

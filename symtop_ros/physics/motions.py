@@ -188,8 +188,11 @@ class Motions:
         """
         t = validate_array("times", times, unit="s")
         if t.shape[: len(self.shape)] != self.shape:
-            condition = f"an array whose shape begins with that of the motions, {self.shape}"
-            raise refuse("times", condition, f"shape {t.shape}")
+            raise refuse(
+                "times",
+                f"an array whose shape begins with that of the motions, {self.shape}",
+                f"shape {t.shape}",
+            )
         rows = t.reshape(math.prod(self.shape), -1)
         orientation, omega = np.empty((*rows.shape, 4)), np.empty((*rows.shape, 3))
         for n, row in enumerate(rows):
@@ -237,16 +240,19 @@ class Motions:
         ndarray (..., 6, 9)
             In the shape of the motions, followed by that of the times.
         """
-        members = map(self._find_member, range(math.prod(self.shape)))
-        found = np.array([motion.jacobian(t) for motion in members])
+        count = math.prod(self.shape)
+        found = np.array([self._find_member(n).jacobian(t) for n in range(count)])
         return found.reshape(*self.shape, *np.shape(t), 6, 9)
 
     def _spread(self, states: State) -> Top:
         """Return the tops in the shape of states of these motions."""
         shape = states.orientation.shape[:-1]
         if shape[: len(self.shape)] != self.shape:
-            condition = f"states of these motions, of a shape that begins with {self.shape}"
-            raise refuse("states", condition, f"shape {shape}")
+            raise refuse(
+                "states",
+                f"states of these motions, of a shape that begins with {self.shape}",
+                f"shape {shape}",
+            )
         return self.top.spread(self.shape, shape)
 
     def energy(self, states: State) -> Real:
@@ -297,22 +303,20 @@ class Motions:
     @property
     def engine(self) -> NDArray[np.str_]:
         """Methods of solution, as in `Motion.engine`."""
-        names: NDArray[np.str_] = np.array(ENGINES)[self._constants["engine"]]
-        return names.reshape(self.shape)
+        return np.take(ENGINES, self._constants["engine"]).reshape(self.shape)
 
     @cached_property
     def _constants(self) -> NDArray[Any]:
         return describe_starts(self._starts)
 
     def _find_rates(self, name: str) -> Real:
-        rates: Real = np.ascontiguousarray(self._constants["rates"][name], np.float64)
-        return rates.reshape(self.shape)
+        rates = self._constants["rates"][name]
+        return np.ascontiguousarray(rates, np.float64).reshape(self.shape)
 
     @property
     def kind(self) -> NDArray[np.str_]:
         """Names of the motions, as in `Motion.kind`."""
-        names: NDArray[np.str_] = np.array(KINDS)[self._constants["kind"]]
-        return names.reshape(self.shape)
+        return np.take(KINDS, self._constants["kind"]).reshape(self.shape)
 
     @property
     def nutation_period(self) -> Real:

@@ -48,11 +48,11 @@ class EffectivePotential:
     def of(cls, top: Top, state: State) -> "EffectivePotential":
         """Return the potential for the constants of motion of one state."""
         validate_one(top)
-        axial = float(top.axial_momentum(state))
         wx, wy, _ = state.angular_velocity.tolist()
         # Without the energy of the spin from the start: as a difference it would lose digits.
         energy = top.Ix * (wx * wx + wy * wy) / 2 + top.Mgl * float(state.vertical[2])
-        return cls(top, float(top.vertical_momentum(state)), axial, energy)
+        momenta = float(top.vertical_momentum(state)), float(top.axial_momentum(state))
+        return cls(top, *momenta, energy)
 
     @ignore_underflow
     def at(self, theta: ArrayLike) -> Real:

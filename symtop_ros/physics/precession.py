@@ -126,12 +126,12 @@ def theta_torque(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayL
 
 def _find_tilt_torques(top: Top, theta: Any, phi_dot: Any, psi_dot: Any) -> list[Real]:
     """Return gravity, Coriolis and centrifugal torque over sin(theta), and sin(theta), (...)."""
-    given = (
+    shape, columns = spread_tops(
+        top,
         validate_array("theta", theta, unit="rad"),
         validate_rate("phi_dot", phi_dot),
         validate_rate("psi_dot", psi_dot),
     )
-    shape, columns = spread_tops(top, *given)
     found = door.find_tilt_torques(*columns)
     return [np.ascontiguousarray(found[:, k]).reshape(shape) for k in range(4)]
 

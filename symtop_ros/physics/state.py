@@ -96,8 +96,11 @@ class State:
         q = _flush_tiny(validate_array("orientation", orientation, 4))
         omega = _flush_tiny(validate_array("angular_velocity", angular_velocity, 3, "rad/s"))
         if q.shape[:-1] != omega.shape[:-1]:
-            condition = f"of shape {(*q.shape[:-1], 3)} to match the orientation"
-            raise refuse("angular_velocity", condition, f"shape {omega.shape}")
+            raise refuse(
+                "angular_velocity",
+                f"of shape {(*q.shape[:-1], 3)} to match the orientation",
+                f"shape {omega.shape}",
+            )
         largest = float(np.abs(omega).max(initial=0.0))
         if largest > LARGEST_ANGULAR_VELOCITY:
             raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
@@ -330,8 +333,11 @@ class State:
             raise refuse("matrix", "of shape (..., 3, 3)", f"shape {R.shape}")
         off = np.abs(R @ np.swapaxes(R, -1, -2) - np.eye(3)).max(initial=0.0)
         if off > NORM_TOLERANCE or (np.linalg.det(R) < 0).any():
-            condition = f"a rotation (orthogonal within {NORM_TOLERANCE:g}, determinant 1)"
-            raise refuse("matrix", condition, repr(matrix))
+            raise refuse(
+                "matrix",
+                f"a rotation (orthogonal within {NORM_TOLERANCE:g}, determinant 1)",
+                repr(matrix),
+            )
         # 4 q q^T for each quaternion: its row with the largest diagonal is the best one.
         a, b, c = R[..., 0, 0], R[..., 1, 1], R[..., 2, 2]
         wx, wy, wz = (R[..., i, j] - R[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0)))
@@ -449,7 +455,9 @@ def _normalize(q: Real) -> Real:
     if largest <= NORM_ROUNDING:
         return q
     if largest > NORM_TOLERANCE:
-        worst = float(norm.flat[deviation.argmax()])
-        condition = f"a quaternion of norm 1 within {NORM_TOLERANCE:g}"
-        raise refuse("orientation", condition, f"a norm of {worst:g}")
+        raise refuse(
+            "orientation",
+            f"a quaternion of norm 1 within {NORM_TOLERANCE:g}",
+            f"a norm of {norm.flat[deviation.argmax()]:g}",
+        )
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))

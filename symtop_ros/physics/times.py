@@ -5,7 +5,6 @@ last bit. As a double of seconds it would be rounded: after a day by 7 ps, in wh
 rad/s turns by 7 million EPS. The integers are therefore kept until phases are reduced to one turn.
 """
 
-import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -63,8 +62,7 @@ class ExactTimes:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "nanoseconds", _validate_nanoseconds(self.nanoseconds))
-        if type(self.factor) is not float or not math.isfinite(self.factor):
-            object.__setattr__(self, "factor", validate_number("factor", self.factor))
+        object.__setattr__(self, "factor", validate_number("factor", self.factor))
         if not SMALLEST <= self.factor <= LARGEST_FACTOR:
             raise refuse("factor", f"{SMALLEST:g} to {LARGEST_FACTOR:g}", self.factor)
         object.__setattr__(self, "elapsed", _validate_elapsed(self.elapsed))
@@ -101,15 +99,16 @@ class ExactTimes:
         """
         parts, left = [0.0] * ELAPSED_PARTS, self.elapsed
         for place in range(ELAPSED_PARTS):
-            if not left:
-                break
             parts[place] = float(left)
             if not SMALLEST <= abs(parts[place]) <= LARGEST_FACTOR:
                 break
             left -= Fraction(parts[place])
         if left:
-            condition = "a sum of four doubles, each 0 or 1e-100 to 1e100 ns in size"
-            raise refuse("elapsed", condition, f"{float(self.elapsed):.17g}")
+            raise refuse(
+                "elapsed",
+                "a sum of four doubles, each 0 or 1e-100 to 1e100 ns in size",
+                f"{float(self.elapsed):.17g}",
+            )
         return self.factor, tuple(parts)
 
     def advance(self, nanoseconds: int) -> Fraction:
@@ -149,16 +148,15 @@ def to_rough_seconds(times: Any) -> Any:
 
 
 def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
-    array = None if isinstance(value, bool | np.timedelta64) else np.asarray(value)
-    if array is not None and array.dtype.kind in "iu" and array.ndim <= 1:
-        if array.ndim == 0:
-            value = int(array)
-        elif array.dtype.kind == "i" or array.max(initial=0) <= LARGEST_STAMP:
+    array = np.asarray(value)
+    if array.dtype.kind in "iu":
+        if array.ndim == 0 and abs(number := int(array)) <= LARGEST_STAMP:
+            return number
+        if array.ndim == 1 and (array.dtype.kind == "i" or array.max(initial=0) <= LARGEST_STAMP):
             return array.astype(np.int64, copy=False)
-    if isinstance(value, int) and not isinstance(value, bool) and abs(value) <= LARGEST_STAMP:
-        return value
-    condition = "an int or an array (n,) of ints, of at most 63 bits (ns)"
-    raise refuse("nanoseconds", condition, repr(value))
+    raise refuse(
+        "nanoseconds", "an int or an array (n,) of ints, of at most 63 bits (ns)", repr(value)
+    )
 
 
 def _validate_elapsed(value: Any) -> Fraction:

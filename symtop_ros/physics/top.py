@@ -94,15 +94,13 @@ class Top(_Numbers):
     Mgl: float
 
     def __init__(self, Ix: ArrayLike, Iz: ArrayLike, Mgl: ArrayLike) -> None:
-        names, units = ("Ix", "Iz", "Mgl"), ("kg m^2", "kg m^2", "J")
-        values = validate_together(dict(zip(names, (Ix, Iz, Mgl), strict=True)), units)
-        for name, value in zip(names, values, strict=True):
+        given = {"Ix": Ix, "Iz": Iz, "Mgl": Mgl}
+        values = validate_together(given, ("kg m^2", "kg m^2", "J"))
+        for name, value in zip(given, values, strict=True):
             object.__setattr__(self, name, value)
-        if self.shape:
-            for moments in zip(*(array.ravel().tolist() for array in values), strict=True):
-                _validate_moments(*moments)
-        else:
-            _validate_moments(*values)
+        columns = [each.ravel().tolist() if self.shape else [each] for each in values]
+        for moments in zip(*columns, strict=True):
+            _validate_moments(*moments)
 
     @property
     def moments(self) -> Vector:
@@ -115,8 +113,7 @@ class Top(_Numbers):
 
         Sleeping upright is stable if and only if p_psi^2 >= 4 Ix Mgl (Goldstein, section 5.7).
         """
-        weight = np.sqrt(np.maximum(self.Mgl, 0.0))
-        spin = 2 * np.sqrt(self.Ix) * weight / self.Iz
+        spin = 2 * np.sqrt(self.Ix) * np.sqrt(np.maximum(self.Mgl, 0.0)) / self.Iz
         return spin if self.shape else float(spin)
 
     def sleeping_is_stable(self, state: State) -> bool:
@@ -201,8 +198,11 @@ def match(value: Any, state: State) -> Any:
     """Return a number of one top, or the numbers of tops that have the shape of their states."""
     states = state.angular_velocity.shape[:-1]
     if not isinstance(value, float) and np.shape(value) != states:
-        condition = "one of each for each other (`Motions.energy` and its like take many times)"
-        raise refuse("top and state", condition, f"shapes {np.shape(value)} and {states}")
+        raise refuse(
+            "top and state",
+            "one of each for each other (`Motions.energy` and its like take many times)",
+            f"shapes {np.shape(value)} and {states}",
+        )
     return value
 
 
@@ -244,9 +244,7 @@ class Friction(_Numbers):
 
     def __bool__(self) -> bool:
         """Return True if a coefficient is not zero."""
-        if self.shape:
-            return bool(np.any(self.axial) or np.any(self.transverse))
-        return self.axial > 0 or self.transverse > 0
+        return bool(np.any(self.axial) or np.any(self.transverse))
 
     @ignore_underflow
     def torque(self, state: State) -> Real:

@@ -79,6 +79,14 @@ def validate_number(name: str, value: Any, unit: str = "") -> float:
     return number
 
 
+def validate_positive(name: str, value: Any, unit: str) -> float:
+    """Return a number above 0, as `validate_number` does."""
+    number = validate_number(name, value, unit)
+    if number <= 0:
+        raise refuse(name, f"> 0 {unit}", number)
+    return number
+
+
 def validate_array(name: str, value: Any, size: int | None = None, unit: str = "") -> Real:
     """Return finite real numbers as a new array of doubles.
 
@@ -130,8 +138,9 @@ def _refuse_units(name: str, value: Any, unit: str) -> None:
     parts = value if isinstance(value, list | tuple) else (value,)
     for part in parts:
         if hasattr(part, "units") or hasattr(part, "unit"):
-            condition = _with_unit("plain numbers, converted to SI units", unit)
-            raise refuse(name, condition, repr(value))
+            raise refuse(
+                name, _with_unit("plain numbers, converted to SI units", unit), repr(value)
+            )
         if part is not value and isinstance(part, list | tuple):
             _refuse_units(name, part, unit)
 
@@ -153,7 +162,10 @@ def validate_numbers(name: str, value: Any, unit: str = "") -> Any:
     ValueError
         As `validate_number` and `validate_array`.
     """
-    return (validate_array if _is_array(value) else validate_number)(name, value, unit=unit)
+    is_array = isinstance(value, list | tuple) or (
+        hasattr(value, "__array__") and np.ndim(value) > 0
+    )
+    return (validate_array if is_array else validate_number)(name, value, unit=unit)
 
 
 def validate_rate(name: str, value: Any) -> Any:
@@ -213,11 +225,14 @@ def validate_together(values: dict[str, Any], units: Sequence[str]) -> list[Any]
         return list(values.values())
     named = zip(values.items(), units, strict=True)
     validated = [validate_numbers(name, value, unit) for (name, value), unit in named]
-    arrays = [value for value in validated if isinstance(value, np.ndarray)]
-    if not arrays:
+    shapes = {
+        name: array.shape
+        for name, array in zip(values, validated, strict=True)
+        if isinstance(array, np.ndarray)
+    }
+    if not shapes:
         return validated
-    names = [name for name, value in zip(values, validated, strict=True) if np.ndim(value)]
-    fit_shapes(" and ".join(names), *(array.shape for array in arrays))
+    fit_shapes(" and ".join(shapes), *shapes.values())
     spread = [array.copy() for array in np.broadcast_arrays(*validated)]
     for array in spread:
         array.flags.writeable = False
@@ -278,10 +293,6 @@ def validate_vectors(name: str, value: Any, unit: str) -> Any:
     """Return three finite numbers as floats, or an array (..., 3) of them."""
     is_many = np.ndim(value) > 1
     return validate_array(name, value, 3, unit) if is_many else validate_vector(name, value, unit)
-
-
-def _is_array(value: Any) -> bool:
-    return isinstance(value, list | tuple) or (hasattr(value, "__array__") and np.ndim(value) > 0)
 
 
 def _is_real(value: Any) -> bool:

@@ -33,7 +33,7 @@ BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
 # Of the body: its frame turned, or with its origin off the pivot; all or half of the mass in a
 # fixed child. The states of the first are in the turned frame, those of the others as ever.
 DESCRIPTIONS = ("turned", "offset", "nested", "nested_half")
-SEPARATORS = (",", ";", "\t", None)  # None: any white space
+SEPARATORS = (",", ";", "\t")  # else any white space
 LARGEST_NORM_ERROR = 0.01  # of a quaternion; a larger one is another error than that of a motion
 # A row belongs to a time if it is this close to it, relatively: a clock that adds up its steps.
 SAME_TIME = 1e-9
@@ -68,8 +68,7 @@ class Problem:
     @property
     def times(self) -> Real:
         """Times of the exact states, (20,), in s."""
-        times: Real = np.array(self.facts["times"], dtype=np.float64)
-        return times
+        return np.asarray(self.facts["times"], dtype=np.float64)
 
     def format_json(self) -> str:
         """Return the problem and its solution as JSON, with a line for each quantity.
@@ -226,8 +225,9 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
     # Every byte is a character of Latin-1; names and numbers are ASCII in any encoding that counts.
     with path.open(encoding="latin-1", newline="") as file:
         head = file.readline().removeprefix(BOM).strip()
-        split = _choose_separator(head)
-        header = [name.strip().strip('"') for name in split(head.removeprefix("#"))]
+        separator = next((each for each in SEPARATORS if each in head), None)
+        cells = head.removeprefix("#").split(separator)
+        header = [name.strip().strip('"') for name in cells]
         names = [*QUATERNION]
         names += next((each for each in (RATES, WORLD_RATES) if set(each) <= set(header)), ())
         if not {"t", *QUATERNION} <= set(header):
@@ -235,7 +235,7 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
                 f"{path} must have the columns t, w, x, y, z, got the header {_show(head)}"
             )
         places = [header.index(name) for name in ("t", *names)]
-        found = _pick(file, split, places, problem.times)
+        found = _pick(file, separator, places, problem.times)
     q, rates = found[:, :4], found[:, 4:] if len(names) > 4 else None
     if rates is not None and names[-1] in WORLD_RATES:
         with np.errstate(all="ignore"):  # zero and infinite quaternions are refused later
@@ -244,15 +244,7 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
     return q, rates
 
 
-def _choose_separator(head: str) -> Callable[[str], list[str]]:
-    """Return the function that splits a row as the header is separated."""
-    separator = next((each for each in SEPARATORS if each is None or each in head), None)
-    return lambda row: row.split(separator)
-
-
-def _pick(
-    rows: Iterable[str], split: Callable[[str], list[str]], places: Sequence[int], times: Real
-) -> Real:
+def _pick(rows: Iterable[str], separator: str | None, places: Sequence[int], times: Real) -> Real:
     """Return the numbers of the rows at the times; the place of t comes first."""
     found = np.full((len(times), len(places) - 1), np.nan)
     marks, tried = times.tolist(), array("d")
@@ -260,7 +252,7 @@ def _pick(
         if not row.strip():
             continue
         try:
-            cells = split(row)
+            cells = row.split(separator)
             tried.append(t := _read(cells[places[0]]))
             after = bisect(marks, t)
             for place in range(max(after - 1, 0), min(after + 1, len(marks))):
@@ -301,7 +293,7 @@ def _show(text: str) -> str:
 
 def _check(name: str, values: ArrayLike, width: int) -> Real:
     numbers = np.asarray(values, dtype=float)
-    if numbers.ndim != 2 or numbers.shape != (20, width):
+    if numbers.shape != (20, width):
         raise ValueError(f"{name} must be of shape (20, {width}), got {numbers.shape}")
     wrong = numbers[~(np.abs(numbers) <= LARGEST_NUMBER)]
     if wrong.size:

@@ -62,8 +62,7 @@ SMALLEST_RATE, LARGEST_RATE = 0.1, 1e5  # rad/s; others are written with three d
 
 def read_templates(name: str) -> dict[str, str]:
     """Return the templates of a language, or those that only programs use and no page."""
-    templates: dict[str, str] = json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8"))
-    return templates
+    return dict(json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8")))
 
 
 TEMPLATES = read_templates("en") | read_templates("programs")

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY, refuse
 
 FOLDER = Path(__file__).parent
@@ -43,8 +44,7 @@ ENGINES: tuple[Engine, ...] = get_args(Engine)
 # Statuses of `symtop_status`.
 OK, NO_MEMORY, BAD_ANGULAR_VELOCITY, TOO_FAR, TOO_FAST, MORE_STEPS = 0, 1, 4, 8, 9, 11
 TOO_STIFF, BAD_ARITHMETIC, BAD_KICK, VERTICAL = 10, 12, 14, 15
-START = 15  # numbers of `symtop_start`
-STATE = 7  # of an orientation and an angular velocity
+START, STATE = 15, 7  # numbers of `symtop_start`, of an orientation and an angular velocity
 
 BLOCK = 256  # elements of a call that takes up to 0.1 ms for each
 
@@ -148,9 +148,8 @@ SIZES = (
     VERDICTS.itemsize,
 )
 
-_VERDICT = POINTER(VerdictRecord)
 _HANDLE, _BYTES, _SIZE = ctypes.c_void_p, ctypes.c_char_p, c_size_t
-_DONE = POINTER(c_size_t)
+_DONE, _VERDICT = POINTER(c_size_t), POINTER(VerdictRecord)
 # Arguments of each function, without `symtop_`. Those that begin with "*" release Python's lock.
 _FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "new": (_BYTES, POINTER(_HANDLE)),
@@ -195,13 +194,12 @@ class Door(SimpleNamespace):
 
     def __init__(self, path: Path) -> None:
         released, locked = _load(path)
-        for name, arguments in _FUNCTIONS.items():
-            library = released if name.startswith("*") else locked
+        for starred, arguments in _FUNCTIONS.items():
+            name = starred.lstrip("*")
             # By index: a function object that belongs to this door alone.
-            function = library[f"symtop_{name.lstrip('*')}"]
-            function.argtypes = arguments
-            function.restype = _RESULTS.get(name, c_int)
-            setattr(self, name.lstrip("*"), function)
+            function = (locked if name == starred else released)[f"symtop_{name}"]
+            function.argtypes, function.restype = arguments, _RESULTS.get(name, c_int)
+            setattr(self, name, function)
 
 
 def _load(path: Path) -> tuple[ctypes.CDLL, ctypes.PyDLL]:
@@ -319,27 +317,19 @@ class KernelMotion:
         raise refuse_status(status)
 
     def fill(
-        self,
-        times: NDArray[Any],
-        orientation: Real,
-        omega: Real,
-        steps: float,
-        clock: tuple[float, tuple[float, ...]] | None = None,
+        self, times: Real | ExactTimes, orientation: Real, omega: Real, steps: float
     ) -> tuple[int, int]:
-        """Write the states at times (n,) in s; return how many were written, and the status.
-
-        With a clock, its factor and elapsed time, the times are its stamps, int64 in ns.
-        """
-        count, done = times.size, c_size_t()
+        """Write the states at times (n,); return how many were written, and the status."""
+        (count,), done = times.shape, c_size_t()
         if not count:  # ctypes takes no empty array
             return 0, OK
-        to = write_to(orientation, 4 * count), write_to(omega, 3 * count)
-        if clock:
-            given: Any = self._handle, ClockRecord(*clock), read_from(times, INT64), count
-            status = self._door.states_of_clock(*given, steps, *to, done)
+        rest = count, steps, write_to(orientation, 4 * count), write_to(omega, 3 * count), done
+        if isinstance(times, ExactTimes):
+            stamps = read_from(np.asarray(times.nanoseconds), INT64)
+            clock = ClockRecord(*times.clock)
+            status = self._door.states_of_clock(self._handle, clock, stamps, *rest)
         else:
-            given = self._handle, read_from(times), count
-            status = self._door.states(*given, steps, *to, done)
+            status = self._door.states(self._handle, read_from(times), *rest)
         return done.value, status
 
     def reach(self, t: float, steps: float) -> tuple[float, int]:
@@ -351,14 +341,12 @@ class KernelMotion:
     @property
     def kind(self) -> Kind:
         """Name of the motion."""
-        number: int = self._door.find_kind(self._handle)
-        return KINDS[number]
+        return KINDS[int(self._door.find_kind(self._handle))]
 
     @property
     def engine(self) -> Engine:
         """Method of solution."""
-        number: int = self._door.find_engine(self._handle)
-        return ENGINES[number]
+        return ENGINES[int(self._door.find_engine(self._handle))]
 
     @property
     def turning_angles(self) -> tuple[float, float]:
@@ -390,19 +378,16 @@ def fill_many(starts: Real, times: Real, orientation: Real, omega: Real, left: A
     count, each = len(starts), times.size
     if count and each:
         states = write_to(orientation, 4 * count * each), write_to(omega, 3 * count * each)
-        flags = write_to(left, count * each, "B")
-        door = open_door()
-        demand(
-            door.states_of_many(read_from(starts), count, read_from(times), each, *states, flags)
-        )
+        given = read_from(starts), count, read_from(times), each
+        demand(open_door().states_of_many(*given, *states, write_to(left, count * each, "B")))
 
 
 def describe_many(starts: Real) -> NDArray[Any]:
     """Return the constants of motions (n, 15), as records (n,) of `CONSTANTS`."""
     found, done = np.empty(len(starts), CONSTANTS), c_size_t()
     if len(starts):
-        room = _lend(found, c_uint8)
-        demand(open_door().describe_many(read_from(starts), len(starts), room, done))
+        given = read_from(starts), len(starts)
+        demand(open_door().describe_many(*given, _lend(found, c_uint8), done))
     return found
 
 
@@ -420,12 +405,12 @@ def from_angles(angles: Real, rates: Real) -> tuple[Real, Real]:
     return orientation, omega
 
 
-def _compute(name: str, width: int, *given: Real) -> Real:
+def _compute(name: str, width: int, *given: Real, then: tuple[int, ...] = ()) -> Real:
     """Return what a function finds for each of some elements, (..., width), of (..., columns)."""
     found = np.empty((*given[0].shape[:-1], width))
     if found.size:
         count, room = found.size // width, write_to(found, found.size)
-        demand(getattr(open_door(), name)(*map(read_from, given), count, room))
+        demand(getattr(open_door(), name)(*map(read_from, given), count, *then, room))
     return found
 
 
@@ -446,12 +431,13 @@ def find_tilt_torques(tops: Real, thetas: Real, phi_dots: Real, psi_dots: Real) 
 
 def find_regular_rates(tops: Real, thetas: Real, spins: Real, hold: int) -> Real:
     """Return slow and fast rates (n, 2) of tops (n, 3), nan for a rate that there is not."""
-    found = np.empty((len(tops), 2))
-    for part in _list_blocks(len(tops)):
-        given = read_from(tops[part]), read_from(thetas[part]), read_from(spins[part])
-        room = found[part]
-        demand(open_door().find_regular_rates(*given, len(room), hold, write_to(room, room.size)))
-    return found
+    columns = tops, thetas, spins
+    return np.concatenate(
+        [
+            _compute("find_regular_rates", 2, *(each[part] for each in columns), then=(hold,))
+            for part in _list_blocks(len(tops)) or [slice(0)]
+        ]
+    )
 
 
 def find_disc_top(mass: float, radius: float, distance: float, gravity: float) -> Real:
@@ -468,8 +454,7 @@ def kick(
     kicked, done, count = np.empty(omega.shape), c_size_t(), omega.size // 3
     if not count:
         return kicked, 0, OK
-    state = read_from(tops), read_from(orientation), read_from(omega)
-    to = write_to(kicked, 3 * count)
+    state, to = map(read_from, (tops, orientation, omega)), write_to(kicked, 3 * count)
     status = open_door().kick(*state, kind, hold, read_from(amounts), count, to, done)
     return kicked, done.value, status
 

@@ -3,8 +3,15 @@
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics.kernel import door
-from symtop_ros.physics.kernel.door import KernelMotion
+from symtop_ros.physics.kernel.door import (
+    MORE_STEPS,
+    OK,
+    TOO_FAR,
+    TOO_FAST,
+    TOO_STIFF,
+    KernelMotion,
+    refuse_status,
+)
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
 from symtop_ros.physics.values import refuse
 
@@ -37,19 +44,10 @@ def _fill_in_order(motion: KernelMotion, times: Real | ExactTimes, q: Real, omeg
     first = 0
     while first < len(q):
         part = slice(first, first + STATES)
-        written, status = _fill_part(motion, times[part], q[part], omega[part])
+        written, status = motion.fill(times[part], q[part], omega[part], STEPS)
         first += written
-        if status not in (door.OK, door.MORE_STEPS):
+        if status not in (OK, MORE_STEPS):
             raise _refuse_time(motion, float(to_rough_seconds(times)[first]), status)
-
-
-def _fill_part(
-    motion: KernelMotion, times: Real | ExactTimes, q: Real, omega: Real
-) -> tuple[int, int]:
-    """Write the states at times (n,) in one call; return how many, and the kernel's status."""
-    if isinstance(times, ExactTimes):
-        return motion.fill(np.asarray(times.nanoseconds), q, omega, STEPS, times.clock)
-    return motion.fill(times, q, omega, STEPS)
 
 
 def reach(motion: KernelMotion, t: float, steps: float) -> float:
@@ -57,18 +55,18 @@ def reach(motion: KernelMotion, t: float, steps: float) -> float:
     while True:
         reached, status = motion.reach(t, min(steps, STEPS))
         steps -= STEPS
-        if status == door.TOO_FAST or reached == t or steps <= 0:
+        if status == TOO_FAST or reached == t or steps <= 0:
             return reached
 
 
 def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
     """Return the error for a time at which there is no state."""
-    if status == door.TOO_FAR:
+    if status == TOO_FAR:
         return refuse("t", f"within {motion.farthest_time:.3g} s of the start (1e15 turns)", t)
-    if status not in (door.TOO_FAST, door.TOO_STIFF):
-        return door.refuse_status(status)
+    if status not in (TOO_FAST, TOO_STIFF):
+        return refuse_status(status)
     end, why = abs(reach(motion, t, 0)), "the motion then becomes too fast"
-    if status == door.TOO_STIFF:
+    if status == TOO_STIFF:
         # After some decay times the top creeps, but explicit series cannot take longer steps.
         decay = 1 / motion.decay
         end += MOST_DECAYS * decay

@@ -4,20 +4,15 @@ Nothing of `symtop_ros.physics` imports this, and it uses no number of the kerne
 be read next to docs/derivation.md, and needs mpmath: `pip install symtop_ros[reference]`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from mpmath import mp
 
 from symtop_ros.physics.reference.closed_form import ClosedForm
 from symtop_ros.physics.reference.series import ExactState, Inputs, Number, Series
-
-if TYPE_CHECKING:
-    from symtop_ros.physics.state import State
-    from symtop_ros.physics.top import Friction, Top
+from symtop_ros.physics.state import State
+from symtop_ros.physics.top import Friction, Top
 
 __all__ = ["ClosedForm", "ExactState", "Inputs", "Series", "exact_state"]
 

@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from symtop_ros.arrays import Real
 from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, pack_start
 from symtop_ros.physics.kernel import door
-from symtop_ros.physics.kernel.door import KINDS, Kind
 from symtop_ros.physics.kicks import HOLDS, Hold, validate_hold
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.precession import spread_tops
@@ -89,7 +88,7 @@ class KickVerdict:
     factor: float | None
     before: float | None
     after: float | None
-    motion: Kind
+    motion: door.Kind
     subject: Subject
     direction: Direction
     turning_angles: tuple[float, float]
@@ -149,7 +148,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
         factor=None if math.isnan(found.factor) else found.factor,
         before=reason.before,
         after=reason.after,
-        motion=KINDS[found.motion],
+        motion=door.KINDS[found.motion],
         subject=SUBJECTS[found.subject],
         direction=DIRECTIONS[found.direction],
         turning_angles=(low, high),

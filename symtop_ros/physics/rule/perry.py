@@ -30,7 +30,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from symtop_ros.physics.kernel.door import AverageRecord, PlaceRecord, VerdictRecord
+from symtop_ros.physics.kernel.door import AverageRecord, VerdictRecord
 from symtop_ros.physics.kicks import Hold
 from symtop_ros.wording import write
 
@@ -54,7 +54,6 @@ REASONS: tuple[ReasonKind, ...] = (
     *get_args(Silence),
     *get_args(VerticalCase),
 )
-IMPULSE: Silence = "angular_impulse"
 VERTICAL = len(REASONS) - len(get_args(VerticalCase))  # from here on the axis is on the vertical
 
 
@@ -142,12 +141,6 @@ class Average:
     spin_reverses: bool
 
 
-def read_place(place: PlaceRecord, held: Hold) -> Place:
-    """Return the place of a rate from the kernel's record."""
-    rates = tuple(rate for rate in place.regular_rates if not math.isnan(rate))
-    return Place(PLACES[place.kind], place.rate, rates, held)
-
-
 def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
     """Return the reason from the kernel's record of a verdict.
 
@@ -158,6 +151,8 @@ def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
     kind, rule, subject = REASONS[found.kind], RULES[found.rule], SUBJECTS[verdict.subject]
     if found.kind >= VERTICAL:
         return Reason(kind, rule, subject)
+    rates = tuple(rate for rate in found.place.regular_rates if not math.isnan(rate))
+    held = hold or ("spin_rate" if kind == "angular_impulse" else "spin_momentum")
     return Reason(
         kind,
         rule,
@@ -166,7 +161,7 @@ def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
         found.after,
         found.theta_ddot_without,
         found.theta_ddot,
-        read_place(found.place, hold or ("spin_rate" if kind == IMPULSE else "spin_momentum")),
+        Place(PLACES[found.place.kind], found.place.rate, rates, held),
     )
 
 
@@ -174,5 +169,10 @@ def read_average(found: AverageRecord) -> Average | None:
     """Return mean precession and its approximation; None if the mean is undefined."""
     if not math.isfinite(found.turns):
         return None
-    speed: Literal["fast", "slow"] = "fast" if found.is_fast else "slow"
-    return Average(found.rate, found.turns, speed, found.fast_top_rate, bool(found.spin_reverses))
+    return Average(
+        found.rate,
+        found.turns,
+        "fast" if found.is_fast else "slow",
+        found.fast_top_rate,
+        bool(found.spin_reverses),
+    )

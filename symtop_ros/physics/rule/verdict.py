@@ -7,7 +7,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symtop_ros.arrays import Real
+from symtop_ros.arrays import Real, split
 from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, list_starts
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kicks import HOLDS, Hold, validate_hold
@@ -182,8 +182,11 @@ def _judge(
     starts = list_starts(top, state, NO_FRICTION, NO_TORQUE, shape)
     verdicts, status = door.judge(starts, factors, HOLDS.index(hold))
     if status == door.BAD_KICK:
-        condition = f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s"
-        raise refuse("factor", condition, float(factors[len(verdicts)]))
+        raise refuse(
+            "factor",
+            f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s",
+            float(factors[len(verdicts)]),
+        )
     door.demand(status)
     return verdicts
 
@@ -207,19 +210,15 @@ def _judge_each(top: Top, state: State, factors: Real, hold: Hold) -> Verdicts:
     shapes = top.shape, state.orientation.shape[:-1], factors.shape
     shape = fit_shapes("top, state and factor", *shapes)
     spread = np.array(np.broadcast_to(factors, shape)).reshape(-1)
-    found = _judge(top, state, spread, shape, hold)
-
-    def collect(values: Any) -> Any:
-        return np.ascontiguousarray(values).reshape(shape)
-
-    reasons, angles = found["reason"], found["turning_angles"]
-    rates = np.where(
-        (reasons["kind"] < VERTICAL)[:, None], reasons["place"]["regular_rates"], np.nan
-    )
+    found = _judge(top, state, spread, shape, hold).reshape(shape)
+    reasons = found["reason"]
+    is_tilted = (reasons["kind"] < VERTICAL)[..., None]
+    slow, fast = split(np.where(is_tilted, reasons["place"]["regular_rates"], np.nan))
+    low, high = split(found["turning_angles"])
     return Verdicts(
-        direction=collect(np.array(DIRECTIONS)[found["direction"]]),
-        turning_angles=(collect(angles[:, 0]), collect(angles[:, 1])),
-        regular_rates=(collect(rates[:, 0]), collect(rates[:, 1])),
-        rule_applies=collect(reasons["rule"] != 0),
-        rule_holds=collect(reasons["rule"] == 1),
+        direction=np.take(DIRECTIONS, found["direction"]),
+        turning_angles=(low.copy(), high.copy()),
+        regular_rates=(slow.copy(), fast.copy()),
+        rule_applies=reasons["rule"] != 0,
+        rule_holds=reasons["rule"] == 1,
     )
