@@ -14,7 +14,7 @@ from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top, validate_one
-from symtop_ros.physics.values import refuse, validate_number, validate_positive
+from symtop_ros.physics.values import require, validate_number, validate_positive
 
 LONGEST_ARM = 10.0  # m, of a body that is chosen: a weight of 1e-9 J would have kilometres
 SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user
@@ -68,8 +68,7 @@ class Body:
         for name, unit in units.items():
             validate = validate_number if name == "arm" else validate_positive
             object.__setattr__(self, name, validate(name, getattr(self, name), unit))
-        if self.Iz > 2 * self.Ix:
-            raise refuse("Iz", f"<= 2 Ix = {2 * self.Ix:g} kg m^2", self.Iz)
+        require(self.Iz <= 2 * self.Ix, "Iz", f"<= 2 Ix = {2 * self.Ix:g} kg m^2", self.Iz)
 
     @property
     def top(self) -> Top:
@@ -116,8 +115,7 @@ class Body:
         """
         mass, arm = validate_number("mass", mass, "kg"), validate_number("arm", arm, "m")
         Ix, lost = validate_number("Ix", Ix, "kg m^2"), (mass * arm) * arm
-        if Ix <= lost:
-            raise refuse("Ix", f"> mass arm^2 = {lost:g} kg m^2", Ix)
+        require(Ix > lost, "Ix", f"> mass arm^2 = {lost:g} kg m^2", Ix)
         return cls(mass, arm, Ix - lost, Iz, gravity)
 
     @classmethod
@@ -182,15 +180,19 @@ class Body:
         # M r^2 <= Ix - Iz/2
         half = (top.Ix - top.Iz / 2) / 2 * (gravity / abs(top.Mgl))
         arm = math.copysign(min(half, LONGEST_ARM), top.Mgl)
-        if arm == 0:
-            raise refuse(
-                "Iz",
-                f"< 2 Ix = {2 * top.Ix:g} kg m^2 for a body with Mgl = {top.Mgl:g} J to exist",
-                top.Iz,
-            )
+        require(
+            arm,
+            "Iz",
+            f"< 2 Ix = {2 * top.Ix:g} kg m^2 for a body with Mgl = {top.Mgl:g} J to exist",
+            top.Iz,
+        )
         mass = top.Mgl / arm / gravity
-        if not (math.isfinite(arm) and 0 < mass < math.inf):
-            raise refuse("Mgl", "of a size for which the mass of a body is a double", top.Mgl)
+        require(
+            math.isfinite(arm) and 0 < mass < math.inf,
+            "Mgl",
+            "of a size for which the mass of a body is a double",
+            top.Mgl,
+        )
         # Ix - M r^2, for half of the longest arm without the subtraction
         Ix = top.Ix / 2 + top.Iz / 4 if half <= LONGEST_ARM else top.Ix - mass * arm**2
         return cls(mass, arm, Ix, top.Iz, gravity)
@@ -235,7 +237,7 @@ class Body:
         """
         validate_one(motion, "motion")
         pairs = zip(self._moments, motion.top.moments, strict=True)
-        if not all(math.isclose(mine, its, rel_tol=SAME) for mine, its in pairs):
-            raise refuse("motion.top", f"{self.top}, that of the body", motion.top)
+        is_own = all(math.isclose(mine, its, rel_tol=SAME) for mine, its in pairs)
+        require(is_own, "motion.top", f"{self.top}, that of the body", motion.top)
         force = specific_force(motion, state, (0.0, 0.0, self.arm), self.gravity)
         return self.mass * state.to_world(force)

@@ -29,7 +29,7 @@ from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import (
     ignore_underflow,
-    refuse,
+    require,
     validate_array,
     validate_number,
     validate_vector,
@@ -258,8 +258,7 @@ class Motion:
         True
         """
         t = validate_number("t", t, "s")
-        if not steps >= 0:
-            raise refuse("steps", ">= 0", steps)
+        require(steps >= 0, "steps", ">= 0", steps)
         return states.reach(self._kernel, t, steps)
 
     @cached_property

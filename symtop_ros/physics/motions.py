@@ -28,7 +28,7 @@ from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import refuse, validate_array
+from symtop_ros.physics.values import require, validate_array
 
 
 class Motions:
@@ -187,12 +187,12 @@ class Motions:
         [1.0, 1.0]
         """
         t = validate_array("times", times, unit="s")
-        if t.shape[: len(self.shape)] != self.shape:
-            raise refuse(
-                "times",
-                f"an array whose shape begins with that of the motions, {self.shape}",
-                f"shape {t.shape}",
-            )
+        require(
+            t.shape[: len(self.shape)] == self.shape,
+            "times",
+            f"an array whose shape begins with that of the motions, {self.shape}",
+            f"shape {t.shape}",
+        )
         rows = t.reshape(math.prod(self.shape), -1)
         orientation, omega = np.empty((*rows.shape, 4)), np.empty((*rows.shape, 3))
         for n, row in enumerate(rows):
@@ -220,8 +220,7 @@ class Motions:
         [0, 0, 1, 1]
         """
         t = validate_array("times", times, unit="s")
-        if t.ndim != 1:
-            raise refuse("times", "of shape (m,)", f"shape {t.shape}")
+        require(t.ndim == 1, "times", "of shape (m,)", f"shape {t.shape}")
         count, states = math.prod(self.shape), self.at(t)
         orientation, omega = (np.array(part) for part in states.parts)
         flat = wrap_states(orientation, omega, (count * len(t),))
@@ -247,12 +246,12 @@ class Motions:
     def _spread(self, states: State) -> Top:
         """Return the tops in the shape of states of these motions."""
         shape = states.orientation.shape[:-1]
-        if shape[: len(self.shape)] != self.shape:
-            raise refuse(
-                "states",
-                f"states of these motions, of a shape that begins with {self.shape}",
-                f"shape {shape}",
-            )
+        require(
+            shape[: len(self.shape)] == self.shape,
+            "states",
+            f"states of these motions, of a shape that begins with {self.shape}",
+            f"shape {shape}",
+        )
         return self.top.spread(self.shape, shape)
 
     def energy(self, states: State) -> Real:

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +18,7 @@ from symtop_ros.physics.values import (
     are_floats,
     ignore_underflow,
     refuse,
+    require,
     validate_array,
     validate_together,
 )
@@ -329,8 +331,7 @@ class State:
         [0.0, 1.0, 0.0, 0.0]
         """
         R = validate_array("matrix", matrix, 3)
-        if R.ndim < 2 or R.shape[-2] != 3:
-            raise refuse("matrix", "of shape (..., 3, 3)", f"shape {R.shape}")
+        require(R.shape[-2:] == (3, 3), "matrix", "of shape (..., 3, 3)", f"shape {R.shape}")
         off = np.abs(R @ np.swapaxes(R, -1, -2) - np.eye(3)).max(initial=0.0)
         if off > NORM_TOLERANCE or (np.linalg.det(R) < 0).any():
             raise refuse(
@@ -386,13 +387,11 @@ class State:
         ``pandas.DataFrame(table)`` is a data frame of it.
         """
         t, shape = validate_array("times", times, unit="s"), self.orientation.shape[:-1]
-        if len(shape) != 1:
-            raise refuse("states", "of shape (n,)", f"shape {shape}")
-        if t.shape != shape:
-            raise refuse("times", f"of shape {shape}, one for each state", f"shape {t.shape}")
-        columns = [*split(self.orientation), *split(self.angular_velocity)]
-        columns += [*self.euler_angles, *self.euler_rates]
-        return dict(zip(COLUMNS, (t, *map(np.array, columns)), strict=True))
+        require(len(shape) == 1, "states", "of shape (n,)", f"shape {shape}")
+        condition = f"of shape {shape}, one for each state"
+        require(t.shape == shape, "times", condition, f"shape {t.shape}")
+        vectors = *map(split, self.parts), self.euler_angles, self.euler_rates
+        return dict(zip(COLUMNS, (t, *map(np.array, chain(*vectors))), strict=True))
 
     def __getitem__(self, place: Any) -> "State":
         """Return some of many states, as NumPy's indexing of the leading axes does.

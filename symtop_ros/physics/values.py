@@ -45,6 +45,12 @@ def refuse(name: str, condition: str, value: Any) -> ValueError:
     return ValueError(f"{name} must be {condition}, got {_to_text(value)}")
 
 
+def require(holds: Any, name: str, condition: str, value: Any) -> None:
+    """Refuse an argument unless its condition holds."""
+    if not holds:
+        raise refuse(name, condition, value)
+
+
 def validate_number(name: str, value: Any, unit: str = "") -> float:
     """Return a finite real number as a float.
 
@@ -82,8 +88,7 @@ def validate_number(name: str, value: Any, unit: str = "") -> float:
 def validate_positive(name: str, value: Any, unit: str) -> float:
     """Return a number above 0, as `validate_number` does."""
     number = validate_number(name, value, unit)
-    if number <= 0:
-        raise refuse(name, f"> 0 {unit}", number)
+    require(number > 0, name, f"> 0 {unit}", number)
     return number
 
 
@@ -146,22 +151,7 @@ def _refuse_units(name: str, value: Any, unit: str) -> None:
 
 
 def validate_numbers(name: str, value: Any, unit: str = "") -> Any:
-    """Return one finite real number as a float, or many as a new array of doubles.
-
-    Parameters
-    ----------
-    name : str
-        Name of the argument, for the message.
-    value : float or array_like (...)
-        The numbers.
-    unit : str
-        Unit, for the message.
-
-    Raises
-    ------
-    ValueError
-        As `validate_number` and `validate_array`.
-    """
+    """Return one finite real number as a float, or many as a new array of doubles."""
     is_array = isinstance(value, list | tuple) or (
         hasattr(value, "__array__") and np.ndim(value) > 0
     )
@@ -169,20 +159,7 @@ def validate_numbers(name: str, value: Any, unit: str = "") -> Any:
 
 
 def validate_rate(name: str, value: Any) -> Any:
-    """Return rates in rad/s as a float or an array, of a size of which squares are doubles.
-
-    Parameters
-    ----------
-    name : str
-        Name of the argument, for the message.
-    value : float or array_like (...)
-        The rates.
-
-    Raises
-    ------
-    ValueError
-        If a rate is not a finite number, or above 1e100 rad/s.
-    """
+    """Return rates in rad/s as a float or an array, of a size of which squares are doubles."""
     rate = validate_numbers(name, value, "rad/s")
     largest = float(np.max(np.abs(rate), initial=0.0))
     if largest > LARGEST_ANGULAR_VELOCITY:
