@@ -152,16 +152,18 @@ UNITS = {"delay": 1e3, "clock": 1e6, "scale": 100.0}  # ms, ppm and %; others ar
 def _list_parts(cause: Cause) -> list[dict[str, Any]]:
     """Return the parts of an explanation as records for sentences."""
     world, body = cause.offset.angles
-    parts: list[dict[str, Any]] = []
-    for name, deviation in zip_longest(cause.parameters, cause.deviations):
-        unit, value = UNITS.get(name, 1.0), float(getattr(cause.offset, name))
-        parts.append({"kind": name, "value": unit * value, **_write_deviation(deviation, unit)})
-    if cause.level != "none":
-        deviation = _write_deviation(cause.turn_deviation)
-        parts.append({"kind": cause.level, "world": world, "body": body, **deviation})
-    if cause.change:
-        parts.insert(0, {"kind": "change"})
-    return parts
+    change = [{"kind": "change"}] if cause.change else []
+    parameters = [
+        {
+            "kind": name,
+            "value": UNITS.get(name, 1.0) * float(getattr(cause.offset, name)),
+            **_write_deviation(deviation, UNITS.get(name, 1.0)),
+        }
+        for name, deviation in zip_longest(cause.parameters, cause.deviations)
+    ]
+    deviation = _write_deviation(cause.turn_deviation)
+    turns = {"kind": cause.level, "world": world, "body": body, **deviation}
+    return [*change, *parameters, *([turns] if cause.level != "none" else [])]
 
 
 def _write_deviation(deviation: float | None, unit: float = 1.0) -> dict[str, Any]:

@@ -93,9 +93,12 @@ def tell_limit(error: float, limit: float | None) -> int:
 def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
     """Write all problems as one set, with its models in a separate folder."""
     facts = [each.facts for each in problems.values()]
-    texts = {score.FILE.name: format_problems(facts, STANDARD_GRAVITY), **tabulate(facts)}
     models = {name: text for each in facts for name, text in _describe_models(each).items()}
-    texts |= {f"{MODELS}/{name}": text for name, text in models.items()}
+    texts = {
+        score.FILE.name: format_problems(facts, STANDARD_GRAVITY),
+        **tabulate(facts),
+        **{f"{MODELS}/{name}": text for name, text in models.items()},
+    }
     (folder / MODELS).mkdir(parents=True, exist_ok=True)
     shared = {README: _read_readme(), **_read_shared()}
     _write_files(folder, {**texts, **shared, CHECKSUMS: _sum_up(texts)})

@@ -3,9 +3,9 @@
 import json
 import math
 import re
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from itertools import groupby
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -94,22 +94,17 @@ def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
 
 def find_orders(entries: Sequence[Entry]) -> dict[tuple[str, str], float]:
     """Return the order of each method in each problem: the slope of its errors by their steps."""
-
-    def method(entry: Entry) -> tuple[str, str]:
-        return entry.problem["name"], entry.step[0] if entry.step else ""
-
-    several = sorted((each for each in entries if each.step), key=method)
-    orders = {}
-    for key, group in groupby(several, method):
-        points = [
-            (each.step[1], each.error)
-            for each in group
-            if each.step and each.limits > ROUNDING and each.error < 1
-        ]
-        if len({step for step, _ in points}) > 1:
-            steps, errors = np.log(np.array(points)).T
-            orders[key] = float(np.polyfit(steps, errors, 1)[0])
-    return orders
+    points: dict[tuple[str, str], list[tuple[float, float]]] = defaultdict(list)
+    for each in entries:
+        if each.step and each.limits > ROUNDING and each.error < 1:
+            method, step = each.step
+            points[each.problem["name"], method].append((step, each.error))
+    return {
+        key: float(np.polyfit(steps, errors, 1)[0])
+        for key, own in sorted(points.items())
+        for steps, errors in [np.log(own).T]
+        if np.ptp(steps)
+    }
 
 
 def find_differences(entries: Sequence[Entry]) -> dict[tuple[str, str], dict[str, float]]:
@@ -166,16 +161,17 @@ def rank(
 def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> str:
     """Return the table of all entries, the orders, and the ranking of each level."""
     width = max(19, *(len(each.problem["name"]) + 1 for each in entries))
-    lines = [f"{'problem':{width}}{'level':>5}  {'entry':24}{'error, rad':>11}{'limits':>10}"]
-    lines += [
+    scores = [
         f"{each.problem['name']:{width}}{each.problem['level']:>5}  {each.name:24}"
         f"{each.error:>11.1e}{each.limits:>10.2g}"
         for each in entries
     ]
-    lines += [
+    orders = [
         f"order of {method} in {problem}: {order:.2f}"
         for (problem, method), order in find_orders(entries).items()
     ]
+    head = f"{'problem':{width}}{'level':>5}  {'entry':24}{'error, rad':>11}{'limits':>10}"
+    lines = [head, *scores, *orders]
     for (problem, name), errors in find_differences(entries).items():
         each = ", ".join(f"{description} {error:.2g}" for description, error in errors.items())
         lines.append(f"descriptions of {problem} differ in {name}: {each} rad")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from itertools import chain
@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-from symtop_ros.arrays import Real
 from symtop_ros.judge.estimates import MAX_STAMP, Estimates
 from symtop_ros.simulation.validation import RefusedError, one_line, plain
 from symtop_ros.wire.layout import NANOSECONDS
@@ -129,34 +128,28 @@ def _read_rows(
                 f"line {line} of {path} must {condition}, got {one_line(row)}"
             ) from None
     table = np.array(numbers, dtype=float).reshape(-1, len(columns.numbers))
-    notes = _describe_rows(table, lines) + _describe_times(stamps, columns.in_seconds, decimals)
-    rates = table[:, 4:] if table.shape[1] > 4 else None
-    return replace(Estimates.of(stamps, table[:, :4], rates), notes=notes)
-
-
-def _describe_rows(table: Real, lines: Sequence[int]) -> tuple[str, ...]:
-    """Name the first row that is not finite."""
     bad = np.flatnonzero(~np.isfinite(table).all(axis=1))
-    return tuple(
+    infinite = [
         f"{len(bad)} rows have nan or infinity, the first in line {lines[place]}"
         for place in bad[:1]
-    )
+    ]
+    odd = _describe_times(stamps, columns.in_seconds, decimals)
+    rates = table[:, 4:] if table.shape[1] > 4 else None
+    return replace(Estimates.of(stamps, table[:, :4], rates), notes=(*infinite, *odd))
 
 
-def _describe_times(stamps: Sequence[int], seconds: bool, decimals: int) -> tuple[str, ...]:
+def _describe_times(stamps: Sequence[int], seconds: bool, decimals: int) -> Iterator[str]:
     """Name times that repeat, and times that doubles have rounded."""
-    notes = []
     times, counts = np.unique(np.asarray(stamps, dtype=np.int64), return_counts=True)
     if repeated := int(counts.sum() - len(counts)):
         first = times[counts.argmax()] / NANOSECONDS
-        notes.append(f"{repeated} rows repeat a time, among them {first:.9g} s")
+        yield f"{repeated} rows repeat a time, among them {first:.9g} s"
     if seconds and len(times) and times[-1] > EPOCH and decimals < DIGITS:
         off = np.spacing(times[-1] / NANOSECONDS) / 2
-        notes.append(
+        yield (
             f"t has {decimals} decimals, as doubles of epoch seconds have: it is off by up to "
             f"{max(off, 0.5 * 10.0**-decimals):.1g} s. Write the column stamp, in ns"
         )
-    return tuple(notes)
 
 
 def _to_nanoseconds(text: str) -> int:

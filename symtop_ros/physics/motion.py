@@ -120,10 +120,8 @@ class Motion:
 
     def __repr__(self) -> str:
         """Return the call that makes the motion; without friction and torque, if none acts."""
-        parts: list[Any] = [self.top, self.start]
-        if self.is_driven:
-            parts += [self.friction, self.applied_torque]
-        return f"Motion({', '.join(map(repr, parts))})"
+        drive = (self.friction, self.applied_torque) if self.is_driven else ()
+        return f"Motion({', '.join(map(repr, (self.top, self.start, *drive)))})"
 
     @cached_property
     def is_driven(self) -> bool:

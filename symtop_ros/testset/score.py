@@ -431,12 +431,11 @@ def list_problems(problems: dict[str, Problem]) -> str:
     >>> list_problems(read_problems()).splitlines()[18].split()[:4]
     ['2', 'cusps', '10', 's']
     """
-    lines = ["level  name              duration  what"]
-    for each in problems.values():
-        facts = each.facts
-        duration = f"{facts['times'][-1]:g} s"
-        lines.append(f"{facts['level']:5}  {facts['name']:18}{duration:>8}  {facts['what']}")
-    return "\n".join(lines)
+    rows = [
+        f"{facts['level']:5}  {facts['name']:18}{facts['times'][-1]:>6g} s  {facts['what']}"
+        for facts in (each.facts for each in problems.values())
+    ]
+    return "\n".join(["level  name              duration  what", *rows])
 
 
 def score_file(problems: dict[str, Problem], name: str, path: Path | None) -> Score:

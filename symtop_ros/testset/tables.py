@@ -180,8 +180,8 @@ def _list_starts(problems: Sequence[Facts]) -> Iterable[Row]:
     start = [f"{name}0" for name in (*QUATERNION, *RATES)]
     yield ("name", "level", *CONSTANTS, *start, "duration", "mujoco_urdf_effect", "what")
     for each in problems:
-        values = [each[key] for key in CONSTANTS]
-        values += [*each["orientation"], *each["angular_velocity"], each["times"][-1]]
+        states = *each["orientation"], *each["angular_velocity"]
+        values = *(each[key] for key in CONSTANTS), *states, each["times"][-1]
         effect = each["mujoco_urdf_effect"]
         shown = "" if effect is None else repr(effect)
         yield (each["name"], each["level"], *map(repr, values), shown, each["what"])

@@ -106,8 +106,8 @@ class Series:
             for inertia in (Ix, Ix, Iz)
         ]
         self._is_driven = any(friction) or any(torque)
-        start = self._normalize(orientation)
-        start += [self._to_integer(rate / self._second) for rate in omega]
+        rates = [self._to_integer(rate / self._second) for rate in omega]
+        start = self._normalize(orientation) + rates
         self._forward, self._back = Way(1, start), Way(-1, start)
 
     def at(self, t: float | Fraction) -> ExactState:
