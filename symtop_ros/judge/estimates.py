@@ -29,7 +29,6 @@ MAX_ESTIMATES = 20_000_000
 LARGEST_NORM_ERROR = 0.1  # of a quaternion; one further from 1 is no attitude
 NORM_ROUNDING = 2.0**-50  # of a quaternion that is normalised
 NO_ORIENTATION = -1.0  # first covariance of an Imu without covariances (sensor_msgs)
-TF_TYPE = TRANSFORM.type
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,10 +107,10 @@ FORMATS = {
 
 def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = None) -> Estimates:
     """Decode messages of a type; with a child frame, only those of that frame."""
-    if kind == TF_TYPE:
+    if kind == TRANSFORM.type:
         return _decode_transforms(messages, frame)
     if kind not in FORMATS:
-        known = ", ".join(name.rpartition("/")[2] for name in (*FORMATS, TF_TYPE))
+        known = ", ".join(name.rpartition("/")[2] for name in (*FORMATS, TRANSFORM.type))
         raise RefusedError(
             f"topic must have a type with an attitude ({known}), got {one_line(kind)}"
         )

@@ -51,8 +51,9 @@ def angular_acceleration(motion: Motion, state: State) -> Real:
     x, y, z = split(state.angular_velocity)
     torque_x, torque_y, torque_z = split(_body_torque(motion, state))
     coupling = (Ix - Iz) / Ix
-    body = stack(coupling * y * z + torque_x / Ix, torque_y / Ix - coupling * z * x, torque_z / Iz)
-    return state.to_world(body)
+    return state.to_world(
+        stack(coupling * y * z + torque_x / Ix, torque_y / Ix - coupling * z * x, torque_z / Iz)
+    )
 
 
 def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Real:

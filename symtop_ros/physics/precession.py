@@ -81,8 +81,7 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
     rates = door.find_regular_rates(tops, thetas, spins, hold=0)
     if not shape:
         return tuple(rate for rate in rates[0].tolist() if not math.isnan(rate))
-    slow, fast = (np.ascontiguousarray(rates[:, k]).reshape(shape) for k in range(2))
-    return slow, fast
+    return tuple(np.ascontiguousarray(rates[:, k]).reshape(shape) for k in range(2))
 
 
 def spread_tops(top: Top, *columns: Any) -> tuple[tuple[int, ...], list[Real]]:

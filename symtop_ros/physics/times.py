@@ -75,18 +75,13 @@ class ExactTimes:
     @cached_property
     def seconds(self) -> Any:
         """The nearest doubles in s, a float or (n,)."""
-        start, step, divisor = self._line
+        ticks, parts = self.factor.as_integer_ratio()
+        elapsed, pieces = self.elapsed.as_integer_ratio()
+        start, step, divisor = elapsed * parts, ticks * pieces, parts * pieces * SECOND
         # Python's quotient of integers of any size is the nearest double.
         if isinstance(self.nanoseconds, int):
             return (start + step * self.nanoseconds) / divisor
         return np.array([(start + step * n) / divisor for n in self.nanoseconds.tolist()])
-
-    @property
-    def _line(self) -> tuple[int, int, int]:
-        """The times in s as (start + step * nanoseconds)/divisor, in integers of any size."""
-        ticks, parts = self.factor.as_integer_ratio()
-        elapsed, pieces = self.elapsed.as_integer_ratio()
-        return elapsed * parts, ticks * pieces, parts * pieces * SECOND
 
     @cached_property
     def clock(self) -> tuple[float, tuple[float, ...]]:

@@ -67,7 +67,7 @@ def test_a_stated_model_is_aligned_without_a_search(model, error):
     truth = scene_truth("cusps")
     found = judge(Made(heading(1.0)).make(truth, STAMPS), truth, "x", (), model)
     assert found.found is None
-    assert found.largest == pytest.approx(error, abs=1e-12)
+    assert found.errors.total.max() == pytest.approx(error, abs=1e-12)
     assert f"aligned by {model}, without looking for other causes" in found.format()
 
 

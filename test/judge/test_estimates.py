@@ -3,7 +3,7 @@
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps
 
-from symtop_ros.judge.estimates import FORMATS, TF_TYPE, decode_estimates
+from symtop_ros.judge.estimates import FORMATS, decode_estimates
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.messages import TRANSFORM
 
@@ -57,9 +57,9 @@ def test_transforms_of_several_frames_need_a_name(estimates):
     numbers = [0.0, 0, 0, 0, 0, 0, 1]
     data = [TRANSFORM.layout("world", child).encode(9, numbers) for child in ("a", "b")]
     with pytest.raises(RefusedError, match="--frame must be one of a, b, got none"):
-        decode_estimates(TF_TYPE, data)
-    assert decode_estimates(TF_TYPE, data, "b").stamps.tolist() == [9]
-    assert len(decode_estimates(TF_TYPE, data, "c")) == 0
+        decode_estimates(TRANSFORM.type, data)
+    assert decode_estimates(TRANSFORM.type, data, "b").stamps.tolist() == [9]
+    assert len(decode_estimates(TRANSFORM.type, data, "c")) == 0
 
 
 def test_a_type_without_attitude_is_refused():

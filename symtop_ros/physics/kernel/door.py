@@ -210,17 +210,17 @@ def _load(path: Path) -> tuple[ctypes.CDLL, ctypes.PyDLL]:
     ImportError
         If it is missing, or was built from other sources.
     """
-    expected, built_of = f"symtop {digest_sources()}".encode(), b""
-    sizes: tuple[int, ...] = ()
+    digest = f"symtop {digest_sources()}".encode()
     try:
         library = ctypes.CDLL(str(path))
-        built_of = (ctypes.c_char * len(expected)).in_dll(library, "symtop_digest").value
-        sizes = tuple((ctypes.c_uint32 * len(SIZES)).in_dll(library, "symtop_sizes"))
+        built_of = (ctypes.c_char * len(digest)).in_dll(library, "symtop_digest").value
+        sizes = (ctypes.c_uint32 * len(SIZES)).in_dll(library, "symtop_sizes")
+        is_own = (built_of, tuple(sizes)) == (digest, SIZES)
     except OSError:
         raise ImportError(f"the compiled kernel {path.name} cannot be loaded: {AGAIN}") from None
     except ValueError:  # it has no such variables
-        pass
-    if built_of != expected or sizes != SIZES:
+        is_own = False
+    if not is_own:
         raise ImportError(f"the compiled kernel is of another version: {AGAIN}")
     return library, ctypes.PyDLL(str(path))
 

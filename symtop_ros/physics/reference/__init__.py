@@ -4,16 +4,20 @@ Nothing of `symtop_ros.physics` imports this, and it uses no number of the kerne
 be read next to docs/derivation.md, and needs mpmath: `pip install symtop_ros[reference]`.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from mpmath import mp
 
 from symtop_ros.physics.reference.closed_form import ClosedForm
 from symtop_ros.physics.reference.series import ExactState, Inputs, Number, Series
-from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import require
+
+if TYPE_CHECKING:
+    from symtop_ros.physics.state import State
+    from symtop_ros.physics.top import Friction, Top
 
 __all__ = ["ClosedForm", "ExactState", "Inputs", "Series", "exact_state"]
 
@@ -82,11 +86,13 @@ def exact_state(
 
 
 def _check(top: Top, start: State, t: float, digits: int) -> None:
-    is_one = not top.shape and start.given_orientation.shape == (4,)
-    shapes = f"shapes {top.shape} and {start.given_orientation.shape[:-1]}"
-    require(is_one, "top and start", "those of one motion", shapes)
-    require(math.isfinite(t), "t", "a finite number", f"{t} s")
-    require(digits >= 1, "digits", "1 or more", digits)
+    if top.shape or start.given_orientation.shape != (4,):
+        shapes = f"shapes {top.shape} and {start.given_orientation.shape[:-1]}"
+        raise ValueError(f"top and start must be those of one motion, got {shapes}")
+    if not math.isfinite(t):
+        raise ValueError(f"t must be a finite number, got {t} s")
+    if digits < 1:
+        raise ValueError(f"digits must be 1 or more, got {digits}")
 
 
 def _agree(found: ExactState, before: ExactState, digits: int, fastest: float) -> bool:

@@ -10,18 +10,21 @@ What a motion starts from are exact fractions, and what it comes to are numbers 
 are for the closed form.
 """
 
+from __future__ import annotations
+
 import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from fractions import Fraction
 from operator import mul
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mpmath import mp, mpf
 from mpmath.libmp import MPZ
 
-from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top
+if TYPE_CHECKING:
+    from symtop_ros.physics.state import State
+    from symtop_ros.physics.top import Top
 
 Number = Any  # of mpmath: mpf or mpc
 Integers = list[Any]  # of the type of GMP, or of Python
@@ -54,13 +57,13 @@ class Inputs(NamedTuple):
     angular_velocity: tuple[Fraction, ...]
 
     @classmethod
-    def of(cls, top: Top, start: State) -> "Inputs":
+    def of(cls, top: Top, start: State) -> Inputs:
         """Return the numbers that a top and a state were given."""
         q, omega = start.given_orientation, start.angular_velocity
         return cls.exact(*top.moments, q.tolist(), omega.tolist())
 
     @classmethod
-    def exact(cls, Ix: Any, Iz: Any, Mgl: Any, orientation: Any, angular_velocity: Any) -> "Inputs":
+    def exact(cls, Ix: Any, Iz: Any, Mgl: Any, orientation: Any, angular_velocity: Any) -> Inputs:
         """Return doubles, integers or fractions as fractions."""
         q, omega = (tuple(map(Fraction, each)) for each in (orientation, angular_velocity))
         return cls(Fraction(Ix), Fraction(Iz), Fraction(Mgl), q, omega)
