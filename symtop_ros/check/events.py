@@ -145,12 +145,13 @@ def read_act(event: Event) -> Act:
     """
     given = event.segment()
     request: Mapping[str, Any] = event.request
-    if event.name in KICKS:
-        request = read_kick(request)
-    elif event.name == "torque":
-        request = {"torque": tuple(map(float, request.get("torque", "").split()))}
-    elif event.name == "clock":  # a jump takes effect at the time that the clock has then
-        request = {"from": event.previous_end, "to": event.stamp}
+    match event.name:
+        case name if name in KICKS:
+            request = read_kick(request)
+        case "torque":
+            request = {"torque": tuple(map(float, request.get("torque", "").split()))}
+        case "clock":  # a jump takes effect at the time that the clock has then
+            request = {"from": event.previous_end, "to": event.stamp}
     return Act(
         event.name,
         event.stamp,

@@ -149,18 +149,19 @@ class Walk:
     def _judge(self, opcode: int, data: bytes, end: int) -> None:
         if opcode != Opcode.MESSAGE_INDEX:
             self._compare_indexes(end - len(data) - RECORD_START.size)
-        if opcode == Opcode.CHUNK:
-            self._found, self._expected = {}, _index(data)
-        elif opcode == Opcode.MESSAGE_INDEX:
-            index = MessageIndex.read(open_stream(data))
-            self._found[index.channel_id] = [(time, place) for time, place in index.records]
-        elif opcode == Opcode.DATA_END:
-            checksum = DataEnd.read(open_stream(data)).data_section_crc
-            # Writers differ in whether the first bytes of the file belong to the data.
-            if checksum and checksum not in (self.checksum, self._after_magic):
-                self.problems.append("the checksum of the data is not that of its bytes")
-        elif opcode == Opcode.FOOTER:
-            self._judge_footer(Footer.read(open_stream(data)), len(data))
+        match opcode:
+            case Opcode.CHUNK:
+                self._found, self._expected = {}, _index(data)
+            case Opcode.MESSAGE_INDEX:
+                index = MessageIndex.read(open_stream(data))
+                self._found[index.channel_id] = [(time, place) for time, place in index.records]
+            case Opcode.DATA_END:
+                checksum = DataEnd.read(open_stream(data)).data_section_crc
+                # Writers differ in whether the first bytes of the file belong to the data.
+                if checksum and checksum not in (self.checksum, self._after_magic):
+                    self.problems.append("the checksum of the data is not that of its bytes")
+            case Opcode.FOOTER:
+                self._judge_footer(Footer.read(open_stream(data)), len(data))
 
     def _compare_indexes(self, end: int) -> None:
         """Compare the indexes behind a chunk, if it has any, with its messages."""

@@ -118,9 +118,11 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
     tilt = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
     heading = 2 * np.arctan2(z, w)
     heading -= 2 * np.pi * np.rint(heading / (2 * np.pi))
-    rate = None
-    if chosen.angular_velocities is not None:
-        rate = np.linalg.norm(to_rotation(body).apply(chosen.angular_velocities) - rates, axis=1)
+    rate = (
+        None
+        if chosen.angular_velocities is None
+        else np.linalg.norm(to_rotation(body).apply(chosen.angular_velocities) - rates, axis=1)
+    )
     early, late = truth.count_outside(stamps)
     unknown = int((~known).sum()) - late - early
     return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late, early)

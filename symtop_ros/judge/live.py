@@ -111,10 +111,9 @@ def _dump(errors: Errors | None) -> str:
 def _format(errors: Errors | None, truth: Truth) -> str:
     if errors is None:
         return "no estimates" if truth.begin is not None else "no events of the top"
-    text = (
-        f"{len(errors.total)} estimates: attitude {summarize(errors.total)['rms']:.2e} rad rms, "
+    rms, rate = summarize(errors.total)["rms"], errors.rate
+    return (
+        f"{len(errors.total)} estimates: attitude {rms:.2e} rad rms, "
         f"{errors.total.max():.2e} at most, tilt {errors.tilt.max():.2e}"
+        f"{'' if rate is None else f', angular velocity {rate.max():.2e} rad/s'}"
     )
-    if errors.rate is not None:
-        text += f", angular velocity {errors.rate.max():.2e} rad/s"
-    return text

@@ -28,24 +28,28 @@ def main(args: list[str] | None = None) -> int:
     parser = _parser()
     # The rest belongs to ROS (--ros-args ...), which only --live needs.
     options, rest = parser.parse_known_args(args)
-    if rest and not (options.live and rest[0] == "--ros-args"):
-        parser.error(f"unrecognized arguments: {one_line(' '.join(rest))}")
-    if options.clock and options.live:
-        parser.error("--clock must have a recorded run, got --live")
-    if options.clock:
-        _read_clock(options)
-    has_estimates = options.topic or (options.estimates and not options.live)
-    has_run = options.live or options.files or options.scene
-    if options.testset is None and not (has_estimates and has_run):
-        parser.error(
-            "LOG with --topic or --estimates, --scene with --estimates, --live with --topic, or "
-            "--testset is needed"
-        )
-    if options.live and len(options.topic) > 1:
-        parser.error("--live judges one --topic")
-    if options.aligned and (options.remove or options.live):
-        parser.error("--aligned states what is removed: no --remove, no --live")
+    if fault := _find_fault(options, rest):
+        parser.error(fault)
     return tell_failures("top_judge", lambda: _run(options, rest))
+
+
+def _find_fault(options: argparse.Namespace, rest: list[str]) -> str | None:
+    """Return what does not go together in a command line."""
+    estimates = options.topic or options.clock or (options.estimates and not options.live)
+    run = options.live or options.files or options.scene
+    faults = {
+        f"unrecognized arguments: {one_line(' '.join(rest))}": (
+            rest and not (options.live and rest[0] == "--ros-args")
+        ),
+        "--clock must have a recorded run, got --live": options.clock and options.live,
+        "LOG with --topic or --estimates, --scene with --estimates, --live with --topic, or "
+        "--testset is needed": options.testset is None and not (estimates and run),
+        "--live judges one --topic": options.live and len(options.topic) > 1,
+        "--aligned states what is removed: no --remove, no --live": (
+            options.aligned and (options.remove or options.live)
+        ),
+    }
+    return next((text for text, is_there in faults.items() if is_there), None)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -120,14 +124,6 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _read_clock(options: argparse.Namespace) -> None:
-    """Take the estimates of --clock: a topic, or a file if there is one of this name."""
-    if Path(options.clock).exists() or not options.clock.startswith("/"):
-        options.estimates = Path(options.clock)
-    else:
-        options.topic = [options.clock]
-
-
 def _run(options: argparse.Namespace, rest: list[str]) -> int:
     if options.testset is not None:
         return run_testset(options)
@@ -137,6 +133,7 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
         return judge_live(options, ["top_judge", *rest])
     truth = _read_run(options)
     if options.clock:
+        _read_clock(options)
         sources, model = _read_estimates(options), options.aligned or "none"
         clocks = [measure_clock(each, truth, name, model) for name, each in sources]
         facts = json.dumps([asdict(each) for each in clocks], indent=1)
@@ -164,6 +161,14 @@ def _read_run(options: argparse.Namespace) -> Truth:
     )
 
     return read_truth(TopLog(open_run(options.files), options.node))
+
+
+def _read_clock(options: argparse.Namespace) -> None:
+    """Take the estimates of --clock: a topic, or a file if there is one of this name."""
+    if Path(options.clock).exists() or not options.clock.startswith("/"):
+        options.estimates = Path(options.clock)
+    else:
+        options.topic = [options.clock]
 
 
 def _dump(judgements: list[Judgement]) -> str:

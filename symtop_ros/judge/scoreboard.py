@@ -48,11 +48,6 @@ class Entry:
         return float(self.score.in_limits.max())
 
     @property
-    def float32_limits(self) -> float:
-        """The same in limits of single precision."""
-        return float(self.score.in_float32_limits.max())
-
-    @property
     def error(self) -> float:
         """Largest error of the attitude in rad."""
         return float(self.score.angles.max())
@@ -72,7 +67,7 @@ class Entry:
             "entry": self.name,
             "max_error": self.error,
             "limits": self.limits,
-            "float32_limits": self.float32_limits,
+            "float32_limits": float(self.score.in_float32_limits.max()),
             "times": self.problem["times"],
             "errors": self.score.angles.tolist(),
             "rate_errors": None if rates is None else rates.tolist(),

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -33,7 +34,7 @@ class Truth:
     def __init__(self, events: Sequence[Event] = (), end: int | None = None) -> None:
         self.end = end  # stamp of the last sample in ns; None: the run has no known end
         self._events: list[Event] = []
-        self._segments: dict[int, Segment] = {}  # by the number of the event
+        self._segments: list[Callable[[], Segment]] = []  # of the events
         self._budget = StepBudget(SPARE_STEPS)
         for event in events:
             self.add(event)
@@ -42,8 +43,9 @@ class Truth:
         """Add the next event of the run."""
         while self._events and self._events[-1].stamp > event.stamp:
             self._events.pop()
-            self._segments.pop(len(self._events), None)
+            self._segments.pop()
         self._events.append(event)
+        self._segments.append(cache(event.segment))
 
     @property
     def begin(self) -> int | None:
@@ -53,19 +55,19 @@ class Truth:
     @property
     def is_driven(self) -> bool:
         """True if friction or a torque acts at the start: no motion repeats."""
-        return bool(self._events) and self._segment(0).motion.is_driven
+        return bool(self._events) and self._segments[0]().motion.is_driven
 
     @property
     def kind(self) -> str:
         """Kind of the motion of a run of one motion; empty for several."""
-        return self._segment(0).motion.kind if len(self._events) == 1 else ""
+        return self._segments[0]().motion.kind if len(self._events) == 1 else ""
 
     @property
     def period(self) -> float | None:
         """Nutation period under gravity of a run of one motion in s of its clock, or None."""
         if len(self._events) != 1:
             return None
-        segment = self._segment(0)
+        segment = self._segments[0]()
         period = segment.motion.nutation_period / segment.factor
         return float(period) if np.isfinite(period) and period > 0 else None
 
@@ -87,7 +89,7 @@ class Truth:
         owners = np.searchsorted([each.stamp for each in self._events], stamps, side="right") - 1
         for number in np.unique(owners[inside & (owners >= 0)]).tolist():
             chosen = inside & (owners == number)
-            segment = self._segment(number)
+            segment = self._segments[number]()
             if self._budget.reach_stamps(segment, stamps[chosen]):
                 q, omega = segment.state_at(stamps[chosen]).parts
                 if of_sensor and (imu := segment.rig.imu):
@@ -99,11 +101,6 @@ class Truth:
     def select(self, estimates: Estimates) -> Estimates:
         """Return the estimates at stamps of which the exact motion is known."""
         return estimates.select(self.states_at(estimates.stamps, estimates.of_sensor)[2])
-
-    def _segment(self, number: int) -> Segment:
-        if number not in self._segments:
-            self._segments[number] = self._events[number].segment()
-        return self._segments[number]
 
 
 def read_truth(log: TopLog) -> Truth:

@@ -23,12 +23,11 @@ from symtop_ros.physics import Body, State, Top
 
 def format_mjcf(top: Top, start: State, body: Body, described: Description = PLAIN) -> str:
     """Return the top as MJCF with a ball joint; its start is the keyframe "start"."""
-    place, joint = "", '<joint name="pivot" type="ball"/>'
-    if described.is_moved:
-        place = f' pos="{join([-each for each in described.pivot])}"'
-        joint = f'<joint name="pivot" type="ball" pos="{join(described.pivot)}"/>'
+    place = f' pos="{join([-each for each in described.pivot])}"' if described.is_moved else ""
+    pivot = f' pos="{join(described.pivot)}"' if described.is_moved else ""
+    joint = f'  <joint name="pivot" type="ball"{pivot}/>'
     q, omega = (each.tolist() for each in described.begin(start).parts)
-    lines = [f'<body name="top"{place}>', f"  {joint}", *_fill(body, described), "</body>"]
+    lines = [f'<body name="top"{place}>', joint, *_fill(body, described), "</body>"]
     flag = '<flag contact="disable" constraint="disable"/>'
     return _write_mjcf(top, body, f"0 0 {-body.gravity!r}", flag, lines, q, omega)
 
@@ -113,9 +112,9 @@ def format_free_sdf(top: Top, start: State, body: Body, described: Description =
     local, world = _turn(described.begin(start))
     words = f"""at rest in the origin, angular velocity {local} rad/s (frame of the
      body), {world} rad/s (world frame)."""
-    if described.is_moved:
-        velocity = join(described.find_origin(start)[1])
-        words += f"\n     The origin of the frame moves with {velocity} m/s (world frame)."
+    velocity = join(described.find_origin(start)[1])
+    moving = f"\n     The origin of the frame moves with {velocity} m/s (world frame)."
+    words += moving if described.is_moved else ""
     return _write_sdf(top, start, body, described, "0 0 0", "", words)
 
 

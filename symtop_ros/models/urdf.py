@@ -121,10 +121,9 @@ def format_free_urdf(top: Top, start: State, body: Body, described: Description 
     """Return the body as URDF with one link, and its child; its start is in a comment."""
     state = described.begin(start)
     w, x, y, z = state.orientation.tolist()
-    rest = "at rest in the origin"
-    if described.is_moved:
-        place, velocity = map(join, described.find_origin(start))
-        rest = f"place {place} m and velocity {velocity} m/s of the frame (world),\n    "
+    place, velocity = map(join, described.find_origin(start))
+    moving = f"place {place} m and velocity {velocity} m/s of the frame (world),\n    "
+    rest = moving if described.is_moved else "at rest in the origin"
     return f"""<?xml version="1.0"?>
 <!--
      One link: the engine gives it a floating base, and no gravity. Start of the motion:

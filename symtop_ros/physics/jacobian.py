@@ -160,17 +160,12 @@ class _Starts:
         self._too_long = np.full(9, -1)  # the element for which a step of a column was
         self._units = np.array([1.0, rate])  # of attitude and omega
         self._margin = 2 * Ix - Iz
-        self._counted = self._find_counted()
+        # The sizes of which errors are parts, 1 rad and the spin, (n, 2, 1); one at rest, too.
+        spins = np.maximum(np.abs(self._base.angular_velocity).max(axis=-1), rate * 1e-3)
+        self._counted = np.stack((np.ones(len(spins)), spins), axis=-1)[..., None]
         self._least, self._most = self._find_rounding(motion)
         self._remainders = DRIVEN_REMAINDERS if motion.is_driven else REMAINDERS
         self._left = np.full((len(times), 2, 3, 9), np.inf)
-
-    def _find_counted(self) -> Real:
-        """Return the sizes of which errors are parts, 1 rad and the spin, (n, 2, 1)."""
-        spins = np.abs(self._base.angular_velocity).max(axis=-1)
-        # A body at rest has a size, too.
-        spins = np.maximum(spins, self._units[1] * 1e-3)
-        return np.stack((np.ones(len(spins)), spins), axis=-1)[..., None]
 
     def _find_rounding(self, motion: Any) -> tuple[Real, Real]:
         """Return the least and the largest sizes of what is rounded, (n, 2, 3, 1).

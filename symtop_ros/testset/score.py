@@ -168,13 +168,13 @@ class Score:
         >>> cusps.score([cusps.facts["orientation"]] * 20).format()[:50]
         'cusps: attitude 2.1e+00 rad at most (mean 1.2e+00)'
         """
+        rates = self.rates
         text = (
             f"{self.problem.facts['name']}: attitude {self.angles.max():.1e} rad at most "
             f"(mean {self.angles.mean():.1e}), {self.in_limits.max():.2g} limits "
             f"({self.in_float32_limits.max():.2g} of float32)"
+            f"{'' if rates is None else f'; angular velocity {rates.max():.1e} rad/s at most'}"
         )
-        if self.rates is not None:
-            text += f"; angular velocity {self.rates.max():.1e} rad/s at most"
         return "\n".join([text, *(f"likely mistake: {each}" for each in self.mistakes)])
 
 
@@ -410,10 +410,11 @@ def main(args: Sequence[str] | None = None) -> int:
     options = parser.parse_args(args)
     problems = read_problems()
     try:
-        if not options.problem:
-            print(list_problems(problems))
-        else:
-            print(score_file(problems, options.problem, options.trajectory).format())
+        print(
+            score_file(problems, options.problem, options.trajectory).format()
+            if options.problem
+            else list_problems(problems)
+        )
     except ValueError as error:
         print(error, file=sys.stderr)
         return 1

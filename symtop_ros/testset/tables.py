@@ -78,7 +78,9 @@ def complete(facts: Mapping[str, Any], gravity: float) -> dict[str, Any]:
     with localcontext(WORKING):
         moments = [start, *zip(*lists.values(), strict=True)]
         found = [_derive([*constants, Decimal(gravity)], *each) for each in moments]
-        turned = [_turn_frame(*each) for each in moments[1:]]
+        a, b, c, d = TURN
+        rows = _rotation(a, -b, -c, -d)
+        turned = [(multiply(q, TURN), _turn(rows, omega)) for q, omega in moments[1:]]
     lists |= dict(zip(TURNED, zip(*turned, strict=True), strict=True))
     lists |= {name: [each[k] for each in found] for k, name in enumerate((*FORCES, *WORLD))}
     shown: dict[str, Any] = {name: _show_all(rows) for name, rows in lists.items()}
@@ -87,12 +89,6 @@ def complete(facts: Mapping[str, Any], gravity: float) -> dict[str, Any]:
     entries = list(facts.items())
     place = list(facts).index(STATES[0])
     return dict([*entries[:place], *shown.items(), *entries[place + len(STATES) :]])
-
-
-def _turn_frame(q: Numbers, omega: Numbers) -> tuple[Numbers, Numbers]:
-    """Return a state in the turned frame."""
-    a, b, c, d = TURN
-    return multiply(q, TURN), _turn(_rotation(a, -b, -c, -d), omega)
 
 
 def _derive(constants: Numbers, q: Numbers, omega: Numbers) -> tuple[Numbers, ...]:

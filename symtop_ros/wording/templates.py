@@ -113,17 +113,19 @@ class _Writer:
         return PLACEHOLDER.sub(replace, template)
 
     def _write_value(self, name: str, value: Any, form: str, record: Mapping[str, Any]) -> str:
-        if value is None:
-            return ""
-        if isinstance(value, bool):
-            return self._fill(f"{form}.{str(value).lower()}", record)
-        if isinstance(value, int | float):
-            return write_number(value, form)
-        if isinstance(value, str):
-            return self._fill(f"{form}.{value}", record) if form else value
-        if isinstance(value, Mapping):
-            return self.write(form or name, value)
-        return self._write_several(name, value, form, record)
+        match value:
+            case None:
+                return ""
+            case bool():
+                return self._fill(f"{form}.{str(value).lower()}", record)
+            case int() | float():
+                return write_number(value, form)
+            case str():
+                return self._fill(f"{form}.{value}", record) if form else value
+            case Mapping():
+                return self.write(form or name, value)
+            case _:
+                return self._write_several(name, value, form, record)
 
     def _write_several(
         self, name: str, values: Sequence[Any], form: str, record: Mapping[str, Any]

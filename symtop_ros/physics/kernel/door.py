@@ -254,8 +254,8 @@ def demand(status: int) -> None:
 
 
 def _lend(array: Any, kind: Any) -> Any:
-    """Return the buffer of an array; NumPy's types do not say that it has one."""
-    return kind.from_buffer(array)
+    """Return the buffer of an array, or one of no numbers: ctypes takes no empty array."""
+    return kind.from_buffer(array) if array.size else (kind * 0)()
 
 
 def read_from(array: NDArray[Any], code: str = "d") -> bytes:
@@ -321,8 +321,6 @@ class KernelMotion:
     ) -> tuple[int, int]:
         """Write the states at times (n,); return how many were written, and the status."""
         (count,), done = times.shape, c_size_t()
-        if not count:  # ctypes takes no empty array
-            return 0, OK
         rest = count, steps, write_to(orientation, 4 * count), write_to(omega, 3 * count), done
         if isinstance(times, ExactTimes):
             stamps = read_from(np.asarray(times.nanoseconds), INT64)
@@ -376,18 +374,15 @@ def fill_many(starts: Real, times: Real, orientation: Real, omega: Real, left: A
     `left` (n, m) of bytes becomes 0 for a state that is written, and 1 for others.
     """
     count, each = len(starts), times.size
-    if count and each:
-        states = write_to(orientation, 4 * count * each), write_to(omega, 3 * count * each)
-        given = read_from(starts), count, read_from(times), each
-        demand(open_door().states_of_many(*given, *states, write_to(left, count * each, "B")))
+    states = write_to(orientation, 4 * count * each), write_to(omega, 3 * count * each)
+    given = read_from(starts), count, read_from(times), each
+    demand(open_door().states_of_many(*given, *states, write_to(left, count * each, "B")))
 
 
 def describe_many(starts: Real) -> NDArray[Any]:
     """Return the constants of motions (n, 15), as records (n,) of `CONSTANTS`."""
-    found, done = np.empty(len(starts), CONSTANTS), c_size_t()
-    if len(starts):
-        given = read_from(starts), len(starts)
-        demand(open_door().describe_many(*given, _lend(found, c_uint8), done))
+    found, given = np.empty(len(starts), CONSTANTS), (read_from(starts), len(starts))
+    demand(open_door().describe_many(*given, _lend(found, c_uint8), c_size_t()))
     return found
 
 
@@ -395,22 +390,20 @@ def from_angles(angles: Real, rates: Real) -> tuple[Real, Real]:
     """Return orientations (..., 4) and angular velocities (..., 3) of angles and rates (..., 3)."""
     orientation, omega = np.empty((*angles.shape[:-1], 4)), np.empty(angles.shape)
     count, done = omega.size // 3, c_size_t()
-    if count:
-        to = write_to(orientation, 4 * count), write_to(omega, 3 * count)
-        status = open_door().from_angles(read_from(angles), read_from(rates), count, *to, done)
-        if status == BAD_ANGULAR_VELOCITY:
-            largest = float(np.abs(omega.reshape(-1, 3)[done.value]).max())
-            raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
-        demand(status)
+    to = write_to(orientation, 4 * count), write_to(omega, 3 * count)
+    status = open_door().from_angles(read_from(angles), read_from(rates), count, *to, done)
+    if status == BAD_ANGULAR_VELOCITY:
+        largest = float(np.abs(omega.reshape(-1, 3)[done.value]).max())
+        raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
+    demand(status)
     return orientation, omega
 
 
 def _compute(name: str, width: int, *given: Real, then: tuple[int, ...] = ()) -> Real:
     """Return what a function finds for each of some elements, (..., width), of (..., columns)."""
     found = np.empty((*given[0].shape[:-1], width))
-    if found.size:
-        count, room = found.size // width, write_to(found, found.size)
-        demand(getattr(open_door(), name)(*map(read_from, given), count, *then, room))
+    count, room = found.size // width, write_to(found, found.size)
+    demand(getattr(open_door(), name)(*map(read_from, given), count, *then, room))
     return found
 
 
@@ -452,8 +445,6 @@ def kick(
 ) -> tuple[Real, int, int]:
     """Return angular velocities (n, 3) after kicks, how many are done, and the status."""
     kicked, done, count = np.empty(omega.shape), c_size_t(), omega.size // 3
-    if not count:
-        return kicked, 0, OK
     state, to = map(read_from, (tops, orientation, omega)), write_to(kicked, 3 * count)
     status = open_door().kick(*state, kind, hold, read_from(amounts), count, to, done)
     return kicked, done.value, status
