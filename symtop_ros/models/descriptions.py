@@ -98,8 +98,7 @@ class Description:
         a, b, c = (-each for each in self.pivot)
         x, y, z = state.angular_velocity.tolist()
         turning = y * c - z * b, z * a - x * c, x * b - y * a
-        place, velocity = (_round(state.to_world(each)) for each in ((a, b, c), turning))
-        return place, velocity
+        return _round(state.to_world((a, b, c))), _round(state.to_world(turning))
 
 
 PLAIN = Description()

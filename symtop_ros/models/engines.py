@@ -120,9 +120,8 @@ def format_free_sdf(top: Top, start: State, body: Body, described: Description =
 
 def _turn(start: State) -> tuple[str, str]:
     """Return the angular velocity in the frames of the body and the world."""
-    rates = start.angular_velocity, start.to_world(start.angular_velocity)
-    local, world = (join(each.tolist()) for each in rates)
-    return local, world
+    local = start.angular_velocity
+    return join(local.tolist()), join(start.to_world(local).tolist())
 
 
 def _write_sdf(

@@ -154,9 +154,11 @@ class Motions:
         flat = np.array([times]) if isinstance(times, float) else times.ravel()
         count, many = math.prod(self.shape), math.prod(shape)
         orientation, omega = np.empty((count, many, 4)), np.empty((count, many, 3))
-        left = np.ones((count, many), np.bool_)
-        if not isinstance(flat, ExactTimes):
-            left = fill_states(self._starts, flat, orientation, omega)
+        left = (
+            np.ones((count, many), np.bool_)
+            if isinstance(flat, ExactTimes)
+            else fill_states(self._starts, flat, orientation, omega)
+        )
         for n in np.flatnonzero(left.any(axis=1)).tolist():
             self._find_member(n).fill(flat, orientation[n], omega[n])
         return wrap_states(orientation, omega, (*self.shape, *shape))

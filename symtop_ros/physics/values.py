@@ -114,9 +114,7 @@ def validate_array(name: str, value: Any, size: int | None = None, unit: str = "
     _refuse_units(name, value, unit)
     try:
         array = np.asarray(value)
-        is_real = array.dtype.kind in "iuf" or not array.size
-        if array.dtype.kind == "O":
-            is_real = all(map(_is_real, array.flat))
+        is_real = array.dtype.kind in "iuf" or all(map(_is_real, array.flat))
         if np.ma.isMaskedArray(value) or not is_real:
             raise TypeError
         array = array.astype(np.float64)  # OverflowError: an int too large for a double
@@ -138,16 +136,11 @@ def _find_odd(array: Real) -> str:
 
 def _refuse_units(name: str, value: Any, unit: str) -> None:
     """Refuse quantities of libraries for units, which NumPy would take for plain numbers."""
-    if type(value) is np.ndarray or type(value) is float:
-        return
-    parts = value if isinstance(value, list | tuple) else (value,)
-    for part in parts:
-        if hasattr(part, "units") or hasattr(part, "unit"):
-            raise refuse(
-                name, _with_unit("plain numbers, converted to SI units", unit), repr(value)
-            )
-        if part is not value and isinstance(part, list | tuple):
+    if isinstance(value, list | tuple):
+        for part in value:
             _refuse_units(name, part, unit)
+    elif hasattr(value, "units") or hasattr(value, "unit"):
+        raise refuse(name, _with_unit("plain numbers, converted to SI units", unit), repr(value))
 
 
 def validate_numbers(name: str, value: Any, unit: str = "") -> Any:
