@@ -158,8 +158,6 @@ class Grid:
     def add(self, name: str, stamps: Stamps) -> None:
         """Count the gaps and repetitions of a topic in its next stamps."""
         gaps = self.gaps.setdefault(name, Gaps())
-        if not len(stamps):
-            return
         known = stamps if gaps.last is None else np.concatenate(([gaps.last], stamps))
         before, after = known[:-1], known[1:]
         gaps.last = int(stamps[-1])

@@ -6,7 +6,7 @@ describe the machine.
 """
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -38,8 +38,6 @@ from symtop_ros.wire.messages import encode_transforms
 NOTHING = "nothing"
 BEFORE = ("before.orientation", "before.angular_velocity", "before.pushes")
 Described = tuple[Top, Rig, str]  # what a description depends on: top, gravity and sensor, frame
-FIRST_LINK = re.compile(r'<link name="([^"]*)"/>')  # that of the world
-QUOTES = {"&quot;": '"'}
 STATUSES = {"motion": motion_status, "balance": balance_status}
 # What is left of a balance is rounding, and the order of its sums is that of the linear algebra of
 # the machine.
@@ -91,25 +89,22 @@ def find_mismatches(events: Sequence[Event]) -> Iterator[Mismatch]:
             yield from _judge(previous if is_known else None, event, budget)
 
 
-def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterator[Mismatch]:
-    """Yield the fields of one event; nothing is known before it if `previous` is None."""
+def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterable[Mismatch]:
+    """Return the fields of one event; nothing is known before it if `previous` is None."""
     if event.name not in RULES:
-        yield Mismatch(EVENTS.name, event.stamp, "name", ", ".join(RULES), event.name)
-        return
+        return [Mismatch(EVENTS.name, event.stamp, "name", ", ".join(RULES), event.name)]
     try:
         event.outcome()
     except ValueError as error:
-        yield Mismatch(EVENTS.name, event.stamp, "outcome", "readable", str(error))
-        return
+        return [Mismatch(EVENTS.name, event.stamp, "outcome", "readable", str(error))]
     try:
         expected = _compute(previous.segment() if previous else None, event, budget)
     except (ValueError, ArithmeticError) as error:  # a request that no node grants
-        yield Mismatch(EVENTS.name, event.stamp, "request", str(error), str(event.request))
-        return
+        return [Mismatch(EVENTS.name, event.stamp, "request", str(error), str(event.request))]
     right, got = (
         {**each.values, "name": each.name, "message": each.verdict} for each in (expected, event)
     )
-    yield from compare_fields(EVENTS.name, event.stamp, right, got)
+    return compare_fields(EVENTS.name, event.stamp, right, got)
 
 
 def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Event:
@@ -203,8 +198,8 @@ class TextCheck:
         if not self._is_whole:
             return
         text = Reader(message.data).string()
-        link = FIRST_LINK.search(text)
-        world = unescape(link[1], QUOTES) if link else ""
+        link = re.search(r'<link name="([^"]*)"/>', text)  # the first is that of the world
+        world = unescape(link[1], {"&quot;": '"'}) if link else ""
         right = [
             robot_description(
                 top, world, frame, tf_moves_it=moves, body=find_body(top, rig.gravity)

@@ -9,7 +9,7 @@ import struct
 import zlib
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from mcap.opcode import Opcode
@@ -122,16 +122,16 @@ def find_damage(path: Path) -> list[str]:
     return found.problems
 
 
+@dataclass
 class Walk:
     """A walk through the records of a file, in their order."""
 
-    def __init__(self) -> None:
-        self.problems: list[str] = []
-        self.checksum = 0  # of all bytes so far; from the end of the data on, of the summary
-        self._after_magic = 0  # the same without the first bytes of the file
-        self._expected: Index | None = None  # indexes that follow from the last chunk
-        self._found: Index = {}
-        self.in_summary = False  # True from the end of the data to the footer
+    problems: list[str] = field(default_factory=list)
+    checksum: int = 0  # of all bytes so far; from the end of the data on, of the summary
+    in_summary: bool = False  # True from the end of the data to the footer
+    _after_magic: int = 0  # the checksum without the first bytes of the file
+    _expected: Index | None = None  # indexes that follow from the last chunk
+    _found: Index = field(default_factory=dict)
 
     def take(self, opcode: int, head: bytes, data: bytes, end: int) -> None:
         """Take a record with its head, and the offset of its end."""

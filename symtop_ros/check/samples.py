@@ -59,11 +59,8 @@ class Deviation:
         count = int(wrong.any(axis=1).sum())
         self.differing += count
         self.exact += count if is_exact else 0
-        if wrong.any():
-            with np.errstate(divide="ignore"):
-                relative = difference[wrong] / scale[wrong]
-            self.largest = max(self.largest, _largest(difference))
-            self.relative = max(self.relative, _largest(relative))
+        self.largest = max(self.largest, _largest(difference))
+        self.relative = max(self.relative, _largest(difference[wrong] / scale[wrong]))
 
 
 def _largest(numbers: Real) -> float:
@@ -177,9 +174,8 @@ def _compare(name: str, columns: Columns, segment: Segment) -> tuple[Real, Real]
     computed, scale = np.nan_to_num(computed), np.empty(computed.shape)
     for place in topic.format.quantities.values():
         scale[:, place] = np.abs(computed[:, place]).max(initial=0.0)
-    if topic.angles:
-        with np.errstate(divide="ignore"):  # on the vertical phi and psi are undefined
-            scale = np.maximum(scale, 1.0) / np.abs(np.sin(computed[:, 1:2]))
+    if topic.angles:  # on the vertical phi and psi are undefined
+        scale = np.maximum(scale, 1.0) / np.abs(np.sin(computed[:, 1:2]))
     if segment.motion.is_driven:
         if topic.angles:  # -pi and pi are the same angle
             place = topic.format.quantities[topic.angles]

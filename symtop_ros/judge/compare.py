@@ -102,8 +102,7 @@ class Errors:
         tenths = (self.stamps - self.stamps[0]) * WINDOWS // (span + 1)
         sums = np.bincount(tenths, self.total**2, WINDOWS)
         counts = np.bincount(tenths, minlength=WINDOWS)
-        with np.errstate(invalid="ignore"):
-            return np.asarray(np.sqrt(sums / counts))
+        return np.asarray(np.sqrt(sums / np.where(counts, counts, np.nan)))
 
 
 def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors:

@@ -28,7 +28,6 @@ MAX_STAMP = 2**62  # ns
 MAX_ESTIMATES = 20_000_000
 LARGEST_NORM_ERROR = 0.1  # of a quaternion; one further from 1 is no attitude
 NORM_ROUNDING = 2.0**-50  # of a quaternion that is normalised
-NO_ORIENTATION = -1.0  # first covariance of an Imu without covariances (sensor_msgs)
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +127,7 @@ def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = N
     q = np.asarray(find("orientation", "rotation"))[:, [3, 0, 1, 2]].copy()
     covariance, rates = find("orientation_covariance"), find("angular_velocity", "angular")
     if covariance is not None:
-        q[covariance[:, 0] == NO_ORIENTATION] = 0.0
+        q[covariance[:, 0] == -1.0] = 0.0  # an Imu without an orientation, says sensor_msgs
     return replace(Estimates.of(stamps, q, rates, len(refused)), of_sensor=kind == IMU.type)
 
 

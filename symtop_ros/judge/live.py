@@ -5,7 +5,6 @@ import json
 import sys
 import time
 
-import numpy as np
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
@@ -71,7 +70,7 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
             listen()
             kind = _find_type(executor, node, topic)
             court = Court(node, full_name(options.node or DEFAULT_NAME), topic, kind, options.frame)
-            end = time.monotonic() + seconds if seconds else np.inf
+            end = time.monotonic() + (seconds or float("inf"))
             while time.monotonic() < end:
                 spin_until(executor, min(end, time.monotonic() + PERIOD))
                 errors = court.judge()

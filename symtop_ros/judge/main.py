@@ -3,7 +3,7 @@
 import argparse
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -191,19 +191,18 @@ def _write(judgements: list[Judgement], folder: Path) -> None:
         write_figures({"judge": lambda: draw_errors(judgements[0].errors)}, folder)
 
 
-def _read_estimates(options: argparse.Namespace) -> Iterator[tuple[str, Estimates]]:
-    """Yield the sources and their estimates."""
+def _read_estimates(options: argparse.Namespace) -> Iterable[tuple[str, Estimates]]:
+    """Return the sources and their estimates."""
     other: Path | None = options.estimates
     if other and other.suffix.lower() in TABLES:
-        yield str(other), _choose_frame(read_table(other), options.attitude_of)
-        return
+        return [(str(other), _choose_frame(read_table(other), options.attitude_of))]
     if not options.topic:
         raise RefusedError(f"--topic must name the estimates in {other}, got none")
     from symtop_ros.log.top_log import open_run  # logs need mcap
 
-    for topic in options.topic:
-        found = read_topic(open_run([other] if other else options.files), topic, options.frame)
-        yield topic, _choose_frame(found, options.attitude_of)
+    paths = [other] if other else options.files
+    found = ((topic, read_topic(open_run(paths), topic, options.frame)) for topic in options.topic)
+    return ((topic, _choose_frame(each, options.attitude_of)) for topic, each in found)
 
 
 def _choose_frame(estimates: Estimates, attitude_of: str | None) -> Estimates:

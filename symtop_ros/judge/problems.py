@@ -22,7 +22,6 @@ ALL = "all"  # in place of a name: writes every problem into its own folder, or 
 SOURCE = score.FILE.parent
 MODELS = "models"  # the folder of the whole set's models
 README = "README.md"
-SHARED = ("score.py", "score.mjs", "score.cpp", "LICENSE")
 CHECKSUMS = "SHA256SUMS"
 INTRODUCTION = """\
 # {name}: {what}
@@ -151,7 +150,8 @@ def _read_motion(facts: Mapping[str, Any]) -> tuple[State, Body]:
 
 
 def _read_shared() -> dict[str, str]:
-    return {name: (SOURCE / name).read_text(encoding="utf-8") for name in SHARED}
+    names = "score.py", "score.mjs", "score.cpp", "LICENSE"
+    return {name: (SOURCE / name).read_text(encoding="utf-8") for name in names}
 
 
 def _read_readme() -> str:

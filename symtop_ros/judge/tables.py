@@ -1,7 +1,5 @@
 """Estimates from tables of text: columns with names, TUM and EuRoC, and what is odd about them."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace

@@ -141,9 +141,9 @@ def describe_body(top: Top, body: Body) -> str:
     )
 
 
-def join(numbers: Iterable[float]) -> str:
-    """Return numbers in full, with spaces between them."""
-    return " ".join(map(repr, numbers))
+def join(numbers: Iterable[float], between: str = " ") -> str:
+    """Return numbers in full, with spaces or another text between them."""
+    return between.join(map(repr, numbers))
 
 
 def _dot(row: Exact, vector: Iterable[Fraction]) -> Fraction:

@@ -5,8 +5,7 @@ world: they have the place and the velocity of the centre of mass, and rates in 
 joint holds the body in the origin there; a body without weight is left free.
 """
 
-from collections.abc import Sequence
-
+from symtop_ros.models.descriptions import join
 from symtop_ros.physics import Body, State
 
 LARGEST_RATE = 1e6  # rad/s; pybullet stops joints at 100 rad/s
@@ -95,12 +94,12 @@ def format_snippets(name: str, start: State, body: Body, duration: float) -> str
     return SNIPPETS.format(
         name=name,
         duration=repr(duration),
-        quaternion=_join((w, x, y, z)),
-        xyzw=_join((x, y, z, w)),
-        rates=_join(start.angular_velocity.tolist()),
-        angles=_join(start.euler_angles),
-        euler_rates=_join(start.euler_rates),
-        moments=_join((body.Ix, body.Ix, body.Iz)),
+        quaternion=join((w, x, y, z), ", "),
+        xyzw=join((x, y, z, w), ", "),
+        rates=join(start.angular_velocity.tolist(), ", "),
+        angles=join(start.euler_angles, ", "),
+        euler_rates=join(start.euler_rates, ", "),
+        moments=join((body.Ix, body.Ix, body.Iz), ", "),
         mass=repr(body.mass),
         arm=repr(body.arm),
         gravity=repr(-body.gravity),
@@ -108,12 +107,6 @@ def format_snippets(name: str, start: State, body: Body, duration: float) -> str
     )
 
 
-def _join(numbers: Sequence[float]) -> str:
-    return ", ".join(map(repr, numbers))
-
-
-STEPS = 256  # to each of the 20 times
-HEADER = "t,w,x,y,z,omega_x,omega_y,omega_z"
 IN_THE_WORLD = """\
 ## Start in Bullet, Jolt, Rapier and DART
 
@@ -286,18 +279,18 @@ def format_world_snippets(start: State, body: Body, duration: float) -> str:
     velocity = start.to_world([body.arm * wy, -body.arm * wx, 0.0])
     return IN_THE_WORLD.format(
         **{name: text.format(below=repr(-body.arm)) for name, text in joints.items()},
-        steps=STEPS,
-        header=HEADER,
+        steps=256,  # to each of the 20 times
+        header="t,w,x,y,z,omega_x,omega_y,omega_z",
         duration=repr(duration),
         gravity=repr(-body.gravity if has_weight else 0.0),
-        wxyz=_join((w, x, y, z)),
-        xyzw=_join((x, y, z, w)),
+        wxyz=join((w, x, y, z), ", "),
+        xyzw=join((x, y, z, w), ", "),
         named=", ".join(f"{k}: {v!r}" for k, v in zip("wxyz", (w, x, y, z), strict=True)),
-        position=_join(position.tolist()),
-        velocity=_join(velocity.tolist()),
-        rates=_join(rates.tolist()),
-        local_rates=_join(start.angular_velocity.tolist()),
-        moments=_join((body.Ix, body.Ix, body.Iz)),
+        position=join(position.tolist(), ", "),
+        velocity=join(velocity.tolist(), ", "),
+        rates=join(rates.tolist(), ", "),
+        local_rates=join(start.angular_velocity.tolist(), ", "),
+        moments=join((body.Ix, body.Ix, body.Iz), ", "),
         mass=repr(body.mass),
         arm=repr(body.arm),
     )

@@ -26,7 +26,6 @@ MASSLESS = """<inertial>
       <mass value="0"/><inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/>
     </inertial>"""
 LENGTH = 0.1  # m, from the pivot to the upper end of the drawing
-QUOTES = {'"': "&quot;"}
 
 
 def robot_description(
@@ -39,7 +38,7 @@ def robot_description(
     described: Description = PLAIN,
 ) -> str:
     """Return the URDF of a top, with a body that moves as it does; by default one is chosen."""
-    world_frame, top_frame = (escape(name, QUOTES) for name in (world_frame, top_frame))
+    world_frame, top_frame = (escape(n, {'"': "&quot;"}) for n in (world_frame, top_frame))
     end = f"{top_frame}_spin" if tf_moves_it else top_frame
     floating = f"""
   <link name="{end}"/>

@@ -71,8 +71,13 @@ def find_shape(top: Top, start: State, friction: Friction, torque: Any) -> tuple
         and type(torque) is tuple
     ):
         return ()  # the common case, and NumPy needs 10 us for the question
-    shapes = top.shape, start.orientation.shape[:-1], friction.shape, np.shape(torque)[:-1]
-    return fit_shapes("top, start, friction and torque", *shapes)
+    return fit_shapes(
+        "top, start, friction and torque",
+        top.shape,
+        start.orientation.shape[:-1],
+        friction.shape,
+        np.shape(torque)[:-1],
+    )
 
 
 def pack_start(top: Top, start: State, friction: Friction, torque: Vector) -> bytes:

@@ -20,8 +20,7 @@ import numpy as np
 
 from symtop_ros.arrays import Places, Real, compose, find_rotation_vectors, invert
 from symtop_ros.physics.arguments import STARTS, fill_states, read_start
-from symtop_ros.physics.kernel import states
-from symtop_ros.physics.kernel.door import KernelMotion
+from symtop_ros.physics.kernel import door, states
 from symtop_ros.physics.values import EPS, refuse
 
 ORDER = 10  # of the derivatives, and as many nodes
@@ -315,7 +314,7 @@ class _Starts:
         q, omega = np.empty((len(rows), len(times), 4)), np.empty((len(rows), len(times), 3))
         left = fill_states(rows, times, q, omega)
         for k in np.flatnonzero(left.any(axis=1)):
-            states.fill_states(KernelMotion(rows[k].tobytes()), times, q[k], omega[k])
+            states.fill_states(door.KernelMotion(rows[k].tobytes()), times, q[k], omega[k])
         base, rates = self._base.orientation[some], self._base.angular_velocity[some]
         turned = find_rotation_vectors(compose(invert(base), q))
         changes = np.stack((turned, omega - rates), axis=-2)

@@ -22,8 +22,7 @@ from symtop_ros.physics.arguments import (
     wrap_states,
 )
 from symtop_ros.physics.jacobian import differentiate
-from symtop_ros.physics.kernel import states
-from symtop_ros.physics.kernel.door import Engine, KernelMotion, Kind, RatesRecord
+from symtop_ros.physics.kernel import door, states
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -112,7 +111,7 @@ class Motion:
         self.top, self.start, self.friction = top, start, friction
         self.applied_torque = validate_vector("torque", torque, TORQUE_UNIT)
         self.packed_start = pack_start(top, start, friction, self.applied_torque)
-        self._kernel = KernelMotion(self.packed_start)
+        self._kernel = door.KernelMotion(self.packed_start)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integration."""
@@ -160,7 +159,7 @@ class Motion:
         return np.asarray(state.to_world(self.friction.torque(state)) + self.applied_torque)
 
     @property
-    def engine(self) -> Engine:
+    def engine(self) -> door.Engine:
         """Method of solution.
 
         Elliptic functions; circular functions if Mgl is 0 or if the axis rests on the vertical;
@@ -324,7 +323,7 @@ class Motion:
         return differentiate(self, times.ravel()).reshape(*times.shape, 6, 9)
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> door.Kind:
         """Name of the motion, by phi' at the two turning angles.
 
         "regular" (the angles are equal), "unidirectional" (phi' has one sign), "cusps" (phi' is
@@ -336,7 +335,7 @@ class Motion:
         return self._kernel.kind
 
     @cached_property
-    def _rates(self) -> RatesRecord:
+    def _rates(self) -> door.RatesRecord:
         return self._kernel.rates
 
     @property

@@ -28,7 +28,7 @@ from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import require, validate_array
+from symtop_ros.physics.values import ignore_underflow, require, validate_array
 
 
 class Motions:
@@ -113,9 +113,9 @@ class Motions:
         if not np.ndim(numbers):
             return self._find_member(int(numbers))
         moments, q, omega, friction, torque, _ = np.split(self._starts[numbers], STARTS, axis=-1)
-        columns = [np.moveaxis(part, -1, 0) for part in (moments, friction)]
         start = State.of_given(np.array(q), np.array(omega))
-        return Motions(Top(*columns[0]), start, Friction(*columns[1]), torque)
+        top, drag = Top(*np.moveaxis(moments, -1, 0)), Friction(*np.moveaxis(friction, -1, 0))
+        return Motions(top, start, drag, torque)
 
     def __iter__(self) -> Iterator["Motion | Motions"]:
         """Iterate along the first axis."""
@@ -365,11 +365,11 @@ class Motions:
         return rates.reshape(self.shape)
 
     @property
+    @ignore_underflow
     def fast_top_nutation_rate(self) -> Real:
         """|p_psi|/Ix in rad/s."""
         Ix, Iz, omega_z = self._starts[:, [0, 1, 9]].T
-        with np.errstate(under="ignore"):
-            return np.asarray(np.abs(Iz * omega_z / Ix).reshape(self.shape))
+        return np.asarray(np.abs(Iz * omega_z / Ix).reshape(self.shape))
 
 
 Motion.make_many = Motions  # this line and `Motion.__new__` go with 0.5

@@ -90,7 +90,7 @@ def spread_tops(top: Top, *columns: Any) -> tuple[tuple[int, ...], list[Real]]:
         return (), [np.array([each]) for each in (top.moments, *columns)]
     shapes = [top.shape, *map(np.shape, columns)]
     listed = f"{top.shape} and {next(filter(None, shapes[1:]), ())}"
-    shape = fit_shapes("top and theta", *shapes, listed=listed) if any(shapes) else ()
+    shape = fit_shapes("top and theta", *shapes, listed=listed)
     flat = [np.array(np.broadcast_to(each, shape)).reshape(-1) for each in (*top.moments, *columns)]
     return shape, [np.stack(flat[:3], axis=-1), *flat[3:]]
 

@@ -340,8 +340,8 @@ def _name_mistake(errors: Real, others: dict[str, Real], size: float) -> tuple[s
     """Return the mistake without which a large error would be small, or nothing."""
     best = min(others, key=lambda text: float(others[text].max()))
     largest = float(errors.max())
-    named = largest > SMALL * size and others[best].max() < largest / MUCH
-    return (best,) if named else ()
+    is_clear = largest > SMALL * size and others[best].max() < largest / MUCH
+    return (best,) if is_clear else ()
 
 
 def split_decimals(rows: Sequence[Sequence[str]]) -> tuple[Real, Real]:
@@ -475,8 +475,7 @@ def find_problem(problems: dict[str, Problem], name: str) -> Problem:
         raise ValueError(f"description must be one of {', '.join(DESCRIPTIONS)}, got {got}")
     facts = problems[base].facts | {"name": name}
     if description == "turned":
-        states = ("orientations", "angular_velocities")
-        facts |= {each: facts[f"turned_{each}"] for each in states}
+        facts |= {each: facts[f"turned_{each}"] for each in ("orientations", "angular_velocities")}
     return Problem(facts)
 
 
