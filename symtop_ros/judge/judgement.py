@@ -79,9 +79,11 @@ class Judgement:
         """Return what explains the errors, and what the motion hides, in sentences."""
         if self.found is None:
             parts = _list_parts(self.fitted) if self.fitted else []
-            several = {"several": parts} if parts else None
-            rms = summarize(self.errors.total)["rms"]
-            record = {"model": self.aligned, "parts": several, "residual": rms}
+            record = {
+                "model": self.aligned,
+                "parts": {"several": parts} if parts else None,
+                "residual": summarize(self.errors.total)["rms"],
+            }
             return write("found.aligned", record)
         found, best = self.found, self.found.best
         key = _choose_key(found) if len(self.errors.total) > 1 else "single"

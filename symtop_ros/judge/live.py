@@ -68,8 +68,8 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
             executor = SingleThreadedExecutor()
             executor.add_node(node)
             listen()
-            kind = _find_type(executor, node, topic)
-            court = Court(node, full_name(options.node or DEFAULT_NAME), topic, kind, options.frame)
+            top, kind = full_name(options.node or DEFAULT_NAME), _find_type(executor, node, topic)
+            court = Court(node, top, topic, kind, options.frame)
             end = time.monotonic() + (seconds or float("inf"))
             while time.monotonic() < end:
                 spin_until(executor, min(end, time.monotonic() + PERIOD))

@@ -39,6 +39,7 @@ of these scores a trajectory and prints the same:
 `sha256sum -c SHA256SUMS` checks the files.{free}
 
 {snippets}
+{world_snippets}
 {rest}"""
 LINK_OUT = re.compile(r"\[([^]]*)\]\(\.\.[^)]*\)")  # of the README, to files that a copy has not
 FREE = """
@@ -71,8 +72,7 @@ def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> i
     path: Path = options.files[0]
     if options.testset == ALL:
         entries = read_entries(problems, path)
-        write = format_json if options.json else format_table
-        print(write(entries, problems))
+        print((format_json if options.json else format_table)(entries, problems))
     else:
         entries = [Entry(path.stem, score.score_file(problems, options.testset, path))]
         facts = json.dumps(entries[0].facts(), indent=1)
@@ -162,12 +162,12 @@ def _read_readme() -> str:
 def _introduce(facts: Mapping[str, Any]) -> str:
     """Return the README of a copied problem: how it starts in engines, then that of the set."""
     (start, body), duration = _read_motion(facts), facts["times"][-1]
-    snippets = format_snippets(facts["name"], start, body, duration)
     sections = _read_readme().split("\n## ")
     return INTRODUCTION.format(
         name=facts["name"],
         what=facts["what"],
         free="" if facts["Mgl"] else FREE.format(name=facts["name"]),
-        snippets=f"{snippets}\n{format_world_snippets(start, body, duration)}",
+        snippets=format_snippets(facts["name"], start, body, duration),
+        world_snippets=format_world_snippets(start, body, duration),
         rest="\n## ".join(each for each in sections if not each.startswith(OF_THE_SET)),
     )

@@ -89,8 +89,10 @@ class Search:
             return Finding(start, (), self.hidden)
         best, others = self.choose([start, *self.list_causes()], len(self.some))
         if best.kind == start.kind:  # there may be a parameter that only more estimates show
-            kinds = [("", "none", each) for each in ((), *((name,) for name in self.names))]
-            small = [self.refine(kind, start.offset, with_more=True) for kind in kinds]
+            small = [
+                self.refine(("", "none", each), start.offset, with_more=True)
+                for each in ((), *((name,) for name in self.names))
+            ]
             best, others = self.choose(small, len(self.more))
         best = self.refine(best.kind, best.offset, with_more=True)
         if best.cost * CLEAR**2 > start.cost and not self.is_white(best):

@@ -273,10 +273,7 @@ def format_world_snippets(start: State, body: Body, duration: float) -> str:
     w, x, y, z = start.orientation.tolist()
     has_weight = bool(body.arm)
     joints = JOINTS if has_weight else dict.fromkeys(JOINTS, "")
-    rates = start.to_world(start.angular_velocity)
-    position = start.to_world([0.0, 0.0, body.arm])
     wx, wy, _ = start.angular_velocity.tolist()
-    velocity = start.to_world([body.arm * wy, -body.arm * wx, 0.0])
     return IN_THE_WORLD.format(
         **{name: text.format(below=repr(-body.arm)) for name, text in joints.items()},
         steps=256,  # to each of the 20 times
@@ -286,9 +283,9 @@ def format_world_snippets(start: State, body: Body, duration: float) -> str:
         wxyz=join((w, x, y, z), ", "),
         xyzw=join((x, y, z, w), ", "),
         named=", ".join(f"{k}: {v!r}" for k, v in zip("wxyz", (w, x, y, z), strict=True)),
-        position=join(position.tolist(), ", "),
-        velocity=join(velocity.tolist(), ", "),
-        rates=join(rates.tolist(), ", "),
+        position=join(start.to_world([0.0, 0.0, body.arm]).tolist(), ", "),
+        velocity=join(start.to_world([body.arm * wy, -body.arm * wx, 0.0]).tolist(), ", "),
+        rates=join(start.to_world(start.angular_velocity).tolist(), ", "),
         local_rates=join(start.angular_velocity.tolist(), ", "),
         moments=join((body.Ix, body.Ix, body.Iz), ", "),
         mass=repr(body.mass),

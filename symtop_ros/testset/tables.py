@@ -206,8 +206,7 @@ def _list_forces(facts: Facts) -> ColumnGroups:
 
 def _list_world(facts: Facts) -> ColumnGroups:
     start = [show(x) for x in normalise(facts["orientation"])]
-    attitudes = start, *facts["orientations"]
-    return (0.0, *facts["times"]), attitudes, *(facts[key] for key in WORLD)
+    return (0.0, *facts["times"]), (start, *facts["orientations"]), *(facts[key] for key in WORLD)
 
 
 def _write_csv(rows: Iterable[Row]) -> str:
