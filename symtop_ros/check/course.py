@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 
@@ -201,13 +201,12 @@ def _read_counts(log: TopLog) -> Iterator[Mapping[str, str]]:
     """Yield the values of each status of the node's pace."""
     node = log.node or ""
     own, name = DIAGNOSTICS.resolve(node), f"{node.lstrip('/')}: pace"
-    for messages in log.file.chunks():
-        for message in messages:
-            channel = log.file.channels.get(message.channel_id)
-            if channel and channel.topic == own:
-                with suppress(DecodeError):  # found by the check of texts
-                    statuses = decode_statuses(message.data)
-                    yield from (each.values for each in statuses if each.name == name)
+    for message in chain.from_iterable(log.file.chunks()):
+        channel = log.file.channels.get(message.channel_id)
+        if channel and channel.topic == own:
+            with suppress(DecodeError):  # found by the check of texts
+                statuses = decode_statuses(message.data)
+                yield from (each.values for each in statuses if each.name == name)
 
 
 def describe_gaps(found: Mapping[str, Gaps], counted: int) -> list[str]:

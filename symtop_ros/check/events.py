@@ -8,7 +8,7 @@ describe the machine.
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Any
 from xml.sax.saxutils import unescape
 
@@ -277,9 +277,8 @@ def find_wrong_texts(log: TopLog, events: Sequence[Event]) -> Iterator[Mismatch]
         return
     check, place = TextCheck(log.node, events, log.has_readable_events), 0
     own = EVENTS.resolve(log.node)
-    for messages in log.file.chunks():
-        for message in messages:
-            channel = log.file.channels.get(message.channel_id)
-            name = channel.topic if channel else ""
-            place += _count_events(message.data) if name == own else 0
-            yield from check.judge(name, message, place)
+    for message in chain.from_iterable(log.file.chunks()):
+        channel = log.file.channels.get(message.channel_id)
+        name = channel.topic if channel else ""
+        place += _count_events(message.data) if name == own else 0
+        yield from check.judge(name, message, place)

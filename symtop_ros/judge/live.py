@@ -93,8 +93,7 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
 def _find_type(executor: SingleThreadedExecutor, node: Node, topic: str) -> str:
     deadline = time.monotonic() + PATIENCE
     while time.monotonic() < deadline:
-        found = dict(node.get_topic_names_and_types()).get(topic)
-        if found:
+        if found := dict(node.get_topic_names_and_types()).get(topic):
             return str(found[0])
         spin_until(executor, time.monotonic() + 0.1)
     raise RefusedError(f"--topic must be a topic that is published, got {one_line(topic)}")

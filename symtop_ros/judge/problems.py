@@ -98,7 +98,6 @@ def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
         **tabulate(facts),
         **{f"{MODELS}/{name}": text for name, text in models.items()},
     }
-    (folder / MODELS).mkdir(parents=True, exist_ok=True)
     shared = {README: _read_readme(), **_read_shared()}
     _write_files(folder, {**texts, **shared, CHECKSUMS: _sum_up(texts)})
     print(f"wrote the test set {VERSION} to {folder}: {len(facts)} problems, {len(models)} models")
@@ -115,13 +114,13 @@ def _write_problem(problems: dict[str, score.Problem], name: str, folder: Path) 
         **_read_shared(),
     }
     texts[CHECKSUMS] = _sum_up(texts)
-    folder.mkdir(parents=True, exist_ok=True)
     _write_files(folder, texts)
     print(f"wrote {', '.join(texts)} to {folder}")
 
 
 def _write_files(folder: Path, texts: Mapping[str, str]) -> None:
     for name, text in texts.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")
 
 

@@ -79,9 +79,8 @@ class ExactTimes:
         elapsed, pieces = self.elapsed.as_integer_ratio()
         start, step, divisor = elapsed * parts, ticks * pieces, parts * pieces * SECOND
         # Python's quotient of integers of any size is the nearest double.
-        if isinstance(self.nanoseconds, int):
-            return (start + step * self.nanoseconds) / divisor
-        return np.array([(start + step * n) / divisor for n in self.nanoseconds.tolist()])
+        seconds = [(start + step * n) / divisor for n in np.ravel(self.nanoseconds).tolist()]
+        return np.array(seconds) if self.shape else seconds[0]
 
     @cached_property
     def clock(self) -> tuple[float, tuple[float, ...]]:

@@ -60,8 +60,3 @@ def test_transforms_of_several_frames_need_a_name(estimates):
         decode_estimates(TRANSFORM.type, data)
     assert decode_estimates(TRANSFORM.type, data, "b").stamps.tolist() == [9]
     assert len(decode_estimates(TRANSFORM.type, data, "c")) == 0
-
-
-def test_a_type_without_attitude_is_refused():
-    with pytest.raises(RefusedError, match="topic must have a type with an attitude"):
-        decode_estimates("std_msgs/msg/String", [])

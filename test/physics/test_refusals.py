@@ -45,6 +45,7 @@ from symtop_ros.physics import (
 START = State.from_euler(theta=0.5, phi=0.3, psi=1.2, theta_dot=2.0, phi_dot=6.5, psi_dot=200.0)
 MOTION, POTENTIAL = Motion(ARTICLE, CUSPS), EffectivePotential.of(ARTICLE, CUSPS)
 MANY = Motions(Top([1.0, 2.0], 1.0, 1.0), CUSPS)
+DISC = {"mass": 1.0, "radius": 0.5, "distance": 0.25, "gravity": 9.81}
 BODY = {"mass": 1.0, "arm": 0.1, "Ix": 1.0, "Iz": 1.0, "gravity": 9.81}
 FIT = "of shapes that fit together"
 EULER = "theta", "phi", "psi", "theta_dot", "phi_dot", "psi_dot"
@@ -108,6 +109,7 @@ BODIES = [
     (partial(Body, **{**BODY, "gravity": 0.0}), "gravity", "> 0 m/s^2"),
     (partial(Body.about_pivot, 15.0, 1.0, 15.0, 0.5), "Ix", "> mass arm^2 = 15 kg m^2"),
     (partial(Body.about_pivot, 1.0, 1e200, 1.0, 1.0), "Ix", "> mass arm^2 = inf kg m^2"),
+    *((partial(Body.disc, **{**DISC, n: 0.0}), n, "> 0") for n in ("mass", "radius", "gravity")),
     (partial(Body(**BODY).pivot_force, MOTION, CUSPS), "motion.top", ", that of the body", "Top"),
 ]
 STATES = [

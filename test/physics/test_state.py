@@ -151,11 +151,6 @@ def test_only_an_upright_weight_needs_spin_to_sleep():
     assert Top(1.0, 0.5, -4.0).critical_spin == 0.0
 
 
-def test_the_torque_of_friction_is_against_each_rate():
-    state = State((1.0, 0.0, 0.0, 0.0), (1.0, -2.0, 4.0))
-    assert Friction(axial=0.5, transverse=0.25).torque(state).tolist() == [-0.25, 0.5, -2.0]
-
-
 def test_a_friction_without_a_coefficient_is_false():
     assert not Friction()
     assert Friction(axial=1e-9)

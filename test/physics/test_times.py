@@ -7,7 +7,7 @@ import pytest
 from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS, EPS, attitude_error
 
-from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.physics import ExactTimes, Motion, State, Top
 from symtop_ros.physics.reference import ClosedForm, Inputs
 
 YEAR = 365 * 86_400 * 10**9  # ns
@@ -39,13 +39,6 @@ def test_states_at_exact_times_are_right_to_five_eps(name, factor):
             t = times.advance(stamp) / 10**9
             q, _ = exact.at(mpf(t.numerator) / t.denominator)
         assert attitude_error(q, motion.at(times).orientation) <= 5 * EPS
-
-
-def test_a_driven_motion_at_exact_times_that_are_doubles_is_that_at_these_doubles():
-    motion = Motion(ARTICLE, CUSPS, Friction(axial=2e-6))
-    ticks = 1_953_125 * np.array([0, 1, 77, 512])  # of 1/512 s
-    assert motion.at(ExactTimes(ticks)) == motion.at(ticks / 1e9)
-    assert motion.at(ExactTimes(1_953_125)) == motion.at(1 / 512)
 
 
 def test_shapes_follow_those_of_the_nanoseconds():

@@ -5,7 +5,6 @@ import pytest
 from mpmath import mp, mpf
 from testset.model_files import DIGITS, read_model, rotation
 
-from symtop_ros.models import UNSAID
 from symtop_ros.models.descriptions import TURN as OF_MODELS
 from symtop_ros.models.descriptions import describe
 from symtop_ros.physics import State
@@ -51,16 +50,6 @@ def test_each_model_has_the_body_and_the_start_of_its_problem(name, folder):
             # the frame of the model is that in which its states are scored
             own = rotation([mpf(each) for each in scored["orientations"][0]])
             assert mp.mnorm(start.T * frame - first.T * own) < rounding, path.name
-
-
-def test_a_format_is_left_out_only_where_it_cannot_say_a_description(folder):
-    names = {path.name for path in (folder / "models").iterdir()}
-    for description, form in UNSAID:
-        assert not [name for name in names if name.endswith(f".{description}.{form}")]
-    forms = (("mjcf", 5), ("sdf", 4), ("urdf", 4))
-    for form, count in forms:
-        own = [name for name in names if name.startswith("cusps.") and name.endswith(f".{form}")]
-        assert len(own) == count
 
 
 def test_the_set_and_its_models_turn_a_frame_alike():

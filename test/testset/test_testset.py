@@ -11,7 +11,6 @@ import pytest
 from python_runs import run_python
 from testset.test_scorers import make_table, write
 
-from symtop_ros.models import FORMATS, FREE_FORMATS
 from symtop_ros.physics import Motion, State, Top, point_acceleration
 from symtop_ros.physics.reference import ClosedForm, Inputs
 from symtop_ros.testset.score import main, read_problems
@@ -129,16 +128,6 @@ def test_the_written_files_have_the_bytes_of_this_version(folder):
         assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest
     data = {*(folder / "models").iterdir(), *folder.glob("*.json"), *folder.glob("*.csv")}
     assert set(sums) == {path.relative_to(folder).as_posix() for path in data}
-
-
-def test_every_problem_has_its_models(folder):
-    for setting in SETTINGS:
-        formats = FORMATS if setting.top.Mgl else {**FORMATS, **FREE_FORMATS}
-        paths = {form: folder / f"models/{setting.name}.{form}" for form in formats}
-        for form, make in formats.items():
-            assert paths[form].read_text() == make(setting.top, setting.start, setting.body)
-        free = folder / "models" / f"{setting.name}.free.mjcf"
-        assert free.exists() == (setting.top.Mgl == 0)
 
 
 def test_the_scorer_needs_numpy_only(folder, tmp_path):

@@ -13,7 +13,6 @@ import pytest
 from physics.exact_motions import read_motions
 from physics.refusals import NOT_TOO_LATE, refused
 from physics.tops import ARTICLE, CUSPS
-from python_runs import run_python
 
 from symtop_ros.physics import ExactTimes, Motion, Motions, State, Top
 
@@ -55,11 +54,6 @@ def test_an_instant_has_the_same_bits_alone_and_among_others(stored):
 def test_times_beyond_1e15_turns_are_refused(t):
     with refused("t", NOT_TOO_LATE):
         Motion(ARTICLE, CUSPS).at(t)
-
-
-def test_the_physics_imports_neither_scipy_nor_a_compiler_of_numpy():
-    code = "import sys, symtop_ros.physics; print('scipy' in sys.modules, 'numba' in sys.modules)"
-    assert run_python(code).stdout == "False False\n"
 
 
 @pytest.mark.long

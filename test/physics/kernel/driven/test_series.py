@@ -49,12 +49,6 @@ def test_friction_too_weak_to_be_felt_gives_what_the_closed_form_gives(t, tiny):
     assert distance(motion.at(t), Motion(ARTICLE, CUSPS).at(t)) < EPS * (2 + 200 * t / 2 / 10)
 
 
-def test_no_friction_and_no_torque_is_the_closed_form():
-    motion = Motion(ARTICLE, CUSPS, Friction(0.0, 0.0), [0, 0, 0])
-    assert motion.engine == "closed form"
-    assert motion.at(3.0) == Motion(ARTICLE, CUSPS).at(3.0)
-
-
 def test_the_spin_of_a_rod_needs_no_steps():
     rod = Top(Ix=1.0, Iz=1e-8, Mgl=50.0)
     slow, fast = (State.from_euler(theta=1.0, phi_dot=1.0, psi_dot=spin) for spin in (1.0, 1e5))
