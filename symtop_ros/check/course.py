@@ -112,8 +112,7 @@ class Course:
         """
         if self.is_ordered:
             return np.searchsorted(self._begins, stamps, side="right") - 1
-        is_early = stamps < self._begins.min(initial=MAX_STAMP)
-        return np.where(is_early, -1, np.maximum(places - 1, 0))
+        return np.where(stamps < self._begins.min(initial=MAX_STAMP), -1, np.maximum(places - 1, 0))
 
     def candidates(self, stamps: Stamps, owners: Places, in_order: bool = True) -> Iterator[int]:
         """Yield the events that can hold at any of the stamps; the owners, or near ones, first."""

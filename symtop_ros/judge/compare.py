@@ -59,9 +59,10 @@ class Offset:
         return np.asarray(stamps - np.rint(late).astype(np.int64))
 
     @property
-    def angles(self) -> tuple[float, float]:
+    def angles(self) -> tuple[float, ...]:
         """Angles of both rotations in rad."""
-        return _angle(self.world), _angle(self.body)
+        both = self.world, self.body
+        return tuple(float(2 * np.arctan2(np.linalg.norm(q[1:]), abs(q[0]))) for q in both)
 
 
 NONE = Offset(IDENTITY, IDENTITY)
@@ -135,10 +136,6 @@ def to_rotation(q: Real) -> Rotation:
 def subtract(q: Real, p: Real) -> Real:
     """Return q - p, or q + p where that is smaller: both signs are the same rotation."""
     return q - np.where((q * p).sum(axis=1, keepdims=True) < 0, -p, p)
-
-
-def _angle(q: Real) -> float:
-    return float(2 * np.arctan2(np.linalg.norm(q[1:]), abs(q[0])))
 
 
 def _turn_steadily(rate: float, nanoseconds: Stamps, start: Real) -> Real:

@@ -387,8 +387,7 @@ class _Estimates:
         self._weights[part] = weights + before
         means = self._curved[part] + self._rough[part]
         self.errors[part] = np.where(weights + before > 0, means, np.inf)
-        shortest = np.where(share > 0, steps, np.inf)
-        self._shortest[part] = np.minimum(self._shortest[part], shortest)
+        self._shortest[part] = np.minimum(self._shortest[part], np.where(share > 0, steps, np.inf))
 
 
 def _find_rates(motion: Any) -> tuple[float, float]:

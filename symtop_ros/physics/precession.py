@@ -131,8 +131,8 @@ def _find_tilt_torques(top: Top, theta: Any, phi_dot: Any, psi_dot: Any) -> list
         validate_rate("phi_dot", phi_dot),
         validate_rate("psi_dot", psi_dot),
     )
-    found = door.find_tilt_torques(*columns)
-    return [np.ascontiguousarray(found[:, k]).reshape(shape) for k in range(4)]
+    found = door.find_tilt_torques(*columns).T
+    return [np.ascontiguousarray(each).reshape(shape) for each in found]
 
 
 @ignore_underflow

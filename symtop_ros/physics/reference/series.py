@@ -163,11 +163,10 @@ class Series:
     def _slopes(self, series: list[Integers], n: int) -> Integers:
         """Return coefficient n of the derivatives."""
         backward = [each[::-1] for each in series]
-        spin = series[OMEGA_Z]
 
         def times(i: int, j: int) -> Any:
             if j == OMEGA_Z and not self._is_driven:  # constant: all but one product are zero
-                return series[i][n] * spin[0] >> self.bits
+                return series[i][n] * series[OMEGA_Z][0] >> self.bits
             return sum(map(mul, series[i], backward[j])) >> self.bits
 
         a, b, c = OMEGA_X, OMEGA_Y, OMEGA_Z
