@@ -230,8 +230,7 @@ def _find_rates(some: Estimates, truth: Truth, offset: Offset) -> Iterator[str]:
     """Yield the mistake of the angular velocities, if there is one."""
     now = _rate(compare(some, truth, offset))
     q, omega = some.orientations, np.asarray(some.angular_velocities)
-    size = float(np.sqrt((omega**2).sum(axis=1).mean()))
-    if now > SMALL * size:
+    if now > SMALL * float(np.sqrt((omega**2).sum(axis=1).mean())):
         errors = {
             text: _rate(compare(replace(some, angular_velocities=mend(q, omega)), truth, offset))
             for text, mend in VELOCITIES.items()

@@ -70,8 +70,7 @@ def _find_left(offset: Offset, truth: Truth, run: Estimates) -> tuple[Real, Real
     exact, rates, known = truth.states_at(offset.shift(run.stamps), run.of_sensor)
     run, exact, rates = run.select(known), exact[known], rates[known]
     turned = compose(offset.turn_world(run.stamps), exact)
-    model = compose(turned, offset.turn_body(run.stamps))
-    left = compose(run.orientations, invert(model))
+    left = compose(run.orientations, invert(compose(turned, offset.turn_body(run.stamps))))
     return find_rotation_vectors(left), to_rotation(turned).apply(rates), run.stamps
 
 

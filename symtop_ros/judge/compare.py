@@ -172,8 +172,7 @@ class Scaling:
 
     def derive(self, scale: float) -> Real:
         """Return the derivatives of D by the scale, as rotation vectors in the world, (n, 3)."""
-        path = self._path(scale)
-        steps = to_rotation(path[:-1]).apply(self._turns) if scale else self._turns
+        steps = to_rotation(self._path(scale)[:-1]).apply(self._turns) if scale else self._turns
         return np.asarray(np.vstack((np.zeros(3), np.cumsum(steps, axis=0)))[self._ends])
 
     def _path(self, scales: float | Real) -> Real:

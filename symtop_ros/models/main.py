@@ -20,8 +20,11 @@ def main(args: list[str] | None = None) -> int:
 def _write(options: argparse.Namespace) -> int:
     settings = Settings.from_scene(options.scene)
     gravity = number("gravity", options.gravity, "m/s^2", 1e-3, 1e3)
-    start = initial_state(settings.top, settings.initial, {})
-    text = FORMATS[options.format](settings.top, start, Body.of(settings.top, gravity))
+    text = FORMATS[options.format](
+        settings.top,
+        initial_state(settings.top, settings.initial, {}),
+        Body.of(settings.top, gravity),
+    )
     if options.output:
         options.output.write_text(text, encoding="utf-8")
     else:

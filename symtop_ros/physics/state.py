@@ -385,8 +385,9 @@ class State:
         """
         t, shape = validate_array("times", times, unit="s"), self.orientation.shape[:-1]
         require(len(shape) == 1, "states", "of shape (n,)", f"shape {shape}")
-        condition = f"of shape {shape}, one for each state"
-        require(t.shape == shape, "times", condition, f"shape {t.shape}")
+        require(
+            t.shape == shape, "times", f"of shape {shape}, one for each state", f"shape {t.shape}"
+        )
         vectors = *map(split, self.parts), self.euler_angles, self.euler_rates
         return dict(zip(COLUMNS, (t, *map(np.array, chain(*vectors))), strict=True))
 

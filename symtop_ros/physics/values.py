@@ -193,8 +193,10 @@ def validate_together(values: dict[str, Any], units: Sequence[str]) -> list[Any]
     """
     if are_floats(values.values()):
         return list(values.values())
-    named = zip(values.items(), units, strict=True)
-    validated = [validate_numbers(name, value, unit) for (name, value), unit in named]
+    validated = [
+        validate_numbers(name, value, unit)
+        for (name, value), unit in zip(values.items(), units, strict=True)
+    ]
     shapes = {
         name: array.shape
         for name, array in zip(values, validated, strict=True)

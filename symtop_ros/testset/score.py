@@ -234,8 +234,7 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
             raise ValueError(
                 f"{path} must have the columns t, w, x, y, z, got the header {_show(head)}"
             )
-        places = [header.index(name) for name in ("t", *names)]
-        found = _pick(file, separator, places, problem.times)
+        found = _pick(file, separator, [header.index(n) for n in ("t", *names)], problem.times)
     q, rates = found[:, :4], found[:, 4:] if len(names) > 4 else None
     if rates is not None and names[-1] in WORLD_RATES:
         with np.errstate(all="ignore"):  # zero and infinite quaternions are refused later

@@ -207,8 +207,9 @@ def _read(found: door.VerdictRecord, hold: Hold) -> Verdict:
 
 def _judge_each(top: Top, state: State, factors: Real, hold: Hold) -> Verdicts:
     """Return the verdicts on tops, states and factors that are broadcast together."""
-    states = state.orientation.shape[:-1]
-    shape = fit_shapes("top, state and factor", top.shape, states, factors.shape)
+    shape = fit_shapes(
+        "top, state and factor", top.shape, state.orientation.shape[:-1], factors.shape
+    )
     spread = np.array(np.broadcast_to(factors, shape)).reshape(-1)
     found = _judge(top, state, spread, shape, hold).reshape(shape)
     reasons = found["reason"]
