@@ -12,7 +12,7 @@ from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 
 from symtop_ros.judge.compare import Errors, compare
 from symtop_ros.judge.estimates import decode_estimates
-from symtop_ros.judge.judgement import summarize
+from symtop_ros.judge.judgement import summarize, tell_limit
 from symtop_ros.judge.truth import Truth
 from symtop_ros.shutdown import describe_failure, ros_context, spin_until
 from symtop_ros.simulation.events import decode_events
@@ -83,11 +83,7 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
     except Exception as error:
         print(f"top_judge: {describe_failure(error)}", file=sys.stderr)
         return 1
-    if limit and worst > limit:
-        message = f"top_judge: the attitude was off by {worst:.3g} rad, limit {limit:g} rad"
-        print(message, file=sys.stderr)
-        return 1
-    return 0
+    return tell_limit(worst, limit, "was")
 
 
 def _find_type(executor: SingleThreadedExecutor, node: Node, topic: str) -> str:

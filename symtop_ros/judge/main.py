@@ -10,8 +10,8 @@ from pathlib import Path
 from symtop_ros.command import positive, tell_failures
 from symtop_ros.judge.clock import format_clocks, measure_clock
 from symtop_ros.judge.estimates import Estimates, read_topic
-from symtop_ros.judge.judgement import Judgement, format_judgements, judge
-from symtop_ros.judge.problems import run_testset, tell_limit
+from symtop_ros.judge.judgement import Judgement, format_judgements, judge, tell_limit
+from symtop_ros.judge.problems import run_testset
 from symtop_ros.judge.search import MODELS
 from symtop_ros.judge.tables import TABLES, read_table
 from symtop_ros.judge.truth import Truth, read_events, read_truth, scene_truth

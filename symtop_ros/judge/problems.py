@@ -3,13 +3,13 @@
 import argparse
 import json
 import re
-import sys
 from collections.abc import Mapping
 from hashlib import sha256
 from itertools import product
 from pathlib import Path
 from typing import Any
 
+from symtop_ros.judge.judgement import tell_limit
 from symtop_ros.judge.scoreboard import Entry, format_json, format_table, read_entries
 from symtop_ros.models import FORMATS, FREE_FORMATS, UNSAID
 from symtop_ros.models.descriptions import describe
@@ -78,15 +78,6 @@ def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> i
         facts = json.dumps(entries[0].facts(), indent=1)
         print(facts if options.json else entries[0].score.format())
     return tell_limit(max(each.error for each in entries), options.max_error)
-
-
-def tell_limit(error: float, limit: float | None) -> int:
-    """Return the status of an error of the attitude: 1, with a line, if it is above the limit."""
-    if not limit or error <= limit:
-        return 0
-    text = f"top_judge: the attitude is off by {error:.3g} rad, limit {limit:g} rad"
-    print(text, file=sys.stderr)
-    return 1
 
 
 def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:

@@ -187,8 +187,9 @@ def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: s
 def _spread(parts: tuple[Real, ...], axes: int) -> tuple[Real, ...]:
     """Return copies of one shape of tops, orientations, angular velocities and amounts."""
     shapes = [part.shape[:-1] for part in parts[:3]] + [parts[3].shape[:axes]]
-    listed = f"{shapes[1]} and {shapes[3] or shapes[0]}"
-    shape = fit_shapes("state and kick", *shapes, listed=listed)
+    shape = fit_shapes(
+        "state and kick", *shapes, listed=f"{shapes[1]} and {shapes[3] or shapes[0]}"
+    )
     widths = [part.shape[-1:] for part in parts[:3]] + [parts[3].shape[axes:]]
     return tuple(
         np.array(np.broadcast_to(part, shape + width))

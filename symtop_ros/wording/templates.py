@@ -102,15 +102,13 @@ class _Writer:
         return self._fill(f"{name}.{kind}" if kind else name, record)
 
     def _fill(self, key: str, record: Mapping[str, Any]) -> str:
-        template = TEMPLATES.get(f"{key}@{self.variant}", TEMPLATES[key])
-
         def replace(found: "re.Match[str]") -> str:
             name, form = found.groups()
             value = _pick(name, record) if "," in name else record[name]
             text = self._write_value(name, value, form, record)
             return f" {text}" if text and found[0].startswith(" ") else text
 
-        return PLACEHOLDER.sub(replace, template)
+        return PLACEHOLDER.sub(replace, TEMPLATES.get(f"{key}@{self.variant}", TEMPLATES[key]))
 
     def _write_value(self, name: str, value: Any, form: str, record: Mapping[str, Any]) -> str:
         match value:
