@@ -189,21 +189,8 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {
 _RESULTS = {"make": _HANDLE, "free": None, "describe_status": _BYTES, "version": _BYTES}
 
 
-class Door(SimpleNamespace):
-    """The functions of the library, without the prefix of their names."""
-
-    def __init__(self, path: Path) -> None:
-        released, locked = _load(path)
-        for starred, arguments in _FUNCTIONS.items():
-            name = starred.lstrip("*")
-            # By index: a function object that belongs to this door alone.
-            function = (locked if name == starred else released)[f"symtop_{name}"]
-            function.argtypes, function.restype = arguments, _RESULTS.get(name, c_int)
-            setattr(self, name, function)
-
-
-def _load(path: Path) -> tuple[ctypes.CDLL, ctypes.PyDLL]:
-    """Return the library twice: calls of the first release the interpreter's lock.
+def _load() -> ctypes.CDLL:
+    """Return the library.
 
     Raises
     ------
@@ -212,17 +199,17 @@ def _load(path: Path) -> tuple[ctypes.CDLL, ctypes.PyDLL]:
     """
     digest = f"symtop {digest_sources()}".encode()
     try:
-        library = ctypes.CDLL(str(path))
+        library = ctypes.CDLL(str(FILE))
         built_of = (ctypes.c_char * len(digest)).in_dll(library, "symtop_digest").value
         sizes = (ctypes.c_uint32 * len(SIZES)).in_dll(library, "symtop_sizes")
         is_own = (built_of, tuple(sizes)) == (digest, SIZES)
     except OSError:
-        raise ImportError(f"the compiled kernel {path.name} cannot be loaded: {AGAIN}") from None
+        raise ImportError(f"the compiled kernel {FILE.name} cannot be loaded: {AGAIN}") from None
     except ValueError:  # it has no such variables
         is_own = False
     if not is_own:
         raise ImportError(f"the compiled kernel is of another version: {AGAIN}")
-    return library, ctypes.PyDLL(str(path))
+    return library
 
 
 def digest_sources() -> str:
@@ -234,9 +221,17 @@ def digest_sources() -> str:
 
 
 @cache
-def open_door() -> Door:
-    """Return the functions of the library, which is loaded at the first call."""
-    return Door(FILE)
+def open_door() -> SimpleNamespace:
+    """Return the functions of the library, which is loaded at the first call, by their names."""
+    # Calls of the first release the interpreter's lock.
+    released, locked, door = _load(), ctypes.PyDLL(str(FILE)), SimpleNamespace()
+    for starred, arguments in _FUNCTIONS.items():
+        name = starred.lstrip("*")
+        # By index: a function object that belongs to this door alone.
+        function = (locked if name == starred else released)[f"symtop_{name}"]
+        function.argtypes, function.restype = arguments, _RESULTS.get(name, c_int)
+        setattr(door, name, function)
+    return door
 
 
 def refuse_status(status: int) -> Exception:
