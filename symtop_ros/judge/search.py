@@ -253,8 +253,10 @@ def explain(
         for each in found
         if turned or each.level == "none"
     ]
-    good = search.select(causes, len(search.some))
-    return min(good, key=lambda each: (len(each.parameters), abs(each.offset.delay)))
+    return min(
+        search.select(causes, len(search.some)),
+        key=lambda each: (len(each.parameters), abs(each.offset.delay)),
+    )
 
 
 def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = None) -> Cause:
