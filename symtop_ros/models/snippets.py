@@ -107,6 +107,7 @@ def format_snippets(name: str, start: State, body: Body, duration: float) -> str
     )
 
 
+STEPS = 256  # to each of the 20 times
 IN_THE_WORLD = """\
 ## Start in Bullet, Jolt, Rapier and DART
 
@@ -276,7 +277,7 @@ def format_world_snippets(start: State, body: Body, duration: float) -> str:
     wx, wy, _ = start.angular_velocity.tolist()
     return IN_THE_WORLD.format(
         **{name: text.format(below=repr(-body.arm)) for name, text in joints.items()},
-        steps=256,  # to each of the 20 times
+        steps=STEPS,
         header="t,w,x,y,z,omega_x,omega_y,omega_z",
         duration=repr(duration),
         gravity=repr(-body.gravity if has_weight else 0.0),
