@@ -106,7 +106,7 @@ def describe_inputs(setting: Setting) -> dict[str, Any]:
 def pack(setting: Setting, states: list[ExactState]) -> dict[str, Any]:
     """Return the states with the fewest digits that give thirty of all that follows from them."""
     inputs, wanted = describe_inputs(setting), list_all(setting, states)
-    for count in range(SHOWN, DIGITS // 2):
+    for count in range(SHOWN, DIGITS):
         columns = zip(*states, strict=True)
         packed = dict(zip(STATES, (digits(each, count) for each in columns), strict=True))
         found = complete(inputs | packed, STANDARD_GRAVITY)
