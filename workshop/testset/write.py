@@ -22,7 +22,7 @@ from symtop_ros.physics import STANDARD_GRAVITY
 from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
 from symtop_ros.testset.score import FILE, read_problems
 from symtop_ros.testset.tables import FORCES, LIMITS, STATES, WORLD, complete, format_problems
-from workshop.testset.exact import DIGITS, ReturningSeries, distance, perturb
+from workshop.testset.exact import DIGITS, distance, perturb, returning_series
 from workshop.testset.forces import find_forces, find_world_state
 from workshop.testset.links import find_link_effect
 from workshop.testset.problems import SETTINGS, Setting
@@ -38,9 +38,7 @@ def solve(setting: Setting) -> list[ExactState]:
     """States at the times of a problem, by both methods."""
     inputs = Inputs.of(setting.top, setting.start)
     motion = ClosedForm(inputs, DIGITS)
-    series = Series(inputs, DIGITS)
-    if setting.has_period:
-        series = ReturningSeries(inputs, DIGITS, motion.period)
+    series = returning_series(inputs, DIGITS) if setting.has_period else Series(inputs, DIGITS)
     states = [motion.at(t) for t in setting.times]
     for t, exact in zip(setting.times, states, strict=True):
         check(setting, t, exact, series)
