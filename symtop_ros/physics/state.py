@@ -15,6 +15,7 @@ from symtop_ros.physics.kernel import door
 from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
+    are_floats,
     ignore_underflow,
     refuse,
     require,
@@ -210,9 +211,11 @@ class State:
         >>> State.from_euler(theta=[0.4, 0.5, 0.6], psi_dot=200.0)
         <State of shape (3,)>
         """
-        values = phi, theta, psi, phi_dot, theta_dot, psi_dot
-        table = np.array(validate_together(dict(zip(NAMES, values, strict=True)), UNITS))
-        if table.ndim > 1:  # (6, ...)
+        values: Any = phi, theta, psi, phi_dot, theta_dot, psi_dot
+        if not are_floats(values):
+            values = validate_together(dict(zip(NAMES, values, strict=True)), UNITS)
+        table = np.array(values)  # (6, ...)
+        if table.ndim > 1:
             table = np.moveaxis(table, 0, -1)
         q, omega = door.from_angles(table[..., :3], table[..., 3:])
         return cls.of_given(q, omega)

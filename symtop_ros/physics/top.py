@@ -244,7 +244,9 @@ class Friction(_Numbers):
 
     def __bool__(self) -> bool:
         """Return True if a coefficient is not zero."""
-        return bool(np.any(self.axial) or np.any(self.transverse))
+        if self.shape:
+            return bool(np.any(self.axial) or np.any(self.transverse))
+        return self.axial > 0 or self.transverse > 0  # asked of every motion
 
     @ignore_underflow
     def torque(self, state: State) -> Real:
