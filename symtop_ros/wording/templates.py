@@ -136,8 +136,13 @@ class _Writer:
     def _fill_numbers(self, key: str, values: Sequence[float]) -> str:
         template = TEMPLATES.get(f"{key}@{self.variant}", TEMPLATES[key])
         places = [(values[int(place)], form) for place, form in PLACEHOLDER.findall(template)]
-        tries = ([write_number(*each, more) for each in places] for more in range(MOST_DIGITS))
-        texts = max(tries, key=lambda each: len(set(each)))  # the first that tell as many apart
+        wanted, texts = len({value for value, _ in places}), list[str]()
+        for more in range(MOST_DIGITS):
+            found = [write_number(*each, more) for each in places]
+            if len(set(found)) > len(set(texts)):  # the shortest that tell as many apart
+                texts = found
+            if len(set(texts)) == wanted:
+                break
         if len(set(texts)) == 1 and f"{key}.same" in TEMPLATES:
             return self._fill(f"{key}.same", {str(n): value for n, value in enumerate(values)})
         written = iter(texts)
