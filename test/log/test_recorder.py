@@ -49,6 +49,7 @@ def read_whole(path):
 
 def test_all_messages_are_in_the_file_in_order(tmp_path):
     recorder = create(tmp_path)
+    assert not recorder.running
     path = recorder.start({"scene": "x"})
     given = [(k, bytes([k % 251]) * (k % 50)) for k in range(5000)]
     for stamp, data in given:
