@@ -1,15 +1,18 @@
 """A claim of the article with the value that was measured for it, and tables of claims."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import wraps
+from functools import cache, wraps
+from pathlib import Path
 from textwrap import wrap
-from typing import ParamSpec
+from typing import Any, ParamSpec
 
 import numpy as np
+import yaml
 
 from symtop_ros.arrays import Real
 
+TEXTS = Path(__file__).with_name("texts")
 WIDTH = 96  # characters in a line
 Arguments = ParamSpec("Arguments")
 # Characters that Markdown would read as cell borders or emphasis
@@ -32,17 +35,38 @@ class Claim:
         return "pass" if self.holds else "FAIL"
 
 
-def claim(check: Callable[Arguments, Claim]) -> Callable[Arguments, Claim]:
-    """Decorate a check so that one that cannot be made is a claim that fails.
+class Measured:
+    """What a check has found: whether its claim holds, and the values that its texts name."""
 
-    For a falsified constant a root may not be bracketed, or an extremum may not exist.
+    def __init__(self, holds: Any, **values: Any) -> None:
+        self.holds, self.values = bool(holds), values
+
+
+@cache
+def read_texts(module: str) -> Mapping[str, Mapping[str, str]]:
+    """Return the texts of the claims of a module by the names of its checks."""
+    path = TEXTS / f"{module.rpartition('.')[2]}.yaml"
+    texts: dict[str, dict[str, str]] = yaml.safe_load(path.read_text(encoding="utf-8"))
+    return texts
+
+
+def claim(check: Callable[Arguments, Measured]) -> Callable[Arguments, Claim]:
+    """Decorate a check: it returns a claim, whose texts are those of its name.
+
+    They name the values that it has found and constants of its module. A check that cannot be made
+    is a claim that fails: for a falsified constant a root may not be bracketed, or an extremum may
+    not exist.
     """
 
     @wraps(check)
     def attempt(*args: Arguments.args, **keywords: Arguments.kwargs) -> Claim:
         try:
             with np.errstate(all="ignore"):  # what is not a number does not hold
-                return check(*args, **keywords)
+                found = check(*args, **keywords)
+            texts = read_texts(check.__module__)[check.__name__]
+            values = check.__globals__ | found.values
+            said = {field: text.format_map(values) for field, text in texts.items()}
+            return Claim(holds=found.holds, **said)
         except (ValueError, ArithmeticError, IndexError) as reason:
             sentence = (check.__doc__ or check.__name__).partition("\n")[0]
             return Claim(sentence, f"cannot be measured: {reason}", holds=False)

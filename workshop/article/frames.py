@@ -6,7 +6,7 @@ from scipy.integrate import solve_ivp
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, Top, hurry, regular_precession_rates
 from workshop.article.answers.fictitious import point_masses
-from workshop.article.claims import Claim, claim, differ
+from workshop.article.claims import Claim, Measured, claim, differ
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, start
 from workshop.article.torque import COUNT, SEED, draw_states, inertia_in_world
 
@@ -42,7 +42,7 @@ def _turn(angles: Real, axis: int) -> Real:
 
 
 @claim
-def matrix_turns_body_to_world() -> Claim:
+def matrix_turns_body_to_world() -> Measured:
     """Check the matrix of the attitude against equation 6, and against three turns."""
     states = draw_states()
     phi, theta, psi = map(np.asarray, states.euler_angles)
@@ -62,18 +62,11 @@ def matrix_turns_body_to_world() -> Claim:
     printed = np.moveaxis(np.array(rows), -1, 0)
     turned = _turn(phi, 2) @ _turn(theta, 0) @ _turn(psi, 2)
     off = max(float(np.abs(states.matrix - each).max()) for each in (printed, turned))
-    return Claim(
-        "Equation 6 turns vectors of the body frame into the fixed frame: about z by psi, about "
-        "the line of nodes by theta, about z' by phi.",
-        f"on {COUNT} random attitudes the matrix, equation 6 and three turns differ by {off:.0e}",
-        off < ROUNDED,
-        "S = R_z(phi) R_x(theta) R_z(psi)",
-        f"{ROUNDED:g}: rounding of the angles and of products of three matrices",
-    )
+    return Measured(off < ROUNDED, off=off)
 
 
 @claim
-def angular_velocity_has_its_components() -> Claim:
+def angular_velocity_has_its_components() -> Measured:
     """Check the angular velocity in the fixed frame by Euler's rates, equation 9."""
     states = draw_states()
     (phi, theta, _), rates = map(tuple, (states.euler_angles, states.euler_rates))
@@ -87,17 +80,11 @@ def angular_velocity_has_its_components() -> Claim:
         axis=-1,
     )
     off = differ(states.to_world(states.angular_velocity), printed)
-    return Claim(
-        "Equation 9 gives the angular velocity in the fixed frame by the rates of Euler's angles.",
-        f"on {COUNT} random states it differs from the turned one by {off:.0e} of the largest",
-        off < 10 * ROUNDED,
-        "omega = theta' N + phi' z' + psi' z",
-        f"{10 * ROUNDED:g}: rounding, over sin(theta) >= 0.1 in phi' and psi'",
-    )
+    return Measured(off < 10 * ROUNDED, off=off, limit=10 * ROUNDED)
 
 
 @claim
-def torque_has_its_components_in_the_body(top: Top) -> Claim:
+def torque_has_its_components_in_the_body(top: Top) -> Measured:
     """Check gravity's torque in the body frame, equation 17."""
     states = draw_states()
     _, theta, psi = states.euler_angles
@@ -105,18 +92,13 @@ def torque_has_its_components_in_the_body(top: Top) -> Claim:
     printed = np.stack([size * np.cos(psi), -size * np.sin(psi), 0 * size], axis=-1)
     found = states.to_body(top.gravity_torque(states))
     off = float(np.abs(found - printed).max() / 0.068)
-    return Claim(
-        "Equation 17 gives gravity's torque in the body frame.",
-        f"on {COUNT} random attitudes it differs from the turned torque by {off:.0e} of 0.068 N m; "
-        f"largest {np.abs(found).max():.4f} N m",
-        bool(off < ROUNDED and np.abs(found).max() > 0.067),
-        "S^-1 torque = Mgl sin(theta) (cos(psi), -sin(psi), 0)",
-        f"{ROUNDED:g}: rounding of a rotation; the largest component as for Mgl = 0.068 J",
+    return Measured(
+        off < ROUNDED and np.abs(found).max() > 0.067, off=off, largest=np.abs(found).max()
     )
 
 
 @claim
-def inertia_is_an_integral(top: Top) -> Claim:
+def inertia_is_an_integral(top: Top) -> Measured:
     """Check the integral of equation 4, over mass elements in the fixed frame, against I'."""
     states, (masses, places) = draw_states(), point_masses(top)
     moved = np.einsum("nij,kj->nki", states.matrix, places)
@@ -126,37 +108,21 @@ def inertia_is_an_integral(top: Top) -> Claim:
     )
     angles = states.euler_angles
     off = differ(summed, inertia_in_world(top, angles.phi, angles.theta))
-    return Claim(
-        "The integral of equation 4, in the fixed frame, is the tensor that equation 7 gives.",
-        f"summed over {len(masses)} masses on {COUNT} random attitudes: equal within {off:.0e}",
-        off < SUMMED,
-        "I'_ij = sum of m (r^2 delta_ij - r_i r_j)",
-        f"{SUMMED:g}: sums of rounded products that cancel",
-    )
+    return Measured(off < SUMMED, count=len(masses), off=off)
 
 
 @claim
-def delay_does_the_opposite(top: Top) -> Claim:
+def delay_does_the_opposite(top: Top) -> Measured:
     """Check that a delayed top falls at the slow root and rises at the fast one."""
-    found = []
-    for rate in (SLOW, FAST):
-        low, high = Motion(top, hurry(start(rate), 1 / FACTOR)).turning_angles
-        found.append((float(low), float(high)))
-    (slow_low, slow_high), (fast_low, fast_high) = found
-    falls = abs(slow_low - THETA) < ROUNDED and slow_high > THETA + 0.01
-    rises = abs(fast_high - THETA) < ROUNDED and fast_low < THETA - 0.01
-    return Claim(
-        "Delayed, the top falls at the slow root and rises at the fast one.",
-        f"phi' divided by {FACTOR}: theta {slow_low:.3f} to {slow_high:.3f} rad at the slow root, "
-        f"{fast_low:.3f} to {fast_high:.3f} rad at the fast one",
-        falls and rises,
-        "theta'' changes its sign at both roots",
-        f"{ROUNDED:g} rad: the start is a turning point; 0.01 rad of motion",
-    )
+    delayed = (Motion(top, hurry(start(rate), 1 / FACTOR)) for rate in (SLOW, FAST))
+    slow, fast = (motion.turning_angles for motion in delayed)
+    falls = abs(slow[0] - THETA) < ROUNDED and slow[1] > THETA + 0.01
+    rises = abs(fast[1] - THETA) < ROUNDED and fast[0] < THETA - 0.01
+    return Measured(falls and rises, slow=slow, fast=fast)
 
 
 @claim
-def roots_have_the_sign_of_the_spin(top: Top) -> Claim:
+def roots_have_the_sign_of_the_spin(top: Top) -> Measured:
     """Check that roots of one sign have the sign of the spin rate, also if it is negative."""
     random = np.random.default_rng(SEED + 2)
     roots = regular_precession_rates(top, THETA, -PSI_DOT)
@@ -169,19 +135,12 @@ def roots_have_the_sign_of_the_spin(top: Top) -> Claim:
             signs.append(
                 all(np.sign(rates) == np.sign(spin)) if is_upward else rates[0] * rates[1] < 0
             )
-    return Claim(
-        "If (Ix - Iz) cos(theta) > 0 both roots have the sign of psi', else different ones.",
-        f"at psi' = -200 rad/s the roots are {roots[0]:.3f} and {roots[1]:.2f} rad/s; "
-        f"{sum(signs)} of {len(signs)} random tops with two roots agree",
-        bool(np.allclose(sorted(roots), (-FAST, -SLOW), rtol=SUMMED) and all(signs)),
-        "phi'_1 + phi'_2 = Iz psi'/((Ix - Iz) cos(theta)), "
-        "phi'_1 phi'_2 = Mgl/((Ix - Iz) cos(theta))",
-        f"{SUMMED:g}: the roots of the mirrored top; counts",
-    )
+    holds = np.allclose(sorted(roots), (-FAST, -SLOW), rtol=SUMMED) and all(signs)
+    return Measured(holds, roots=roots, good=sum(signs), tried=len(signs))
 
 
 @claim
-def elastic_body_elongates() -> Claim:
+def elastic_body_elongates() -> Measured:
     """Check that a mass on a spring that turns keeps a larger distance, by the tension."""
     stretched = SPRING * REST / (SPRING - MASS * PSI_DOT**2)
     tension = SPRING * (stretched - REST)
@@ -197,17 +156,11 @@ def elastic_body_elongates() -> Claim:
         path = solve_ivp(fall, (0.0, span), y, "DOP853", rtol=1e-12, atol=1e-15).y
         ends.append(np.hypot(*path[:2]))
     kept = float(np.abs(ends[0] / stretched - 1).max())
-    return Claim(
-        "An elastic body that rotates elongates, and its tension is the centripetal force "
-        "(conclusion).",
-        f"1 g on a spring of 400 N/m and 30 mm at 200 rad/s: {1000 * stretched:.2f} mm with a "
-        f"tension of {tension:.3f} N, kept within {kept:.0e} of it in ten turns; from 30 mm it "
-        f"moves out to {1000 * ends[1].max():.1f} mm",
-        bool(
-            kept < FOLLOWED
-            and abs(tension - MASS * PSI_DOT**2 * stretched) < ROUNDED * SPRING
-            and ends[1].min() > REST * (1 - FOLLOWED)
-        ),
-        "k (r - r_0) = m psi'^2 r",
-        f"{FOLLOWED:g}: the integrator's tolerance",
+    holds = (
+        kept < FOLLOWED
+        and abs(tension - MASS * PSI_DOT**2 * stretched) < ROUNDED * SPRING
+        and ends[1].min() > REST * (1 - FOLLOWED)
+    )
+    return Measured(
+        holds, length=1e3 * stretched, tension=tension, kept=kept, farthest=1e3 * ends[1].max()
     )

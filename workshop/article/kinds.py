@@ -14,7 +14,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from workshop.article.claims import Claim, claim, differ
+from workshop.article.claims import Claim, Measured, claim, differ
 from workshop.article.motions import (
     FAST,
     HANGING_DISC,
@@ -49,7 +49,7 @@ def claims_on_kinds(top: Top) -> list[Claim]:
 
 
 @claim
-def six_rates_have_kinds(top: Top) -> Claim:
+def six_rates_have_kinds(top: Top) -> Measured:
     """Check the kind of each of the six motions by phi' at both turning angles."""
     words, agrees = [], []
     for rate in RATES:
@@ -60,18 +60,11 @@ def six_rates_have_kinds(top: Top) -> Claim:
         agrees.append(motion.kind == expected and is_regular == (expected == "regular"))
         agrees.append(near * far > 0)
         words.append(f"{near:.4g} to {far:.4g} {motion.kind}")
-    return Claim(
-        "The six rates become regular precession (both roots) and precession that never stops or "
-        "reverses (the other four); cusps and loops are not among them.",
-        f"phi' at the start and after half a nutation, in rad/s: {'; '.join(words)}",
-        all(agrees),
-        "phi' = (p_phi - p_psi cos(theta))/(Ix sin^2(theta)) at both turning angles",
-        f"{SAME_RATE:g} rad/s: a root that is rounded to a double nutates by its rounding",
-    )
+    return Measured(all(agrees), listed="; ".join(words))
 
 
 @claim
-def accelerations_do_not_decide(top: Top, phi_dot: float) -> Claim:
+def accelerations_do_not_decide(top: Top, phi_dot: float) -> Measured:
     """Check that two starts have the same three accelerations and different kinds.
 
     The parabola of theta'' takes each value at two rates, which have the sum of its roots.
@@ -82,20 +75,14 @@ def accelerations_do_not_decide(top: Top, phi_dot: float) -> Claim:
     off = differ(second, first)
     kinds = [motion.kind for motion in motions]
     lowest = [motion.turning_angles[1] for motion in motions]
-    return Claim(
-        "The accelerations at the start alone, without the velocities, do not say which kind of "
-        f"motion follows (phi' = {phi_dot:g} and {partner:.2f} rad/s).",
-        f"theta'' = {first[1]:.4g} rad/s^2 for both within {off:.0e}, phi'' = psi'' = 0; but one "
-        f"is {kinds[0]} down to {lowest[0]:.3f} rad, and the other {kinds[1]} down to "
-        f"{lowest[1]:.3f} rad",
-        off < EQUAL and kinds[0] != kinds[1],
-        "theta''(p) = theta''(Iz psi'/((Ix - Iz) cos(theta)) - p)",
-        f"{EQUAL:g}: rounding of the two rates",
+    holds = off < EQUAL and kinds[0] != kinds[1]
+    return Measured(
+        holds, phi_dot=phi_dot, partner=partner, first=first, off=off, kinds=kinds, lowest=lowest
     )
 
 
 @claim
-def constants_decide(top: Top) -> Claim:
+def constants_decide(top: Top) -> Measured:
     """Check that the effective potential alone gives the turning angles that the motion has."""
     offs, words = [], []
     for rate in (0.0, SLOW + FAST):
@@ -105,28 +92,14 @@ def constants_decide(top: Top) -> Claim:
         size = np.abs(potential.at(reached)).max()
         offs.append(float(np.abs(potential.at(reached) - potential.energy).max() / size))
         words.append(f"{min(reached):.3f} .. {max(reached):.3f} rad")
-    return Claim(
-        "The constants of motion decide: both starts keep to the tilts at which U_eff(theta) is "
-        "at most E'.",
-        f"U_eff = E' at the ends of {' and of '.join(words)}, within {max(offs):.0e} of U_eff",
-        max(offs) < TURNED,
-        "U_eff = (p_phi - p_psi cos(theta))^2/(2 Ix sin^2(theta)) + Mgl cos(theta) = E'",
-        f"{TURNED:g}: rounding of the angle, where U_eff is steep",
-    )
+    return Measured(max(offs) < TURNED, listed=" and of ".join(words), off=max(offs))
 
 
 @claim
-def parabola_opens_downward(name: str, top: Top, theta: float) -> Claim:
+def parabola_opens_downward(name: str, top: Top, theta: float) -> Measured:
     """Check the sign rule of the roots, and rising and falling, for (Ix - Iz) cos(theta) < 0."""
-    sentence = (
-        f"For (Ix - Iz) cos(theta) < 0 the parabola opens downward: for Mgl > 0 the roots have "
-        f"opposite signs, and the top falls between them and rises outside ({name})."
-    )
     a, b = (top.Ix - top.Iz) * float(np.cos(theta)), top.Iz * PSI_DOT
-    roots = regular_precession_rates(top, theta, PSI_DOT)
-    if len(roots) != 2:
-        return Claim(sentence, f"{len(roots)} roots", holds=False)
-    low, high = sorted(roots)
+    low, high = sorted(regular_precession_rates(top, theta, PSI_DOT))
     rates = np.array([low - 5.0, (low + high) / 2, high + 5.0])
     starts = [
         State.from_euler(theta=theta, phi_dot=rate, psi_dot=PSI_DOT) for rate in rates.tolist()
@@ -136,13 +109,12 @@ def parabola_opens_downward(name: str, top: Top, theta: float) -> Claim:
     good = np.array_equal(np.sign(found), [-1, 1, -1]) and np.allclose(
         found, theta_acceleration(top, theta, rates, PSI_DOT), rtol=1e-9
     )
-    return Claim(
-        sentence,
-        f"roots {low:.2f} and {high:.2f} rad/s; theta'' of the motions below, between and above "
-        f"them: {', '.join(f'{value:.3g}' for value in found)} rad/s^2; Vieta's sum and product "
-        f"within {off:.0e}",
-        bool(good and low < 0 < high and a < 0 and off < VIETA),
-        "phi'_1 + phi'_2 = Iz psi'/((Ix - Iz) cos(theta)), "
-        "phi'_1 phi'_2 = Mgl/((Ix - Iz) cos(theta))",
-        f"{VIETA:g}: rounding of the roots; theta'' by differences within 1e-9",
+    holds = good and low < 0 < high and a < 0 and off < VIETA
+    return Measured(
+        holds,
+        name=name,
+        low=low,
+        high=high,
+        listed=", ".join(f"{value:.3g}" for value in found),
+        off=off,
     )

@@ -7,7 +7,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, Measured, claim
 from workshop.article.motions import (
     Slope,
     accelerations,
@@ -23,7 +23,6 @@ AXIS, UP = np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, 1.0])  # in the body, 
 CONSTANT = 1e-13  # relative; the start is known to 1e-16, and L is a sum of a few products
 ACROSS = 1e-14  # of |torque|; rounding of a scalar product
 DIFFERENTIATED = 1e-9  # relative; a difference is good to 1e-11
-DIFFERENCE = f"{DIFFERENTIATED:g}: a derivative by differences is good to 1e-11"
 
 
 def claims_on_momentum(top: Top) -> list[Claim]:
@@ -66,23 +65,19 @@ CONSTANTS: dict[str, tuple[Callable[[Top, State], Any], str]] = {
 
 
 @claim
-def is_constant(name: str, motions: Sequence[Motion]) -> Claim:
+def is_constant(name: str, motions: Sequence[Motion]) -> Measured:
     """Check one of the `CONSTANTS` over ten seconds of each motion."""
     drifts, (compute, equation) = [], CONSTANTS[name]
     for motion in motions:
         values = compute(motion.top, motion.at(TIMES))
         drifts.append(np.abs(values - values[0]).max() / abs(values[0]))
-    return Claim(
-        f"{name} is a constant of motion.",
-        f"largest relative change in {SPAN:g} s of {len(motions)} motions: {max(drifts):.1e}",
-        bool(max(drifts) < CONSTANT),
-        equation,
-        f"{CONSTANT:g}: rounding of the start and of a sum of a few products",
+    return Measured(
+        max(drifts) < CONSTANT, name=name, count=len(motions), drift=max(drifts), equation=equation
     )
 
 
 @claim
-def torque_is_along_the_line_of_nodes(motion: Motion) -> Claim:
+def torque_is_along_the_line_of_nodes(motion: Motion) -> Measured:
     """Check that the torque has no component along the axis or the vertical."""
     states = motion.at(TIMES)
     torque, phi = motion.total_torque(states), states.euler_angles.phi
@@ -94,59 +89,35 @@ def torque_is_along_the_line_of_nodes(motion: Motion) -> Claim:
         "along the vertical": np.abs(torque @ UP),
     }
     largest = {name: float((part / size).max()) for name, part in parts.items()}
-    return Claim(
-        "Gravity's torque is along the line of nodes: it has no component along the axis, and none "
-        "along the vertical, so that L_z' is constant.",
-        "of its size, at most " + ", ".join(f"{part:.0e} {name}" for name, part in largest.items()),
-        max(largest.values()) < ACROSS,
-        "torque = Mgl sin(theta) (cos(phi), sin(phi), 0)",
-        f"{ACROSS:g}: rounding of a scalar product",
-    )
+    listed = ", ".join(f"{part:.0e} {name}" for name, part in largest.items())
+    return Measured(max(largest.values()) < ACROSS, listed=listed)
 
 
 @claim
-def momentum_changes_by_gravity(motion: Motion) -> Claim:
+def momentum_changes_by_gravity(motion: Motion) -> Measured:
     """Check that dL/dt in the world frame is gravity's torque."""
     times = TIMES[::10]
     found = slope(lambda t: motion.top.angular_momentum(motion.at(t)), times)
-    sentence = f"dL/dt is gravity's torque and nothing else ({motion.kind})."
-    expected = motion.top.gravity_torque(motion.at(times))
-    equation = "dL/dt = Mgl sin(theta) (cos(phi), sin(phi), 0)"
-    return _compare(sentence, equation, found, expected, ("dL/dt is", "torque"))
+    return _compare(motion, found, motion.top.gravity_torque(motion.at(times)))
 
 
 @claim
-def equations_hold(motion: Motion) -> Claim:
+def equations_hold(motion: Motion) -> Measured:
     """Check that phi'', theta'' and psi'' of the motion obey the article's equations."""
     times = TIMES[::10]
     found = slope(lambda t: np.stack(motion.at(t).euler_rates, axis=-1), times)
-    sentence = f"phi'', theta'' and psi'' obey the article's three equations ({motion.kind})."
-    expected = accelerations(motion.top, motion.at(times))
-    equation = (
-        "theta'' = sin(theta)/Ix ((Ix - Iz) phi'^2 cos(theta) - Iz phi' psi' + Mgl), "
-        "phi'' = theta'/(Ix sin(theta)) (Iz psi' + (Iz - 2 Ix) phi' cos(theta)), "
-        "psi'' = theta' phi' sin(theta) - phi'' cos(theta)"
-    )
-    return _compare(sentence, equation, found, expected, ("the rates are", "largest"))
+    return _compare(motion, found, accelerations(motion.top, motion.at(times)))
 
 
-def _compare(
-    sentence: str, equation: str, found: Slope, expected: Real, words: tuple[str, str]
-) -> Claim:
-    """Return the claim that derivatives are as expected; `words` name them and their size."""
-    (what, size), (off, error) = words, _relative(found, expected)
-    return Claim(
-        sentence,
-        f"differentiated at {len(expected)} times in {SPAN:g} s, {what} off by {off:.0e} of the "
-        f"{size}; the difference itself may be off by {error:.0e}",
-        off < DIFFERENTIATED,
-        equation,
-        DIFFERENCE,
-    )
+def _compare(motion: Motion, found: Slope, expected: Real) -> Measured:
+    """Return how far derivatives are off what is expected."""
+    off, error = _relative(found, expected)
+    count = len(expected)
+    return Measured(off < DIFFERENTIATED, motion=motion, off=off, error=error, count=count)
 
 
 @claim
-def attitude_turns_with_the_angular_velocity(motion: Motion) -> Claim:
+def attitude_turns_with_the_angular_velocity(motion: Motion) -> Measured:
     """Check that the angular velocity is 2 q* q', so that L and E belong to the attitude."""
     times = TIMES[::10]
     found = slope(lambda t: motion.at(t).orientation, times)
@@ -156,15 +127,7 @@ def attitude_turns_with_the_angular_velocity(motion: Motion) -> Claim:
     vector = q[:, :1] * p[:, 1:] - p[:, :1] * axis - np.cross(axis, p[:, 1:])
     turned = Slope(2 * vector, 2 * found.error)
     off, error = _relative(turned, omega)
-    return Claim(
-        "L and E belong to the attitude: it turns with the angular velocity in them "
-        f"({motion.kind}).",
-        f"omega from the differentiated attitude is off by {off:.0e} of the largest; the "
-        f"difference itself may be off by {error:.0e}",
-        off < DIFFERENTIATED,
-        "omega = 2 conj(q) dq/dt",
-        DIFFERENCE,
-    )
+    return Measured(off < DIFFERENTIATED, motion=motion, off=off, error=error)
 
 
 def _relative(found: Slope, expected: Real) -> tuple[float, float]:

@@ -8,10 +8,9 @@ from scipy.optimize import brentq
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Body, Motion, Top
-from workshop.article.claims import Claim, claim, differ
+from workshop.article.claims import Claim, Measured, claim, differ
 from workshop.article.motions import FAST, SLOW, cusps, slope, start
 
-EQUATION = "F = M (a + g z'), a = alpha x r + omega x (omega x r)"
 SHORT_ARM = 2.9e-3  # m, with which the same top would hardly slip
 SAMPLES = 400  # of a nutation
 DIFFERENTIATED = 1e-9  # relative; a difference is good to 1e-11
@@ -37,7 +36,7 @@ def pivot_forces(motion: Motion, times: Real) -> tuple[Real, Real]:
 
 
 @claim
-def force_accelerates_the_mass(motion: Motion) -> Claim:
+def force_accelerates_the_mass(motion: Motion) -> Measured:
     """Check the force against the acceleration of the centre of mass, found by differences."""
     body, times = Body.of(motion.top), _nutation(motion)
 
@@ -49,37 +48,22 @@ def force_accelerates_the_mass(motion: Motion) -> Claim:
     expected = body.mass * (slope(velocity, times).values + np.array([0.0, 0.0, body.gravity]))
     forces = body.pivot_force(motion, motion.at(times))
     off = differ(forces, expected)
-    return Claim(
-        "The pivot must accelerate the centre of mass and carry the weight: a second force, of "
-        "which the equations of motion about the pivot say nothing.",
-        f"for M = {body.mass:.4f} kg and an arm of {body.arm * 1e3:.2f} mm, half of the longest "
-        f"possible, the force and the differentiated velocity agree within {off:.0e} (cusps)",
-        off < DIFFERENTIATED,
-        EQUATION,
-        f"{DIFFERENTIATED:g}: a derivative by differences is good to 1e-11",
-    )
+    return Measured(off < DIFFERENTIATED, body=body, arm=1e3 * body.arm, off=off)
 
 
 @claim
-def pivot_carries_the_weight(motion: Motion) -> Claim:
+def pivot_carries_the_weight(motion: Motion) -> Measured:
     """Check that the vertical force is the weight on average over a nutation."""
     body = Body.of(motion.top)
     vertical, _ = pivot_forces(motion, _nutation(motion))
     weight = body.mass * body.gravity
     off = abs(float(vertical.mean()) / weight - 1)
-    return Claim(
-        "The vertical force of the pivot is the weight on average, less while the axis begins to "
-        "fall and more while it is caught.",
-        f"{vertical.min():.3f} to {vertical.max():.3f} N for a weight of {weight:.3f} N (cusps); "
-        f"the mean of a nutation is off by {off:.0e}",
-        bool(off < PERIODIC and vertical.min() < 0.99 * weight < 1.01 * weight < vertical.max()),
-        "mean of F_z' = M g, because the height of the centre of mass returns",
-        f"{PERIODIC:g}: the mean of a smooth periodic function is exact to rounding",
-    )
+    holds = off < PERIODIC and vertical.min() < 0.99 * weight < 1.01 * weight < vertical.max()
+    return Measured(holds, least=vertical.min(), most=vertical.max(), weight=weight, off=off)
 
 
 @claim
-def peg_slips(top: Top) -> Claim:
+def peg_slips(top: Top) -> Measured:
     """Check the friction that a peg needs on both roots of regular precession."""
     needed, offs, body = [], [], Body.of(top)
     for rate in (SLOW, FAST):
@@ -89,39 +73,35 @@ def peg_slips(top: Top) -> Claim:
         needed.append(float((horizontal / vertical).max()))
         offs.append(abs(needed[-1] / (body.arm * sine * rate**2 / body.gravity) - 1))
     limit, short = 1e3 * body.arm / needed[1], needed[1] * SHORT_ARM / body.arm
-    return Claim(
-        "A peg that is only set down keeps its place on the slow root. On the fast root it slides "
-        'away (the article\'s "otherwise the top slides") if the centre of mass is more than 4.2 '
-        "mm from the pivot; the motion does not say how far it is.",
-        f"coefficient of friction needed with an arm of {body.arm * 1e3:.1f} mm "
-        f"(M = {body.mass:.3f} kg): {needed[0]:.3f} at {SLOW:.2f} rad/s and {needed[1]:.2f} at "
-        f"{FAST:.1f} rad/s; there {short:.2f} with {SHORT_ARM * 1e3:g} mm, 1 with {limit:.2f} mm; "
-        f"off the equation by {max(offs):.0e}",
-        bool(needed[0] < 0.1 and max(offs) < BALANCED and f"{limit:.1f}" == "4.2" and short < 1),
-        "F_horizontal/F_z' = |r| sin(theta) phi'^2/g in regular precession",
-        f"{BALANCED:g}: rounding of the root, which the rate enters squared; a peg of dry metal or "
-        "wood holds up to about 1",
+    holds = needed[0] < 0.1 and max(offs) < BALANCED and f"{limit:.1f}" == "4.2" and short < 1
+    return Measured(
+        holds,
+        arm=1e3 * body.arm,
+        body=body,
+        needed=needed,
+        short=short,
+        short_arm=1e3 * SHORT_ARM,
+        limit=limit,
+        off=max(offs),
     )
 
 
 @claim
-def peg_lifts(top: Top) -> Claim:
+def peg_lifts(top: Top) -> Measured:
     """Check that a top hurried far enough from the fast root would lift its peg."""
     weight = Body.of(top).mass * Body.of(top).gravity
     hurried, most = _least_force(top, 1.4), _least_force(top, MOST_HURRIED)
-    sentence = "Hurried from the fast root, a top that is only set down first stays on the ground; "
-    sentence += "hurried further, it falls so fast that the peg lifts off."
-    if hurried * most >= 0:
-        return Claim(sentence, f"least force {hurried:.3g} and {most:.3g} N", holds=False)
     factor = float(brentq(lambda each: _least_force(top, each), 1.4, MOST_HURRIED, xtol=1e-6))
-    return Claim(
-        sentence,
-        f"least F_z' in a nutation for a weight of {weight:.3f} N: {hurried:.3f} N at "
-        f"{1.4 * FAST:.1f} rad/s (factor 1.4), {most:.1f} N at {MOST_HURRIED * FAST:.0f} rad/s; "
-        f"it is zero at {factor * FAST:.1f} rad/s (factor {factor:.3f})",
-        bool(hurried > 0 > most),
-        "F_z' = M (g - r (theta'' sin(theta) + theta'^2 cos(theta))) = 0",
-        "none: signs of the least of 400 samples of a nutation",
+    holds = hurried > 0 > most
+    return Measured(
+        holds,
+        weight=weight,
+        hurried=hurried,
+        rate=1.4 * FAST,
+        most=most,
+        fastest=MOST_HURRIED * FAST,
+        lifted=factor * FAST,
+        factor=factor,
     )
 
 

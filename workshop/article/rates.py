@@ -17,7 +17,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, Measured, claim
 from workshop.article.motions import (
     DISC_HURRIED,
     FAST_ROOT_HURRIED,
@@ -46,9 +46,7 @@ LEADING: dict[Hold, Callable[[Top], float]] = {
 FACTOR = 1.4  # by which the precession is hurried
 PARABOLA = np.linspace(-10.0, 90.0, 41)  # rad/s
 SHORT = 0.02  # of a nutation period
-ACCELERATION = "theta'' = sin(theta)/Ix ((Ix - Iz) phi'^2 cos(theta) - Iz phi' psi' + Mgl)"
 ROUNDING = 1e-12  # rad, or relative to the largest term of the equation for theta''
-SIGNS = f"none: signs; below {ROUNDING:g} of the largest term, or {ROUNDING:g} rad, is rounding"
 
 
 def claims_on_rates(top: Top) -> list[Claim]:
@@ -120,52 +118,34 @@ def _direction(change: float, rounding: float) -> Direction:
 
 
 @claim
-def roots_are_as_printed(top: Top) -> Claim:
+def roots_are_as_printed(top: Top) -> Measured:
     """Check the rates of regular precession to the digits that the article prints."""
     roots = _roots(top)
     digits = [len(printed.partition(".")[2]) for printed in PRINTED_ROOTS]
     rounded = [f"{root:.{n}f}" for root, n in zip(roots, digits, strict=False)]
-    return Claim(
-        f"At theta = {THETA} rad and psi' = {PSI_DOT:g} rad/s regular precession has phi' = "
-        f"{PRINTED_ROOTS[0]} and {PRINTED_ROOTS[1]} rad/s.",
-        f"roots {' and '.join(f'{root:.6f}' for root in roots) or 'not real'} rad/s",
-        rounded == list(PRINTED_ROOTS),
-        "(Ix - Iz) cos(theta) phi'^2 - Iz psi' phi' + Mgl = 0",
-        "none: the digits that the article prints",
-    )
+    holds = rounded == list(PRINTED_ROOTS)
+    return Measured(holds, listed=" and ".join(f"{root:.6f}" for root in roots) or "not real")
 
 
 @claim
-def printed_roots_keep_the_tilt(top: Top) -> Claim:
+def printed_roots_keep_the_tilt(top: Top) -> Measured:
     """Check that the article's digits are enough to see no nutation."""
     widths = []
     for printed in PRINTED_ROOTS:
         low, high = Motion(top, start(float(printed))).turning_angles
         widths.append(high - low)
-    return Claim(
-        "Started with just these digits, the top precesses regularly as far as can be seen.",
-        f"theta changes by {widths[0]:.1e} and {widths[1]:.1e} rad in all (limit: {STILL:g})",
-        max(widths) < STILL,
-        "theta'' = 0",
-        f"{STILL:g} rad: three digits of a root move the top by less",
-    )
+    return Measured(max(widths) < STILL, widths=widths)
 
 
 @claim
-def rate_decides(top: Top, rate: Rate) -> Claim:
+def rate_decides(top: Top, rate: Rate) -> Measured:
     """Check the article's statement on one of the six rates, by the equation and by the motion."""
     departure = Departure.of(Motion(top, start(rate.phi_dot)))
-    return Claim(
-        f"With phi'(0) = {rate.phi_dot:.4g} rad/s, {rate.place}, the top {rate.direction}.",
-        str(departure),
-        departure.directions == (rate.direction,) * 3,
-        ACCELERATION,
-        SIGNS,
-    )
+    return Measured(departure.directions == (rate.direction,) * 3, rate=rate, departure=departure)
 
 
 @claim
-def acceleration_is_a_parabola(top: Top) -> Claim:
+def acceleration_is_a_parabola(top: Top) -> Measured:
     """Check that theta'' at theta' = 0 is a parabola in phi' whose zeros are both roots."""
     measured = np.array(
         [measure_acceleration(Motion(top, start(rate))) for rate in PARABOLA.tolist()]
@@ -174,46 +154,43 @@ def acceleration_is_a_parabola(top: Top) -> Claim:
     off = np.abs(parabola(PARABOLA) - measured).max() / np.abs(measured).max()
     zeros, roots = np.sort(parabola.roots().real), _roots(top)
     missed = np.abs(zeros - roots).max() if len(roots) == len(zeros) else np.inf
-    return Claim(
-        "theta'' of the motion, at theta' = 0 against phi', is a parabola through zero at both "
-        "roots.",
-        f"{len(PARABOLA)} motions lie within {off:.0e} of their largest theta'' from a parabola; "
-        f"its zeros {' and '.join(f'{zero:.6f}' for zero in zeros)} rad/s are the roots within "
-        f"{missed:.0e}",
-        bool(off < FITTED and missed < FITTED * PARABOLA[-1]),
-        ACCELERATION,
-        f"{FITTED:g}: differences and the fit are good to 1e-11",
+    holds = off < FITTED and missed < FITTED * PARABOLA[-1]
+    return Measured(
+        holds,
+        count=len(PARABOLA),
+        off=off,
+        listed=" and ".join(f"{zero:.6f}" for zero in zeros),
+        missed=missed,
     )
 
 
 @claim
-def hurrying_decides(top: Top, case: HurryCase) -> Claim:
+def hurrying_decides(top: Top, case: HurryCase) -> Measured:
     """Check what a hurried regular precession does, and that `perrys_rule` agrees."""
-    holds = case.direction == "rises"
-    moved = "top" if top.Mgl > 0 else "axis"
-    sentence = (
-        f'Perry\'s rule "hurry on the precession, and the body rises" '
-        f"{'holds' if holds else 'fails'} for the {moved} {case.place}: the hurried {moved} "
-        f"{case.direction}"
-        + ("." if top.Mgl > 0 else ", and the centre of mass, below the pivot, rises.")
-    )
-    roots = _roots(top, case.psi_dot)
-    if not roots:
-        return Claim(sentence, "no regular precession", holds=False)
-    before = start(roots[case.root], case.psi_dot)
+    rises = case.direction == "rises"
+    verb, moved = "holds" if rises else "fails", "top" if top.Mgl > 0 else "axis"
+    end = "" if top.Mgl > 0 else ", and the centre of mass, below the pivot, rises"
+    rate = _roots(top, case.psi_dot)[case.root]
+    before = start(rate, case.psi_dot)
     departure = Departure.of(Motion(top, hurry(before, FACTOR)))
-    return Claim(
-        sentence,
-        f"phi' {roots[case.root]:.4g} -> {FACTOR * roots[case.root]:.4g} rad/s: {departure}",
+    holds = (
         departure.directions == (case.direction,) * 3
-        and perrys_rule(top, before, FACTOR).rule_holds is holds,
-        ACCELERATION,
-        SIGNS,
+        and perrys_rule(top, before, FACTOR).rule_holds is rises
+    )
+    return Measured(
+        holds,
+        verb=verb,
+        moved=moved,
+        case=case,
+        end=end,
+        rate=rate,
+        hurried=FACTOR * rate,
+        departure=departure,
     )
 
 
 @claim
-def sign_decides(root: Root, top: Top) -> Claim:
+def sign_decides(root: Root, top: Top) -> Measured:
     """Check the exact rule for a small hurry, on random tops of both signs and on this one.
 
     From the slow root s the kick by k makes Ix theta''/sin(theta) of zero
@@ -227,19 +204,12 @@ def sign_decides(root: Root, top: Top) -> Claim:
         else "raises the centre of mass exactly if Mgl (Ix - Iz) cos(theta) < 0, and exactly if "
         "Mgl cos(theta) < 0 if it holds the spin momentum"
     )
-    words = [
+    listed = " and ".join(
         f"{good} of {tried} with the {hold.replace('_', ' ')} held"
         for hold, (good, tried) in counts.items()
-    ]
-    listed = " and ".join(words)
-    return Claim(
-        f"A small hurry on the {root} root (two distinct roots, first instant) {rule}.",
-        f"kick by {SMALL:g}; the motion after {INSTANT * 1e6:g} us agrees for {listed}",
-        all(good == tried > 0 for good, tried in counts.values()),
-        "Ix theta''/sin(theta) = (k - 1) Mgl (k s/f - 1) on the slow root s, "
-        "(k - 1) a f^2 (k - s/f) on the fast root f; a = (Ix - Iz) cos(theta), or Ix cos(theta)",
-        "none: signs",
     )
+    holds = all(good == tried > 0 for good, tried in counts.values())
+    return Measured(holds, root=root, rule=rule, instant=1e6 * INSTANT, listed=listed)
 
 
 def _count_risen(root: Root, hold: Hold, top: Top) -> tuple[int, int]:

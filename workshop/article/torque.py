@@ -8,7 +8,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from workshop.article.claims import Claim, claim, differ
+from workshop.article.claims import Claim, Measured, claim, differ
 from workshop.article.motions import FAST, SLOW, cusps, regular, slope, start
 
 COUNT, SEED = 500, 20210329  # random states, the same every time
@@ -79,28 +79,18 @@ def inertia_change(top: Top, states: State) -> Real:
 
 
 @claim
-def inertia_has_its_components(top: Top) -> Claim:
+def inertia_has_its_components(top: Top) -> Measured:
     """Check the components of I' = S I_b S^-1 against their formulas on random states."""
     states = draw_states()
     S = np.stack([states.to_world(axis) for axis in np.eye(3)], axis=-1)
     turned = S @ np.diag([top.Ix, top.Ix, top.Iz]) @ np.swapaxes(S, 1, 2)
     formulas = inertia_in_world(top, states.euler_angles.phi, states.euler_angles.theta)
     off = float(np.abs(turned - formulas).max()) / max(top.Ix, top.Iz)
-    return Claim(
-        "In the fixed frame the moments of inertia depend on phi and theta, not on psi.",
-        f"on {COUNT} random attitudes the matrix product and the formulas differ by {off:.0e} of "
-        "the largest moment",
-        off < ROUNDED,
-        "I' = S I_b S^-1: I'_xx = Ix + (Iz - Ix) sin^2(theta) sin^2(phi), "
-        "I'_xy = -(Iz - Ix) sin^2(theta) sin(phi) cos(phi), "
-        "I'_xz = (Iz - Ix) sin(theta) cos(theta) sin(phi), "
-        "I'_zz = Ix + (Iz - Ix) cos^2(theta)",
-        f"{ROUNDED:g}: rounding of a product of three matrices",
-    )
+    return Measured(off < ROUNDED, off=off)
 
 
 @claim
-def fixed_frame_agrees_with_euler(top: Top) -> Claim:
+def fixed_frame_agrees_with_euler(top: Top) -> Measured:
     """Check dL/dt in the fixed frame from I' and dI'/dt against Euler's equations.
 
     The angular accelerations are random as well: the two sides are equal for any torque.
@@ -114,16 +104,7 @@ def fixed_frame_agrees_with_euler(top: Top) -> Claim:
     vectors = states.to_world(omega)[..., None], states.to_world(alpha)[..., None]
     fixed = (inertia_change(top, states) @ vectors[0] + inertia @ vectors[1])[..., 0]
     off = differ(fixed, euler)
-    return Claim(
-        "dL/dt in the fixed frame, written out with I' and dI'/dt, is the same as Euler's "
-        "equations.",
-        f"on {COUNT} random states with random angular accelerations both differ by {off:.0e} of "
-        f"the largest dL/dt, {np.abs(euler).max():.3g} N m",
-        off < LONG,
-        "dL/dt = dI'/dt omega + I' domega/dt = S (I_b domega_b/dt + omega_b x I_b omega_b)",
-        f"{LONG:g}: rounding of sums of twenty products with phi' = (...)/sin(theta), "
-        f"sin(theta) >= {np.sin(MARGIN):.1f}",
-    )
+    return Measured(off < LONG, off=off, largest=np.abs(euler).max(), least=np.sin(MARGIN))
 
 
 def split_torque(motion: Motion, times: Real) -> dict[str, Real]:
@@ -142,7 +123,7 @@ def split_torque(motion: Motion, times: Real) -> dict[str, Real]:
 
 
 @claim
-def inertial_torque_is_the_difference(motion: Motion) -> Claim:
+def inertial_torque_is_the_difference(motion: Motion) -> Measured:
     """Check that the body sees a different dL/dt, by the inertial torque -omega x L."""
     parts = split_torque(motion, TIMES)
     torque, body, turning = parts.values()
@@ -150,30 +131,15 @@ def inertial_torque_is_the_difference(motion: Motion) -> Claim:
     off = float(np.abs(torque - body - turning).max() / size)
     half = int(TIMES.searchsorted(motion.nutation_period / 2))
     numbers = ", ".join(f"{name} {part[half]:+.4f}" for name, part in parts.items())
-    return Claim(
-        "The inertial torque is the difference of dL/dt in the fixed frame and in the body frame "
-        f"({motion.kind}).",
-        f"along the line of nodes after half a nutation, in N m: {numbers}; at {len(TIMES)} times "
-        f"the sum is off by {off:.0e}",
-        off < DIFFERENTIATED,
-        "torque = (dL/dt in the body frame) + omega x L",
-        f"{DIFFERENTIATED:g}: L is differentiated by differences, good to 1e-11",
-    )
+    return Measured(off < DIFFERENTIATED, motion=motion, numbers=numbers, count=len(TIMES), off=off)
 
 
 @claim
-def precession_alone_balances_gravity(steady: Motion, nodding: Motion) -> Claim:
+def precession_alone_balances_gravity(steady: Motion, nodding: Motion) -> Measured:
     """Check that only regular precession is at rest in the frame of the line of nodes."""
     off, elsewhere = (_imbalance(motion) for motion in (steady, nodding))
-    return Claim(
-        "Seen from the line of nodes regular precession is at rest: the turning of this frame, "
-        "phi' z' x L, alone is gravity's torque. The motion on cusps is not at rest there.",
-        f"phi' z' x L misses the torque by {off:.0e} of it ({steady.kind}), and by up to "
-        f"{elsewhere:.2g} of it ({nodding.kind})",
-        off < BALANCED and elsewhere > 0.5,
-        "torque = (dL/dt in the frame of the line of nodes) + phi' z' x L",
-        f"{BALANCED:g}: the root is rounded to a double, and the products of the start are too",
-    )
+    holds = off < BALANCED and elsewhere > 0.5
+    return Measured(holds, off=off, steady=steady, elsewhere=elsewhere, nodding=nodding)
 
 
 def _imbalance(motion: Motion) -> float:
@@ -184,26 +150,18 @@ def _imbalance(motion: Motion) -> float:
 
 
 @claim
-def torque_is_across_momentum(motion: Motion) -> Claim:
+def torque_is_across_momentum(motion: Motion) -> Measured:
     """Check that in regular precession the torque turns L and changes neither of their sizes."""
     states = motion.at(TIMES)
     L, torque = motion.top.angular_momentum(states), motion.top.gravity_torque(states)
     sizes = np.linalg.norm(L, axis=1), np.linalg.norm(torque, axis=1)
     along = float((np.abs((L * torque).sum(axis=1)) / (sizes[0] * sizes[1])).max())
     changes = [float(np.ptp(size) / size.mean()) for size in sizes]
-    return Claim(
-        "In regular precession the torque is perpendicular to L and constant in size, so that L "
-        "turns and keeps its size.",
-        f"cosine of the angle between them at most {along:.0e}; relative changes of |L| "
-        f"{changes[0]:.0e} and of |torque| {changes[1]:.0e}; |torque| = {sizes[1][0]:.4f} N m",
-        max(along, *changes) < BALANCED,
-        "torque . L = 0, |torque| = |Mgl| sin(theta)",
-        f"{BALANCED:g}: the start misses the root by rounding, and nutates by it",
-    )
+    return Measured(max(along, *changes) < BALANCED, along=along, changes=changes, sizes=sizes)
 
 
 @claim
-def one_torque_has_two_momenta(top: Top) -> Claim:
+def one_torque_has_two_momenta(top: Top) -> Measured:
     """Check that one attitude and one torque have two regular precessions with different L."""
     starts = [start(rate) for rate in (SLOW, FAST)]
     momenta = [top.angular_momentum(state) for state in starts]
@@ -213,12 +171,5 @@ def one_torque_has_two_momenta(top: Top) -> Claim:
     ]
     off = max(abs(a - b) / b for a, b in zip(turned, torques, strict=True))
     sizes = [float(np.linalg.norm(L)) for L in momenta]
-    return Claim(
-        "The torque does not decide L: at one tilt and spin rate two values of L precess regularly "
-        "under the same torque.",
-        f"|L| = {sizes[0]:.5f} and {sizes[1]:.5f} N m s with one torque of {torques[0]:.4f} N m; "
-        f"|phi'| times the horizontal part of L is this torque within {off:.0e}",
-        off < BALANCED and sizes[1] - sizes[0] > 0.1 * sizes[0],
-        "phi' |L_horizontal| = |Mgl| sin(theta)",
-        f"{BALANCED:g}: rounding of the roots",
-    )
+    holds = off < BALANCED and sizes[1] - sizes[0] > 0.1 * sizes[0]
+    return Measured(holds, sizes=sizes, torques=torques, off=off)

@@ -4,7 +4,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Body, Motion, State, Top
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, Measured, claim
 from workshop.article.motions import THETA, accelerations, cusps, regular
 from workshop.article.nutation import horizontal_square, times_of_extreme_rate
 from workshop.article.torque import FASTEST, SEED, draw_states
@@ -24,25 +24,17 @@ def claims_on_corrections(top: Top) -> list[Claim]:
 
 
 @claim
-def momentum_is_that_of_cusps(nodding: Motion, steady: Motion) -> Claim:
+def momentum_is_that_of_cusps(nodding: Motion, steady: Motion) -> Measured:
     """Check that L^2 - L_z'^2 swings as drawn in Fig. 5 for cusps, and not for regular motion."""
     changes = []
     for motion in (nodding, steady):
         square = horizontal_square(motion, np.linspace(0.0, nodding.nutation_period, 2001))
         changes.append(float(np.ptp(square) / square.mean()))
-    return Claim(
-        "Fig. 5 shows the motion on cusps, as the text says; its caption names regular precession, "
-        "of which L^2 - L_z'^2 is constant.",
-        f"L^2 - L_z'^2 changes by {changes[0]:.1%} of its mean (cusps) and by {changes[1]:.0e} "
-        "(regular)",
-        f"{changes[0]:.1%}" == "8.9%" and changes[1] < STILL,
-        "L^2 - L_z'^2 = p_psi^2 - p_phi^2 + 2 Ix (E' - Mgl cos(theta))",
-        f"{STILL:g}: a root that is rounded to a double nutates by its rounding",
-    )
+    return Measured(f"{changes[0]:.1%}" == "8.9%" and changes[1] < STILL, changes=changes)
 
 
 @claim
-def line_of_nodes_is_principal(top: Top) -> Claim:
+def line_of_nodes_is_principal(top: Top) -> Measured:
     """Check L of the rotations in theta and in phi, and the force that the first one needs."""
     rate = _fastest_fall(top)
     tilting = State.from_euler(theta=THETA, theta_dot=rate)
@@ -57,22 +49,15 @@ def line_of_nodes_is_principal(top: Top) -> Claim:
     body = Body.of(top)
     force = body.pivot_force(Motion(top, tilting), tilting) @ tilting.to_world([0.0, 0.0, 1.0])
     needed = body.mass * body.gravity * np.cos(THETA) - float(force)
-    return Claim(
-        "The rotation in theta is about a principal axis, the line of nodes, so that it needs no "
-        "torque; only that in phi is not. That the pivot must provide a force, as the conclusion "
-        "says of both, depends on the centre of mass, which is not on the line of nodes.",
-        f"at {THETA} rad, theta' = {rate:.3f} rad/s (cusps at t1) alone: L off Ix theta' N by "
-        f"{off:.0e}, force along the axis {needed:.3f} N besides the weight; phi' alone: L leans "
-        f"by {np.degrees(angle):.2f} degrees, off the equation by {missed:.0e} rad",
+    holds = (
         off < ROUNDED
         and missed < ROUNDED
         and angle > 0.1
         and abs(needed / (top.Mgl / body.gravity * rate**2) - 1) < SUBTRACTED
-        and f"{needed:.3f}" == "0.072",
-        "L = Ix theta' N; F = M r theta'^2 = Mgl theta'^2/g; tan(angle) = (Ix - Iz) sin(theta) "
-        "cos(theta)/(Ix sin^2(theta) + Iz cos^2(theta))",
-        f"{ROUNDED:g}: rounding of sums of a few products; {SUBTRACTED:g} of the force, which is a "
-        "difference",
+        and f"{needed:.3f}" == "0.072"
+    )
+    return Measured(
+        holds, rate=rate, off=off, needed=needed, degrees=np.degrees(angle), missed=missed
     )
 
 
@@ -83,7 +68,7 @@ def _fastest_fall(top: Top) -> float:
 
 
 @claim
-def printed_equations_hold(top: Top) -> Claim:
+def printed_equations_hold(top: Top) -> Measured:
     """Check the three equations in the fixed frame, term by term, with the accelerations."""
     states = draw_states()
     solved = accelerations(top, states)
@@ -94,14 +79,8 @@ def printed_equations_hold(top: Top) -> Claim:
     random = np.random.default_rng(SEED + 2).uniform(-(FASTEST**2), FASTEST**2, solved.shape)
     found, largest = _write_out(top, states, random)
     missed = float(np.abs(found - _change_momentum(top, states, random)).max()) / largest
-    return Claim(
-        "The three equations in the fixed frame hold as printed: with the accelerations "
-        "that follow from them the right sides are the torque, and with any other they are dL/dt.",
-        f"on {len(states)} random states the right sides are off the torque by {off:.0e} of their "
-        f"largest term, {size:.3g} N m, and with random accelerations off dL/dt by {missed:.0e}",
-        off < ROUNDED and missed < ROUNDED,
-        "Mgl sin(theta) (cos(phi), sin(phi), 0) = the article's three sums",
-        f"{ROUNDED:g}: rounding of sums of products",
+    return Measured(
+        off < ROUNDED and missed < ROUNDED, count=len(states), off=off, size=size, missed=missed
     )
 
 

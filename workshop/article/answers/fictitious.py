@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from symtop_ros.arrays import Real
 from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion, Top, precessing_frame_torques, theta_acceleration
-from workshop.article.claims import Claim, claim, differ
+from workshop.article.claims import Claim, Measured, claim, differ
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start
 
 PHI_DOTS = (SLOW, 9.0, FAST, 73.0)  # rad/s; both roots, and a rate beyond each
@@ -29,7 +29,7 @@ def claims_on_fictitious_forces(top: Top) -> list[Claim]:
 
 
 @claim
-def three_torques_raise_or_lower(top: Top) -> Claim:
+def three_torques_raise_or_lower(top: Top) -> Measured:
     """Check that the three torques are Ix theta'' of the closed form, with the signs of Perry's."""
     rates = np.array(PHI_DOTS)
     torques = precessing_frame_torques(top, THETA, rates, PSI_DOT)
@@ -41,21 +41,11 @@ def three_torques_raise_or_lower(top: Top) -> Claim:
         f"{rate:.3f} rad/s: {a:+.5f} {b:+.5f} {c:+.5f} = {a + b + c:+.5f} N m"
         for rate, a, b, c in zip(rates, *torques, strict=True)
     )
-    return Claim(
-        "For an observer who precesses with the top three torques act about the line of nodes: "
-        "gravity's torque lowers the axis, the Coriolis torque raises it and grows with phi', and "
-        "the centrifugal torque grows with phi'^2 and lowers it, as Ix > Iz and theta < pi/2. They "
-        "balance at the two roots.",
-        f"gravity, Coriolis, centrifugal at {listed}",
-        bool(off < SUMMED and balanced < SUMMED and signs),
-        "Ix theta'' = Mgl sin(theta) - Iz psi' phi' sin(theta) "
-        "+ (Ix - Iz) phi'^2 sin(theta) cos(theta)",
-        f"{SUMMED:g}: sums of rounded products",
-    )
+    return Measured(off < SUMMED and balanced < SUMMED and signs, listed=listed)
 
 
 @claim
-def masses_feel_the_same(top: Top) -> Claim:
+def masses_feel_the_same(top: Top) -> Measured:
     """Check the Coriolis and the centrifugal torque as sums over mass elements."""
     masses, places = point_masses(top)
     largest = 0.0
@@ -70,18 +60,11 @@ def masses_feel_the_same(top: Top) -> Claim:
         expected = float(torques.coriolis), float(torques.centrifugal)
         scale = max(map(abs, expected))
         largest = max(largest, *(abs(a - b) / scale for a, b in zip(summed, expected, strict=True)))
-    return Claim(
-        "The Coriolis and the centrifugal torque are sums over the mass elements of the top.",
-        f"{len(masses)} masses with the same Ix and Iz, at {len(PHI_DOTS)} rates: equal within "
-        f"{largest:.0e}",
-        largest < SUMMED,
-        "dF = -2 dm Omega x v' - dm Omega x (Omega x r), Omega = phi' z'",
-        f"{SUMMED:g}: sums of rounded products",
-    )
+    return Measured(largest < SUMMED, count=len(masses), rates=len(PHI_DOTS), largest=largest)
 
 
 @claim
-def body_frame_has_one(top: Top) -> Claim:
+def body_frame_has_one(top: Top) -> Measured:
     """Check that in the body frame nothing moves, and the centrifugal torque is -omega x L."""
     masses, places = point_masses(top)
     state = Motion(top, start(9.0)).at(0.02)
@@ -89,15 +72,7 @@ def body_frame_has_one(top: Top) -> Claim:
     summed = masses @ np.cross(places, -np.cross(omega, np.cross(omega, places)))
     expected = -np.cross(omega, top.body_angular_momentum(state))
     off = differ(summed, expected)
-    return Claim(
-        "In the frame of the body the Coriolis torque is zero, since nothing moves there, and the "
-        "centrifugal torque is the term -omega x L of Euler's equations.",
-        f"at phi' = 9 rad/s after 0.02 s: |omega x L| = {np.linalg.norm(expected):.4g} N m, equal "
-        f"to the sum over {len(masses)} masses within {off:.0e}",
-        off < SUMMED,
-        "dL/dt in the body frame = torque - omega x L",
-        f"{SUMMED:g}: sums of rounded products",
-    )
+    return Measured(off < SUMMED, size=np.linalg.norm(expected), count=len(masses), off=off)
 
 
 def point_masses(top: Top) -> tuple[Real, Real]:

@@ -20,7 +20,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, Measured, claim
 from workshop.article.motions import (
     DISC_HURRIED,
     FAST_ROOT_HURRIED,
@@ -129,27 +129,18 @@ PRINTED: dict[Hold, tuple[str, str, str, str]] = {
 
 
 @claim
-def precession_lifts(top: Top, hold: Hold) -> Claim:
+def precession_lifts(top: Top, hold: Hold) -> Measured:
     """Check how much of what lifts the hurried top comes from the push."""
     found = hurry_ledger(top, SLOW_ROOT_HURRIED, hold)
     lift, push, spin = found.far.weight, found.kick.rest, abs(found.kick.spin)
     words = f"{lift:.2f}", f"{push:.2f}", f"{-found.far.precession:.2f}", f"{spin:.1f}"
-    gained, put, had, into = PRINTED[hold]
-    return Claim(
-        f"Hurried from the slow root with {HOLDS[hold]}, the top gains {gained} mJ of height: the "
-        f"push put {put} mJ of it into E', and {had} mJ were energy of the precession before. The "
-        f"spin, which keeps its energy, gets {into} mJ.",
-        f"at the highest point weight {lift:+.3f}, precession {found.far.precession:+.3f}, E' "
-        f"{found.far.rest:+.3f} mJ since before the kick; spin {found.kick.spin:+.3f} mJ; the "
-        f"parts sum up to E within {found.missed:.0e}",
-        words == PRINTED[hold] and found.missed < CLOSED,
-        "E = p_psi^2/(2 Iz) + E', E' = Ix theta'^2/2 + Ix phi'^2 sin^2(theta)/2 + Mgl cos(theta)",
-        f"{CLOSED:g}: rounding of a sum of four parts; the digits of the sentence",
-    )
+    printed = PRINTED[hold]
+    holds = words == printed and found.missed < CLOSED
+    return Measured(holds, held=HOLDS[hold], printed=printed, lift=lift, found=found)
 
 
 @claim
-def hold_decides(disc: Top) -> Claim:
+def hold_decides(disc: Top) -> Measured:
     """Check the disc at its fast root: the axis rises with psi' held, and falls with p_psi held."""
     rate = regular_precession_rates(disc, THETA, DISC_HURRIED.psi_dot)[1]
     words, heights = [], []
@@ -160,18 +151,7 @@ def hold_decides(disc: Top) -> Claim:
         low, high = Motion(disc, after).turning_angles
         heights.append(disc.Mgl * (low + high - 2 * THETA) < 0)
         words.append(f"{found:+.0f}")
-    return Claim(
-        "What a kick holds decides at the fast root of the hanging disc: hurried by 1.4 with psi' "
-        "held its centre of mass falls, pushed on the axle (p_psi held) it rises.",
-        f"theta'' just after the kick at {rate:.2f} rad/s: {words[0]} rad/s^2 with psi' held, "
-        f"{words[1]} rad/s^2 with p_psi held; below the pivot the centre of mass rises as theta "
-        "grows",
-        words == ["-592", "+901"] and heights == [False, True],
-        "theta'' = sin(theta)/Ix (k - 1) a f^2 (k - s/f), a = (Ix - Iz) cos(theta) with psi' held "
-        "and Ix cos(theta) with p_psi held: the sign of Mgl (Ix - Iz) cos(theta), or of Mgl "
-        "cos(theta), decides",
-        "none: digits and signs",
-    )
+    return Measured(words == ["-592", "+901"] and heights == [False, True], rate=rate, words=words)
 
 
 def draw_energy_ledger() -> Figure:

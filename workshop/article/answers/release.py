@@ -5,7 +5,7 @@ from scipy.integrate import solve_ivp
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates, theta_acceleration
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, Measured, claim
 from workshop.article.motions import FAST, PSI_DOT, THETA, cusps, start
 
 SPINS = (0.0, 20.0, 60.0, 100.0, 200.0, 400.0)  # rad/s
@@ -32,7 +32,7 @@ def largest_tilt(top: Top, psi_dot: float) -> float:
 
 
 @claim
-def spin_limits_the_fall(top: Top) -> Claim:
+def spin_limits_the_fall(top: Top) -> Measured:
     """Check how far an axis falls that is let go at rest, for several spin rates."""
     motions = [Motion(top, start(0.0, spin)) for spin in SPINS]
     reached = [float(each.at(each.nutation_period / 2).euler_angles.theta) for each in motions]
@@ -41,19 +41,12 @@ def spin_limits_the_fall(top: Top) -> Claim:
     words = ", ".join(
         f"{np.degrees(tilt):.1f} at {spin:g}" for tilt, spin in zip(reached, SPINS, strict=True)
     )
-    return Claim(
-        "Without angular momentum the torque makes theta grow until the axis hangs; the faster the "
-        "top spins, the less the same torque lowers it.",
-        f"largest tilt in degrees at a spin rate in rad/s: {words}; off the equation by "
-        f"{off:.0e} rad",
-        bool(off < SAME_TILT and (np.diff(reached) < 0).all() and np.pi - reached[0] < SAME_TILT),
-        "cos(theta_max) = k - sqrt(k^2 - 2 k cos(theta_0) + 1), k = (Iz psi')^2/(4 Ix Mgl)",
-        f"{SAME_TILT:g} rad: rounding of the arc cosine",
-    )
+    holds = off < SAME_TILT and (np.diff(reached) < 0).all() and np.pi - reached[0] < SAME_TILT
+    return Measured(holds, words=words, off=off)
 
 
 @claim
-def spin_has_three_cases(top: Top) -> Claim:
+def spin_has_three_cases(top: Top) -> Measured:
     """Check when psi' falls, falls and rises, or rises while the axis falls from its cusp."""
     cases = ((THETA, PSI_DOT, "falls"), (THETA, 60.0, "falls, then rises"), (2.0, PSI_DOT, "rises"))
     words, agrees = [], []
@@ -68,18 +61,11 @@ def spin_has_three_cases(top: Top) -> Claim:
         found = "falls" if not below.any() else "falls, then rises" if above.any() else "rises"
         agrees.append(found == case and (slopes[above] < 0).all() and (slopes[below] > 0).all())
         words.append(f"theta_0 = {theta:g} rad, psi' = {spin:g} rad/s: {case}")
-    return Claim(
-        "While the axis falls from a cusp psi' falls, or falls and then rises, or only rises; the "
-        "last happens for theta_0 >= pi/2.",
-        f"in 1000 steps of half a nutation, {'; '.join(words)}",
-        all(agrees),
-        "psi' is least where cos(theta) = (1 - sin(theta_0))/cos(theta_0)",
-        "none: signs of the steps",
-    )
+    return Measured(all(agrees), listed="; ".join(words))
 
 
 @claim
-def regular_precession_needs_spin(top: Top) -> Claim:
+def regular_precession_needs_spin(top: Top) -> Measured:
     """Check the least spin rate with regular precession, and that below it every top falls."""
     least = 2 * np.sqrt((top.Ix - top.Iz) * top.Mgl * np.cos(THETA)) / top.Iz
     above, below = (
@@ -91,15 +77,8 @@ def regular_precession_needs_spin(top: Top) -> Claim:
         float(theta_acceleration(top, THETA, rates, factor * least).min())
         for factor in (0.99, 1.01)
     )
-    return Claim(
-        f"At theta = {THETA} rad regular precession needs a spin rate of at least 111.63 rad/s; "
-        "with less, the axis falls at every phi'.",
-        f"{least:.2f} rad/s; roots 1e-9 above it: {above}, 1e-9 below: {below}; least theta'' "
-        f"1 % below: {slow:+.2f} rad/s^2, 1 % above: {fast:+.2f} rad/s^2",
-        bool(f"{least:.2f}" == "111.63" and (above, below) == (2, 0) and slow > 0 > fast),
-        "(Iz psi')^2 >= 4 (Ix - Iz) Mgl cos(theta)",
-        "none: counts and signs",
-    )
+    holds = f"{least:.2f}" == "111.63" and (above, below) == (2, 0) and slow > 0 > fast
+    return Measured(holds, least=least, above=above, below=below, slow=slow, fast=fast)
 
 
 def integrate_torque(motion: Motion, times: Real) -> State:
@@ -127,7 +106,7 @@ def integrate_torque(motion: Motion, times: Real) -> State:
 
 
 @claim
-def torque_suffices(motion: Motion) -> Claim:
+def torque_suffices(motion: Motion) -> Measured:
     """Check that torque = dL/dt alone, integrated, gives the motion and keeps the constants."""
     times, top = np.linspace(0.0, SPAN, 21), motion.top
     found, exact = integrate_torque(motion, times), motion.at(times)
@@ -136,12 +115,4 @@ def torque_suffices(motion: Motion) -> Claim:
     momenta = top.angular_momentum(found)
     constants = top.energy(found), momenta[:, 2], (momenta * axes[0]).sum(axis=1)
     kept = max(float(np.ptp(each) / abs(each[0])) for each in constants)
-    return Claim(
-        "Torque = dL/dt is enough: integrated step by step, without a constant of motion, it gives "
-        f"the same motion, and keeps the three constants that are hidden in it ({motion.kind}).",
-        f"after up to {SPAN:g} s the axis is off the closed form by {off:.0e} rad; E, L_z' and L_z "
-        f"change by {kept:.0e} of themselves",
-        off < INTEGRATED and kept < KEPT,
-        "dL/dt = Mgl sin(theta) (cos(phi), sin(phi), 0), omega = I^-1 L, dq/dt = q omega/2",
-        f"{INTEGRATED:g} rad and {KEPT:g}: SciPy's DOP853 at a relative tolerance of 1e-13",
-    )
+    return Measured(off < INTEGRATED and kept < KEPT, motion=motion, off=off, kept=kept)

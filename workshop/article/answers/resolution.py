@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from symtop_ros.arrays import Real
 from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, columns, new_figure
 from symtop_ros.physics import Motion, State, Top, apply_impulse
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, Measured, claim
 from workshop.article.motions import cusps
 
 SPAN = 0.5  # s; three nutations
@@ -55,23 +55,17 @@ def find_errors(motion: Motion, symmetric: bool) -> list[float]:
 
 
 @claim
-def resolution_converges(motion: Motion) -> Claim:
+def resolution_converges(motion: Motion) -> Measured:
     """Check that the steps of the resolution principle converge to the motion, and how fast."""
     first, second = find_errors(motion, symmetric=False), find_errors(motion, symmetric=True)
-    orders = [float(np.log2(errors[-2] / errors[-1])) for errors in (first, second)]
-    step = SPAN / COUNTS[-1]
-    return Claim(
-        "The resolution principle describes the general motion too: free motion with an impulse of "
-        "the torque in each step converges to the cusps, with order 1, and with order 2 if half of "
-        "the impulse comes before the free motion and half after it.",
-        f"after {SPAN:g} s the axis is off by {first[-1]:.1e} and {second[-1]:.1e} rad with steps "
-        f"of {step * 1e3:.2f} ms; orders {orders[0]:.2f} and {orders[1]:.2f}",
+    orders = [float(np.log2(each[-2] / each[-1])) for each in (first, second)]
+    errors = first[-1], second[-1]
+    holds = (
         abs(orders[0] - 1) < ORDER
         and abs(orders[1] - 2) < ORDER
-        and f"{second[-1]:.1e}" == "2.4e-06",
-        "L += torque dt at fixed attitude, then free motion for dt; error ~ dt^order",
-        f"{ORDER:g} of an order: it is found from two steps; the digits of the smallest error",
+        and f"{errors[1]:.1e}" == "2.4e-06"
     )
+    return Measured(holds, errors=errors, step=1e3 * SPAN / COUNTS[-1], orders=orders)
 
 
 def draw_resolution(motion: Motion | None = None) -> Figure:

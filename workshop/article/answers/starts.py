@@ -14,17 +14,13 @@ from matplotlib.figure import Figure
 from symtop_ros.arrays import Real
 from symtop_ros.judge.figures import GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion, State, Top
-from workshop.article.claims import Claim, claim
+from workshop.article.claims import Claim, Measured, claim
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start
 
 TWICE = 2.0  # Mgl/p_psi: phi' of the second cusp, over the textbook's rate of precession
 TRIED, SEED = 400, 20210330  # random starts, the same every time
 NEAR = 1e-6  # relative distance from a boundary, on each side of it
 ROUNDED = 1e-13  # rad/s, roots of a quadratic and rounding of phi' at a cusp. Measured: 2e-14
-EQUATION = (
-    "loops if |p_phi| < |p_psi| and phi' (phi' - 2 Mgl/p_psi) > 0; cusps at phi' = 0 and, if "
-    "p_psi^2 > 2 Ix Mgl (1 + cos(theta)), at phi' = 2 Mgl/p_psi; regular if theta'' = 0"
-)
 PHI_DOTS, PSI_DOTS = (-60.0, 120.0), (-400.0, 400.0)  # rad/s, of the map
 KINDS = {"unidirectional": "#f3ede0", "looping": "#cfe1f2"}
 POINTS = 900  # along a side of the map
@@ -61,7 +57,7 @@ def find_boundaries(top: Top) -> tuple[float, float, float]:
 
 
 @claim
-def start_decides(top: Top) -> Claim:
+def start_decides(top: Top) -> Measured:
     """Check the kinds of the article's top for every phi' at the start."""
     cusp, upper, lower = find_boundaries(top)
     changes = {0.0: "cusps", cusp: "cusps", SLOW: "regular", FAST: "regular"}
@@ -76,19 +72,11 @@ def start_decides(top: Top) -> Claim:
         found.append(f"{low:.5g} to {high:.5g} {'/'.join(sorted(kinds))}")
     agrees += [Motion(top, start(rate)).kind == kind for rate, kind in changes.items()]
     words = f"{cusp:.3f}, {lower:.2f}, {upper:.2f}"
-    return Claim(
-        "The initial values decide the kind where theta' = 0: loops for phi' from -146.46 to 0 and "
-        "from 11.325 to 30.27 rad/s, cusps at 0 and 11.325 rad/s, regular precession at both "
-        "roots, else a precession that never stops.",
-        f"kinds of the motions by phi' in rad/s: {'; '.join(found)}",
-        all(agrees) and words == "11.325, -146.46, 30.27",
-        EQUATION,
-        f"{NEAR:g}: the relative distance from each boundary at which the kind is that of its side",
-    )
+    return Measured(all(agrees) and words == "11.325, -146.46, 30.27", listed="; ".join(found))
 
 
 @claim
-def random_starts_decide(top: Top) -> Claim:
+def random_starts_decide(top: Top) -> Measured:
     """Check the rule for random tops and starts, by the kind of the motion."""
     random, good, looping = np.random.default_rng(SEED), 0, 0
     for k in range(TRIED):
@@ -102,18 +90,13 @@ def random_starts_decide(top: Top) -> Claim:
         kind = Motion(each, state).kind
         good += kind == ("looping" if expected else "unidirectional")
         looping += expected
-    return Claim(
-        "So it is for every top and every start with theta' = 0, on the boundaries apart.",
-        f"the kind is as the constants say for {good} of {TRIED} random tops and starts, of which "
-        f"{looping} make loops",
-        good == TRIED and 0.1 * TRIED < looping < 0.9 * TRIED,
-        EQUATION,
-        "none: counts",
+    return Measured(
+        good == TRIED and 0.1 * TRIED < looping < 0.9 * TRIED, good=good, looping=looping
     )
 
 
 @claim
-def second_cusp_is_twice_as_fast(top: Top) -> Claim:
+def second_cusp_is_twice_as_fast(top: Top) -> Measured:
     """Check the cusp above the start, and that its start has twice the textbook's rate."""
     rate, _, _ = find_boundaries(top)
     motion = Motion(top, start(rate))
@@ -121,15 +104,9 @@ def second_cusp_is_twice_as_fast(top: Top) -> Claim:
     far = motion.at(motion.nutation_period / 2)
     stopped, ratio = abs(float(far.euler_rates.phi)), rate * p_psi / top.Mgl
     angle = float(far.euler_angles.theta)
-    return Claim(
-        "Pushed with twice the textbook's rate of precession, Mgl/p_psi, the top rises to a cusp, "
-        "at 0.3844 rad: the motion of a top that is let go there.",
-        f"phi' = {rate:.3f} rad/s is {ratio:.12g} Mgl/p_psi; after half a nutation theta = "
-        f"{angle:.4f} rad and |phi'| = {stopped:.0e} rad/s",
-        f"{angle:.4f}" == "0.3844" and abs(ratio - 2) < ROUNDED and stopped < ROUNDED * FAST,
-        "E' = Mgl u and p_phi = p_psi u at the cusp: Ix phi'^2 sin^2(theta_0)/2 = Mgl (u - u_0) = "
-        "Mgl Ix phi' sin^2(theta_0)/p_psi",
-        f"{ROUNDED:g}, and {ROUNDED * FAST:.0e} rad/s: rounding of the root",
+    holds = f"{angle:.4f}" == "0.3844" and abs(ratio - 2) < ROUNDED and stopped < ROUNDED * FAST
+    return Measured(
+        holds, rate=rate, ratio=ratio, angle=angle, stopped=stopped, limit=ROUNDED * FAST
     )
 
 

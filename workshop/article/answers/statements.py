@@ -4,7 +4,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from workshop.article.claims import Claim, claim, differ
+from workshop.article.claims import Claim, Measured, claim, differ
 from workshop.article.motions import FAST, SLOW, THETA, accelerations, cusps, slope, start
 from workshop.article.nutation import horizontal_square
 from workshop.article.torque import draw_states
@@ -35,7 +35,7 @@ def claims_on_statements(top: Top) -> list[Claim]:
 
 
 @claim
-def axis_moves_too(motion: Motion) -> Claim:
+def axis_moves_too(motion: Motion) -> Measured:
     """Check that L_z is constant because Ix = Iy, and not for the torque alone."""
     top, states = motion.top, motion.at(np.linspace(0.0, 0.5, 501))
     torque, z = top.gravity_torque(states), states.to_world([0.0, 0.0, 1.0])
@@ -46,19 +46,12 @@ def axis_moves_too(motion: Motion) -> Claim:
         float(np.abs((moments * states.angular_velocity * turning).sum(axis=1)).max())
         for moments in (body, other)
     ]
-    return Claim(
-        "That the torque has no component along the axis is not enough for a constant L_z, because "
-        "the axis moves: the second term of dL_z/dt vanishes because Ix = Iy.",
-        f"torque along the axis {along:.0e} of its size; L . (omega x z) at most {rates[0]:.0e} N "
-        f"m for Iy = Ix, and {rates[1]:.2e} N m at the same rates for Iy = {ACROSS_Y:g} kg m^2",
-        along < SAME and rates[0] < SAME * rates[1] and rates[1] > 1e-3 * np.abs(torque).max(),
-        "dL_z/dt = torque . z + L . (omega x z), L . (omega x z) = (Ix - Iy) omega_x omega_y",
-        f"{SAME:g} of the torque, and of the term with Iy: rounding of sums of products",
-    )
+    holds = along < SAME and rates[0] < SAME * rates[1] and rates[1] > 1e-3 * np.abs(torque).max()
+    return Measured(holds, along=along, rates=rates)
 
 
 @claim
-def lagrangian_gives_the_same(top: Top) -> Claim:
+def lagrangian_gives_the_same(top: Top) -> Measured:
     """Check that the article's accelerations obey Lagrange's equations, on random states."""
     states = draw_states()
     angles = np.stack(states.euler_angles)
@@ -72,15 +65,7 @@ def lagrangian_gives_the_same(top: Top) -> Claim:
     moments = slope(momenta, np.zeros(1), SHORT).values
     forces = _slopes(top, angles, rates, by_rate=False)
     off = differ(moments, forces)
-    return Claim(
-        "Lagrange's equations give the same accelerations.",
-        f"on {rates.shape[1]} random states d/dt of the momenta and the generalized forces differ "
-        f"by {off:.0e} of the largest force, {np.abs(forces).max():.3g} N m",
-        off < AGREED,
-        "d/dt dL/dq' = dL/dq for L = Ix (theta'^2 + phi'^2 sin^2(theta))/2 + "
-        "Iz (psi' + phi' cos(theta))^2/2 - Mgl cos(theta)",
-        f"{AGREED:g}: a derivative by differences",
-    )
+    return Measured(off < AGREED, rates=rates, off=off, largest=np.abs(forces).max())
 
 
 def _slopes(top: Top, angles: Real, rates: Real, *, by_rate: bool) -> Real:
@@ -99,7 +84,7 @@ def _slopes(top: Top, angles: Real, rates: Real, *, by_rate: bool) -> Real:
 
 
 @claim
-def masses_feel_the_euler_force(motion: Motion) -> Claim:
+def masses_feel_the_euler_force(motion: Motion) -> Measured:
     """Check that in the body frame gravity, centrifugal and Euler force are in balance."""
     top, times = motion.top, np.linspace(0.0, motion.nutation_period, 41)
     states, moments = motion.at(times), np.array([top.Ix, top.Ix, top.Iz])
@@ -109,20 +94,13 @@ def masses_feel_the_euler_force(motion: Motion) -> Claim:
     euler = -moments * change
     sizes = [float(np.linalg.norm(each, axis=1).max()) for each in (gravity, centrifugal, euler)]
     off = float(np.abs(gravity + centrifugal + euler).max() / max(sizes))
-    return Claim(
-        "In the body frame there is no Coriolis force, and one more than the centrifugal force: "
-        "the Euler force, because the frame turns with a changing angular velocity. Nothing moves "
-        "there, so that the torques balance.",
-        f"largest torques of gravity {sizes[0]:.4f}, centrifugal {sizes[1]:.4f} and Euler force "
-        f"{sizes[2]:.4f} N m; their sum is off by {off:.0e} ({motion.kind})",
-        off < DIFFERENTIATED and min(sizes) > 0.1 * max(sizes),
-        "torque - omega x L - I domega/dt = 0; dF = -dm (domega/dt) x r",
-        f"{DIFFERENTIATED:g}: a derivative by differences is good to 1e-11",
+    return Measured(
+        off < DIFFERENTIATED and min(sizes) > 0.1 * max(sizes), sizes=sizes, off=off, motion=motion
     )
 
 
 @claim
-def torque_tilts_only(top: Top) -> Claim:
+def torque_tilts_only(top: Top) -> Measured:
     """Check that gravity's torque enters theta'' only, and a torque along the vertical does not."""
     states = draw_states()
     added = _add_torque(top, states, top.gravity_torque(states))
@@ -131,16 +109,8 @@ def torque_tilts_only(top: Top) -> Claim:
     others = float(np.abs(added[[0, 2]]).max() / np.abs(expected).max())
     upward = _add_torque(top, states, np.array([0.0, 0.0, top.Mgl]))
     least = float(np.abs(upward[0]).min())
-    return Claim(
-        "A torque can cause angular accelerations in all directions (introduction), but gravity's "
-        "enters theta'' only (section 3.1): phi'' and psi'' come from the rates alone.",
-        f"on {len(states)} random states gravity adds to theta'' what the equation says within "
-        f"{off:.0e}, and to phi'' and psi'' {others:.0e} of it; a torque Mgl along the vertical "
-        f"adds at least {least:.0f} rad/s^2 to phi''",
-        off < ROUNDED and others < ROUNDED and least > 1.0,
-        "theta'' = ... + Mgl sin(theta)/Ix",
-        f"{ROUNDED:g}: rounding of sums of products, over sin(theta) >= 0.1",
-    )
+    holds = off < ROUNDED and others < ROUNDED and least > 1.0
+    return Measured(holds, count=len(states), off=off, others=others, least=least)
 
 
 def _add_torque(top: Top, states: State, torque: Real) -> Real:
@@ -153,7 +123,7 @@ def _add_torque(top: Top, states: State, torque: Real) -> Real:
 
 
 @claim
-def one_torque_has_one_change(top: Top) -> Claim:
+def one_torque_has_one_change(top: Top) -> Measured:
     """Check that dL/dt is the same vector on both roots, while L is not."""
     motions = [Motion(top, start(rate)) for rate in (SLOW, FAST)]
     changes = [_change_of_momentum(motion) for motion in motions]
@@ -161,14 +131,8 @@ def one_torque_has_one_change(top: Top) -> Claim:
     torque = float(np.linalg.norm(top.gravity_torque(motions[0].start)))
     off = float(np.linalg.norm(changes[0] - changes[1])) / torque
     apart = float(np.linalg.norm(momenta[0] - momenta[1]) / np.linalg.norm(momenta[0]))
-    return Claim(
-        'One torque is one rate of change of L: the conclusion\'s "more than one rate of change" '
-        "is to be read as section 3.1 has it, one rate of change at more than one L.",
-        f"on both roots dL/dt = {np.linalg.norm(changes[0]):.4f} N m along the line of nodes; the "
-        f"vectors differ by {off:.0e} of it, and L by {apart:.0%}",
-        off < DIFFERENTIATED and apart > 0.1,
-        "dL/dt = torque(theta, phi)",
-        f"{DIFFERENTIATED:g}: a derivative by differences is good to 1e-11",
+    return Measured(
+        off < DIFFERENTIATED and apart > 0.1, size=np.linalg.norm(changes[0]), off=off, apart=apart
     )
 
 
@@ -179,7 +143,7 @@ def _change_of_momentum(motion: Motion) -> Real:
 
 
 @claim
-def release_tilts_first(motion: Motion) -> Claim:
+def release_tilts_first(motion: Motion) -> Measured:
     """Check the first powers of time in theta and phi after a release."""
     top, states = motion.top, motion.at(EARLY)
     tilt = (states.euler_angles.theta - THETA) / EARLY**2
@@ -189,31 +153,16 @@ def release_tilts_first(motion: Motion) -> Claim:
     p_psi = float(top.axial_momentum(motion.start))
     expected = top.Mgl * np.sin(THETA) / (2 * top.Ix), top.Mgl * p_psi / (6 * top.Ix**2)
     off = max(abs(a / b - 1) for a, b in zip(found, expected, strict=True))
-    return Claim(
-        '"Just after t = 0" both theta and phi change, theta as the square and phi as the cube of '
-        "time: 71.5 t^2 and 2494 t^3.",
-        f"theta - theta_0 = {found[0]:.4f} t^2, phi = {found[1]:.2f} t^3 (rad, s) from 0.5 and 1 "
-        f"ms; off the equation by {off:.0e}",
-        off < EARLY_OFF and (f"{found[0]:.1f}", f"{found[1]:.0f}") == ("71.5", "2494"),
-        "theta - theta_0 = Mgl sin(theta_0)/(2 Ix) t^2, phi = Mgl p_psi/(6 Ix^2) t^3",
-        f"{EARLY_OFF:g}: the third terms, of which the extrapolation takes out the second",
-    )
+    holds = off < EARLY_OFF and (f"{found[0]:.1f}", f"{found[1]:.0f}") == ("71.5", "2494")
+    return Measured(holds, found=found, off=off)
 
 
 @claim
-def momentum_is_nearly_a_sine(motion: Motion) -> Claim:
+def momentum_is_nearly_a_sine(motion: Motion) -> Measured:
     """Check the second harmonic of L^2 - L_z'^2 and of theta over a nutation."""
     times = np.asarray(np.arange(SAMPLES) * (motion.nutation_period / SAMPLES))
     shares = []
     for values in (horizontal_square(motion, times), motion.at(times).euler_angles.theta):
         size = np.abs(np.fft.rfft(values))
         shares.append(float(size[2] / size[1]))
-    return Claim(
-        "L^2 - L_z'^2 is nearly sinusoidal, more so than theta: its second harmonic is 0.43 % of "
-        "the first, that of theta 2.7 %.",
-        f"second over first harmonic of a nutation: {shares[0]:.4%} and {shares[1]:.3%}",
-        f"{shares[0]:.2%}" == "0.43%" and f"{shares[1]:.1%}" == "2.7%",
-        "L^2 - L_z'^2 = p_psi^2 - p_phi^2 + 2 Ix (E' - Mgl cos(theta)): cos(theta) = u_1 + "
-        "(u_2 - u_1) sn^2",
-        f"none: digits of a sum over {SAMPLES} samples of a period",
-    )
+    return Measured(f"{shares[0]:.2%}" == "0.43%" and f"{shares[1]:.1%}" == "2.7%", shares=shares)
