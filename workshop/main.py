@@ -1,38 +1,27 @@
 """Entry point of `python -m workshop`: its commands, and an import for the one that is chosen."""
 
 import argparse
-import math
 import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+from symtop_ros.command import positive
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.web.join import LANGUAGES
 
 LARGEST_MAP = 4000  # points along a side
-LARGEST_LIMIT = 3600  # s
 DESCRIPTION = """Measures speed against error, compared with the integrators that are installed,
 retells the article with its numbers, and draws the lesson, the maps of Perry's rule and pictures of
 the documents. `make help` lists the targets that call it."""
-COMMANDS = {
-    "speed": "speed against error: tables, plots and JSON (some minutes)",
-    "testset": "scores of programs in the test set (20 minutes)",
-    "derivatives": "derivatives by top and start, compared with heyoka (a minute)",
-    "filters": "attitude filters fed with the top's noisy sensor (4 minutes)",
-    "article": "the article's figures, its motions in 3D, and its claims",
-    "lesson": "the pictures of the lesson, or sheets to print",
-    "language": "whether the texts of the page are complete in a language",
-    "maps": "where hurrying the precession raises the top",
-    "pictures": "all pictures of the documents, and the steps of docs/lesson.md",
-}
 
 
 def main(args: list[str] | None = None) -> int:
     """Run a command; return 0 (good), 1 (failed) or 2 (usage)."""
     options = _parser().parse_args(args)
     try:
-        return PARTS[options.command](options)
+        run, _ = COMMANDS[options.command]
+        return run(options)
     except OSError as error:
         file = error.filename or options.folder
         print(f"workshop: {file}: {error.strerror or error}", file=sys.stderr)
@@ -42,25 +31,20 @@ def main(args: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="workshop", description=DESCRIPTION)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
-    of = {name: commands.add_parser(name, help=text) for name, text in COMMANDS.items()}
-    for name, command in of.items():
-        if name == "language":
-            command.add_argument("languages", nargs="*", default=LANGUAGES, metavar="TAG")
-            continue
-        default = "docs" if name == "pictures" else "report"
-        command.add_argument(
-            "folder", type=Path, nargs="?", default=Path(default), help=f"./{default}"
+    of = {name: commands.add_parser(name, help=text) for name, (_, text) in COMMANDS.items()}
+    of["language"].add_argument("languages", nargs="*", default=LANGUAGES, metavar="TAG")
+    for name in of.keys() - {"language"}:
+        folder = "docs" if name == "pictures" else "report"
+        of[name].add_argument(
+            "folder", type=Path, nargs="?", default=Path(folder), help=f"./{folder}"
         )
     for name in ("speed", "testset", "derivatives", "filters"):
         of[name].add_argument("--docs", type=_docs, help="write tables and plots here, too")
-    of["speed"].add_argument(
-        "--full",
-        action="store_true",
-        help="every peer, every motion, long times: hours instead of minutes",
-    )
+    text = "every peer, every motion, long times: hours instead of minutes"
+    of["speed"].add_argument("--full", action="store_true", help=text)
     for name, default in (("speed", "4 s (--full: 60)"), ("testset", "0.2 s")):
         text = f"largest time of one run, {default}"
-        of[name].add_argument("--limit", type=_seconds, metavar="S", help=text)
+        of[name].add_argument("--limit", type=positive, metavar="S", help=text)
     text = "releases of engines, each in its own environment, instead (an hour; needs a network)"
     of["testset"].add_argument("--releases", action="store_true", help=text)
     text = "the worksheet and the teacher's sheet (HTML, to print) instead of the pictures"
@@ -84,18 +68,6 @@ def _docs(text: str) -> Path:
     if not (path.is_dir() and (path.parent / "README.md").is_file()):
         raise argparse.ArgumentTypeError(f"must be a folder next to a README.md, got {text}")
     return path
-
-
-def _seconds(text: str) -> float:
-    try:
-        limit = float(text)
-    except ValueError:
-        limit = math.nan
-    if not 0 < limit <= LARGEST_LIMIT:
-        raise argparse.ArgumentTypeError(
-            f"must be above 0 and at most {LARGEST_LIMIT} s, got {one_line(text)}"
-        )
-    return limit
 
 
 def _map(options: argparse.Namespace) -> int:
@@ -165,14 +137,14 @@ def _measure(options: argparse.Namespace) -> int:
 
 
 # Each imports what it needs, so that a part works without the packages that others need.
-PARTS: dict[str, Callable[[argparse.Namespace], int]] = {
-    "speed": _measure,
-    "testset": _score,
-    "derivatives": _derive,
-    "filters": _filter,
-    "article": _retell,
-    "language": _check_language,
-    "lesson": _draw_lesson,
-    "maps": _map,
-    "pictures": _draw_pictures,
+COMMANDS: dict[str, tuple[Callable[[argparse.Namespace], int], str]] = {
+    "speed": (_measure, "speed against error: tables, plots and JSON (some minutes)"),
+    "testset": (_score, "scores of programs in the test set (20 minutes)"),
+    "derivatives": (_derive, "derivatives by top and start, compared with heyoka (a minute)"),
+    "filters": (_filter, "attitude filters fed with the top's noisy sensor (4 minutes)"),
+    "article": (_retell, "the article's figures, its motions in 3D, and its claims"),
+    "lesson": (_draw_lesson, "the pictures of the lesson, or sheets to print"),
+    "language": (_check_language, "whether the texts of the page are complete in a language"),
+    "maps": (_map, "where hurrying the precession raises the top"),
+    "pictures": (_draw_pictures, "all pictures of the documents, and the steps of docs/lesson.md"),
 }

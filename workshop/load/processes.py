@@ -13,12 +13,12 @@ from functools import cache
 from pathlib import Path
 
 from symtop_ros.client.connection import UnreachableError
+from symtop_ros.command import positive
 from workshop.load.domains import claim_domain
 from workshop.load.endings import bound
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = ROOT / "resource"
-LONGEST = 1e6  # s
 INTERRUPTED = 130  # exit status of a program that Ctrl-C has ended
 
 
@@ -87,7 +87,7 @@ def run_program(
         (interrupted).
     """
     parser = argparse.ArgumentParser(prog=name, description=description)
-    parser.add_argument("--seconds", type=_seconds, default=seconds, help="default: %(default)g")
+    parser.add_argument("--seconds", type=positive, default=seconds, help="default: %(default)g")
     add_options(parser)
     options = parser.parse_args(args)
     # SIGTERM raises KeyboardInterrupt as well, so that the nodes that were started are ended.
@@ -100,14 +100,3 @@ def run_program(
     except UnreachableError as error:
         print(f"{name}: {error}", file=sys.stderr)
         return 1
-
-
-def _seconds(text: str) -> float:
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = 0.0
-    if not 0 < seconds <= LONGEST:
-        msg = f"must be more than 0 and at most {LONGEST:g} s, got {text!r:.40}"
-        raise argparse.ArgumentTypeError(msg)
-    return seconds
