@@ -26,7 +26,7 @@ from symtop_ros.physics import (
 from symtop_ros.playback.view.torques import torques_of
 from symtop_ros.simulation.changes.requests import initial_state
 from symtop_ros.simulation.settings import Settings
-from workshop.article.answers.fictitious import plot_torques
+from workshop.article.answers.fictitious import draw_arrow, plot_torques
 from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger
 from workshop.article.figures import DEPTH
@@ -105,8 +105,7 @@ def _draw_turned(axes: Axes, runs: Runs) -> None:
         (motion.top.gravity_torque(motion.start), 8.0, RED, "torque"),
     ):
         x, y = size * vector[:2]
-        arrow = {"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
-        axes.annotate("", (x, y), (0, 0), arrowprops=arrow)
+        draw_arrow(axes, (0, 0), (x, y), color)
         axes.annotate(name, (x, y), (4, 4), textcoords="offset points", color=color)
     axes.set(aspect="equal", title=f"from above, {SHORT} s")
     axes.set_axis_off()
@@ -123,8 +122,7 @@ def _draw_chains(axes: Axes, runs: Runs) -> None:
         for k, ((tail, tip), color) in enumerate(zip(arrows, CHAIN, strict=True)):
             y = -row - 0.14 * k
             if abs(tip - tail) > SHORTEST:
-                arrow = {"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
-                axes.annotate("", (tip, y), (tail, y), arrowprops=arrow)
+                draw_arrow(axes, (tail, y), (tip, y), color)
         rate = float(motion.start.euler_rates.phi)
         axes.text(-1.05, -row - 0.2, f"{rate:.3g} rad/s", ha="right", va="center", fontsize=8)
     axes.axvline(0.0, color=GREY, lw=0.7, ls=":")
@@ -251,8 +249,7 @@ def draw_turning(axes: Axes, runs: Runs) -> None:
     torque = 1e3 * float(np.linalg.norm(motion.top.gravity_torque(motion.start)))
     reach = 20.0 * np.array([np.sin(THETA), np.cos(THETA)])
     axes.plot(*zip((0, 0), reach, strict=True), color=BLUE, ls="--", label="axis")
-    arrow = {"arrowstyle": "-|>", "color": INK, "shrinkA": 0, "shrinkB": 0, "lw": 2.2}
-    axes.annotate("", (flat, L[2]), (0, 0), arrowprops=arrow)
+    draw_arrow(axes, (0, 0), (flat, L[2]), INK, 2.2)
     axes.plot([flat, flat], [0, L[2]], color=GREY, lw=0.9, ls=":")
     axes.plot([0, flat], [0.15, 0.15], color=RED, lw=3, label="horizontal part of $L$")
     text = f"torque / horizontal part of $L$\n= {torque:.3g} / {flat:.3g} = {rate:.3g} rad/s"

@@ -3,19 +3,12 @@
 import base64
 from collections.abc import Sequence
 from html import escape
+from pathlib import Path
 
 from symtop_ros.web.join import read_texts
 from workshop.lesson.steps import LessonStep, read_lesson
 
-STYLE = """
-body { font: 11pt/1.4 Georgia, serif; color: #111; max-width: 178mm; margin: 8mm auto;
-  padding: 0 4mm; }
-h1 { font-size: 17pt; margin: 0 0 4mm; } h2 { font-size: 13pt; margin: 7mm 0 1mm; }
-p { margin: 1mm 0; white-space: pre-line; } img { width: 100%; }
-section { break-inside: avoid; } .line { border-bottom: 1px solid #888; height: 9mm; }
-b { font-weight: 600; } code { font-size: 9.5pt; }
-@page { size: A4; margin: 14mm; } @media print { body { margin: 0; padding: 0; } }
-"""
+STYLE = Path(__file__).with_suffix(".css").read_text(encoding="utf-8")
 LINES = '<div class="line"></div>' * 2
 
 
@@ -48,7 +41,7 @@ class Sheets:
         title = escape(f"{self._texts['sheet.title']} ({self._texts[f'sheet.{name}']})")
         return (
             f'<!doctype html>\n<html lang="{self.language}"><head><meta charset="utf-8">'
-            f"<title>{title}</title><style>{STYLE}</style></head>\n<body><h1>{title}</h1>"
+            f"<title>{title}</title><style>\n{STYLE}</style></head>\n<body><h1>{title}</h1>"
             f"<p>{escape(self._texts['sheet.introduction'])}</p>\n{sections}\n</body></html>\n"
         )
 

@@ -10,18 +10,16 @@ from typing import Any, NamedTuple
 import numpy as np
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
-from numpy.typing import NDArray
 from rclpy.executors import SingleThreadedExecutor
-from std_msgs.msg import Header
 from std_srvs.srv import Trigger
 
+from symtop_ros.arrays import Real
 from symtop_ros.client.connection import UnreachableError
 from workshop.load.bare import LATCHED, TOPICS
 from workshop.load.usage import cpu_seconds
 
 TIMEOUT = 30.0  # s until every topic has a sample, and for an answer
 SETTLING = 1.0  # s
-Real = NDArray[np.float64]
 
 
 class Traffic(NamedTuple):
@@ -95,7 +93,8 @@ class Listener:
         asked = time.time()
         answer = self._kick.call_async(Trigger.Request())
         self._wait(lambda: answer.done() and bool(self._events))
-        begin = _stamp_of_header(self._events[-1].header)
+        stamp = self._events[-1].header.stamp
+        begin = stamp.sec + stamp.nanosec * 1e-9
         orientations = self._got["orientation"]
         self._wait(lambda: _stamp(orientations[-1]) >= begin)
         first = next(k for k, data in enumerate(orientations) if _stamp(data) >= begin)
@@ -136,8 +135,3 @@ def _stamp(message: bytes) -> float:
     """Return the stamp in s of a serialised message that begins with a header."""
     seconds, nanoseconds = struct.unpack_from("<iI", message, 4)
     return float(seconds + nanoseconds * 1e-9)
-
-
-def _stamp_of_header(header: Header) -> float:
-    """Return the stamp of a header in s."""
-    return float(header.stamp.sec + header.stamp.nanosec * 1e-9)

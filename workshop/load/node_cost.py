@@ -173,12 +173,8 @@ def _format_value(row: str, value: float) -> str:
 @contextlib.contextmanager
 def _listening(command: list[str]) -> Iterator[tuple[Listener, int]]:
     """Run a node, and listen to it."""
-    with running(command) as node:
-        listener = Listener(domain())
-        try:
-            yield listener, node.pid
-        finally:
-            listener.close()
+    with running(command) as node, contextlib.closing(Listener(domain())) as listener:
+        yield listener, node.pid
 
 
 def _runs(text: str) -> int:

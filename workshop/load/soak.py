@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -107,15 +108,11 @@ def soak(seconds: float, scene: str, rate: float) -> Iterator[Reading]:
             *(f"scene:={scene}", f"publish_rate:={rate}", "record.enabled:=true"),
             *(f"record.directory:={folder}", f"record.max_duration:={LOG_DURATION}"),
         )
-        with running(command) as node:
-            user = User(rate)
-            try:
-                for reading in _readings(user, node.pid, seconds):
-                    logs.check_finished()
-                    last = logs.add_to(reading)
-                    yield last
-            finally:
-                user.close()
+        with running(command) as node, closing(User(rate)) as user:
+            for reading in _readings(user, node.pid, seconds):
+                logs.check_finished()
+                last = logs.add_to(reading)
+                yield last
         node.wait()
         logs.check_all()
         yield logs.add_to(last)

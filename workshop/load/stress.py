@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -115,14 +115,11 @@ def _top(rate: float, name: str = "/top") -> Iterator[tuple[Follower, int]]:
     """Run a node; give a follower of it, and its process id."""
     namespace = name.removesuffix("/top")
     renamed = ["-r", f"__ns:={namespace}"] if namespace else []
-    with running([*top_node(f"publish_rate:={rate}", "scene:=hurry_slow"), *renamed]) as node:
-        follower = Follower(rate, name)
-        try:
-            follower.begin()
-            follower.spin(SETTLING)
-            yield follower, node.pid
-        finally:
-            follower.close()
+    command = [*top_node(f"publish_rate:={rate}", "scene:=hurry_slow"), *renamed]
+    with running(command) as node, closing(Follower(rate, name)) as follower:
+        follower.begin()
+        follower.spin(SETTLING)
+        yield follower, node.pid
 
 
 def _measure(load: str, tops: list[tuple[Follower, int]], seconds: float) -> Outcome:

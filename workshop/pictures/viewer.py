@@ -10,9 +10,9 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 from unittest import SkipTest  # a test that finds no driver is skipped
 
 import numpy as np
@@ -26,6 +26,7 @@ from workshop.load.endings import bound
 DRIVER = Path(sys.prefix, "vulkan")  # where `make test` unpacks one
 TIMEOUT = 60.0
 SIZE = "1600x900"
+Found = TypeVar("Found")
 
 
 def _environment() -> dict[str, str]:
@@ -59,55 +60,53 @@ def running_viewer(*files: Path, port: int | None = None) -> Iterator[tuple[View
         stderr=subprocess.DEVNULL,
     )
     try:
-        yield _connected(port, process), port
+        yield _connect(port, process), port
     finally:
         process.terminate()
         process.wait()
 
 
-def _connected(port: int, process: subprocess.Popen[bytes]) -> ViewerClient:
+def _wait(attempt: Callable[[], Found | None], failure: str) -> Found:
+    """Return what an attempt finds at last."""
     deadline = time.monotonic() + TIMEOUT
-    while True:
+    while (found := attempt()) is None:
+        assert time.monotonic() < deadline, failure
+        time.sleep(0.1)
+    return found
+
+
+def _connect(port: int, process: subprocess.Popen[bytes]) -> ViewerClient:
+    def attempt() -> ViewerClient | None:
         assert process.poll() is None, "the viewer ended"
-        try:
+        with contextlib.suppress(Exception):
             client = ViewerClient.connect(f"rerun+http://{HOST}:{port}/proxy")
             client.get_state()
             return client
-        except Exception:
-            assert time.monotonic() < deadline, "the viewer did not answer"
-            time.sleep(0.1)
+        return None
+
+    return _wait(attempt, "the viewer did not answer")
 
 
 def views(client: ViewerClient, count: int) -> dict[str, Any]:
     """Views by name, as soon as there are so many."""
-    deadline = time.monotonic() + TIMEOUT
-    while len(found := client.get_state().views) < count:
-        assert time.monotonic() < deadline, f"only {[each.name for each in found]}"
-        time.sleep(0.1)
-    return {each.name: each for each in found}
 
-
-def view_named(client: ViewerClient, name: str) -> Any:
-    """Wait for a view by its name: the viewer starts with a default layout."""
-    deadline = time.monotonic() + TIMEOUT
-    while True:
+    def attempt() -> dict[str, Any] | None:
         found = {each.name: each for each in client.get_state().views}
-        if name in found:
-            return found[name]
-        assert time.monotonic() < deadline, f"only {list(found)}"
-        time.sleep(0.1)
+        return found if len(found) >= count else None
+
+    return _wait(attempt, f"there are fewer than {count} views")
 
 
 def pause_at(client: ViewerClient, timeline: str, **time_of: Any) -> None:
     """Pause at a time, as soon as the viewer has read so much that the timeline exists."""
-    deadline = time.monotonic() + TIMEOUT
-    while True:
-        try:
+
+    def attempt() -> bool | None:
+        with contextlib.suppress(ConnectionError):
             client.set_time(timeline, play_state="paused", **time_of)
-            return
-        except ConnectionError:
-            assert time.monotonic() < deadline, f"no timeline {timeline}"
-            time.sleep(0.1)
+            return True
+        return None
+
+    _wait(attempt, f"no timeline {timeline}")
 
 
 def picture(client: ViewerClient, view: Any = None) -> np.ndarray:

@@ -130,16 +130,16 @@ def draw_four_masses() -> Figure:
     axes.plot(np.cos(SWEEP), np.sin(SWEEP), color=GREY, lw=1.5)
     axes.axhline(0.0, color=INK, lw=0.9, ls=":")
     axes.text(2.25, 0.07, "line of nodes $N$", ha="right")
-    _point(axes, (0, 0), (0, 0.62), INK)
+    draw_arrow(axes, (0, 0), (0, 0.62), INK)
     axes.text(0.06, 0.4, r"$\dot\phi \sin\theta$, up")
     for x, y in zip(np.cos(CORNERS), np.sin(CORNERS), strict=True):
-        _point(axes, (x, y), (x - 0.5 * y, y + 0.5 * x), BLUE)
+        draw_arrow(axes, (x, y), (x - 0.5 * y, y + 0.5 * x), BLUE)
         axes.plot(x, y, "o", color=INK, ms=9)
         if abs(y) > abs(x):  # it moves along the line of nodes
             mark = r"$\otimes$ to the pivot" if y > 0 else r"$\odot$ away from the pivot"
             axes.text(x + 0.12, y + 0.12 * np.sign(y), mark, color=RED, va="center")
     for y, reach, color, name in ((-0.2, 0.6, GOLD, "gravity's"), (-0.5, -0.6, RED, "Coriolis'")):
-        _point(axes, (0, y), (reach, y), color)
+        draw_arrow(axes, (0, y), (reach, y), color)
         side = "right" if reach > 0 else "left"
         axes.text(-0.1 * reach, y, f"{name} torque", va="center", ha=side)
     view = "Seen from the end of\nthe axle: the pivot is\nbehind the ring."
@@ -151,6 +151,9 @@ def draw_four_masses() -> Figure:
     return figure
 
 
-def _point(axes: Axes, tail: tuple[float, float], tip: tuple[float, float], color: str) -> None:
-    look = {"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0, "lw": 1.6}
+def draw_arrow(
+    axes: Axes, tail: tuple[float, float], tip: tuple[float, float], color: str, width: float = 1.6
+) -> None:
+    """Draw an arrow from one place to another."""
+    look = {"arrowstyle": "-|>", "color": color, "shrinkA": 0, "shrinkB": 0, "lw": width}
     axes.annotate("", tip, tail, arrowprops=look)

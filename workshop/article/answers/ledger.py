@@ -4,7 +4,7 @@ E' = E - p_psi^2/(2 Iz) is what the spin does not keep. A kick at theta' = 0 put
 precession and, if it holds psi', into the spin; afterwards weight and precession exchange it.
 """
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -66,12 +66,8 @@ class Ledger:
 
     def __sub__(self, other: "Ledger") -> "Ledger":
         """Return the changes from another state to this one."""
-        return Ledger(
-            self.spin - other.spin,
-            self.weight - other.weight,
-            self.precession - other.precession,
-            self.nutation - other.nutation,
-        )
+        pairs = zip(astuple(self), astuple(other), strict=True)
+        return Ledger(*(mine - its for mine, its in pairs))
 
     @property
     def rest(self) -> float:

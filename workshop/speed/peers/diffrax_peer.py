@@ -10,6 +10,7 @@ import numpy as np
 from symtop_ros.arrays import Real
 from workshop.speed.peers.peer import (
     Peer,
+    Quick,
     Solution,
     Task,
     body_rates,
@@ -18,13 +19,13 @@ from workshop.speed.peers.peer import (
     normalize,
 )
 
-METHODS = {"Dopri8": diffrax.Dopri8, "Tsit5": diffrax.Tsit5}
+METHODS: tuple[tuple[str, Quick], ...] = (("Dopri8", "first motion"), ("Tsit5", "no"))
 SETTINGS = (1e-7, 1e-11, 1e-14, 1e-15)  # a second of compiling each
 MOST_STEPS = 2_000_000
 MOST_RECORDED = 65_536  # steps of the untimed run, for which memory is set aside
 
 
-def prepare(method: Any, task: Task, rtol: float) -> Solution:
+def prepare(method: str, task: Task, rtol: float) -> Solution:
     """Compile, by a short first run; each solution starts anew."""
     jax.config.update("jax_enable_x64", True)
     control = diffrax.PIDController(rtol=rtol, atol=rtol)
@@ -33,7 +34,7 @@ def prepare(method: Any, task: Task, rtol: float) -> Solution:
 
     def run(saved: Any, most_steps: int, t: Any) -> Any:
         found = diffrax.diffeqsolve(
-            *(term, method(), 0.0, t, 1e-4, start),
+            *(term, getattr(diffrax, method)(), 0.0, t, 1e-4, start),
             saveat=saved,
             stepsize_controller=control,
             max_steps=most_steps,
@@ -58,12 +59,6 @@ def prepare(method: Any, task: Task, rtol: float) -> Solution:
 
 
 PEERS = [
-    Peer(
-        f"diffrax {name}",
-        SETTINGS,
-        partial(prepare, method),
-        friction="also",
-        quick="first motion" if name == "Dopri8" else "no",
-    )
-    for name, method in METHODS.items()
+    Peer(f"diffrax {name}", SETTINGS, partial(prepare, name), friction="also", quick=quick)
+    for name, quick in METHODS
 ]

@@ -19,13 +19,13 @@ from exudyn.itemInterface import (
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real
-from workshop.speed.peers.peer import RECORDED, Peer, Solution, Task, count_steps
+from workshop.speed.peers.peer import RECORDED, Peer, Quick, Solution, Task, count_steps
 
-METHODS = {"RK44": exu.DynamicSolverType.RK44, "RK67": exu.DynamicSolverType.RK67}
+METHODS: tuple[tuple[str, Quick], ...] = (("RK44", "no"), ("RK67", "first motion"))
 SETTINGS = tuple(2.0**-k for k in (9, 10, 11, 12, 13, 14, 15, 16, 17, 18))  # s
 
 
-def prepare(method: Any, task: Task, step: float) -> Solution:
+def prepare(method: str, task: Task, step: float) -> Solution:
     """Assemble the systems, one of them with a sensor that records; each solution starts anew."""
     plain, node = _build_system(task)
     recording, recorded_node = _build_system(task)
@@ -47,7 +47,7 @@ def prepare(method: Any, task: Task, step: float) -> Solution:
         settings.timeIntegration.endTime = t
         settings.timeIntegration.numberOfSteps = count_steps(t, step)
         settings.solution.sensors.writePeriod = max(step, t / RECORDED)
-        system.SolveDynamic(settings, solverType=method)
+        system.SolveDynamic(settings, solverType=getattr(exu.DynamicSolverType, method))
 
     def reach(t: float) -> Real:
         run(plain, t)
@@ -94,11 +94,5 @@ def _build_system(task: Task) -> tuple[Any, Any]:
 
 
 PEERS = [
-    Peer(
-        f"EXUDYN {name}",
-        SETTINGS,
-        partial(prepare, method),
-        quick="first motion" if name == "RK67" else "no",
-    )
-    for name, method in METHODS.items()
+    Peer(f"EXUDYN {name}", SETTINGS, partial(prepare, name), quick=quick) for name, quick in METHODS
 ]

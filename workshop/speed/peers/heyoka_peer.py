@@ -41,14 +41,19 @@ def on_constants_of_motion(task: Task) -> Equations:
     a = Iz * wz / Ix
 
     def rates(_: float, variables: Any) -> list[Any]:
-        _, theta, _, theta_dot = variables
-        c, s = hy.cos(theta), hy.sin(theta)
-        phi_dot = (momentum - a * c) / (s * s)
-        theta_ddot = s * (phi_dot * (phi_dot * c - a) + Mgl / Ix)
-        return [phi_dot, theta_dot, wz - phi_dot * c, theta_ddot]
+        return find_rates(variables, Mgl / Ix, momentum, a, wz)
 
     start = [phi, theta, psi, task.start.euler_rates[1]]
     return Equations(start, rates, lambda y: from_euler_angles(y[:, :3]))
+
+
+def find_rates(variables: Any, weight: Any, momentum: Any, a: Any, wz: Any) -> list[Any]:
+    """Return the rates for the constants Mgl/Ix, p_phi/Ix, p_psi/Ix and omega_z."""
+    _, theta, _, theta_dot = variables
+    c, s = hy.cos(theta), hy.sin(theta)
+    phi_dot = (momentum - a * c) / (s * s)
+    theta_ddot = s * (phi_dot * (phi_dot * c - a) + weight)
+    return [phi_dot, theta_dot, wz - phi_dot * c, theta_ddot]
 
 
 def integrator(equations: Equations, tolerance: float) -> Any:
@@ -98,15 +103,10 @@ def _run_over(taylor: Any, equations: Equations, times: Real) -> Real:
 def prepare_batches(tolerance: float) -> Callable[[Any, float], Real]:
     """Return a function for many motions: one compilation, and several motions at a time.
 
-    The form is that with two constants of motion. What differs between the motions are parameters:
-    Mgl/Ix, p_phi/Ix, p_psi/Ix and omega_z.
+    The form is that with two constants of motion. What differs between the motions are parameters.
     """
-    weight, momentum, a, wz = (hy.par[k] for k in range(4))
-    _, theta, _, theta_dot = variables = hy.make_vars("phi", "theta", "psi", "theta_dot")
-    c, s = hy.cos(theta), hy.sin(theta)
-    phi_dot = (momentum - a * c) / (s * s)
-    theta_ddot = s * (phi_dot * (phi_dot * c - a) + weight)
-    rates = [phi_dot, theta_dot, wz - phi_dot * c, theta_ddot]
+    variables = hy.make_vars("phi", "theta", "psi", "theta_dot")
+    rates = find_rates(variables, *(hy.par[k] for k in range(4)))
     size = hy.recommended_simd_size()
     system = list(zip(variables, rates, strict=True))
     taylor = hy.taylor_adaptive_batch(

@@ -10,6 +10,7 @@ from symtop_ros.models.engines import format_mjcf
 from symtop_ros.physics import Body
 from workshop.speed.peers.peer import (
     Peer,
+    Quick,
     Solution,
     Task,
     count_steps,
@@ -19,7 +20,11 @@ from workshop.speed.peers.peer import (
 
 FOURTH_ORDER = tuple(2.0**-k for k in (9, 11, 13, 15, 16, 17, 18, 19, 20, 21))  # s
 FIRST_ORDER = tuple(2.0**-k for k in range(13, 22))  # s; coarser steps are not stable
-METHODS = {"RK4": FOURTH_ORDER, "implicitfast": FIRST_ORDER, "Euler": FIRST_ORDER}
+METHODS: tuple[tuple[str, tuple[float, ...], Quick], ...] = (
+    ("RK4", FOURTH_ORDER, "first motion"),
+    ("implicitfast", FIRST_ORDER, "no"),
+    ("Euler", FIRST_ORDER, "no"),
+)
 # Unstable steps are visible in their errors; without a handler MuJoCo writes a log file for each.
 mujoco.set_mju_user_warning(lambda _: None)
 
@@ -52,11 +57,6 @@ def prepare(method: str, task: Task, step: float) -> Solution:
 
 
 PEERS = [
-    Peer(
-        f"MuJoCo {method}",
-        settings,
-        partial(prepare, method),
-        quick="first motion" if method == "RK4" else "no",
-    )
-    for method, settings in METHODS.items()
+    Peer(f"MuJoCo {method}", settings, partial(prepare, method), quick=quick)
+    for method, settings, quick in METHODS
 ]

@@ -15,6 +15,7 @@ from symtop_ros.arrays import Real, Vector
 from symtop_ros.physics import Friction, State, Top
 
 Arrays = Callable[[Real], Real]  # times (n,) in s -> orientations (n, 4)
+Quick = Literal["every motion", "first motion", "no"]
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
 # solve_ivp takes no relative tolerance below 100 eps, the last one here.
 TOLERANCES = (*(10.0**-k for k in (4, 6, 8, 9, 10, 11, 12, 13)), 100 * 2.0**-52)
@@ -104,7 +105,7 @@ class Peer:
     prepare_arrays: PrepareArrays | None = None
     # part in the quick report, which must not take long: the best form of each program is in
     # it
-    quick: Literal["every motion", "first motion", "no"] = "no"
+    quick: Quick = "no"
 
 
 def spread_times(t: float) -> Real:

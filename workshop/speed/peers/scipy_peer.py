@@ -13,6 +13,7 @@ from workshop.speed.peers.peer import (
     Arrays,
     Equations,
     Peer,
+    Quick,
     Solution,
     Task,
     on_euler_angles,
@@ -20,8 +21,6 @@ from workshop.speed.peers.peer import (
 )
 
 Method = Literal["DOP853", "LSODA", "Radau"]
-Quick = Literal["every motion", "first motion", "no"]
-METHODS: tuple[Method, ...] = ("DOP853", "LSODA", "Radau")
 
 
 def integrate(
@@ -58,19 +57,18 @@ def prepare_arrays(task: Task) -> Arrays:
     return lambda times: equations.read(run(float(times[-1]), times)[1])
 
 
-def _make_peers() -> list[Peer]:
-    peers = []
-    for method in METHODS:
-        name, arrays = f"SciPy {method}", prepare_arrays if method == "DOP853" else None
-        quaternion, angles = (partial(prepare, method, f) for f in (on_quaternion, on_euler_angles))
-        dop853: Quick = "first motion" if method == "DOP853" else "no"
-        # LSODA is better in Euler angles. Radau is for stiff equations, which these are not.
-        quick: Quick = "no" if method == "Radau" else "first motion"
-        peers += [
-            Peer(f"{name}, quaternion", TOLERANCES, quaternion, "also", arrays, dop853),
-            Peer(f"{name}, Euler angles", TOLERANCES, angles, quick=quick),
-        ]
-    return peers
+def _make_peers(method: Method, quick: Quick, quick_angles: Quick) -> list[Peer]:
+    """Return a method as two peers, on the quaternion and on Euler angles."""
+    arrays = prepare_arrays if method == "DOP853" else None
+    quaternion, angles = (partial(prepare, method, f) for f in (on_quaternion, on_euler_angles))
+    return [
+        Peer(f"SciPy {method}, quaternion", TOLERANCES, quaternion, "also", arrays, quick),
+        Peer(f"SciPy {method}, Euler angles", TOLERANCES, angles, quick=quick_angles),
+    ]
 
 
-PEERS = _make_peers()
+PEERS = [
+    *_make_peers("DOP853", "first motion", "first motion"),
+    *_make_peers("LSODA", "no", "first motion"),  # it is better in Euler angles
+    *_make_peers("Radau", "no", "no"),  # it is for stiff equations, which these are not
+]
