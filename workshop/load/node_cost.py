@@ -22,7 +22,7 @@ from workshop.load.bare import TOPICS
 from workshop.load.listener import Listener, Traffic
 from workshop.load.processes import domain, run_program, running, script, top_node
 from workshop.speed.measure import find_machine
-from workshop.speed.publish import format_list, format_tables, publish
+from workshop.speed.publish import format_tables, publish, write_chapter
 
 COST_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, tried for the highest one without late samples
@@ -35,15 +35,6 @@ PRIORITY = 50
 CPU, LATE_SAMPLES, JITTER = "CPU, % (one core)", "late samples, %", "jitter p99, ms"
 KICK, SLOW_KICK = "kick to first sample, ms", "kick to first sample p99, ms"
 HIGHEST = f"highest rate with < {100 * LATE:g} % late, Hz"
-CONDITIONS = (
-    f"Each node publishes the same {len(TOPICS)} messages, with one subscriber for each topic. A "
-    "bare rclpy node publishes them from a timer and computes nothing; a second one publishes "
-    "bytes that it has prepared.",
-    "A sample is late if it comes more than a period after its time. Lost samples are late.",
-    "The time from a kick to its first sample contains on average half a period of waiting for the "
-    "next stamp.",
-    f"Highest rate: of {', '.join(f'{rate:g}' for rate in RATES)} Hz.",
-)
 
 Command = Callable[[float], list[str]]  # command line for a rate in Hz
 NAME = "node cost"  # of the table in the documentation
@@ -145,16 +136,10 @@ def _measure_all(node: str, command: Command, seconds: float) -> Iterator[tuple[
 def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     """Return the conditions and the table of docs/reliability_tables.md by its name."""
     runs: Runs = facts["runs"]
-    conditions = format_list(
-        [
-            f"Command: `make -C workshop node-cost`; machine: {facts['machine']}.",
-            f"Figures: medians of {facts['count']} runs (lowest to highest).",
-            *CONDITIONS,
-        ]
-    )
     nodes = tuple(dict.fromkeys(node for row in runs.values() for node in row))
     rows = [[row, *(_format_cell(row, of.get(node)) for node in nodes)] for row, of in runs.items()]
-    return {NAME: f"{conditions}\n\n{format_tables(['', *nodes], rows)}"}
+    values = {"messages": len(TOPICS), "rates": ", ".join(f"{rate:g}" for rate in RATES)}
+    return {NAME: write_chapter(NAME, **facts, **values, table=format_tables(["", *nodes], rows))}
 
 
 def _format_cell(row: str, values: list[float] | None) -> str:

@@ -24,19 +24,13 @@ from workshop.load.follower import DEPTH, TIMEOUT, Follower
 from workshop.load.processes import domain, run_program, running, script, top_node
 from workshop.load.usage import cpu_seconds, memory
 from workshop.speed.measure import find_machine
-from workshop.speed.publish import format_list, format_table, publish
+from workshop.speed.publish import format_list, format_table, publish, write_chapter
 
 FAST, USUAL = 1000.0, SUBSCRIBED_RATE  # Hz
 CLIENTS, SUBSCRIBERS, JOINERS, TOPS = 4, 50, 200, 8
 EVENTS = 20  # latched kicks that every late joiner must receive, after the start
 SETTLING = 1.5  # s; diagnostics come once a second
 NAME = "stress"  # of the table in the documentation
-CONDITIONS = (
-    "Lost: samples that were published and not received. Missed: samples that the node had no time "
-    "to compute, which it counts in `/diagnostics`.",
-    "Unanswered: requests without an answer, or late joiners that did not get every event.",
-    "CPU: of one core, for all nodes together. MB more: growth of their memory.",
-)
 
 
 @dataclass(frozen=True)
@@ -90,7 +84,6 @@ def format_row(outcome: Outcome) -> str:
 
 def format_section(outcomes: Sequence[Outcome], seconds: float, machine: str) -> str:
     """Return the conditions, the table and the further figures of some outcomes."""
-    first = f"Command: `make -C workshop stress`, {seconds:g} s for each load; machine: {machine}."
     head = ["load", "Hz", "lost", "missed", "unanswered", "CPU", "MB more"]
     rows = [
         [
@@ -99,9 +92,9 @@ def format_section(outcomes: Sequence[Outcome], seconds: float, machine: str) ->
         ]
         for each in outcomes
     ]
-    figures = [f"{each.load}: {each.figures}." for each in outcomes if each.figures]
-    parts = format_list([first, *CONDITIONS]), format_table(head, rows), format_list(figures)
-    return "\n\n".join(part for part in parts if part)
+    figures = format_list(f"{each.load}: {each.figures}." for each in outcomes if each.figures)
+    values = {"seconds": seconds, "machine": machine, "figures": figures}
+    return write_chapter(NAME, **values, table=format_table(head, rows))
 
 
 def stress(seconds: float) -> Iterator[Outcome]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from workshop.releases.engines import ENGINES
 from workshop.releases.measure import LEVELS, Row, find_jumps, measure_engine
-from workshop.speed.publish import format_list, format_table, write_results
+from workshop.speed.publish import format_list, format_table, write_chapter, write_results
 
 NAME = "releases"  # of its section in the docs
 SHOWN = 4  # names of scores in a row
@@ -36,17 +36,14 @@ def format_releases(facts: Mapping[str, Mapping[str, Row]]) -> str:
             if found and after in engine.log:
                 lines.append(f"{engine.name} {after}: {engine.log[after]}")
     head = ["release", "compared with", "integrator", "scores", "first: was (rad)", "is (rad)"]
-    parts = [
-        "Changes by a factor of three or more, the largest first:",
-        format_table(head, changes),
-        "What the change logs say of these:",
-        format_list(lines),
-        "The oldest and the newest release that runs:",
-        format_table(["median, worst (rad)", *(f"level {each}" for each in LEVELS)], ends),
-        "Releases that were chosen and have no scores:",
-        format_table(["release", "reason"], _list_failures(facts)),
-    ]
-    return "\n\n".join(parts)
+    levels = ["median, worst (rad)", *(f"level {each}" for each in LEVELS)]
+    return write_chapter(
+        "releases",
+        changes=format_table(head, changes),
+        logs=format_list(lines),
+        ends=format_table(levels, ends),
+        failures=format_table(["release", "reason"], _list_failures(facts)),
+    )
 
 
 def _list_failures(facts: Mapping[str, Mapping[str, Row]]) -> Iterator[list[str]]:

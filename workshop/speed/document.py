@@ -8,7 +8,7 @@ from workshop.speed.benchmarks import CHECK, SPAN, ArrayCost, DrivenCase, HardCa
 from workshop.speed.footprint import format_footprint
 from workshop.speed.many import format_many
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
-from workshop.speed.publish import format_list, format_table, format_tables
+from workshop.speed.publish import format_list, format_table, format_tables, write_chapter
 from workshop.speed.reference import EPS, ReferenceMotion
 from workshop.speed.sweep import Curve
 
@@ -24,17 +24,7 @@ SUMMARY = (
 )
 ARRAY = 100_000  # states of the column on arrays
 BEST = ["", "largest error", "mean error", "at times", "ms", "x ours"]
-CHEAPEST = "Times at the cheapest setting for an error"
 COSTS = [f"ms for {level:.0e}" for level in LEVELS]
-CONDITIONS = (
-    "An error is the angle in rad of the rotation that would correct the attitude, "
-    "2 |q - q_exact|.",
-    "The exact motion is a Taylor integration of the equations of motion with 32 digits.",
-    "A time is that of reaching the end once, without output on the way: the median of repeated "
-    "runs in one process. Errors come from a separate run that is not timed.",
-    "Times include the set-up of the closed form, and exclude building, loading and compiling the "
-    "model of a peer.",
-)
 
 
 @dataclass(frozen=True)
@@ -82,15 +72,15 @@ def format_summary(results: Results, motion: ReferenceMotion) -> str:
 
 
 def _format_environment(environment: Environment) -> str:
-    versions = ", ".join(f"{name} {version}" for name, version in environment.versions.items())
-    lines = [
-        f"Command: `{environment.command}`.",
-        f"Machine: {environment.machine}.",
-        f"Versions: {versions}.",
-    ]
-    if environment.missing:
-        lines.append(f"Not installed: {', '.join(environment.missing)}.")
-    return f"Conditions:\n\n{format_list([*lines, *CONDITIONS])}"
+    named = (f"{name} {version}" for name, version in environment.versions.items())
+    missing = ", ".join(environment.missing)
+    return write_chapter(
+        "conditions",
+        command=environment.command,
+        machine=environment.machine,
+        versions=", ".join(named),
+        missing=f"Not installed: {missing}." if missing else "",
+    )
 
 
 def _format_work(results: Results, motion: ReferenceMotion, limit: float) -> str:
@@ -102,13 +92,16 @@ def _format_work(results: Results, motion: ReferenceMotion, limit: float) -> str
         [*_format_best(curve, ours.seconds), "" if len(curve.points) == 1 else curve.end]
         for curve in curves
     ]
-    return (
-        f"## The article's top, {motion.name}, {SPAN:g} s\n\n"
-        f"![work and precision](work_precision.png)\n\n"
-        f"Each at its best setting within {limit:g} s of computing time for a run:\n\n"
-        f"{format_table([*BEST, 'sweep ended at'], errors)}\n\n"
-        f"{CHEAPEST}, and further figures:\n\n"
-        f"{_format_costs(results, curves)}\n\n{_explain_work(motion)}"
+    return write_chapter(
+        "work",
+        motion=motion.name,
+        t=SPAN,
+        limit=limit,
+        errors=format_table([*BEST, "sweep ended at"], errors),
+        costs=_format_costs(results, curves),
+        array=ARRAY,
+        check=CHECK,
+        rounding=motion.limit(SPAN),
     )
 
 
@@ -125,21 +118,6 @@ def _format_costs(results: Results, curves: list[Curve]) -> str:
         for curve in curves
     ]
     return format_table(["", *COSTS, "us a state, array", "to build, ms", "model"], rows)
-
-
-def _explain_work(motion: ReferenceMotion) -> str:
-    return format_list(
-        [
-            "Largest and mean error: over times in (0, T], as many as the table says; peers "
-            "without exact output between their steps are compared at the steps themselves.",
-            "Sweep: tolerances or steps are made finer until the error grows again (turning "
-            "point), a run would exceed the limit, or the program takes no finer one.",
-            f"Array: of {ARRAY:g} states in one call, set-up included.",
-            f"Model: the error within {CHECK:g} s at the finest setting, which shows that it is "
-            "the same top.",
-            f"Rounding of the input changes the state at the end by {motion.limit(SPAN):.1e} rad.",
-        ]
-    )
 
 
 def _format_array_cost(cost: ArrayCost | None) -> str:
@@ -181,11 +159,7 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
     best = {(c.peer, c.motion): f"{c.best.error:.0e} in {_ms(c.best.seconds)}" for c in others}
     # In a report that is not complete yet, some are still to come.
     rows = [[peer, *(best.get((peer, name), "") for name in names)] for peer in peers]
-    table = format_tables(["", *names], rows)
-    return (
-        "## Other motions\n\n![speed against error, by motion](motions.png)\n\n"
-        f"Largest error in {SPAN:g} s at the best setting, and its time in ms.\n\n{table}"
-    )
+    return write_chapter("other motions", t=SPAN, table=format_tables(["", *names], rows))
 
 
 def _format_friction(results: Results) -> str:
@@ -195,7 +169,7 @@ def _format_friction(results: Results) -> str:
     ours = results.find_curve(TAYLOR, FRICTION).best
     errors = format_table(BEST, [_format_best(curve, ours.seconds) for curve in curves])
     costs = format_table(["", *COSTS], [[c.peer, *_format_levels(c)] for c in curves])
-    return f"## Cusps with friction, {SPAN:g} s\n\n{errors}\n\n{CHEAPEST}:\n\n{costs}"
+    return write_chapter("friction", t=SPAN, errors=errors, costs=costs)
 
 
 def _format_driven(cases: list[DrivenCase]) -> str:
@@ -213,13 +187,10 @@ def _format_driven(cases: list[DrivenCase]) -> str:
         seconds.append([family, *(_ms(median([c.seconds[peer] for c in own])) for peer in peers)])
     head = ["family", "motions"]
     head += [f"{name}, {label}" for name in ("median", "largest") for label in labels]
-    return (
-        "## Friction and applied torques, by family\n\n"
-        "Random tops and starts, 20 swings long in most families; 1000 swings or 50 s of the "
-        "article's top in the family of tiny friction. Errors: the larger one of those at half the "
-        f"time and at the end, each at its default.\n\n{format_tables(head, errors, 2)}\n\n"
-        "Median times in ms, set-up not included for peers:\n\n"
-        f"{format_tables(['family', *labels], seconds)}"
+    return write_chapter(
+        "driven",
+        errors=format_tables(head, errors, 2),
+        seconds=format_tables(["family", *labels], seconds),
     )
 
 
@@ -235,11 +206,8 @@ def _format_long_times(results: Results, motion: ReferenceMotion) -> str:
         ]
         rows.append([each.peer, *cells, *["-"] * (len(times) - len(cells))])
     rows.append(["rounding of the input", *(f"{motion.limit(t):.0e}" for t in times)])
-    return (
-        "## Long times\n\n![growth of the errors](long_times.png)\n\n"
-        "Each at its best setting for ten seconds, within a limit of computing time: the error at "
-        f"the end.\n\n{format_tables(['', *(f'{t:g} s' for t in times)], rows)}"
-    )
+    head = ["", *(f"{t:g} s" for t in times)]
+    return write_chapter("long times", table=format_tables(head, rows))
 
 
 def _format_arrays(results: Results) -> str:
@@ -254,19 +222,14 @@ def _format_arrays(results: Results) -> str:
         ]
         for each in results.states
     ]
-    return (
-        f"## Many states\n\n![cost of a state](arrays.png)\n\nMicroseconds per state, by the "
-        f"number of states, spread evenly over {SPAN:g} s; set-up or integration included.\n\n"
-        f"{format_tables(['', 'largest error', *(f'{n:g}' for n in numbers)], rows)}"
-        f"{format_footprint(results.footprint)}"
-    )
+    table = format_tables(["", "largest error", *(f"{n:g}" for n in numbers)], rows)
+    footprint = format_footprint(results.footprint) if results.footprint else ""
+    return write_chapter("arrays", t=SPAN, table=table, footprint=footprint)
 
 
 def _format_ahead(results: Results) -> str:
     """Return every case of this report in which a peer is faster, or more exact."""
-    head = "Every case of this report: each table above is compared row by row."
-    text = format_list(list_ahead(results)) or "- None."
-    return f"## Where a peer is ahead\n\n{head}\n\n{text}"
+    return write_chapter("ahead", cases=format_list(list_ahead(results)) or "- None.")
 
 
 def _format_hard_cases(cases: list[HardCase]) -> str:
@@ -280,12 +243,7 @@ def _format_hard_cases(cases: list[HardCase]) -> str:
         rows.append([family, f"{highest:g} ... {lowest:g}", *_format_errors(own, peers)])
     head = ["family", "from ... to", "rounding of the input, eps", "closed form, eps"]
     head += [f"{peer}, eps" for peer in peers]
-    return (
-        "## Hard cases\n\n![hard cases, step by step](hard_cases.png)\n\n"
-        "Each family approaches its singular case by a factor of 100 per step, and ends with the "
-        f"case itself. The largest errors in eps = {EPS:.1e} rad; a dash if a peer would take too "
-        f"long.\n\n{format_tables(head, rows)}"
-    )
+    return write_chapter("hard cases", eps=EPS, table=format_tables(head, rows))
 
 
 def _format_errors(cases: list[HardCase], peers: list[str]) -> list[str]:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from workshop.speed.publish import write_chapter
+
 RUNS = 3
 IMPORTS = """
 import time
@@ -59,13 +61,13 @@ def _run(program: str) -> list[float]:
     return [float(each) for each in output.split()]
 
 
-def format_footprint(footprint: Footprint | None) -> str:
-    """Return a paragraph that ends the chapter on arrays, or nothing."""
-    if not footprint:
-        return ""
-    return (
-        f"\n\n`import symtop_ros.physics` takes {footprint.import_seconds * 1e3:.0f} ms in a fresh "
-        f"process, of which NumPy takes {footprint.libraries_seconds * 1e3:.0f} "
-        f"ms. {footprint.states:g} states need {footprint.peak_bytes / 2**20:.0f} MiB at most, "
-        f"{footprint.peak_bytes / footprint.states:.0f} bytes a state, of which 56 are the state."
+def format_footprint(footprint: Footprint) -> str:
+    """Return the paragraph that ends the chapter on arrays."""
+    return write_chapter(
+        "footprint",
+        whole=footprint.import_seconds * 1e3,
+        libraries=footprint.libraries_seconds * 1e3,
+        states=footprint.states,
+        peak=footprint.peak_bytes / 2**20,
+        each=footprint.peak_bytes / footprint.states,
     )

@@ -15,7 +15,7 @@ from symtop_ros.physics import State, Top
 from symtop_ros.testset.score import measure_angles
 from workshop.speed.peers import CLOSED_FORM
 from workshop.speed.peers.peer import Task
-from workshop.speed.publish import format_table
+from workshop.speed.publish import format_table, write_chapter
 from workshop.speed.reference import integrate, split_orientations
 
 SEED = 1
@@ -106,13 +106,6 @@ def format_many(costs: list[ManyCost], t: float) -> str:
     """Return the chapter of the report, on states at a time in s."""
     if not costs:
         return ""
-    first = costs[0]
     rows = [[each.peer, f"{each.error:.0e}", f"{each.seconds * 1e6:.3g}"] for each in costs]
-    return (
-        f"## Many different motions\n\nThe article's top with other weights, spins and tilts: the "
-        f"same {first.motions:g} motions for each program, one state each after {t:g} s. The "
-        f"errors are those of the first {first.compared} motions, the times medians of "
-        f"{first.runs} runs. heyoka is compiled once, with parameters for what differs, and "
-        "integrates several motions at a time in batches.\n\n"
-        f"{format_table(['', 'largest error', 'us a motion'], rows)}"
-    )
+    table = format_table(["", "largest error", "us a motion"], rows)
+    return write_chapter("many", first=costs[0], t=t, table=table)

@@ -12,9 +12,13 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, TypeVar
 
+import yaml
 from tqdm import tqdm
 
 Work = TypeVar("Work")
+CHAPTERS: dict[str, list[str | list[str]]] = yaml.safe_load(
+    Path(__file__).with_name("chapters.yaml").read_text(encoding="utf-8")
+)
 END = "<!-- end of figures -->"
 COLUMNS = 7  # of one table at most
 
@@ -45,6 +49,16 @@ def format_tables(head: Sequence[str], rows: Sequence[Sequence[str]], kept: int 
 def format_list(lines: Iterable[str]) -> str:
     """Return a list with a line for each entry."""
     return "\n".join(f"- {line}" for line in lines)
+
+
+def write_chapter(name: str, **values: Any) -> str:
+    """Return a chapter with its values, without paragraphs and lines that are empty."""
+    parts = []
+    for part in CHAPTERS[name]:
+        lines = [part] if isinstance(part, str) else [f"- {line}" for line in part]
+        filled = (line.format(**values) for line in lines)
+        parts.append("\n".join(line for line in filled if line.strip("- ")))
+    return "\n\n".join(filter(None, parts))
 
 
 def find_section(text: str, name: str) -> str | None:
