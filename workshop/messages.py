@@ -137,16 +137,10 @@ def compile_library(folder: Path, target: Path, sources: list[Path], needed: lis
     installed = [
         path.name[3:-3] for each in USED for path in (PREFIX / "lib").glob(f"lib{each}__*")
     ]
+    shared = ["g++", "-shared", "-o", str(target), f"-Wl,-soname,{target.name}"]
     subprocess.run(
         [
-            *(
-                "g++",
-                "-shared",
-                "-o",
-                str(target),
-                f"-Wl,-soname,{target.name}",
-                *map(str, objects),
-            ),
+            *(*shared, *map(str, objects)),
             *(f"-L{each}" for each in places),
             *(f"-Wl,-rpath,{each}" for each in places),
             *(f"-l{each}" for each in (*needed, *installed, "rosidl_runtime_c", "rcutils")),

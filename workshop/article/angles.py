@@ -15,11 +15,7 @@ PHI, THETA, PSI = 1.0, 0.6, 0.9  # rad; such that nothing hides another
 ELEVATION, AZIMUTH = np.radians(22.0), np.radians(20.0)  # of the line of sight
 RIGHT = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0.0])
 TOWARDS = np.array(
-    [
-        np.cos(ELEVATION) * np.cos(AZIMUTH),
-        np.cos(ELEVATION) * np.sin(AZIMUTH),
-        np.sin(ELEVATION),
-    ]
+    [np.cos(ELEVATION) * np.cos(AZIMUTH), np.cos(ELEVATION) * np.sin(AZIMUTH), np.sin(ELEVATION)]
 )
 PROJECTION = np.stack([RIGHT, np.cross(TOWARDS, RIGHT)], axis=1)  # to the plane of the picture
 RADII = {"phi": 0.62, "theta": 0.85, "psi": 0.5}  # of the arcs

@@ -2,6 +2,7 @@
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, Top, hurry, regular_precession_rates
@@ -30,17 +31,6 @@ def claims_on_frames(top: Top) -> list[Claim]:
     ]
 
 
-def _turn(angles: Real, axis: int) -> Real:
-    """Return the matrices (n, 3, 3) of turns about the x-axis (0) or the z-axis (2)."""
-    c, s = np.cos(angles), np.sin(angles)
-    turned = np.zeros((len(angles), 3, 3))
-    first, second = (1, 2) if axis == 0 else (0, 1)
-    turned[:, axis, axis] = 1.0
-    turned[:, first, first] = turned[:, second, second] = c
-    turned[:, second, first], turned[:, first, second] = s, -s
-    return turned
-
-
 @claim
 def matrix_turns_body_to_world() -> Measured:
     """Check the matrix of the attitude against equation 6, and against three turns."""
@@ -60,7 +50,7 @@ def matrix_turns_body_to_world() -> Measured:
         [s * g, s * f, c],
     ]
     printed = np.moveaxis(np.array(rows), -1, 0)
-    turned = _turn(phi, 2) @ _turn(theta, 0) @ _turn(psi, 2)
+    turned = Rotation.from_euler("ZXZ", np.transpose([phi, theta, psi])).as_matrix()
     off = max(float(np.abs(states.matrix - each).max()) for each in (printed, turned))
     return Measured(off < ROUNDED, off=off)
 

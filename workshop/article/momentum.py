@@ -8,14 +8,7 @@ import numpy as np
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
 from workshop.article.claims import Claim, Measured, claim
-from workshop.article.motions import (
-    Slope,
-    accelerations,
-    cusps,
-    regular,
-    seven_motions,
-    slope,
-)
+from workshop.article.motions import Slope, accelerations, cusps, regular, seven_motions, slope
 
 SPAN = 10.0  # s
 TIMES = np.linspace(0.0, SPAN, 10_001)

@@ -23,6 +23,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
+from symtop_ros.playback.view.entities import draw_parallel
 from symtop_ros.playback.view.torques import torques_of
 from symtop_ros.simulation.changes.requests import initial_state
 from symtop_ros.simulation.settings import Settings
@@ -88,13 +89,16 @@ def draw_step(step: LessonStep) -> Figure:
     return figure
 
 
+def _list_first(runs: Runs) -> list[Motion]:
+    """Return the motions with which the runs begin."""
+    return [run.pieces[0][1] for run in runs.values()]
+
+
 def _draw_turned(axes: Axes, runs: Runs) -> None:
     """Draw how far the axis turns in a short time, with L and the torque that turns it."""
-    (run,) = runs.values()
-    motion = run.pieces[0][1]
+    (motion,) = _list_first(runs)
     ends = motion.at(np.linspace(0.0, SHORT, 401)).to_world([0.0, 0.0, 1.0])
-    around = np.linspace(0.0, 2 * np.pi, 181)
-    axes.plot(*(np.sin(THETA) * np.array([np.cos(around), np.sin(around)])), color=GREY, lw=0.7)
+    axes.plot(*draw_parallel(THETA, 181)[:, :2].T, color=GREY, lw=0.7)
     axes.plot(ends[:, 0], ends[:, 1], color=BLUE, lw=2.4)
     axes.plot(*ends[0, :2], "o", color=BLUE)
     L = motion.top.angular_momentum(motion.start)
@@ -113,8 +117,7 @@ def _draw_turned(axes: Axes, runs: Runs) -> None:
 
 def _draw_chains(axes: Axes, runs: Runs) -> None:
     """Draw the torques of an observer who precesses, head to tail, and their sum below."""
-    for row, run in enumerate(runs.values()):
-        motion = run.pieces[0][1]
+    for row, motion in enumerate(_list_first(runs)):
         torques = torques_of(motion.top, motion.start)
         largest = max(abs(float(torque)) for torque in torques)
         ends = np.cumsum([0.0, *torques]) / largest
@@ -134,8 +137,7 @@ def _draw_chains(axes: Axes, runs: Runs) -> None:
 def draw_fictitious(axes: Axes, runs: Runs) -> None:
     """Draw the torques over phi', with the rates of the runs."""
     plot_torques(axes)
-    for run in runs.values():
-        motion = run.pieces[0][1]
+    for motion in _list_first(runs):
         total = float(torques_of(motion.top, motion.start).total)
         axes.plot(float(motion.start.euler_rates.phi), total, "o", color=INK, ms=5, zorder=3)
     axes.set_ylabel("torque (N m)")
@@ -143,12 +145,10 @@ def draw_fictitious(axes: Axes, runs: Runs) -> None:
 
 
 def _draw_from_above(axes: Axes, runs: Runs) -> None:
-    around = np.linspace(0.0, 2 * np.pi, 181)
     for (color, dash), run in zip(LOOKS, runs.values(), strict=False):
         begin, motion = run.pieces[-1]
         for angle in motion.turning_angles:
-            rim = np.sin(angle)
-            axes.plot(rim * np.cos(around), rim * np.sin(around), color=GREY, lw=0.7, ls=":")
+            axes.plot(*draw_parallel(angle, 181)[:, :2].T, color=GREY, lw=0.7, ls=":")
         times = np.linspace(begin, begin + min(TRACE, TURNS * precession_period(motion)), 3001)
         ends = run.at(times).to_world([0.0, 0.0, 1.0])
         axes.plot(ends[:, 0], ends[:, 1], color=color, ls=dash, lw=1.4)
@@ -168,7 +168,7 @@ def draw_tilt(axes: Axes, runs: Runs) -> None:
     room = max(high - low, 0.003)  # regular precession is a line, not rounding
     axes.set(xlabel="$t$ (s)", ylabel=r"$\theta$ (rad)")
     axes.set_ylim(low - 0.05 * room, low + 1.45 * room)
-    hangs = any(run.pieces[0][1].top.Mgl < 0 for run in runs.values())
+    hangs = any(motion.top.Mgl < 0 for motion in _list_first(runs))
     words = "higher axis, lower body" if hangs else "higher"
     axes.set_title(rf"smaller $\theta$: {words}", loc="right")
     axes.legend(loc="upper left", fontsize=8)
@@ -210,8 +210,8 @@ def draw_momentum(axes: Axes, runs: Runs) -> None:
 
 def draw_potential(axes: Axes, runs: Runs) -> None:
     """Draw the effective potentials, from which the turning angles can be read."""
-    for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
-        motion = run.pieces[0][1]
+    looks = zip(LOOKS, runs, _list_first(runs), strict=False)
+    for (color, dash), label, motion in looks:
         potential = EffectivePotential.of(motion.top, motion.start)
         theta = np.linspace(0.35, 1.25, 600)
         depth = 1e3 * (potential.at(theta) - potential.energy)
@@ -229,8 +229,8 @@ def draw_parabola(axes: Axes, runs: Runs) -> None:
     axes.plot(rates, theta_acceleration(TOP, THETA, rates, PSI_DOT), color=INK)
     roots = regular_precession_rates(TOP, THETA, PSI_DOT)
     axes.plot(roots, [0, 0], "o", color="white", mec=INK, ms=7)
-    for (color, _), run in zip(LOOKS, runs.values(), strict=False):
-        axes.plot(run.pieces[0][1].start.euler_rates.phi, 0, "o", color=color, ms=7, zorder=3)
+    for (color, _), motion in zip(LOOKS, _list_first(runs), strict=False):
+        axes.plot(motion.start.euler_rates.phi, 0, "o", color=color, ms=7, zorder=3)
     for x, y, word, side in (
         (38, -260, "the top rises", "center"),
         (80, 330, "falls", "right"),
@@ -242,8 +242,7 @@ def draw_parabola(axes: Axes, runs: Runs) -> None:
 
 def draw_turning(axes: Axes, runs: Runs) -> None:
     """Draw L and the axis in their vertical plane, which the torque turns; theta'' in an inset."""
-    (run,) = runs.values()
-    motion = run.pieces[0][1]
+    (motion,) = _list_first(runs)
     L = 1e3 * motion.top.angular_momentum(motion.start)
     flat, rate = float(np.hypot(L[0], L[1])), float(motion.start.euler_rates.phi)
     torque = 1e3 * float(np.linalg.norm(motion.top.gravity_torque(motion.start)))
@@ -280,8 +279,7 @@ def draw_ledger(axes: Axes, runs: Runs) -> None:
 
 def draw_impulses(axes: Axes, runs: Runs) -> None:
     """Draw the torques of one fall, and their impulses."""
-    (run,) = runs.values()
-    plot_impulses(axes, run.pieces[0][1])
+    plot_impulses(axes, *_list_first(runs))
     axes.set_xlabel("$t$ (ms)")
     title = r"torque, and its impulse in $10^{-3}$ N m s"
     axes.legend(loc="lower left", bbox_to_anchor=(-0.2, 1.0), ncols=2, fontsize=8, title=title)

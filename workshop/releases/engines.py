@@ -9,15 +9,7 @@ from symtop_ros.models.descriptions import PLAIN, TURN, describe
 from symtop_ros.models.snippets import STEPS, format_world_snippets
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State
 from symtop_ros.testset.score import DESCRIPTIONS, read_problems
-from workshop.releases.programs import (
-    CANNON,
-    DRAKE,
-    MUJOCO,
-    PINOCCHIO,
-    PYBULLET,
-    PYTHON,
-    SNIPPETS,
-)
+from workshop.releases.programs import CANNON, DRAKE, MUJOCO, PINOCCHIO, PYBULLET, PYTHON, SNIPPETS
 
 # Older releases of Jolt have no body for the world: a static one of their own takes its place.
 WORLD = "Jolt.JoltInterface.prototype.sGetFixedToWorldBody()"
@@ -52,7 +44,7 @@ MUJOCO_LOG = {
 }
 RAPIER_LOG = {
     "0.20.0": "Update to Rapier 0.35.0 (whose log says: Gyroscopic forces are applied per-substep "
-    "in the principal inertia frame)",
+    "in the principal inertia frame)"
 }
 ENGINES = (
     Engine(

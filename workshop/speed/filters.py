@@ -12,11 +12,10 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real, invert
-from symtop_ros.imu import CONSUMER, record_imu
+from symtop_ros.imu import CONSUMER, ImuRecord, record_imu
 from symtop_ros.judge.compare import NONE, Errors, compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
@@ -51,26 +50,13 @@ class Trial:
     attitude: float
 
 
-@dataclass(frozen=True, eq=False)
-class SensorRecord:
-    """Measurements of a sensor on a top, and the exact motion of the sensor."""
-
-    stamps: NDArray[np.int64]  # in ns
-    orientations: Real  # exact attitudes (n, 4): w, x, y, z, sensor to world
-    rates: Real  # measured angular velocities in rad/s, in the frame of the sensor, (n, 3)
-    forces: Real  # measured specific forces in m/s^2, in the frame of the sensor, (n, 3)
-    truth: Truth
-
-
-def record(scene: str, place: tuple[float, float, float], seed: int = 1) -> SensorRecord:
+def record(scene: str, place: tuple[float, float, float]) -> ImuRecord:
     """Return what a sensor measures at a place (m, body frame) on the top of a scene."""
-    imu = replace(CONSUMER, position=place, seed=seed, rate=float(RATE))
-    found = record_imu(start_motion(Settings.from_scene(scene)), imu, SPAN)
-    rates, forces = found.measured[:, :3], found.measured[:, 3:]
-    return SensorRecord(found.stamps, found.orientations, rates, forces, Truth([found.event]))
+    imu = replace(CONSUMER, position=place, seed=1, rate=float(RATE))
+    return record_imu(start_motion(Settings.from_scene(scene)), imu, SPAN)
 
 
-def run_filter(name: str, recording: SensorRecord) -> Errors:
+def run_filter(name: str, recording: ImuRecord) -> Errors:
     """Return the errors of a filter.
 
     The authors of filters do not agree whether a quaternion turns the sensor or the world. Both
@@ -80,12 +66,13 @@ def run_filter(name: str, recording: SensorRecord) -> Errors:
     return min(found, key=lambda errors: float(np.median(errors.total)))
 
 
-def _run(name: str, recording: SensorRecord, turn: Callable[[Real], Real]) -> Errors:
+def _run(name: str, recording: ImuRecord, turn: Callable[[Real], Real]) -> Errors:
     import ahrs
 
-    options: dict[str, Any] = {"gyr": recording.rates, "frequency": float(RATE)}
+    rates, forces = recording.measured[:, :3], recording.measured[:, 3:]
+    options: dict[str, Any] = {"gyr": rates, "frequency": float(RATE)}
     if name != "AngularRate":
-        options["acc"] = recording.forces
+        options["acc"] = forces
     if name == "Complementary":
         turn_at_start = Rotation.from_quat(recording.orientations[0][[1, 2, 3, 0]])
         options["w0"] = turn_at_start.as_euler("ZYX")[::-1]  # roll, pitch and yaw
@@ -95,7 +82,7 @@ def _run(name: str, recording: SensorRecord, turn: Callable[[Real], Real]) -> Er
         q = np.asarray(getattr(ahrs.filters, name)(**options).Q, dtype=float)
     q = np.nan_to_num(turn(q))
     q[np.linalg.norm(q, axis=1) < 0.5] = (1.0, 0.0, 0.0, 0.0)  # a filter that has broken down
-    return compare(Estimates.of(recording.stamps, q), recording.truth, NONE)
+    return compare(Estimates.of(recording.stamps, q), Truth([recording.event]), NONE)
 
 
 def judge_filters(folder: Path, docs: Path | None = None) -> int:

@@ -8,12 +8,7 @@ from pathlib import Path
 
 from workshop.pictures.pack import pack
 from workshop.speed.benchmarks import Results, Scope, list_steps
-from workshop.speed.document import (
-    Environment,
-    format_chapters,
-    format_document,
-    format_summary,
-)
+from workshop.speed.document import Environment, format_chapters, format_document, format_summary
 from workshop.speed.peers import find_peers
 from workshop.speed.plots import NAMES, write_plots
 from workshop.speed.publish import publish, track, write_results

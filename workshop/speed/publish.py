@@ -39,8 +39,7 @@ def format_tables(head: Sequence[str], rows: Sequence[Sequence[str]], kept: int 
     bounds = [kept + others * part // count for part in range(count + 1)]
     return "\n\n".join(
         format_table(
-            [*head[:kept], *head[first:last]],
-            [[*row[:kept], *row[first:last]] for row in rows],
+            [*head[:kept], *head[first:last]], [[*row[:kept], *row[first:last]] for row in rows]
         )
         for first, last in pairwise(bounds)
     )

@@ -61,11 +61,7 @@ def find_forces(setting: Setting, q: Attitude, omega: Vector) -> Forces:
             mpf(0),
         )
         # alpha x p + omega x (omega x p), for p on the axis
-        local = (
-            arm * (alpha[1] + wx * wz),
-            arm * (wy * wz - alpha[0]),
-            -arm * (wx**2 + wy**2),
-        )
+        local = (arm * (alpha[1] + wx * wz), arm * (wy * wz - alpha[0]), -arm * (wx**2 + wy**2))
         acceleration = tuple(mp.fdot(row, local) for row in R)
         x, y, z = acceleration
         energy = (Ix * (wx**2 + wy**2) + Iz * wz**2) / 2 + Mgl * gz

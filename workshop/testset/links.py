@@ -15,6 +15,7 @@ from scipy.integrate import solve_ivp
 from symtop_ros.arrays import Real
 from symtop_ros.models.urdf import MUJOCO_BOUND
 from symtop_ros.physics import Motion, State, Top
+from workshop.speed.peers.peer import from_euler_angles
 from workshop.testset.problems import Setting
 
 SPAN = 20.0  # s; beyond it the effect grows with the time
@@ -66,6 +67,4 @@ def follow(top: Top, start: State, J: float, times: Real) -> Real:
 
     begin = (*angles, rates.theta)
     found = solve_ivp(slope, (0.0, times[-1]), begin, "DOP853", times, rtol=1e-13, atol=1e-13)
-    phi, theta, psi, _ = found.y
-    c, s, plus, minus = np.cos(theta / 2), np.sin(theta / 2), (phi + psi) / 2, (phi - psi) / 2
-    return np.stack((c * np.cos(plus), s * np.cos(minus), s * np.sin(minus), c * np.sin(plus)), 1)
+    return from_euler_angles(found.y[:3].T)

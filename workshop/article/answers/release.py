@@ -85,10 +85,6 @@ def integrate_torque(motion: Motion, times: Real) -> State:
     """Return the states (n,) of dL/dt = torque and dq/dt = q omega/2, by SciPy's DOP853."""
     top, moments = motion.top, np.array([motion.top.Ix, motion.top.Ix, motion.top.Iz])
 
-    def to_state(y: Real) -> State:
-        turned = State(y[:4], np.zeros(3))
-        return State(y[:4], turned.to_body(y[4:]) / moments)
-
     def rates(_: float, y: Real) -> Real:
         turned = State(y[:4], np.zeros(3))
         q, omega = y[:4], turned.to_body(y[4:]) / moments
@@ -98,11 +94,8 @@ def integrate_torque(motion: Motion, times: Real) -> State:
     first = [*motion.start.orientation, *top.angular_momentum(motion.start)]
     span = (float(times[0]), float(times[-1]))
     found = solve_ivp(rates, span, first, "DOP853", times, rtol=1e-13, atol=1e-15)
-    states = [to_state(y) for y in found.y.T]
-    return State(
-        np.array([each.orientation for each in states]),
-        np.array([each.angular_velocity for each in states]),
-    )
+    turned = State(found.y[:4].T, np.zeros((len(times), 3)))
+    return State(turned.orientation, turned.to_body(found.y[4:].T) / moments)
 
 
 @claim
