@@ -38,11 +38,8 @@ def draw_euler_angles() -> Figure:
     _plot(axes, np.stack([-0.9 * line, 1.05 * line]), color=RED, ls="--", lw=1.2)
     _write(axes, 1.12 * line, "$N$", RED)
     _draw_arcs(axes, nodes)
-    for direction, name in (
-        (np.eye(3)[2], "phi"),
-        (line, "theta"),
-        (nodes.to_world([0.0, 0.0, 1.0]), "psi"),
-    ):
+    axles = {"phi": np.eye(3)[2], "theta": line, "psi": nodes.to_world([0.0, 0.0, 1.0])}
+    for name, direction in axles.items():
         start = direction * (1.15 if name != "theta" else 0.62)
         _arrow(axes, start, start + RATE * direction, GOLD)
         _write(axes, start + 0.6 * RATE * direction + [0, 0.12, 0.02], rf"$\dot\{name}$", INK)
@@ -85,15 +82,12 @@ def _draw_arcs(axes: Axes, nodes: State) -> None:
     x, y, z = np.eye(3)
     line, across, axis = nodes.to_world(np.eye(3))
     up = (axis - np.cos(THETA) * z) / np.sin(THETA)
-    for name, angle, first, second, color in (
-        ("phi", PHI, x, y, BLUE),
-        ("theta", THETA, z, up, BLUE),
-        ("psi", PSI, line, across, BLUE),
-    ):
+    angles = (("phi", PHI, x, y), ("theta", THETA, z, up), ("psi", PSI, line, across))
+    for name, angle, first, second in angles:
         arc = _circle(RADII[name], first, second, angle)
-        _plot(axes, arc, color=color, lw=1.6)
-        _arrow(axes, arc[-2], arc[-1], color)
-        _write(axes, BEYOND * arc[len(arc) // 2] * 1.05, rf"$\{name}$", color)
+        _plot(axes, arc, color=BLUE, lw=1.6)
+        _arrow(axes, arc[-2], arc[-1], BLUE)
+        _write(axes, BEYOND * arc[len(arc) // 2] * 1.05, rf"$\{name}$", BLUE)
 
 
 def _circle(radius: float, first: Real, second: Real, angle: float = 2 * np.pi) -> Real:

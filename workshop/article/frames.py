@@ -35,22 +35,15 @@ def claims_on_frames(top: Top) -> list[Claim]:
 def matrix_turns_body_to_world() -> Measured:
     """Check the matrix of the attitude against equation 6, and against three turns."""
     states = draw_states()
-    phi, theta, psi = map(np.asarray, states.euler_angles)
-    a, b, c, s, f, g = (
-        np.cos(phi),
-        np.sin(phi),
-        np.cos(theta),
-        np.sin(theta),
-        np.cos(psi),
-        np.sin(psi),
-    )
+    angles = np.array(states.euler_angles)
+    (a, c, f), (b, s, g) = np.cos(angles), np.sin(angles)
     rows = [
         [a * f - c * b * g, -a * g - c * b * f, s * b],
         [b * f + c * a * g, -b * g + c * a * f, -s * a],
         [s * g, s * f, c],
     ]
     printed = np.moveaxis(np.array(rows), -1, 0)
-    turned = Rotation.from_euler("ZXZ", np.transpose([phi, theta, psi])).as_matrix()
+    turned = Rotation.from_euler("ZXZ", angles.T).as_matrix()
     off = max(float(np.abs(states.matrix - each).max()) for each in (printed, turned))
     return Measured(off < ROUNDED, off=off)
 

@@ -100,21 +100,11 @@ def parabola_opens_downward(name: str, top: Top, theta: float) -> Measured:
     """Check the sign rule of the roots, and rising and falling, for (Ix - Iz) cos(theta) < 0."""
     a, b = (top.Ix - top.Iz) * float(np.cos(theta)), top.Iz * PSI_DOT
     low, high = sorted(regular_precession_rates(top, theta, PSI_DOT))
-    rates = np.array([low - 5.0, (low + high) / 2, high + 5.0])
-    starts = [
-        State.from_euler(theta=theta, phi_dot=rate, psi_dot=PSI_DOT) for rate in rates.tolist()
-    ]
-    found = np.array([measure_acceleration(Motion(top, each), STEP_SHARE) for each in starts])
+    rates = [low - 5.0, (low + high) / 2, high + 5.0]
+    starts = [State.from_euler(theta=theta, phi_dot=rate, psi_dot=PSI_DOT) for rate in rates]
+    found = [measure_acceleration(Motion(top, each), STEP_SHARE) for each in starts]
     off = max(abs((low + high) * a / b - 1), abs(low * high * a / top.Mgl - 1))
-    good = np.array_equal(np.sign(found), [-1, 1, -1]) and np.allclose(
-        found, theta_acceleration(top, theta, rates, PSI_DOT), rtol=1e-9
-    )
+    expected = theta_acceleration(top, theta, np.array(rates), PSI_DOT)
+    good = np.array_equal(np.sign(found), [-1, 1, -1]) and np.allclose(found, expected, rtol=1e-9)
     holds = good and low < 0 < high and a < 0 and off < VIETA
-    return Measured(
-        holds,
-        name=name,
-        low=low,
-        high=high,
-        listed=", ".join(f"{value:.3g}" for value in found),
-        off=off,
-    )
+    return Measured(holds, name=name, low=low, high=high, found=found, off=off)

@@ -195,12 +195,9 @@ def momentum_is_smallest_when_highest(top: Top) -> Measured:
         motion = cusps(each)
         states = motion.at(np.linspace(0.0, motion.nutation_period / 2, 1001))
         square = (each.angular_momentum(states) ** 2).sum(axis=1)
-        spin, potential = (
-            each.axial_momentum(motion.start),
-            EffectivePotential.of(each, motion.start),
-        )
-        height = states.vertical[:, 2]
-        expected = spin**2 + 2 * each.Ix * (potential.energy - each.Mgl * height)
+        spin, height = each.axial_momentum(motion.start), states.vertical[:, 2]
+        energy = EffectivePotential.of(each, motion.start).energy
+        expected = spin**2 + 2 * each.Ix * (energy - each.Mgl * height)
         offs.append(float(np.abs(square / expected - 1).max()))
         extreme = square.argmin() if each.Mgl > 0 else square.argmax()
         extremes.append(height.argmax() == extreme)

@@ -155,13 +155,7 @@ def acceleration_is_a_parabola(top: Top) -> Measured:
     zeros, roots = np.sort(parabola.roots().real), _roots(top)
     missed = np.abs(zeros - roots).max() if len(roots) == len(zeros) else np.inf
     holds = off < FITTED and missed < FITTED * PARABOLA[-1]
-    return Measured(
-        holds,
-        count=len(PARABOLA),
-        off=off,
-        listed=" and ".join(f"{zero:.6f}" for zero in zeros),
-        missed=missed,
-    )
+    return Measured(holds, count=len(PARABOLA), off=off, zeros=zeros, missed=missed)
 
 
 @claim

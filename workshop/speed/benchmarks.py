@@ -238,12 +238,10 @@ def _time_many(name: str, program: Program, scope: Scope, results: Results) -> N
 def _try(motion: ReferenceMotion, peers: Sequence[Peer], results: Results) -> None:
     (t,) = motion.times
     error, limit = motion.error(t, prepare(motion.task, 0.0).reach(t)), motion.limit(t)
-    in_reach = np.linalg.norm(motion.task.start.angular_velocity) * t < LARGEST_PHASE
-    errors = {
-        peer.name: motion.error(t, _prepare_default(peer, motion.task).reach(t))
-        for peer in peers
-        if in_reach
-    }
+    if np.linalg.norm(motion.task.start.angular_velocity) * t >= LARGEST_PHASE:
+        peers = ()
+    solutions = {peer.name: _prepare_default(peer, motion.task) for peer in peers}
+    errors = {name: motion.error(t, each.reach(t)) for name, each in solutions.items()}
     results.hard.append(HardCase(motion.name, motion.small or 0.0, limit, error, errors))
 
 

@@ -124,16 +124,11 @@ def format_entries(facts: dict[str, Any]) -> str:
     """Return the table of a measurement: a row for each program, a column for each time."""
     entries = facts["entries"]
     times = list(dict.fromkeys(each["t"] for each in entries))
-    rows = [
-        [name]
-        + [
-            f"{each['error']:.0e}, {_round(1e3 * each['seconds']):g} ms"
-            for each in entries
-            if each["program"] == name
-        ]
-        for name in dict.fromkeys(each["program"] for each in entries)
-    ]
-    return format_table(["error, time", *(f"{t:g} s" for t in times)], rows)
+    rows: dict[str, list[str]] = {}
+    for each in entries:
+        cell = f"{each['error']:.0e}, {_round(1e3 * each['seconds']):g} ms"
+        rows.setdefault(each["program"], [each["program"]]).append(cell)
+    return format_table(["error, time", *(f"{t:g} s" for t in times)], rows.values())
 
 
 def _round(value: float) -> float:

@@ -108,12 +108,10 @@ def plot_torques(axes: Axes) -> None:
     torques = precessing_frame_torques(TOP, THETA, SHOWN, PSI_DOT)
     axes.axhline(0.0, color=INK, lw=0.9)
     axes.plot(SHOWN, torques.gravity, color=GREY, ls=":", label="gravity: lowers")
-    coriolis, centrifugal = (
-        r"Coriolis: raises, as $\dot\phi$",
-        r"centrifugal: lowers, as $\dot\phi^2$",
-    )
-    axes.plot(SHOWN, torques.coriolis, color=BLUE, ls="--", label=coriolis)
-    axes.plot(SHOWN, torques.centrifugal, color=RED, ls="-.", label=centrifugal)
+    label = r"Coriolis: raises, as $\dot\phi$"
+    axes.plot(SHOWN, torques.coriolis, color=BLUE, ls="--", label=label)
+    label = r"centrifugal: lowers, as $\dot\phi^2$"
+    axes.plot(SHOWN, torques.centrifugal, color=RED, ls="-.", label=label)
     axes.plot(SHOWN, torques.total, color=INK, label=r"sum, $I_x \ddot\theta$")
     axes.set(xlabel=r"$\dot\phi$ (rad/s)", ylabel="torque about the line of nodes (N m)", xmargin=0)
 
