@@ -36,7 +36,7 @@ class Claim:
 
 
 class Measured:
-    """What a check has found: whether its claim holds, and the values that its texts name."""
+    """The result of a check: whether the claim holds, and the values that its texts name."""
 
     def __init__(self, holds: Any, **values: Any) -> None:
         self.holds, self.values = bool(holds), values
