@@ -87,11 +87,10 @@ class KleinStart(NamedTuple):
     def slopes(self) -> tuple[Number, Number, Number]:
         """Derivatives of A, B, conj(omega) without the constant rotations [6]."""
         A, B, omega, a, _, beta = self
-        return (
-            0.5j * a * A - conj(omega) * B / 2,
-            omega * A / 2 - 0.5j * a * B,
-            conj(0.5j * a * omega + beta * conj(A) * B),
-        )
+        A_dot = 0.5j * a * A - conj(omega) * B / 2
+        B_dot = omega * A / 2 - 0.5j * a * B
+        omega_dot = 0.5j * a * omega + beta * conj(A) * B
+        return A_dot, B_dot, conj(omega_dot)
 
     def turn_freely(self, t: Number) -> tuple[Number, Number, Number]:
         """Return A, B, omega turned about the axis by c t and about L by |L| t/Ix [8]."""
