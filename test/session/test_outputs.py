@@ -10,13 +10,14 @@ from symtop_ros.log.reader import McapFile
 from symtop_ros.models.urdf import LENGTH
 from symtop_ros.physics import ExactTimes
 from symtop_ros.session.diagnostics import _log_status, _pace_status
-from symtop_ros.session.outputs import ARROWS, PERIOD, Markers, list_fixed_frames
+from symtop_ros.session.outputs import ARROWS, PERIOD, Markers
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.topics import imu_frame
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN
-from symtop_ros.wire.messages import CLOCK, encode_transforms
+from symtop_ros.wire.messages import CLOCK
 
 SECOND = 1_000_000_000
 
@@ -180,9 +181,15 @@ def test_the_urdf_moves_by_tf_while_that_is_published():
 
 def test_without_odometry_the_sensor_alone_has_a_fixed_frame():
     host = Program()
-    session, _ = start(host, imu__enabled=True)
-    frames = list_fixed_frames("top", session.simulation.settings.imu, None)
-    assert host.publishers["tf_static"].sent == [encode_transforms(0, frames)]
+    place, attitude = (0.25, 0.5, -1.0), (0.6, 0.0, 0.8, 0.0)
+    start(host, imu__enabled=True, imu__position=place, imu__orientation=attitude)
+    (sent,) = host.publishers["tf_static"].sent
+    types = get_typestore(Stores.ROS2_JAZZY)
+    (frame,) = types.deserialize_cdr(sent, "tf2_msgs/msg/TFMessage").transforms
+    assert (frame.header.frame_id, frame.child_frame_id) == ("top", imu_frame("top"))
+    translation, rotation = frame.transform.translation, frame.transform.rotation
+    assert (translation.x, translation.y, translation.z) == place
+    assert (rotation.x, rotation.y, rotation.z, rotation.w) == attitude
 
 
 @pytest.mark.parametrize(
