@@ -137,3 +137,13 @@ def test_a_sample_that_agrees_with_two_events_belongs_to_the_exact_one():
     check.add("orientation", Columns(stamps, numbers, np.arange(len(stamps))), np.full(160, 2))
     found = check.deviations["orientation"]
     assert (found.samples, found.differing) == (len(stamps), 0)
+
+
+def test_after_a_gap_a_number_is_that_of_an_event_by_its_own_size():
+    event = start_event(Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0)))
+    stamps = np.arange(10) * 5_000_000
+    numbers = SAMPLE_TOPICS["torque"].compute(Samples.at(event.segment(), stamps)).copy()
+    numbers[3, 3] += 1e-14  # N m of 0.03, of which it is far above the rounding; of 1 it is not
+    check = LogCheck([event], all_readable=False)
+    check.add("torque", Columns(stamps, numbers, np.arange(10)), np.ones(10, np.intp))
+    assert check.deviations["torque"].unjudged == 1

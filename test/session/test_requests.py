@@ -43,6 +43,30 @@ def test_a_rate_that_is_asked_for_takes_the_place_of_a_root_of_the_parameters(re
         assert rate is None or getattr(found, name) == pytest.approx(rate, abs=1e-12)
 
 
+UP, SPIN = [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 200.0]
+
+
+@pytest.mark.parametrize(
+    ("request_", "refusal"),
+    [
+        ({"orientation": UP, "angular_velocity": SPIN, "phi": 1.0}, "orientation must be given wi"),
+        ({"angular_velocity": SPIN, "psi": 1.0}, "angular_velocity must be given without psi, got"),
+        ({"orientation": UP}, "angular_velocity must be given together with orientation, got none"),
+        ({"angular_velocity": SPIN}, "orientation must be given together with angular_velocity, g"),
+        ({"precession": "slow", "phi_dot": 1.0}, "precession must be given without phi_dot, got b"),
+        ({"precession": "slow", "theta_dot": 1.0}, "precession must be given without theta_dot, g"),
+        ({"precession": "fast", "psi_dot": 1.0}, 'precession must be a rate that exists, got "fas'),
+    ],
+)
+def test_a_start_that_contradicts_itself_is_refused_and_the_motion_stays(request_, refusal):
+    run = Run()
+    before = run.simulation.segment
+    granted, answer = run.ask("set_initial_conditions", request_)
+    assert not granted
+    assert answer.startswith(refusal)
+    assert run.simulation.segment is before
+
+
 def test_an_empty_request_starts_from_the_quaternion_of_the_parameters_and_any_other_from_angles():
     run = Run(initial__orientation=[0.6, 0.0, 0.0, 0.8])
     assert run.ask("set_initial_conditions", {})[0]
