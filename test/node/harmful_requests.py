@@ -61,6 +61,7 @@ FILTERS = {
     "a short one": ".?" * 60 + "z",
     "nested stars": "((a*)*)*" * 100 + "z",
     "groups": "(" * 5000 + ")" * 5000,
+    "ranges": "[a-z]{1,1000}" * 70,
     "counted": "((((.{255}){255}){255}){255}){255}",
     "choices": "(top|" * 90 + "t" + ")" * 90,
     "long": "t" * MILLION,
