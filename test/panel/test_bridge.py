@@ -282,8 +282,9 @@ def test_a_held_button_pushes_the_node_until_it_is_released(node):
         until(lambda: bridge._last.request.get("axle_impulse") == "0.0", look)
         motion = running.top.simulation.segment.motion
         assert type(motion) is Motion
-        until(lambda: len(tab.evaluate("window.symtop.run().events")) == 3, look)
-        _, pushes, end = tab.evaluate("window.symtop.run().events")
+        last = motion.start.given_orientation.tolist()
+        events = partial(tab.evaluate, "window.symtop.run().events")
+        until(lambda: events()[-1]["orientation"] == last, look)
+        *_, pushes, _ = events()  # a page that is held up for long lets go, and pushes anew
         assert (pushes["kind"], pushes["act"]["rate"]) == ("push", 20)
-        assert pushes["act"]["number"] == int(bridge._last.values["before.pushes"]) >= 3
-        assert end["orientation"] == motion.start.given_orientation.tolist()
+        assert pushes["act"]["number"] == int(bridge._last.values["before.pushes"]) > 0
