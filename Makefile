@@ -31,7 +31,7 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS and no compiler
 	@$(BIN)/python -m symtop_ros.panel.main
 
-test: $(VENV)/test  ## style, types and all tests (10 minutes with the set-up; 3 GB, once)
+test: $(VENV)/test  ## style, types and all tests (9 minutes with the set-up; 2 GB, once)
 	@$(BIN)/python test/groups.py
 
 # What each group needs; `make test-physics` and the like run one of them.
