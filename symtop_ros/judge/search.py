@@ -163,7 +163,7 @@ class Search:
         best, period = min(late, key=lambda each: each.cost, default=None), self.truth.period
         if best is not None and period is not None and best.level == "both":
             most = int(2 * MOST_DELAY / period)
-            values = best.offset.delay + period * np.arange(-most, most + 1)
+            values = best.offset.delay + period * np.arange(-most, most + 1, dtype=np.float64)
             values = values[np.abs(values) <= MOST_DELAY]
             yield from self.search(best.change, "delay", best.offset, values)
 
