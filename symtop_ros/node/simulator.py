@@ -65,7 +65,7 @@ TIME_IS_KEPT = "the state was reset; the time is not set back, as other programs
 UNSUPPORTED, FAILED = Result.RESULT_FEATURE_UNSUPPORTED, Result.RESULT_OPERATION_FAILED
 INVALID_POSE: int = getattr(SetEntityState.Response, "INVALID_POSE", FAILED)
 AT_REST = (0.0, 0.0, 0.0)
-MAX_FILTER = 2**16  # bytes of a compiled filter, of which each takes up to 20 ms
+MAX_FILTER = 2**16  # bytes of a compiled filter; a larger one would keep the samples waiting
 
 
 class ResultError(RefusedError):
@@ -281,8 +281,8 @@ def _matches(pattern: str, name: str) -> bool:
     """Return True if a POSIX extended regular expression matches somewhere in a name.
 
     Python's `re` would take years for `'.?' * 60 + 'z'`, in which no other thread has a turn. RE2
-    takes a time that is linear in the program of the pattern times the name, and a limit to the
-    size of that program: without it `'[a-z]{1,1000}' * 70` took 9 s.
+    takes a time that is linear in pattern times name. Its memory is limited: without a limit
+    `'[a-z]{1,1000}' * 70` took 9 s.
     """
     if not pattern:
         return True

@@ -115,7 +115,7 @@ class Session:
 
 @dataclass(frozen=True)
 class Requests:
-    """Requests to a simulation, from plain values: for each record of `services` a method.
+    """Requests to a simulation, from plain values. Each service has a method of its name.
 
     Call them in a turn. Each returns the text of its answer and raises RefusedError if it is
     refused; the motion is then unchanged.
