@@ -42,7 +42,9 @@ def test_help_lists_every_target_of_a_user_and_of_a_change(tmp_path):
     assert named == list_phony("help", folder=tmp_path) - GROUPS - PARTS
 
 
-@pytest.mark.parametrize("present", ["nothing", "python without pip"])
+@pytest.mark.parametrize(
+    "present", ["python without pip", pytest.param("nothing", marks=pytest.mark.long)]
+)
 def test_an_environment_that_was_not_completed_is_made_again(tmp_path, present):
     if present != "nothing":
         interpreter = tmp_path / ".venv/bin/python"
