@@ -51,13 +51,6 @@ class Polled(CallbackGroup):
         """Return False: the executor does not wait for an entity of this group."""
         return False
 
-    def beginning_execution(self, entity: Any) -> bool:
-        """Return False, as nothing is executed."""
-        return False
-
-    def ending_execution(self, entity: Any) -> None:
-        """Do nothing, as nothing is executed."""
-
 
 class SharedConnection(Connection):
     """A connection whose node is spun by another thread."""

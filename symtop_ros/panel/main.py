@@ -154,7 +154,3 @@ def _show_node(options: argparse.Namespace, arguments: list[str], opening: str) 
         raise ValueError(describe_failure(error)) from None
     finally:
         rclpy.try_shutdown()
-
-
-if __name__ == "__main__":
-    sys.exit(main())
