@@ -53,22 +53,24 @@ def other_than_delays(errors):
 
 
 @pytest.mark.wording
-def test_the_demonstration_hurries_the_top_logs_it_and_leaves_nothing_running(tmp_path):
-    with running_demo(tmp_path) as (process, line):
-        process.stdout.readline()  # as soon as samples have come, and not at the end
-        assert process.poll() is None
+def test_two_demonstrations_hurry_the_top_log_it_print_the_same_and_leave_nothing_running(tmp_path):
+    with running_demo(tmp_path) as (one, line), running_demo(tmp_path) as (other, second):
+        one.stdout.readline()  # as soon as samples have come, and not at the end
+        assert one.poll() is None
         listening = listening_in(domain_of(line))
-        printed, errors = process.communicate(timeout=120)
-    assert (process.returncode, other_than_delays(errors)) == (0, [])
+        (printed, errors), (same, _) = (each.communicate(timeout=120) for each in (one, other))
+    assert domain_of(line) != domain_of(second)
+    assert (one.returncode, other_than_delays(errors)) == (0, [])
     assert len(listening) >= 4
     assert {address for address, _ in listening} == {"127.0.0.1"}
     answer, after, log, recording, *commands, ended = printed.splitlines()[-10:]
     assert_rises(answer, after)
+    assert [text for text in (answer, after) if text not in same] == []
     assert ended == "stopped; nothing is left running"
     path, replay = tmp_path / Path(log.split()[-1]), tmp_path / Path(recording.split()[-1])
     assert_no_deviation(path)
     assert replay.stat().st_size > 100_000
-    assert sorted(tmp_path.iterdir()) == [tmp_path / "logs"]
+    assert [*tmp_path.iterdir()] == [tmp_path / "logs"]
     assert_commands(commands, path, replay)
 
 
@@ -92,14 +94,6 @@ def assert_commands(lines, log, replay):
         assert {log.parents[1] / each for each in rest} & {log, replay}
     (check,) = [each for each in words if "--check" in each]
     subprocess.run(check, cwd=log.parents[1], check=True, capture_output=True, timeout=60)
-
-
-def test_two_demonstrations_choose_different_domains_and_print_the_same(tmp_path):
-    with running_demo(tmp_path) as (one, line), running_demo(tmp_path) as (other, second):
-        assert domain_of(line) != domain_of(second)
-        printed = [each.communicate(timeout=120)[0] for each in (one, other)]
-    numbers = [[line for line in each.splitlines() if "theta" in line] for each in printed]
-    assert numbers[0] == numbers[1] != []
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
