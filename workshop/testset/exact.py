@@ -1,14 +1,12 @@
 """Exact motions as the test set and the tests compare with them, and what roundings do to them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from mpmath import mp, mpc, mpf
+from mpmath import mp, mpc
 
 from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
 
@@ -83,21 +81,3 @@ def perturb(inputs: Inputs, eps: float = 2.0**-52) -> Iterator[Inputs]:
             moved = [*flat[:i], value * (1 + Fraction(eps) / 2), *flat[i + 1 :]]
             Ix, Iz, Mgl, *state = moved
             yield Inputs(Ix, Iz, Mgl, tuple(state[:4]), tuple(state[4:]))
-
-
-def error_and_limit(
-    inputs: Inputs, t: Any, orientation: Sequence[Any], angular_velocity: Sequence[Any]
-) -> tuple[float, float, float]:
-    """Errors of a computed state, and what half an ulp of every input does to the exact one.
-
-    Returns the error of the orientation up to sign, that of the angular velocity relative to its
-    size, and the limit: the root of the sum of squares over the ten inputs.
-    """
-    exact, rates = ClosedForm(inputs, DIGITS).at(t)
-    with mp.workdps(DIGITS):
-        error = distance(exact, [mpf(float(c)) for c in orientation])
-        parts = zip(rates, angular_velocity, strict=True)
-        rate_error = mp.norm([a - mpf(float(b)) for a, b in parts]) / (mp.norm(rates) or 1)
-        moved = (ClosedForm(each, DIGITS).at(t) for each in perturb(inputs))
-        changes = [distance(exact, each.orientation) for each in moved]
-        return float(error), float(rate_error), float(mp.norm(changes))

@@ -5,8 +5,6 @@ directions the first one has the kinetic energy J phi'^2/2 and the second one
 J (phi'^2 + theta'^2)/2. What is left is a motion in theta, as without them.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The seventy problems of the test set: tops, starts and times, from easy to hard."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

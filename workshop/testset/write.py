@@ -8,8 +8,6 @@ twelve minutes with two processors:
     python -m workshop.testset.write
 """
 
-from __future__ import annotations
-
 import lzma
 import math
 import sys
@@ -23,7 +21,6 @@ from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
 from symtop_ros.testset.score import FILE, read_problems
 from symtop_ros.testset.tables import FORCES, LIMITS, STATES, WORLD, complete, format_problems
 from workshop.testset.exact import DIGITS, distance, perturb, returning_series
-from workshop.testset.forces import find_forces, find_world_state
 from workshop.testset.links import find_link_effect
 from workshop.testset.problems import SETTINGS, Setting
 
@@ -103,39 +100,29 @@ def describe_inputs(setting: Setting) -> dict[str, Any]:
 
 def pack(setting: Setting, states: list[ExactState]) -> dict[str, Any]:
     """Return the states with the fewest digits that give thirty of all that follows from them."""
-    inputs, wanted = describe_inputs(setting), list_all(setting, states)
+    wanted = list_all(setting, states)
+    if len(set(wanted["energies"])) > 1:
+        sys.exit(f"{setting.name}: the energy changes")
     for count in range(SHOWN, DIGITS):
-        columns = zip(*states, strict=True)
-        packed = dict(zip(STATES, (digits(each, count) for each in columns), strict=True))
-        found = complete(inputs | packed, STANDARD_GRAVITY)
-        if all(found[name] == rows for name, rows in wanted.items()):
-            return packed
+        if list_all(setting, states, count) == wanted:
+            return write_states(states, count)
     sys.exit(f"{setting.name}: no number of digits gives thirty of all that follows")
 
 
-def list_all(setting: Setting, states: list[ExactState]) -> dict[str, Any]:
-    """Return states, forces, and the world's view, the latter two from the start on."""
-    moments = [find_start(setting), *states]
-    with mp.workdps(DIGITS):
-        forces = [find_forces(setting, *each) for each in moments]
-        sizes = [each.energy for each in forces]
-        if max(sizes) - min(sizes) > AGREEMENT * max(map(abs, sizes)):
-            sys.exit(f"{setting.name}: the energy changes")
-    *vectors, energies = zip(*forces, strict=True)
-    world = zip(*(find_world_state(setting, *each) for each in moments), strict=True)
-    columns = (*zip(*states, strict=True), *vectors, [[each] for each in energies], *world)
-    lists = {k: digits(rows) for k, rows in zip((*STATES, *FORCES, *WORLD), columns, strict=True)}
-    return lists | {"energies": [energy for (energy,) in lists["energies"]]}
+def list_all(setting: Setting, states: list[ExactState], count: int = DIGITS) -> dict[str, Any]:
+    """Return states, forces, and the world's view, from states with so many digits."""
+    inputs = describe_inputs(setting) | write_states(states, count)
+    found = complete(inputs, STANDARD_GRAVITY)
+    return {name: found[name] for name in (*STATES, *FORCES, *WORLD)}
 
 
-def find_start(setting: Setting) -> ExactState:
-    """The start with a unit quaternion."""
-    with mp.workdps(DIGITS):
-        q, omega = (tuple(map(mpf, part)) for part in Inputs.of(setting.top, setting.start)[3:])
-        return ExactState(tuple(x / mp.norm(q) for x in q), omega)
+def write_states(states: list[ExactState], count: int) -> dict[str, Any]:
+    """Return the lists of orientations and angular velocities as texts."""
+    columns = zip(*states, strict=True)
+    return dict(zip(STATES, (digits(each, count) for each in columns), strict=True))
 
 
-def digits(rows: Any, count: int = SHOWN) -> list[list[str]]:
+def digits(rows: Any, count: int) -> list[list[str]]:
     """Return a list of vectors as texts."""
     # The axial rate is a double; mpf() would round the others to the precision of the moment.
     exact = [[n if isinstance(n, mpf) else mpf(n) for n in row] for row in rows]
