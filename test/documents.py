@@ -28,6 +28,12 @@ def blocks(page: Path, language: str) -> list[tuple[str, str]]:
     return [(code, output) for kind, code, output in found if kind == language]
 
 
+def find_section(text: str, name: str) -> str | None:
+    """Return the text between the comments of a section that a command writes, or None."""
+    _, begin, rest = text.partition(f"<!-- figures: {name} -->")
+    return rest.partition("<!-- end of figures -->")[0].strip() if begin else None
+
+
 def commands(page: Path) -> Iterator[tuple[list[str], str]]:
     """Yield the words of each shell command of a page, and the output that is shown for it."""
     for code, output in blocks(page, "sh"):

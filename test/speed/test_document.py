@@ -1,6 +1,7 @@
 from pathlib import Path
 
 import pytest
+from documents import find_section
 
 from workshop.load import node_cost, stress
 from workshop.releases import page
@@ -58,7 +59,7 @@ def read_tables(text):
 def test_each_table_of_a_command_stands_in_one_page():
     texts = [page.read_text(encoding="utf-8") for page in PAGES]
     for name in SECTIONS:
-        (table,) = filter(None, (publish.find_section(text, name) for text in texts))
+        (table,) = filter(None, (find_section(text, name) for text in texts))
         assert read_tables(table)
     assert sum(text.count("<!-- figures: ") for text in texts) == len(SECTIONS)
 

@@ -9,7 +9,7 @@ from workshop import main as report
 from workshop.main import main
 from workshop.speed import derivatives, filters
 from workshop.speed.derivatives import derive_by_package, find_error, read_case
-from workshop.speed.filters import MOUNTS, format_trials, judge_filters
+from workshop.speed.filters import MOUNTS, format_trials
 
 
 @pytest.fixture
@@ -21,11 +21,12 @@ def short(monkeypatch):
 
 def test_tables_and_plot_are_written(short, tmp_path, capsys):
     pytest.importorskip("ahrs")
-    assert judge_filters(tmp_path / "new") == 0
-    facts = json.loads((tmp_path / "new" / "filters.json").read_text())
-    assert (tmp_path / "new" / "filters.md").read_text() == format_trials(facts) + "\n"
+    folder = tmp_path / "made" / "here"
+    assert main(["filters", str(folder)]) == 0
+    facts = json.loads((folder / "filters.json").read_text())
+    assert (folder / "filters.md").read_text() == format_trials(facts) + "\n"
     assert len(facts["trials"]) == 2 * len(MOUNTS)
-    assert (tmp_path / "new" / "filters.svg").stat().st_size > 1000
+    assert (folder / "filters.svg").stat().st_size > 1000
     assert capsys.readouterr().out.endswith("filters.json and a plot\n")
     file = tmp_path / "file"
     file.write_text("")

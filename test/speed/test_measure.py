@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
+from documents import find_section
 from PIL import Image
 
 from workshop.speed import measure as report
@@ -15,8 +16,7 @@ from workshop.speed.benchmarks import (
 )
 from workshop.speed.measure import measure
 from workshop.speed.peers import CLOSED_FORM, TAYLOR, find_peers
-from workshop.speed.plots import NAMES
-from workshop.speed.publish import find_section
+from workshop.speed.plots import DRAWINGS
 from workshop.speed.reference import Reference
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -25,7 +25,7 @@ DOCS = Path(__file__).parents[2] / "docs"
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     """The folder of a report, and that of the documents into which it is written."""
-    folder = tmp_path_factory.mktemp("report") / "made" / "here"
+    folder = tmp_path_factory.mktemp("report")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("workshop.speed.peers.peer.RECORDED", 1024)  # a tenth
         patch.setattr("workshop.speed.benchmarks.SPAN", 2.5)  # a quarter
@@ -90,10 +90,10 @@ def test_the_documents_have_the_tables_and_plots_of_the_report(written):
     for name in ("accuracy.md", "accuracy_tables.md"):  # what is written by hand is not changed
         before, after = ((each / name).read_text() for each in (DOCS, docs))
         assert before.partition("<!-- ")[0] == after.partition("<!-- ")[0]
-    assert {path.stem for path in docs.glob("*.png")} == {*NAMES}
+    assert {path.stem for path in docs.glob("*.png")} == {*DRAWINGS}
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", DRAWINGS)
 def test_a_plot_is_a_picture(folder, name):
     assert (folder / f"{name}.svg").read_text().startswith("<?xml")
     with Image.open(folder / f"{name}.png") as picture:

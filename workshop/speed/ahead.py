@@ -3,15 +3,20 @@
 Each list of results has its own function here, which compares all numbers that the tables show.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from itertools import product
 from statistics import median
+from typing import TypeVar
 
-from workshop.speed.benchmarks import CHECK, DrivenCase, HardCase, Results
+from workshop.speed.benchmarks import CHECK, ArrayCost, DrivenCase, Growth, Results
+from workshop.speed.many import ManyCost
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
+from workshop.speed.publish import format_ms, group
 from workshop.speed.sweep import Curve
 
 OWN = "symtop_ros, "
 FRICTION = "cusps with friction"
+Entry = TypeVar("Entry", Growth, ArrayCost, ManyCost)
 
 
 def list_ahead(results: Results) -> Iterator[str]:
@@ -39,13 +44,14 @@ def _compare_curves(results: Results, curve: Curve) -> Iterator[str]:
     if faster:
         quick = min(faster, key=lambda point: point.error)
         yield (
-            f"{curve.motion}: {curve.peer} reaches {quick.error:.1e} rad in {_ms(quick.seconds)} "
-            f"ms, {own.removeprefix(OWN)} {ours.error:.1e} in {_ms(ours.seconds)} ms."
+            f"{curve.motion}: {curve.peer} reaches {quick.error:.1e} rad in "
+            f"{format_ms(quick.seconds)} ms, {own.removeprefix(OWN)} {ours.error:.1e} in "
+            f"{format_ms(ours.seconds)} ms."
         )
     if best.error < ours.error and best not in faster:
         yield (
             f"{curve.motion}: {curve.peer} is more exact, {best.error:.1e} against "
-            f"{ours.error:.1e} rad, in {_ms(best.seconds)} ms."
+            f"{ours.error:.1e} rad, in {format_ms(best.seconds)} ms."
         )
     where = f"{curve.motion}, mean error"
     yield from _compare_errors(where, curve.peer, best.mean_error, ours.mean_error)
@@ -54,41 +60,37 @@ def _compare_curves(results: Results, curve: Curve) -> Iterator[str]:
 
 
 def _list_growth(results: Results) -> Iterator[str]:
-    own = [each for each in results.growth if each.peer == CLOSED_FORM]
-    rows = {t: k for each in own for k, t in enumerate(each.times)}
-    for each in results.growth:
-        for t, error, seconds in zip(each.times, each.errors, each.seconds, strict=True):
-            if t in rows and not each.peer.startswith(OWN):
-                where, k = f"Error at {t:g} s", rows[t]
-                yield from _compare_errors(where, each.peer, error, own[0].errors[k])
-                yield from _compare_times(where, each.peer, seconds, own[0].seconds[k])
+    for own, each in _pair(results.growth):
+        # Of both the times begin with ten seconds; one may have more of them.
+        columns = zip(each.times, each.errors, own.errors, each.seconds, own.seconds, strict=False)
+        for t, error, our_error, seconds, our_seconds in columns:
+            yield from _compare_errors(f"Error at {t:g} s", each.peer, error, our_error)
+            yield from _compare_times(f"Error at {t:g} s", each.peer, seconds, our_seconds)
 
 
 def _list_states(results: Results) -> Iterator[str]:
-    own = [each for each in results.states if each.peer == CLOSED_FORM]
-    for each in results.states:
-        if not own or each.peer.startswith(OWN):
-            continue
-        columns = zip(own[0].numbers, own[0].seconds, each.seconds, strict=True)
+    for own, each in _pair(results.states):
+        columns = zip(own.numbers, own.seconds, each.seconds, strict=True)
         if numbers := [f"{n:g}" for n, ours, other in columns if other < ours]:
             yield f"Arrays of {', '.join(numbers)} states: {each.peer} is faster."
-        yield from _compare_errors("Arrays of states", each.peer, each.error, own[0].error)
+        yield from _compare_errors("Arrays of states", each.peer, each.error, own.error)
 
 
 def _list_many(results: Results) -> Iterator[str]:
-    own = [each for each in results.many if each.peer == CLOSED_FORM]
-    for each in results.many:
-        if own and not each.peer.startswith(OWN):
-            where = "Many different motions"
-            yield from _compare_errors(where, each.peer, each.error, own[0].error)
-            yield from _compare_times(where, each.peer, each.seconds, own[0].seconds)
+    for own, each in _pair(results.many):
+        where = "Many different motions"
+        yield from _compare_errors(where, each.peer, each.error, own.error)
+        yield from _compare_times(where, each.peer, each.seconds, own.seconds)
+
+
+def _pair(entries: Sequence[Entry]) -> Iterator[tuple[Entry, Entry]]:
+    """Yield the entry of the closed form with that of each peer."""
+    own = (each for each in entries if each.peer == CLOSED_FORM)
+    return product(own, [each for each in entries if not each.peer.startswith(OWN)])
 
 
 def _list_hard(results: Results) -> Iterator[str]:
-    families: dict[str, list[HardCase]] = {}
-    for case in results.hard:
-        families.setdefault(case.family, []).append(case)
-    for family, cases in families.items():
+    for family, cases in group(results.hard, lambda case: case.family).items():
         ours = max(case.error for case in cases)
         for peer in dict.fromkeys(name for case in cases for name in case.peers):
             error = max(case.peers[peer] for case in cases if peer in case.peers)
@@ -96,10 +98,7 @@ def _list_hard(results: Results) -> Iterator[str]:
 
 
 def _list_driven(results: Results) -> Iterator[str]:
-    families: dict[str, list[DrivenCase]] = {}
-    for case in results.driven:
-        families.setdefault(case.family, []).append(case)
-    for family, cases in families.items():
+    for family, cases in group(results.driven, lambda case: case.family).items():
         for peer in _leave_own(cases[0].errors):
             yield from _compare_family(f"Friction and torques, {family}", cases, peer)
 
@@ -123,11 +122,7 @@ def _compare_errors(where: str, peer: str, error: float, ours: float) -> Iterato
 
 def _compare_times(where: str, peer: str, seconds: float, ours: float) -> Iterator[str]:
     if seconds < ours:
-        yield f"{where}: {peer} is faster, {_ms(seconds)} against {_ms(ours)} ms."
-
-
-def _ms(seconds: float) -> str:
-    return f"{seconds * 1e3:.3g}"
+        yield f"{where}: {peer} is faster, {format_ms(seconds)} against {format_ms(ours)} ms."
 
 
 # By the fields of `Results`: a test finds one that is missing.

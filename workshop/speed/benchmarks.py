@@ -8,10 +8,11 @@ from timeit import repeat
 
 import numpy as np
 
+from symtop_ros.physics import Motion
 from workshop.speed.footprint import Footprint, measure_footprint
 from workshop.speed.many import ManyCost, Program, find_programs, measure_many
 from workshop.speed.peers import CLOSED_FORM, TAYLOR, prepare
-from workshop.speed.peers.peer import Peer, PrepareArrays, Solution, Task, spread_times
+from workshop.speed.peers.peer import Peer, PrepareArrays, Solution, spread_times
 from workshop.speed.reference import EPS, Reference, ReferenceMotion
 from workshop.speed.sweep import REPEATS, Curve, sweep_motion, time_call
 
@@ -24,6 +25,12 @@ LARGEST_DRIVEN_ERROR = 2e-13  # rad, in the families of motions with friction or
 LARGEST_PHASE = 1e5  # rad of turning that a peer is asked for in a hard case
 DRIVEN_RUNS = 3  # of which the shortest counts
 DRIVEN_PEER = "heyoka, quaternion"
+# The peers of the quick report, which must not take long, by the beginnings of their names
+EVERY_MOTION = (CLOSED_FORM, TAYLOR, "heyoka", "CyRK")
+FIRST_MOTION = (
+    *("SciPy DOP853", "SciPy LSODA, Euler angles", "MuJoCo RK4", "Drake RK5, quaternion"),
+    *("EXUDYN RK67", "diffrax Dopri8"),
+)
 HARD_PEERS = ("SciPy DOP853, quaternion", "heyoka, quaternion")
 
 
@@ -31,7 +38,7 @@ HARD_PEERS = ("SciPy DOP853, quaternion", "heyoka, quaternion")
 class Scope:
     """The amount of work of a report."""
 
-    # True if every peer integrates every motion; else each says what it takes part in
+    # True if every peer integrates every motion, and not only the best form of each program
     is_full: bool
     motions: int  # number of the nine motions without friction, counted from the first
     limit: float  # seconds that one run of a peer may take
@@ -43,10 +50,10 @@ class Scope:
 
     def includes(self, peer: Peer, number: int) -> bool:
         """Return True if a peer integrates the article's motion of this number."""
-        return self.is_full or peer.quick == "every motion" or (number, peer.quick) == (0, FIRST)
+        best = EVERY_MOTION if number else EVERY_MOTION + FIRST_MOTION
+        return self.is_full or peer.name.startswith(best)
 
 
-FIRST = "first motion"
 QUICK = Scope(False, 9, 4.0, 1.0, tuple(10**k for k in range(8)), HARD_PEERS[1:])
 FULL = Scope(True, 9, 60.0, 60.0, tuple(10**k for k in range(8)), HARD_PEERS)
 SMALL = Scope(False, 1, 0.02, 0.02, (1, 10), (), 9, 2)  # for tests
@@ -257,6 +264,6 @@ def _drive(motion: ReferenceMotion, peers: Sequence[Peer], results: Results) -> 
     results.driven.append(DrivenCase(motion.name, errors, seconds))
 
 
-def _prepare_default(peer: Peer, task: Task) -> Solution:
+def _prepare_default(peer: Peer, task: Motion) -> Solution:
     """Return the solution at the finest setting of a peer, or at the default of heyoka."""
     return peer.prepare(task, EPS if "heyoka" in peer.name else peer.settings[-1])

@@ -16,7 +16,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from workshop.speed.publish import format_table, write_results
+from workshop.speed.publish import format_table, group, write_results
 
 FILE = Path(__file__).with_name("derivatives.json")
 NAME = "derivatives"  # of the files, and of the section in the documentation
@@ -99,9 +99,8 @@ def _turn(q: Real) -> Real:
     return np.array([[-x, -y, -z], [w, -z, y], [z, w, -x], [-y, x, w]])
 
 
-def compare_derivatives(folder: Path, docs: Path | None = None) -> int:
-    """Write derivatives.md and derivatives.json; return the exit status."""
-    folder.mkdir(parents=True, exist_ok=True)
+def compare_derivatives(folder: Path, docs: Path | None = None) -> None:
+    """Write derivatives.md and derivatives.json."""
     case = read_case()
     programs: dict[str, Callable[[float], Real]] = {
         "symtop_ros, Motion.jacobian": partial(derive_by_package, case.motion)
@@ -117,18 +116,17 @@ def compare_derivatives(folder: Path, docs: Path | None = None) -> int:
     facts = {"entries": entries}
     write_results(NAME, facts, format_entries(facts), folder, docs)
     print(f"{folder / 'derivatives.md'} and derivatives.json")
-    return 0
 
 
 def format_entries(facts: dict[str, Any]) -> str:
     """Return the table of a measurement: a row for each program, a column for each time."""
-    entries = facts["entries"]
+    entries: list[dict[str, Any]] = facts["entries"]
     times = list(dict.fromkeys(each["t"] for each in entries))
-    rows: dict[str, list[str]] = {}
-    for each in entries:
-        cell = f"{each['error']:.0e}, {_round(1e3 * each['seconds']):g} ms"
-        rows.setdefault(each["program"], [each["program"]]).append(cell)
-    return format_table(["error, time", *(f"{t:g} s" for t in times)], rows.values())
+    rows = [
+        [name, *(f"{each['error']:.0e}, {_round(1e3 * each['seconds']):g} ms" for each in own)]
+        for name, own in group(entries, lambda each: each["program"]).items()
+    ]
+    return format_table(["error, time", *(f"{t:g} s" for t in times)], rows)
 
 
 def _round(value: float) -> float:

@@ -8,7 +8,14 @@ from workshop.speed.benchmarks import CHECK, SPAN, ArrayCost, DrivenCase, HardCa
 from workshop.speed.footprint import format_footprint
 from workshop.speed.many import format_many
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
-from workshop.speed.publish import format_list, format_table, format_tables, write_chapter
+from workshop.speed.publish import (
+    format_list,
+    format_ms,
+    format_table,
+    format_tables,
+    group,
+    write_chapter,
+)
 from workshop.speed.reference import EPS, ReferenceMotion
 from workshop.speed.sweep import Curve
 
@@ -63,11 +70,11 @@ def format_chapters(results: Results, motion: ReferenceMotion, environment: Envi
 def format_summary(results: Results, motion: ReferenceMotion) -> str:
     """Return the table of the README: the best form of each program on one motion."""
     head = ["", "largest error, rad", "ms", f"ms for {LEVELS[1]:.0e}"]
-    rows = []
     curves = {curve.peer: curve for curve in results.curves if curve.motion == motion.name}
-    for curve in filter(None, map(curves.get, SUMMARY)):
-        cells = [f"{curve.best.error:.0e}", _ms(curve.best.seconds), _format_levels(curve)[1]]
-        rows.append([curve.peer, *cells])
+    rows = [
+        [each.peer, f"{each.best.error:.0e}", format_ms(each.best.seconds), _format_levels(each)[1]]
+        for each in filter(None, map(curves.get, SUMMARY))
+    ]
     return format_table(head, rows)
 
 
@@ -112,7 +119,7 @@ def _format_costs(results: Results, curves: list[Curve]) -> str:
         [
             *(curve.peer, *_format_levels(curve)),
             _format_array_cost(costs.get(curve.peer)),
-            _ms(curve.best.preparing),
+            format_ms(curve.best.preparing),
             f"{results.checks[curve.peer]:.0e}",
         ]
         for curve in curves
@@ -134,7 +141,7 @@ def _format_best(curve: Curve, ours: float) -> list[str]:
         f"{best.error:.1e}",
         f"{best.mean_error:.1e}",
         f"{best.compared}",
-        _ms(best.seconds),
+        format_ms(best.seconds),
         f"{best.seconds / ours:.3g}",
     ]
 
@@ -142,11 +149,7 @@ def _format_best(curve: Curve, ours: float) -> list[str]:
 def _format_levels(curve: Curve) -> list[str]:
     """Return the times for `LEVELS`."""
     cheapest = [curve.find_cheapest(level) for level in LEVELS]
-    return [_ms(point.seconds) if point else "-" for point in cheapest]
-
-
-def _ms(seconds: float) -> str:
-    return f"{seconds * 1e3:.3g}"
+    return [format_ms(point.seconds) if point else "-" for point in cheapest]
 
 
 def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
@@ -156,7 +159,9 @@ def _format_other_motions(results: Results, motion: ReferenceMotion) -> str:
     if not names:
         return ""
     peers = dict.fromkeys(curve.peer for curve in others)
-    best = {(c.peer, c.motion): f"{c.best.error:.0e} in {_ms(c.best.seconds)}" for c in others}
+    best = {
+        (c.peer, c.motion): f"{c.best.error:.0e} in {format_ms(c.best.seconds)}" for c in others
+    }
     # In a report that is not complete yet, some are still to come.
     rows = [[peer, *(best.get((peer, name), "") for name in names)] for peer in peers]
     return write_chapter("other motions", t=SPAN, table=format_tables(["", *names], rows))
@@ -179,12 +184,13 @@ def _format_driven(cases: list[DrivenCase]) -> str:
     peers = list(cases[0].errors)
     labels = [peer.removeprefix("symtop_ros, ") for peer in peers]
     errors, seconds = [], []
-    for family in dict.fromkeys(case.family for case in cases):
-        own = [case for case in cases if case.family == family]
+    for family, own in group(cases, lambda case: case.family).items():
         of_peers = [[case.errors[peer] for case in own] for peer in peers]
         cells = [f"{summarize(each):.1e}" for summarize in (median, max) for each in of_peers]
         errors.append([family, f"{len(own)}", *cells])
-        seconds.append([family, *(_ms(median([c.seconds[peer] for c in own])) for peer in peers)])
+        seconds.append(
+            [family, *(format_ms(median([c.seconds[peer] for c in own])) for peer in peers)]
+        )
     head = ["family", "motions"]
     head += [f"{name}, {label}" for name in ("median", "largest") for label in labels]
     return write_chapter(
@@ -237,8 +243,7 @@ def _format_hard_cases(cases: list[HardCase]) -> str:
         return ""
     peers = list(dict.fromkeys(name for case in cases for name in case.peers))
     rows = []
-    for family in dict.fromkeys(case.family for case in cases):
-        own = [case for case in cases if case.family == family]
+    for family, own in group(cases, lambda case: case.family).items():
         lowest, highest = min(case.small for case in own), max(case.small for case in own)
         rows.append([family, f"{highest:g} ... {lowest:g}", *_format_errors(own, peers)])
     head = ["family", "from ... to", "rounding of the input, eps", "closed form, eps"]

@@ -23,7 +23,7 @@ from symtop_ros.judge.truth import Truth
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
 from workshop.pictures.pack import pack
-from workshop.speed.publish import format_table, track, write_results
+from workshop.speed.publish import format_table, group, track, write_results
 
 RATE, SPAN = 1000, 20  # Hz, s
 SCENES = ("conical_pendulum", "hanging", "regular_precession", "cusps", "looping")
@@ -85,12 +85,11 @@ def _run(name: str, recording: ImuRecord, turn: Callable[[Real], Real]) -> Error
     return compare(Estimates.of(recording.stamps, q), Truth([recording.event]), NONE)
 
 
-def judge_filters(folder: Path, docs: Path | None = None) -> int:
-    """Write filters.md, filters.json and a plot; return the exit status.
+def judge_filters(folder: Path, docs: Path | None = None) -> None:
+    """Write filters.md, filters.json and a plot.
 
     It needs the package `ahrs`, of the extra `peers`.
     """
-    folder.mkdir(parents=True, exist_ok=True)
     trials: list[Trial] = []
     curves: dict[str, Errors] = {}
     work = [(scene, mount) for mount in MOUNTS for scene in SCENES]
@@ -109,21 +108,18 @@ def judge_filters(folder: Path, docs: Path | None = None) -> int:
     if docs:
         (docs / f"{NAME}.png").write_bytes(pack(folder / f"{NAME}.png"))
     print(f"{folder / 'filters.md'}, filters.json and a plot")
-    return 0
 
 
 def format_trials(facts: dict[str, Any]) -> str:
     """Return a table for each place of the sensor."""
     trials = [Trial(**each) for each in facts["trials"]]
     parts = []
-    for mount in dict.fromkeys(trial.mount for trial in trials):
-        own = {(t.filter, t.scene): t for t in trials if t.mount == mount}
-        scenes = list(dict.fromkeys(scene for _, scene in own))
+    for mount, own in group(trials, lambda trial: trial.mount).items():
         table = [
-            [name, *(f"{own[name, s].tilt:.1g} / {own[name, s].attitude:.1g}" for s in scenes)]
-            for name in dict.fromkeys(name for name, _ in own)
+            [name, *(f"{each.tilt:.1g} / {each.attitude:.1g}" for each in rows)]
+            for name, rows in group(own, lambda trial: trial.filter).items()
         ]
-        head = ["tilt / attitude, rad", *scenes]
+        head = ["tilt / attitude, rad", *dict.fromkeys(trial.scene for trial in own)]
         parts.append(f"Sensor {mount}:\n\n{format_table(head, table)}")
     return "\n\n".join(parts)
 

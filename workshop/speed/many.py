@@ -1,20 +1,20 @@
 """Time for many different motions: the package, and heyoka with parameters and batches."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
 from importlib.util import find_spec
+from itertools import islice
 from statistics import median
 from timeit import repeat
+from typing import Any
 
 import numpy as np
 
-from symtop_ros import physics
 from symtop_ros.arrays import Real
-from symtop_ros.physics import State, Top
+from symtop_ros.physics import Motions, State, Top
 from symtop_ros.testset.score import measure_angles
 from workshop.speed.peers import CLOSED_FORM
-from workshop.speed.peers.peer import Task
 from workshop.speed.publish import format_table, write_chapter
 from workshop.speed.reference import integrate, split_orientations
 
@@ -36,48 +36,31 @@ class ManyCost:
     runs: int
 
 
-@dataclass(frozen=True)
-class Motions:
-    """Tops with other weights, and starts with other spins and tilts."""
-
-    top: Top
-    start: State
-
-    @classmethod
-    def draw(cls, count: int) -> "Motions":
-        """Return random motions about the article's cusps."""
-        rng = np.random.default_rng(SEED)
-        top = Top(0.000228, 0.0000572, 0.068 * rng.uniform(0.8, 1.2, count))
-        tilt, spin = rng.uniform(0.2, 1.0, count), rng.uniform(150.0, 250.0, count)
-        zero = np.zeros(count)
-        q = np.stack([np.cos(tilt / 2), np.sin(tilt / 2), zero, zero], axis=1)
-        return cls(top, State(q, np.stack([zero, zero, spin], axis=1)))
-
-    def task(self, number: int) -> Task:
-        """Return one of the motions."""
-        Ix, Iz, Mgl = (float(np.asarray(each)[number]) for each in self.top.moments)
-        q, omega = self.start.given_orientation[number], self.start.angular_velocity[number]
-        return Task(Top(Ix, Iz, Mgl), State(q, omega))
+def draw_motions(count: int) -> Motions:
+    """Return random motions about the article's cusps: other weights, spins and tilts."""
+    rng = np.random.default_rng(SEED)
+    top = Top(0.000228, 0.0000572, 0.068 * rng.uniform(0.8, 1.2, count))
+    tilt, spin = rng.uniform(0.2, 1.0, count), rng.uniform(150.0, 250.0, count)
+    return Motions(top, State.from_euler(theta=tilt, psi_dot=spin))
 
 
 Program = Callable[[Motions, float], Real]  # the orientations (n, 4) at a time in s
 
 
-def find_programs() -> list[tuple[str, Program]]:
-    """Return the programs that can be measured, by name."""
-    programs: list[tuple[str, Program]] = [(CLOSED_FORM, compute)]
+def find_programs() -> Iterator[tuple[str, Program]]:
+    """Yield the programs that can be measured, with their names."""
+    yield CLOSED_FORM, compute
     if find_spec("heyoka"):
         from workshop.speed.peers.heyoka_peer import prepare_batches
 
         for tolerance in TOLERANCES:
             name = f"heyoka, two constants, batches, tolerance {tolerance:.0e}"
-            programs.append((name, prepare_batches(tolerance)))
-    return programs
+            yield name, prepare_batches(tolerance)
 
 
 def compute(motions: Motions, t: float) -> Real:
     """Return the orientations from the package."""
-    return physics.Motions(motions.top, motions.start).at(t).orientation
+    return Motions(motions.top, motions.start).at(t).orientation
 
 
 @cache
@@ -86,15 +69,14 @@ def compute_exact(count: int, t: float) -> tuple[Real, Real]:
 
     They come from a Taylor integration with 32 digits, which shares no formula with the package.
     """
-    motions = Motions.draw(count)
-    tasks = [motions.task(number) for number in range(min(COMPARED, count))]
-    high, low = zip(*(split_orientations(integrate(task), [t]) for task in tasks), strict=True)
+    first: Any = islice(draw_motions(count), COMPARED)
+    high, low = zip(*(split_orientations(integrate(each), [t]) for each in first), strict=True)
     return np.concatenate(high), np.concatenate(low)
 
 
 def measure_many(name: str, program: Program, count: int, t: float) -> ManyCost:
     """Measure a program with a number of motions, which are the same for all programs."""
-    motions, exact = Motions.draw(count), compute_exact(count, t)
+    motions, exact = draw_motions(count), compute_exact(count, t)
     found = program(motions, t)  # a first time, of which what is done only once is a part
     seconds = median(repeat(partial(program, motions, t), number=1, repeat=RUNS))
     compared = len(exact[0])

@@ -2,15 +2,15 @@
 
 import platform
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from workshop.pictures.pack import pack
-from workshop.speed.benchmarks import Results, Scope, list_steps
+from workshop.speed.benchmarks import FULL, QUICK, Results, Scope, list_steps
 from workshop.speed.document import Environment, format_chapters, format_document, format_summary
 from workshop.speed.peers import find_peers
-from workshop.speed.plots import NAMES, write_plots
+from workshop.speed.plots import DRAWINGS, write_plots
 from workshop.speed.publish import publish, track, write_results
 from workshop.speed.reference import Reference
 
@@ -20,18 +20,25 @@ PACKAGES = (
 )
 
 
+def measure_speed(folder: Path, docs: Path | None, full: bool, limit: float | None) -> int:
+    """Measure in one of both scopes, maybe with another limit of time (s) for a run."""
+    scope = FULL if full else QUICK
+    command = "make -C workshop report ARGS=--full" if full else "make -C workshop report"
+    if limit:
+        scope = replace(scope, limit=limit)
+        command = f"python -m workshop speed --limit {limit:g}"
+    return measure(folder, scope, command, docs)
+
+
 def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) -> int:
     """Write report.md, report.json and the plots; return the exit status."""
-    folder.mkdir(parents=True, exist_ok=True)
     peers, missing = find_peers()
     environment = Environment(command, find_machine(), _find_versions(), missing, scope.limit)
     results = Results()
     for _, work in track(list(list_steps(scope, peers, results)), lambda step: step[0]):
         work()
         _write_tables(folder, results, environment)  # what is measured can be read at once
-    _write(folder, results, environment)
-    if docs:
-        _publish(folder, results, environment, docs)
+    _write(folder, results, environment, docs)
     print(f"{folder / 'report.md'}, report.json and plots")
     failures = results.list_failures()
     for failure in failures:
@@ -45,19 +52,16 @@ def _write_tables(folder: Path, results: Results, environment: Environment) -> s
     return text
 
 
-def _write(folder: Path, results: Results, environment: Environment) -> None:
-    text = _write_tables(folder, results, environment)
+def _write(folder: Path, results: Results, environment: Environment, docs: Path | None) -> None:
+    text, motion = _write_tables(folder, results, environment), Reference.read().article[0]
     facts = {"environment": asdict(environment), "results": asdict(results)}
     write_results("report", facts, text, folder)
-    write_plots(results, Reference.read().article[0], folder)
-
-
-def _publish(folder: Path, results: Results, environment: Environment, docs: Path) -> None:
-    motion = Reference.read().article[0]
-    chapters = format_chapters(results, motion, environment)
-    publish({"chapters": chapters, "summary": format_summary(results, motion)}, docs)
-    for name in NAMES:
-        (docs / f"{name}.png").write_bytes(pack(folder / f"{name}.png"))
+    write_plots(results, motion, folder)
+    if docs:
+        chapters = format_chapters(results, motion, environment)
+        publish({"chapters": chapters, "summary": format_summary(results, motion)}, docs)
+        for name in DRAWINGS:
+            (docs / f"{name}.png").write_bytes(pack(folder / f"{name}.png"))
 
 
 def find_machine() -> str:

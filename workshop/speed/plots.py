@@ -1,6 +1,8 @@
 """The report's plots, as SVG and PNG."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from functools import partial
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,7 @@ from matplotlib.figure import Figure
 from symtop_ros.judge.figures import BLUE, GREY, INK, RED, new_figure, write_figures
 from workshop.speed.benchmarks import SPAN, HardCase, Results
 from workshop.speed.peers import CLOSED_FORM
+from workshop.speed.publish import group
 from workshop.speed.reference import EPS, ReferenceMotion
 from workshop.speed.sweep import Curve
 
@@ -25,7 +28,6 @@ PACKAGES = {  # colours that differ in grey, and markers that differ without any
     "EXUDYN": ("#b0a030", "v"),
     "diffrax": ("#e58fb0", "X"),
 }
-NAMES = ("work_precision", "motions", "long_times", "arrays", "hard_cases")
 DASHES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 2)))
 SMALLEST = EPS / 4  # at which errors of zero are drawn
 ERROR = "largest error of the attitude (rad)"
@@ -34,29 +36,19 @@ Looks = dict[str, dict[str, Any]]
 
 def write_plots(results: Results, motion: ReferenceMotion, folder: Path) -> None:
     """Write every plot as SVG and PNG."""
-    names = list(dict.fromkeys([*(c.peer for c in results.curves), *results.checks]))
-    looks = _choose_looks(names)
-    drawings: tuple[Callable[[], Figure], ...] = (
-        lambda: draw_work_precision(results, motion, looks),
-        lambda: draw_motions(results, looks),
-        lambda: draw_long_times(results, motion, looks),
-        lambda: draw_arrays(results, looks),
-        lambda: draw_hard_cases(results.hard),
-    )
-    write_figures(dict(zip(NAMES, drawings, strict=True)), folder)
+    looks = _choose_looks(dict.fromkeys([*(c.peer for c in results.curves), *results.checks]))
+    drawings = {name: partial(draw, results, motion, looks) for name, draw in DRAWINGS.items()}
+    write_figures(drawings, folder)
 
 
 def _choose_looks(names: Iterable[str]) -> Looks:
     """Give each package a colour and a marker, and each of its methods a dash."""
     looks: Looks = {}
-    used: dict[str, int] = {}
-    for name in names:
-        package = name.replace(",", "").split()[0]
+    for package, own in group(names, lambda name: name.replace(",", "").split()[0]).items():
         color, marker = PACKAGES[package]
-        dash = DASHES[used.get(package, 0) % len(DASHES)]
-        used[package] = used.get(package, 0) + 1
-        big = 14 if package == "symtop_ros" else 4.5
-        looks[name] = {"color": color, "marker": marker, "ls": dash, "ms": big, "label": name}
+        look = {"color": color, "marker": marker, "ms": 14 if marker == "*" else 4.5, "lw": 1.2}
+        for name, dash in zip(own, cycle(DASHES), strict=False):
+            looks[name] = {**look, "ls": dash, "label": name}
     return looks
 
 
@@ -80,16 +72,16 @@ def _draw_curves(axes: Axes, curves: Iterable[Curve], looks: Looks) -> None:
     for curve in curves:
         seconds = [point.seconds / curve.t for point in curve.points]
         errors = [max(point.error, SMALLEST) for point in curve.points]
-        axes.loglog(seconds, errors, **{**looks[curve.peer], "lw": 1.2})
+        axes.loglog(seconds, errors, **looks[curve.peer])
     axes.set_xlabel("seconds per simulated second")
 
 
-def draw_motions(results: Results, looks: Looks) -> Figure:
+def draw_motions(results: Results, _: ReferenceMotion, looks: Looks) -> Figure:
     """Draw error against seconds for every motion that was measured."""
-    names = list(dict.fromkeys(curve.motion for curve in results.curves))
-    figure, grid = _new_grid(len(names), 2.6, sharex=True)
-    for axes, name in zip(grid, names, strict=True):
-        _draw_curves(axes, [c for c in results.curves if c.motion == name], looks)
+    motions = group(results.curves, lambda curve: curve.motion)
+    figure, grid = _new_grid(len(motions), 2.6, sharex=True)
+    for axes, (name, curves) in zip(grid, motions.items(), strict=True):
+        _draw_curves(axes, curves, looks)
         axes.set_title(name)
     # Not every package was measured on every motion
     found = {
@@ -120,7 +112,7 @@ def draw_long_times(results: Results, motion: ReferenceMotion, looks: Looks) -> 
     axes = figure.subplots()
     for each in results.growth:
         errors = np.maximum(each.errors, SMALLEST)
-        axes.loglog(each.times, errors, **{**looks[each.peer], "lw": 1.2})
+        axes.loglog(each.times, errors, **looks[each.peer])
     times = [t for t in motion.times if t >= SPAN]
     limits = [motion.limit(t) for t in times]
     axes.loglog(times, limits, color=GREY, lw=1, ls=(0, (6, 3)), label="rounding of the input")
@@ -130,24 +122,24 @@ def draw_long_times(results: Results, motion: ReferenceMotion, looks: Looks) -> 
     return figure
 
 
-def draw_arrays(results: Results, looks: Looks) -> Figure:
+def draw_arrays(results: Results, _: ReferenceMotion, looks: Looks) -> Figure:
     """Draw the cost of a state against the number of states."""
     figure = new_figure(3.4, width=8.2)
     axes = figure.subplots()
     for each in results.states:
         cost = np.array(each.seconds) / np.array(each.numbers) * 1e6
-        axes.loglog(each.numbers, cost, **{**looks[each.peer], "lw": 1.2})
+        axes.loglog(each.numbers, cost, **looks[each.peer])
     axes.set(xlabel=f"number of states within {SPAN:g} s", ylabel="us per state, set-up included")
     figure.legend(loc="outside right upper", fontsize=8)
     return figure
 
 
-def draw_hard_cases(cases: list[HardCase]) -> Figure:
+def draw_hard_cases(results: Results, _: ReferenceMotion, __: Looks) -> Figure:
     """Draw the errors of each family against the distance from its singular case."""
-    families = list(dict.fromkeys(case.family for case in cases))
+    families = group(results.hard, lambda case: case.family)
     figure, grid = _new_grid(len(families), 2.1)
-    for axes, family in zip(grid, families, strict=True):
-        _draw_family(axes, [case for case in cases if case.family == family])
+    for axes, cases in zip(grid, families.values(), strict=True):
+        _draw_family(axes, cases)
     looks = grid[0].get_legend_handles_labels()
     figure.legend(*looks, loc="outside lower center", ncols=4, fontsize=8)
     return figure
@@ -169,3 +161,12 @@ def _draw_family(axes: Axes, cases: list[HardCase]) -> None:
     limits = [case.limit for case in cases]
     axes.loglog(near, limits, color=INK, lw=1, ls="--", label="rounding of the input")
     axes.set_title(cases[0].family, fontsize=8.5)
+
+
+DRAWINGS = {
+    "work_precision": draw_work_precision,
+    "motions": draw_motions,
+    "long_times": draw_long_times,
+    "arrays": draw_arrays,
+    "hard_cases": draw_hard_cases,
+}

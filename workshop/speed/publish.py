@@ -45,6 +45,19 @@ def format_tables(head: Sequence[str], rows: Sequence[Sequence[str]], kept: int 
     )
 
 
+def format_ms(seconds: float) -> str:
+    """Return a time in milliseconds."""
+    return f"{seconds * 1e3:.3g}"
+
+
+def group(entries: Iterable[Work], find: Callable[[Work], str]) -> dict[str, list[Work]]:
+    """Return the entries that have the same key, by the keys in their order."""
+    groups: dict[str, list[Work]] = {}
+    for each in entries:
+        groups.setdefault(find(each), []).append(each)
+    return groups
+
+
 def format_list(lines: Iterable[str]) -> str:
     """Return a list with a line for each entry."""
     return "\n".join(f"- {line}" for line in lines)
@@ -58,12 +71,6 @@ def write_chapter(name: str, **values: Any) -> str:
         filled = (line.format(**values) for line in lines)
         parts.append("\n".join(line for line in filled if line.strip("- ")))
     return "\n\n".join(filter(None, parts))
-
-
-def find_section(text: str, name: str) -> str | None:
-    r"""Return the text between the comments of a section, or None."""
-    _, begin, rest = text.partition(f"<!-- figures: {name} -->")
-    return rest.partition(END)[0].strip() if begin else None
 
 
 def replace_section(text: str, name: str, content: str) -> str:

@@ -16,11 +16,12 @@ import numpy as np
 from mpmath import mp
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real, Vector
-from symtop_ros.physics import Friction, State, Top
+from symtop_ros.arrays import Real
+from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.physics.arguments import NO_TORQUE
 from symtop_ros.physics.reference import Inputs, Series
 from symtop_ros.testset.score import measure_angles, read_problems, split_decimals
-from workshop.speed.peers.peer import NO_FRICTION, NO_TORQUE, Task, initial_values
+from workshop.speed.peers.peer import initial_values
 
 FILE = Path(__file__).with_name("reference.json.xz")
 FRICTION = Friction(axial=2e-6, transverse=1e-5)  # of the article's top with friction, N m s
@@ -29,12 +30,12 @@ DIGITS = 32  # of an integration
 PARTS = "article", "hard", "driven"
 
 
-def integrate(task: Task) -> Series:
+def integrate(task: Motion) -> Series:
     """Return the motion of a task by Taylor series, to more than 20 digits."""
     friction = task.friction.axial, task.friction.transverse
     *q, wx, wy, wz = initial_values(task)
     inputs = Inputs.exact(*task.top.moments, q, (wx, wy, wz))
-    return Series(inputs, DIGITS, friction, task.torque)
+    return Series(inputs, DIGITS, friction, task.applied_torque)
 
 
 def split_orientations(series: Series, times: Iterable[float]) -> tuple[Real, Real]:
@@ -52,7 +53,7 @@ class ReferenceMotion:
     """A motion to compute, and its exact orientations."""
 
     name: str  # the motion, the family of a hard case, or the problem of the test set
-    task: Task  # top, start and friction; the numbers are taken as exact
+    task: Motion  # its numbers are taken as exact
     # times in s, up to very long ones, at which the exact orientations are stored
     times: tuple[float, ...]
     # Exact quaternions as sums of two doubles, each (n, 4). Rounded to one double they would
@@ -67,10 +68,9 @@ class ReferenceMotion:
     @classmethod
     def read(cls, facts: dict[str, Any]) -> "ReferenceMotion":
         """Return the motion of an entry in reference.json."""
-        friction, torque = Friction(*facts["friction"]), tuple(facts.get("torque", NO_TORQUE))
         # stored as distances of quaternions
         limits = tuple(2 * each for each in facts["limit"] or ())
-        task, exact = _read_task(facts, friction, torque), split_decimals(facts["exact"])
+        task, exact = _read_task(facts), split_decimals(facts["exact"])
         return cls(facts["name"], task, tuple(facts["t"]), exact, limits, facts.get("small"))
 
     def error(self, t: float, orientation: ArrayLike) -> float:
@@ -135,8 +135,7 @@ def read_testset() -> list[ReferenceMotion]:
     ]
 
 
-def _read_task(
-    facts: dict[str, Any], friction: Friction = NO_FRICTION, torque: Vector = NO_TORQUE
-) -> Task:
+def _read_task(facts: dict[str, Any]) -> Motion:
     top = Top(facts["Ix"], facts["Iz"], facts["Mgl"])
-    return Task(top, State(facts["orientation"], facts["angular_velocity"]), friction, torque)
+    drive = Friction(*facts.get("friction", ())), facts.get("torque", NO_TORQUE)
+    return Motion(top, State(facts["orientation"], facts["angular_velocity"]), *drive)

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.testset.score import FILE, read_problems
+from workshop.releases.page import measure_releases
 from workshop.speed.peers import CLOSED_FORM, find_peers
 from workshop.speed.peers.peer import Peer
-from workshop.speed.publish import format_table, replace_section, track, write_results
+from workshop.speed.publish import format_table, group, replace_section, track, write_results
 from workshop.speed.reference import ReferenceMotion, read_testset
 from workshop.speed.sweep import Measurement, sweep
 
@@ -47,9 +48,13 @@ class Entry:
     seconds: float  # time to reach the end once
 
 
-def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) -> int:
-    """Write testset.md and testset.json; return the exit status."""
-    folder.mkdir(parents=True, exist_ok=True)
+def score(folder: Path, docs: Path | None, releases: bool) -> None:
+    """Score the integrators, or releases of engines."""
+    (measure_releases if releases else score_testset)(folder, docs)
+
+
+def score_testset(folder: Path, docs: Path | None = None) -> None:
+    """Write testset.md and testset.json."""
     peers, _ = find_peers()
     motions = read_testset()
     chosen = [peer for peer in peers if peer.name in PROGRAMS]
@@ -57,9 +62,9 @@ def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) 
     entries = [
         asdict(entry)
         for peer, motion in track(work, lambda each: f"{each[0].name}: {each[1].name}")
-        for entry in find_best_run(peer, motion, limit)
+        for entry in find_best_run(peer, motion)
     ]
-    facts = {"limit": limit, "entries": entries}
+    facts = {"limit": LIMIT, "entries": entries}
     table = format_scores(facts)
     write_results(NAME, facts, table, folder, docs)
     if docs:
@@ -67,11 +72,10 @@ def score_testset(folder: Path, docs: Path | None = None, limit: float = LIMIT) 
         text = replace_section(readme.read_text(encoding="utf-8"), NAME, table)
         readme.write_text(text, encoding="utf-8")
     print(f"{folder / 'testset.md'} and testset.json")
-    return 0
 
 
-def find_best_run(peer: Peer, motion: ReferenceMotion, limit: float) -> list[Entry]:
-    """Return the best run of a peer within the limit of time (s), in a list; empty without one."""
+def find_best_run(peer: Peer, motion: ReferenceMotion) -> list[Entry]:
+    """Return the best run of a peer within the limit of time, in a list; empty without one."""
     end, places = motion.times[-1], [motion.times[k] for k in PLACES]
     in_limits: dict[float, float] = {}  # by the setting
 
@@ -83,7 +87,7 @@ def find_best_run(peer: Peer, motion: ReferenceMotion, limit: float) -> list[Ent
             # A day of motion would take some programs an hour: a part of it comes first.
             part = end if peer.name == CLOSED_FORM else min(end, PROBE)
             seconds = timeit(partial(solution.reach, part), number=1) * end / part
-            if seconds > limit:
+            if seconds > LIMIT:
                 return Measurement(setting, math.inf, math.inf, 0, seconds, 0.0)
             seconds = timeit(partial(solution.reach, end), number=1)
             errors = [motion.error(t, solution.reach(t)) for t in places]
@@ -93,8 +97,8 @@ def find_best_run(peer: Peer, motion: ReferenceMotion, limit: float) -> list[Ent
         in_limits[setting] = max(e / motion.limit(t) for t, e in zip(places, errors, strict=True))
         return Measurement(setting, max(errors), statistics.mean(errors), 4, seconds, 0.0)
 
-    points, _ = sweep(peer.settings, run, limit)
-    good = [each for each in points if each.seconds <= limit and each.error < math.inf]
+    points, _ = sweep(peer.settings, run, LIMIT)
+    good = [each for each in points if each.seconds <= LIMIT and each.error < math.inf]
     best = min(good, key=lambda each: each.error, default=None)
     if best is None:
         return []
@@ -106,8 +110,7 @@ def format_scores(facts: dict[str, Any]) -> str:
     """Return the table of a measurement: for each level the median and the worst problem."""
     entries = [Entry(**each) for each in facts["entries"]]
     rows, count = [], len(read_problems())
-    for peer in dict.fromkeys(entry.peer for entry in entries):
-        own = [entry for entry in entries if entry.peer == peer]
+    for peer, own in group(entries, lambda entry: entry.peer).items():
         cells = [_summarize([e.angle for e in own if e.level == level]) for level in LEVELS]
         rows.append([peer, *cells, f"{len(own)} of {count}"])
     head = ["median, worst (rad)", *(f"level {level}" for level in LEVELS), "in time"]

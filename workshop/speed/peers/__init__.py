@@ -2,9 +2,8 @@
 
 from importlib import import_module
 
-from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion
-from workshop.speed.peers.peer import Arrays, Peer, Solution, Task, spread_times
+from workshop.speed.peers.peer import Arrays, Peer, Solution
 
 CLOSED_FORM, TAYLOR = "symtop_ros, closed form", "symtop_ros, Taylor series"
 OPTIONAL = {  # package, and the file here that needs it
@@ -18,36 +17,21 @@ OPTIONAL = {  # package, and the file here that needs it
 }
 
 
-def prepare(task: Task, _: float) -> Solution:
+def prepare(task: Motion, _: float) -> Solution:
     """Return a solution that sets the motion up at each call: that is part of its cost."""
-    arrays = prepare_arrays(task)
-
-    def reach(t: float) -> Real:
-        return _find_motion(task).at(t).orientation
-
-    def record(t: float) -> tuple[Real, Real]:
-        times = spread_times(t)
-        return times, arrays(times)
-
-    return Solution(reach, record)
+    compute = prepare_arrays(task)
+    return Solution.of_arrays(compute, compute)
 
 
-def prepare_arrays(task: Task) -> Arrays:
-    """Return a function for the orientations at many times."""
-
-    def compute(times: Real) -> Real:
-        return _find_motion(task).at(times).orientation
-
-    return compute
-
-
-def _find_motion(task: Task) -> Motion:
-    return Motion(task.top, task.start, task.friction, task.torque)
+def prepare_arrays(task: Motion) -> Arrays:
+    """Return a function for the orientations at one time or many."""
+    given = task.top, task.start, task.friction, task.applied_torque
+    return lambda times: Motion(*given).at(times).orientation
 
 
 OWN = [
-    Peer(CLOSED_FORM, (0.0,), prepare, prepare_arrays=prepare_arrays, quick="every motion"),
-    Peer(TAYLOR, (0.0,), prepare, friction="only", quick="every motion"),
+    Peer(CLOSED_FORM, (0.0,), prepare, prepare_arrays=prepare_arrays),
+    Peer(TAYLOR, (0.0,), prepare, friction="only"),
 ]
 
 

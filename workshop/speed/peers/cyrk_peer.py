@@ -3,17 +3,17 @@
 from collections.abc import Callable
 from functools import partial
 from math import cos, sin
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from CyRK import nb_diffeq_addr, nbsolve2_ivp
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import (
     Equations,
     Peer,
     Solution,
-    Task,
     on_euler_angles,
     on_quaternion,
 )
@@ -23,7 +23,7 @@ SETTINGS = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-14, 1e-15, 2.0**-52)
 Rates = Callable[..., None]
 
 
-def compile_quaternion(task: Task) -> tuple[Rates, Equations]:
+def compile_quaternion(task: Motion) -> tuple[Rates, Equations]:
     """Return rates for quaternion and angular velocity that CyRK compiles, and the equations."""
     Ix, Iz, Mgl = task.top.moments
     axial, transverse = task.friction.axial, task.friction.transverse
@@ -42,7 +42,7 @@ def compile_quaternion(task: Task) -> tuple[Rates, Equations]:
     return rates, on_quaternion(task)
 
 
-def compile_euler_angles(task: Task) -> tuple[Rates, Equations]:
+def compile_euler_angles(task: Motion) -> tuple[Rates, Equations]:
     """Return rates for Euler angles and their rates that CyRK compiles, and the equations."""
     Ix, Iz, Mgl = task.top.moments
 
@@ -58,7 +58,7 @@ def compile_euler_angles(task: Task) -> tuple[Rates, Equations]:
 
 
 def prepare(
-    form: Callable[[Task], tuple[Rates, Equations]], task: Task, tolerance: float
+    form: Callable[[Motion], tuple[Rates, Equations]], task: Motion, tolerance: float
 ) -> Solution:
     """Compile; each solution starts anew."""
     rates, equations = form(task)
@@ -77,11 +77,7 @@ def prepare(
     return Solution.of_steps(lambda t: run(t)[1][-1:], run, equations.read)
 
 
-FORMS: tuple[tuple[str, Callable[..., Any], Literal["no", "also"]], ...] = (
-    ("quaternion", compile_quaternion, "also"),
-    ("Euler angles", compile_euler_angles, "no"),
-)
 PEERS = [
-    Peer(f"CyRK {METHOD}, {name}", SETTINGS, partial(prepare, form), friction, quick="every motion")
-    for name, form, friction in FORMS
+    Peer(f"CyRK {METHOD}, quaternion", SETTINGS, partial(prepare, compile_quaternion), "also"),
+    Peer(f"CyRK {METHOD}, Euler angles", SETTINGS, partial(prepare, compile_euler_angles)),
 ]

@@ -8,29 +8,21 @@ import jax
 import numpy as np
 
 from symtop_ros.arrays import Real
-from workshop.speed.peers.peer import (
-    Peer,
-    Quick,
-    Solution,
-    Task,
-    body_rates,
-    choose_steps,
-    initial_values,
-    normalize,
-)
+from symtop_ros.physics import Motion
+from workshop.speed.peers.peer import Peer, Solution, on_quaternion
 
-METHODS: tuple[tuple[str, Quick], ...] = (("Dopri8", "first motion"), ("Tsit5", "no"))
 SETTINGS = (1e-7, 1e-11, 1e-14, 1e-15)  # a second of compiling each
 MOST_STEPS = 2_000_000
 MOST_RECORDED = 65_536  # steps of the untimed run, for which memory is set aside
 
 
-def prepare(method: str, task: Task, rtol: float) -> Solution:
+def prepare(method: str, task: Motion, rtol: float) -> Solution:
     """Compile, by a short first run; each solution starts anew."""
     jax.config.update("jax_enable_x64", True)
     control = diffrax.PIDController(rtol=rtol, atol=rtol)
-    term = diffrax.ODETerm(lambda t, y, _: jax.numpy.stack(body_rates(task, t, tuple(y))))
-    start = jax.numpy.array(initial_values(task))
+    equations = on_quaternion(task)
+    term = diffrax.ODETerm(lambda t, y, _: jax.numpy.stack(equations.rates(t, tuple(y))))
+    start = jax.numpy.array(equations.start)
 
     def run(saved: Any, most_steps: int, t: Any) -> Any:
         found = diffrax.diffeqsolve(
@@ -44,21 +36,17 @@ def prepare(method: str, task: Task, rtol: float) -> Solution:
 
     compiled = jax.jit(partial(run, diffrax.SaveAt(t1=True), MOST_STEPS))
 
-    def reach(t: float) -> Real:
-        return normalize(np.asarray(compiled(t)[1])[0, :4])
-
     def record(t: float) -> tuple[Real, Real]:
-        found = jax.jit(partial(run, diffrax.SaveAt(steps=True), MOST_RECORDED))(t)
+        found = jax.jit(partial(run, diffrax.SaveAt(t0=True, steps=True), MOST_RECORDED))(t)
         times, states = (np.asarray(each) for each in found)
-        steps = np.flatnonzero(np.isfinite(times))[::-1]  # the rest of the memory is filled by inf
-        chosen = steps[choose_steps(len(steps))]
-        return times[chosen], normalize(states[chosen, :4])
+        made = np.isfinite(times)  # the rest of the memory is filled by inf
+        return times[made], states[made]
 
-    reach(1e-3)
-    return Solution(reach, record)
+    compiled(1e-3)
+    return Solution.of_steps(lambda t: np.asarray(compiled(t)[1]), record, equations.read)
 
 
 PEERS = [
-    Peer(f"diffrax {name}", SETTINGS, partial(prepare, name), friction="also", quick=quick)
-    for name, quick in METHODS
+    Peer(f"diffrax {name}", SETTINGS, partial(prepare, name), friction="also")
+    for name in ("Dopri8", "Tsit5")
 ]

@@ -22,8 +22,8 @@ from pydrake.systems.primitives import ConstantValueSource
 
 from symtop_ros.arrays import Real
 from symtop_ros.models.engines import format_sdf
-from symtop_ros.physics import Body, State
-from workshop.speed.peers.peer import Peer, Solution, Task, choose_steps, normalize, time_strides
+from symtop_ros.physics import Body, Motion, State
+from workshop.speed.peers.peer import Peer, Solution, normalize
 
 SCHEMES = {"RK3": "runge_kutta3", "RK5": "runge_kutta5"}
 # At order 3 an accuracy of 1e-10 takes 3 million steps for ten seconds.
@@ -34,7 +34,7 @@ STEPS = tuple(2.0**-k for k in range(9, 20))  # s
 LARGEST_STEP = 0.1  # s
 
 
-def prepare_quaternion(scheme: str, task: Task, step: float) -> Solution:
+def prepare_quaternion(scheme: str, task: Motion, step: float) -> Solution:
     """Build the floating body and its simulator with fixed steps; each solution starts anew."""
     simulator, plant = _build_floating_body(task)
     integrator = ResetIntegratorFromFlags(simulator, scheme, step)
@@ -51,26 +51,15 @@ def prepare_quaternion(scheme: str, task: Task, step: float) -> Solution:
         plant.SetVelocities(context, velocity)
         simulator.Initialize()
 
-    def read() -> Real:
-        return normalize(plant.GetPositions(context)[:4])
-
-    def reach(t: float) -> Real:
-        begin()
-        simulator.AdvanceTo(t)
-        return read()
-
-    def record(t: float) -> tuple[Real, Real]:
-        begin()
-        times, orientations = time_strides(t, step), []
-        for each in times:
-            simulator.AdvanceTo(each)
-            orientations.append(read())
-        return times, np.array(orientations)
-
-    return Solution(reach, record)
+    return Solution.of_fixed_steps(
+        step,
+        begin,
+        advance=lambda steps: simulator.AdvanceTo(root.get_time() + steps * step),
+        read=lambda: normalize(plant.GetPositions(context)[:4]),
+    )
 
 
-def _build_floating_body(task: Task) -> tuple[Simulator, Any]:
+def _build_floating_body(task: Motion) -> tuple[Simulator, Any]:
     Ix, Iz, Mgl = task.top.moments
     builder = DiagramBuilder()
     plant = builder.AddSystem(MultibodyPlant(time_step=0.0))
@@ -92,7 +81,7 @@ def _make_force(body: Any, height: float, upward: float) -> ExternallyAppliedSpa
     return force
 
 
-def prepare_ball_joint(scheme: str, task: Task, accuracy: float) -> Solution:
+def prepare_ball_joint(scheme: str, task: Motion, accuracy: float) -> Solution:
     """Build the body on a joint and its simulator with error control; solutions start anew."""
     plant, joint = _build_ball_joint(task)
     simulator = Simulator(plant)
@@ -116,23 +105,22 @@ def prepare_ball_joint(scheme: str, task: Task, accuracy: float) -> Solution:
         simulator.AdvanceTo(t)
         return read()
 
-    def record(t: float) -> tuple[Real, Real]:
-        steps: list[tuple[float, Real]] = []
+    def run(t: float) -> tuple[Real, Real]:
+        steps: dict[float, Real] = {}
 
         def store(_: Any) -> EventStatus:
-            steps.append((context.get_time(), read()))
+            steps[context.get_time()] = read()
             return EventStatus.DidNothing()
 
         simulator.set_monitor(store)
         reach(t)
         simulator.clear_monitor()
-        chosen = [each for each in steps if each[0] > 0][::-1][choose_steps(len(steps))]
-        return np.array([each[0] for each in chosen]), np.array([each[1] for each in chosen])
+        return np.array([*steps]), np.array([*steps.values()])
 
-    return Solution(reach, record)
+    return Solution.of_steps(lambda t: reach(t)[np.newaxis], run, read=np.asarray)
 
 
-def _build_ball_joint(task: Task) -> tuple[Any, Any]:
+def _build_ball_joint(task: Motion) -> tuple[Any, Any]:
     """Return the body of the SDF of `top_model`, turned back to where the angles are zero."""
     upright = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     plant = MultibodyPlant(time_step=0.0)
@@ -143,12 +131,7 @@ def _build_ball_joint(task: Task) -> tuple[Any, Any]:
 
 PEERS = [
     *(
-        Peer(
-            f"Drake {name}, quaternion",
-            STEPS,
-            partial(prepare_quaternion, scheme),
-            quick="first motion" if name == "RK5" else "no",
-        )
+        Peer(f"Drake {name}, quaternion", STEPS, partial(prepare_quaternion, scheme))
         for name, scheme in SCHEMES.items()
     ),
     *(

@@ -19,13 +19,13 @@ from exudyn.itemInterface import (
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real
-from workshop.speed.peers.peer import RECORDED, Peer, Quick, Solution, Task, count_steps
+from symtop_ros.physics import Motion
+from workshop.speed.peers.peer import RECORDED, Peer, Solution, count_steps
 
-METHODS: tuple[tuple[str, Quick], ...] = (("RK44", "no"), ("RK67", "first motion"))
 SETTINGS = tuple(2.0**-k for k in (9, 10, 11, 12, 13, 14, 15, 16, 17, 18))  # s
 
 
-def prepare(method: str, task: Task, step: float) -> Solution:
+def prepare(method: str, task: Motion, step: float) -> Solution:
     """Assemble the systems, one of them with a sensor that records; each solution starts anew."""
     plain, node = _build_system(task)
     recording, recorded_node = _build_system(task)
@@ -70,7 +70,7 @@ def _read(matrices: Real) -> Real:
     return np.asarray(turns.as_quat()[:, [3, 0, 1, 2]])
 
 
-def _build_system(task: Task) -> tuple[Any, Any]:
+def _build_system(task: Motion) -> tuple[Any, Any]:
     """Return a system with the top, and the number of its node."""
     system = exu.SystemContainer().AddSystem()
     Ix, Iz, Mgl = task.top.moments
@@ -93,6 +93,4 @@ def _build_system(task: Task) -> tuple[Any, Any]:
     return system, node
 
 
-PEERS = [
-    Peer(f"EXUDYN {name}", SETTINGS, partial(prepare, name), quick=quick) for name, quick in METHODS
-]
+PEERS = [Peer(f"EXUDYN {name}", SETTINGS, partial(prepare, name)) for name in ("RK44", "RK67")]

@@ -13,16 +13,15 @@ import heyoka as hy
 import numpy as np
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import (
     Arrays,
     Equations,
     Peer,
     Solution,
-    Task,
     from_euler_angles,
     on_euler_angles,
     on_quaternion,
-    spread_times,
 )
 
 DEFAULT = 2.0**-52
@@ -32,7 +31,7 @@ SETTINGS = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, DEFAULT, 1e-17, 1e-18)
 on_angles = partial(on_euler_angles, sin=hy.sin, cos=hy.cos)
 
 
-def on_constants_of_motion(task: Task) -> Equations:
+def on_constants_of_motion(task: Motion) -> Equations:
     """Return phi, theta, psi and theta' as variables, with p_phi and p_psi as constants."""
     Ix, Iz, Mgl = task.top.moments
     phi, theta, psi = task.start.euler_angles
@@ -68,7 +67,7 @@ def integrator(equations: Equations, tolerance: float) -> Any:
     )
 
 
-def prepare(make: Callable[[Task], Equations], task: Task, tolerance: float) -> Solution:
+def prepare(make: Callable[[Motion], Equations], task: Motion, tolerance: float) -> Solution:
     """Compile; each solution starts anew."""
     equations = make(task)
     taylor, start = integrator(equations, tolerance), np.array(equations.start)
@@ -79,14 +78,10 @@ def prepare(make: Callable[[Task], Equations], task: Task, tolerance: float) -> 
         taylor.propagate_until(t)
         return np.asarray(equations.read(taylor.state[np.newaxis])[0])
 
-    def record(t: float) -> tuple[Real, Real]:
-        times = spread_times(t)
-        return times, _run_over(taylor, equations, times)
-
-    return Solution(reach, record)
+    return Solution.of_arrays(reach, partial(_run_over, taylor, equations))
 
 
-def prepare_arrays(make: Callable[[Task], Equations], task: Task) -> Arrays:
+def prepare_arrays(make: Callable[[Motion], Equations], task: Motion) -> Arrays:
     """Compile at the default tolerance; states at many times come from dense output."""
     equations = make(task)
     return partial(_run_over, integrator(equations, DEFAULT), equations)
@@ -140,7 +135,6 @@ PEERS = [
         partial(prepare, form),
         "also" if form is on_quaternion else "no",
         None if form is on_angles else partial(prepare_arrays, form),
-        "every motion",
     )
     for name, form in (
         ("quaternion", on_quaternion),

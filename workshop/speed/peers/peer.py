@@ -1,6 +1,7 @@
-"""A peer, the task that it is given, and the equations of motion for general integrators.
+"""A peer, and the equations of motion for general integrators.
 
-The equations are in plain floats: with so few numbers, arrays would only slow SciPy down.
+A task is the motion that a peer integrates; its numbers are taken as exact. The equations are in
+plain floats: with so few numbers, arrays would only slow SciPy down.
 """
 
 from collections.abc import Callable
@@ -12,27 +13,15 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from symtop_ros.arrays import Real, Vector
-from symtop_ros.physics import Friction, State, Top
+from symtop_ros.physics import Motion
 
-Arrays = Callable[[Real], Real]  # times (n,) in s -> orientations (n, 4)
-Quick = Literal["every motion", "first motion", "no"]
-NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
+Arrays = Callable[[Any], Real]  # a time or times (n,) in s -> orientations (..., 4)
 # solve_ivp takes no relative tolerance below 100 eps, the last one here.
 TOLERANCES = (*(10.0**-k for k in (4, 6, 8, 9, 10, 11, 12, 13)), 100 * 2.0**-52)
 # Times at which errors are taken, evenly in (0, T]. For T = 10 s they are multiples of 2^-10 s:
 # exact doubles, as are steps of powers of two, so that no error comes from the times.
 RECORDED = 10_240
 OWN_STEPS = 1000  # at most, of an integrator that has no exact output between its steps
-
-
-@dataclass(frozen=True)
-class Task:
-    """A top that starts moving at t = 0; its numbers are taken as exact."""
-
-    top: Top
-    start: State
-    friction: Friction = NO_FRICTION
-    torque: Vector = NO_TORQUE  # applied, in the world frame, N m
 
 
 class Solution(NamedTuple):
@@ -66,6 +55,42 @@ class Solution(NamedTuple):
 
         return cls(lambda t: np.asarray(read(reach(t))[0]), record)
 
+    @classmethod
+    def of_arrays(cls, reach: Callable[[float], Real], arrays: Arrays) -> "Solution":
+        """Return a solution from a function for the orientations at any times."""
+        return cls(reach, lambda t: (spread_times(t), arrays(spread_times(t))))
+
+    @classmethod
+    def of_fixed_steps(
+        cls,
+        step: float,
+        begin: Callable[[], object],
+        advance: Callable[[int], object],
+        read: Callable[[], Real],
+    ) -> "Solution":
+        """Return a solution from a model with a state of its own, in steps of one size (s).
+
+        `begin` sets it to the start, `advance` makes a number of steps, and `read` returns a copy
+        of the orientation.
+        """
+
+        def reach(t: float) -> Real:
+            begin()
+            advance(count_steps(t, step))
+            return read()
+
+        def record(t: float) -> tuple[Real, Real]:
+            begin()
+            orientations, steps = [], count_steps(t, step)
+            stride = max(1, steps // RECORDED)
+            for _ in range(steps // stride):
+                advance(stride)
+                orientations.append(read())
+            times = np.arange(1.0, len(orientations) + 1) * (stride * step)
+            return times, np.array(orientations)
+
+        return cls(reach, record)
+
 
 class Equations(NamedTuple):
     """Equations of motion in some variables, for a general integrator."""
@@ -75,19 +100,19 @@ class Equations(NamedTuple):
     read: Callable[[Real], Real]  # variables (n, k) -> orientations (n, 4)
 
 
-def on_quaternion(task: Task) -> Equations:
+def on_quaternion(task: Motion) -> Equations:
     """Return the quaternion and the body's angular velocity as variables."""
     return Equations(initial_values(task), partial(body_rates, task), lambda y: normalize(y[:, :4]))
 
 
-def on_euler_angles(task: Task, **functions: Any) -> Equations:
+def on_euler_angles(task: Motion, **functions: Any) -> Equations:
     """Return the Euler angles and their rates as variables; `functions` may be sin and cos."""
     start = [*task.start.euler_angles, *task.start.euler_rates]
     rates = partial(euler_rates, task, **functions)
     return Equations(start, rates, lambda y: from_euler_angles(y[:, :3]))
 
 
-PrepareArrays = Callable[[Task], Arrays]
+PrepareArrays = Callable[[Motion], Arrays]
 
 
 @dataclass(frozen=True)
@@ -98,31 +123,16 @@ class Peer:
     # tolerances, or steps in s, from coarse to fine; the package's own engines have one
     settings: tuple[float, ...]
     # builds a `Solution` for a task and a setting, with all compiling and loading
-    prepare: Callable[[Task, float], Solution]
+    prepare: Callable[[Motion, float], Solution]
     # friction along and across the axis: not modelled, modelled, or the only use of the peer
     friction: Literal["no", "also", "only"] = "no"
     # builds a model, at the best setting, that computes the states at many times at once
     prepare_arrays: PrepareArrays | None = None
-    # part in the quick report, which must not take long: the best form of each program is in
-    # it
-    quick: Quick = "no"
 
 
 def spread_times(t: float) -> Real:
     """Return `RECORDED` times, evenly in (0, t] (s)."""
     return np.asarray(np.arange(1, RECORDED + 1) * (t / RECORDED))
-
-
-def list_strides(t: float, step: float) -> list[int]:
-    """Return how many steps (of s) to make before each state that is recorded up to t (s)."""
-    steps = count_steps(t, step)
-    stride = max(1, steps // RECORDED)
-    return [stride] * (steps // stride)
-
-
-def time_strides(t: float, step: float) -> Real:
-    """Return the times in s of the states that are recorded."""
-    return np.cumsum(list_strides(t, step), dtype=np.float64) * step
 
 
 def choose_steps(number: int) -> slice:
@@ -148,12 +158,12 @@ def count_steps(t: float, step: float) -> int:
     return round(t / step)
 
 
-def initial_values(task: Task) -> list[float]:
+def initial_values(task: Motion) -> list[float]:
     """Return orientation (w, x, y, z) and body angular velocity (rad/s) at the start."""
     return [*task.start.orientation.tolist(), *task.start.angular_velocity.tolist()]
 
 
-def body_rates(task: Task, t: float, y: Any) -> list[Any]:
+def body_rates(task: Motion, t: float, y: Any) -> list[Any]:
     """Return q' = q omega/2 and Euler's equations for y = (w, x, y, z, wx, wy, wz).
 
     With friction -axial wz on the axis and -transverse (wx, wy) across it, and with the applied
@@ -163,7 +173,8 @@ def body_rates(task: Task, t: float, y: Any) -> list[Any]:
     axial, transverse = task.friction.axial, task.friction.transverse
     w, x, y_, z, wx, wy, wz = y.tolist() if hasattr(y, "tolist") else y
     gx, gy = 2 * (x * z - w * y_), 2 * (y_ * z + w * x)
-    tx, ty, tz = _to_body(task.torque, w, x, y_, z) if any(task.torque) else NO_TORQUE
+    torque = task.applied_torque
+    tx, ty, tz = _to_body(torque, w, x, y_, z) if any(torque) else torque
     return [
         (-x * wx - y_ * wy - z * wz) / 2,
         (w * wx + y_ * wz - z * wy) / 2,
@@ -185,7 +196,7 @@ def _to_body(torque: Vector, w: Any, x: Any, y: Any, z: Any) -> tuple[Any, Any, 
     )
 
 
-def euler_rates(task: Task, t: float, y: Any, *, sin: Any = sin, cos: Any = cos) -> list[Any]:
+def euler_rates(task: Motion, t: float, y: Any, *, sin: Any = sin, cos: Any = cos) -> list[Any]:
     """Return the article's three equations for y = (phi, theta, psi, phi', theta', psi').
 
     With the functions sin and cos of another package the numbers may be symbolic expressions.

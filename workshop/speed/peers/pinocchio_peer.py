@@ -5,31 +5,24 @@ import pinocchio
 
 from symtop_ros.arrays import Real
 from symtop_ros.models.urdf import format_urdf
-from symtop_ros.physics import Body
-from workshop.speed.peers.peer import (
-    Peer,
-    Solution,
-    Task,
-    initial_values,
-    list_strides,
-    time_strides,
-)
+from symtop_ros.physics import Body, Motion
+from workshop.speed.peers.peer import Peer, Solution, initial_values
 
 SETTINGS = tuple(2.0**-k for k in range(7, 19))  # s
 
 
-def prepare(task: Task, step: float) -> Solution:
+def prepare(task: Motion, step: float) -> Solution:
     """Build the model; each solution starts anew."""
     model = _build_model(task)
     data = model.createData()
     w, x, y, z, *omega = initial_values(task)
-    still = np.zeros(3)
+    place, rate, still = np.zeros(4), np.zeros(3), np.zeros(3)
 
     def acceleration(q: Real, v: Real) -> Real:
         return np.array(pinocchio.aba(model, data, q, v, still))
 
-    def advance(q: Real, v: Real) -> tuple[Real, Real]:
-        """Advance by one Runge-Kutta-Munthe-Kaas step of order 4.
+    def make_step(q: Real, v: Real) -> tuple[Real, Real]:
+        """Make one Runge-Kutta-Munthe-Kaas step of order 4.
 
         Each slope is carried back to the start of the step by the series of dexp^-1.
         """
@@ -46,20 +39,19 @@ def prepare(task: Task, step: float) -> Solution:
         bent = w + np.cross(u, w) / 2 + np.cross(u, np.cross(u, w)) / 12
         return bent, acceleration(turned, faster) * step
 
-    def run(t: float) -> list[Real]:
-        """Return the orientations that are recorded: with a loop in Python this costs nothing."""
-        q, v = np.array([x, y, z, w]), np.array(omega)
-        orientations = []
-        for stride in list_strides(t, step):
-            for _ in range(stride):
-                q, v = advance(q, v)
-            orientations.append(q[[3, 0, 1, 2]])
-        return orientations
+    def begin() -> None:
+        nonlocal place, rate
+        place, rate = np.array([x, y, z, w]), np.array(omega)
 
-    return Solution(lambda t: run(t)[-1], lambda t: (time_strides(t, step), np.array(run(t))))
+    def advance(steps: int) -> None:
+        nonlocal place, rate
+        for _ in range(steps):
+            place, rate = make_step(place, rate)
+
+    return Solution.of_fixed_steps(step, begin, advance, read=lambda: place[[3, 0, 1, 2]])
 
 
-def _build_model(task: Task) -> pinocchio.Model:
+def _build_model(task: Motion) -> pinocchio.Model:
     """Return the body of the URDF of `top_model`, on a spherical joint for its three joints."""
     chain = pinocchio.buildModelFromXML(format_urdf(task.top, task.start, Body.of(task.top)))
     model = pinocchio.Model()

@@ -8,14 +8,13 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import (
     TOLERANCES,
     Arrays,
     Equations,
     Peer,
-    Quick,
     Solution,
-    Task,
     on_euler_angles,
     on_quaternion,
 )
@@ -42,7 +41,7 @@ def integrate(
 
 
 def prepare(
-    method: Method, make: Callable[[Task], Equations], task: Task, tolerance: float
+    method: Method, make: Callable[[Motion], Equations], task: Motion, tolerance: float
 ) -> Solution:
     """Return a solution by a method at a tolerance; `make` returns the equations of a task."""
     equations = make(task)
@@ -50,25 +49,22 @@ def prepare(
     return Solution.of_steps(lambda t: run(t, [t])[1], run, equations.read)
 
 
-def prepare_arrays(task: Task) -> Arrays:
+def prepare_arrays(task: Motion) -> Arrays:
     """Return states at many times, from the dense output of DOP853 at its best tolerance."""
     equations = on_quaternion(task)
     run = partial(integrate, "DOP853", equations, TOLERANCES[-1])
     return lambda times: equations.read(run(float(times[-1]), times)[1])
 
 
-def _make_peers(method: Method, quick: Quick, quick_angles: Quick) -> list[Peer]:
+def _make_peers(method: Method) -> list[Peer]:
     """Return a method as two peers, on the quaternion and on Euler angles."""
     arrays = prepare_arrays if method == "DOP853" else None
     quaternion, angles = (partial(prepare, method, f) for f in (on_quaternion, on_euler_angles))
     return [
-        Peer(f"SciPy {method}, quaternion", TOLERANCES, quaternion, "also", arrays, quick),
-        Peer(f"SciPy {method}, Euler angles", TOLERANCES, angles, quick=quick_angles),
+        Peer(f"SciPy {method}, quaternion", TOLERANCES, quaternion, "also", arrays),
+        Peer(f"SciPy {method}, Euler angles", TOLERANCES, angles),
     ]
 
 
-PEERS = [
-    *_make_peers("DOP853", "first motion", "first motion"),
-    *_make_peers("LSODA", "no", "first motion"),  # it is better in Euler angles
-    *_make_peers("Radau", "no", "no"),  # it is for stiff equations, which these are not
-]
+# Radau is for stiff equations, which these are not.
+PEERS = [*_make_peers("DOP853"), *_make_peers("LSODA"), *_make_peers("Radau")]
