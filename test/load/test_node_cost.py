@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from documents import find_section
 from waiting import until
 
 from workshop.load import node_cost
 from workshop.load.domains import claim_domain
 from workshop.load.endings import SETPRIV
 from workshop.load.listener import Traffic
-from workshop.speed.publish import find_section
 
 ROOT = Path(__file__).parents[2]
 
@@ -40,7 +40,7 @@ def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, d
 
 def test_late_samples_and_jitter_are_counted_from_the_time_of_publishing():
     sent = np.array([0.0, 0.010, 0.020, 0.0305, 0.0605, 0.070])
-    figures = node_cost.summarize(Traffic(sent, 1.0, messages=30, cpu=0.003), 100.0, 0.07)
+    figures = node_cost.summarize(Traffic(sent, 1.0, cpu=0.003), 100.0, 0.07)
     assert figures[node_cost.LATE_SAMPLES] == pytest.approx(100 / 5)
     assert figures[node_cost.JITTER] == pytest.approx(20.0, rel=0.05)  # ms; p99 of five gaps
     assert figures[node_cost.CPU] == pytest.approx(100 * 0.003 / 0.07)
@@ -48,7 +48,7 @@ def test_late_samples_and_jitter_are_counted_from_the_time_of_publishing():
 
 def test_lost_samples_are_late():
     sent = np.arange(100) * 0.01
-    figures = node_cost.summarize(Traffic(sent, 0.75, messages=100, cpu=0.0), 100.0, 1.0)
+    figures = node_cost.summarize(Traffic(sent, 0.75, cpu=0.0), 100.0, 1.0)
     assert figures[node_cost.LATE_SAMPLES] == pytest.approx(25.0)
 
 

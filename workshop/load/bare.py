@@ -5,10 +5,9 @@ nothing. With `--prepared` it publishes bytes that it has made once, in which on
 changes. A service publishes an event with the time of the call.
 """
 
-from __future__ import annotations
-
 import struct
 import sys
+from contextlib import suppress
 from typing import Any
 
 import rclpy
@@ -20,6 +19,8 @@ from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
+
+from symtop_ros.shutdown import ros_context
 
 TOPICS = {
     "orientation": QuaternionStamped,
@@ -97,16 +98,10 @@ def _vector_of(message: Any) -> Any:
 
 def main() -> None:
     """Publish at the rate that is given as first argument (Hz) until a signal comes."""
-    rclpy.init()
-    try:
-        rclpy.spin(BareNode(float(sys.argv[1]), "--prepared" in sys.argv))
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    except RuntimeError:  # a signal during a tick
-        if rclpy.ok():
-            raise
-    finally:
-        rclpy.try_shutdown()
+    with suppress(KeyboardInterrupt, ExternalShutdownException), ros_context(sys.argv) as listen:
+        node = BareNode(float(sys.argv[1]), "--prepared" in sys.argv)
+        listen()
+        rclpy.spin(node)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,6 @@
 `python -m workshop.load.calls`, or `--seconds 30`.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """ROS domains for tests: each is held by one process at a time, also among several test runs."""
 
-from __future__ import annotations
-
 import atexit
 import contextlib
 import fcntl
@@ -30,8 +28,7 @@ def claim_domain() -> int:
         if number not in _held and (file := _lock(number)):
             _held[number] = file
             return number
-    msg = f"all {len(DOMAINS)} domains are held"
-    raise RuntimeError(msg)
+    raise RuntimeError(f"all {len(DOMAINS)} domains are held")
 
 
 def release_domain(number: int) -> None:

@@ -3,8 +3,6 @@
 They heed SIGHUP, also when the tests themselves ignore it, under nohup.
 """
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Sequence
 

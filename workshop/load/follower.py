@@ -1,27 +1,69 @@
-"""A subscriber to a node in a separate process, which counts the samples that are lost."""
+"""Subscribers to a node in a separate process, and the clients of the stress test.
 
-from __future__ import annotations
+One of the subscribers counts the samples that are lost. Each client runs in a process of its own.
+"""
 
 import struct
+import time
+from collections.abc import Callable
+from contextlib import closing
+from functools import partial
+from typing import Any
 
+import numpy as np
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped
 
 from symtop_ros.client.connection import Connection, UnreachableError
+from workshop.load.bare import LATCHED
 from workshop.load.processes import domain
 
 TIMEOUT = 30.0  # s for a node to start, and to answer
 DEPTH = 5000  # samples in the queue while the follower is busy
+SUBSCRIBED_RATE = 200.0  # Hz, of the top that `subscribe` follows
+CALLS: tuple[tuple[str, Any], ...] = (
+    ("hurry_precession", None),
+    ("get_state", None),
+    ("kick", {"precession_rate_change": float("nan")}),  # refused
+    ("reset", None),
+)
 
 
-class Follower:
+def read_stamp(data: bytes) -> int:
+    """Return the stamp in ns of a serialised message that begins with a header."""
+    seconds, nanoseconds = struct.unpack_from("<iI", data, 4)
+    return int(seconds * 1_000_000_000 + nanoseconds)
+
+
+class Subscriber:
+    """A node of a load in a domain, with a connection to a top."""
+
+    def __init__(self, domain: int, name: str = "/top") -> None:
+        context = rclpy.Context()
+        rclpy.init(context=context, domain_id=domain)
+        self.node = rclpy.create_node("load", context=context, enable_rosout=False)
+        self.connection = Connection(self.node, name, timeout=TIMEOUT)
+
+    def close(self) -> None:
+        """Leave the domain."""
+        rclpy.shutdown(context=self.node.context)
+
+    def spin(self, seconds: float) -> None:
+        """Receive for some seconds."""
+        self.connection.spin_until(lambda: False, seconds)
+
+    def wait(self, done: Callable[[], bool], wanted: str) -> None:
+        """Receive until a condition holds; UnreachableError if it does not in time."""
+        if not self.connection.spin_until(done, TIMEOUT):
+            raise UnreachableError(f"no {wanted} from {self.connection.name} within {TIMEOUT:g} s")
+
+
+class Follower(Subscriber):
     """Counts the orientations that a node publishes, and reads its diagnostics.
 
     Attributes
     ----------
-    connection : Connection
-        Client for requests.
     samples : int
         Orientations received.
     lost : int
@@ -31,20 +73,14 @@ class Follower:
     """
 
     def __init__(self, rate: float, name: str = "/top") -> None:
-        self._rate, self._context = rate, rclpy.Context()
-        rclpy.init(context=self._context, domain_id=domain())
-        self.node = rclpy.create_node("follower", context=self._context, enable_rosout=False)
-        self.connection = Connection(self.node, name, timeout=TIMEOUT)
+        super().__init__(domain(), name)
+        self._rate = rate
         self.node.create_subscription(
             QuaternionStamped, f"{name}/orientation", self._receive, DEPTH, raw=True
         )
         self.node.create_subscription(DiagnosticArray, "/diagnostics", self._read_diagnostics, 100)
         self._facts: dict[str, str] = {}
         self._reset_counts()
-
-    def close(self) -> None:
-        """Leave the domain."""
-        rclpy.shutdown(context=self._context)
 
     def begin(self) -> None:
         """Wait for a sample and for diagnostics, and count from then on.
@@ -58,18 +94,12 @@ class Follower:
             If nothing comes in time.
         """
         self._facts, self.samples = {}, 0
-        if not self.connection.spin_until(lambda: bool(self.samples and self._facts), TIMEOUT):
-            msg = f"no sample and diagnostics from {self.connection.name} within {TIMEOUT:g} s"
-            raise UnreachableError(msg)
+        self.wait(lambda: bool(self.samples and self._facts), "sample and diagnostics")
         self._reset_counts()
 
     def _reset_counts(self) -> None:
         self.samples, self.lost, self.balance = 0, 0, 0.0
         self._gaps, self._stamp, self._missed_before = 0, 0, self.fact("missed")
-
-    def spin(self, seconds: float) -> None:
-        """Receive for some seconds."""
-        self.connection.spin_until(lambda: False, seconds)
 
     def fact(self, name: str) -> int:
         """Return a count from the diagnostics; 0 before the first of them."""
@@ -81,8 +111,7 @@ class Follower:
         return self.fact("missed") - self._missed_before
 
     def _receive(self, data: bytes) -> None:
-        seconds, nanoseconds = struct.unpack_from("<iI", data, 4)
-        stamp = seconds * 1_000_000_000 + nanoseconds
+        stamp = read_stamp(data)
         if self._stamp:
             self._gaps += round((stamp - self._stamp) * 1e-9 * self._rate) - 1
         self._stamp = stamp
@@ -97,3 +126,53 @@ class Follower:
         # next diagnostics would be taken for lost samples.
         self.lost = max(0, self._gaps - self.missed)
         self.balance = max(self.balance, abs(float(self._facts["energy.balance"])))
+
+
+def call(domain: int, seconds: float) -> dict[str, Any]:
+    """Call services as fast as they answer; return the time of each call, and the failures."""
+    with closing(Subscriber(domain)) as user:
+        user.connection.request("get_state")
+        times: list[float] = []
+        unanswered, end = 0, time.monotonic() + seconds
+        while (began := time.monotonic()) < end:
+            try:
+                user.connection.request(*CALLS[len(times) % len(CALLS)])
+            except UnreachableError:
+                unanswered += 1
+            times.append(time.monotonic() - began)
+    return {"seconds": times, "unanswered": unanswered}
+
+
+def subscribe(domain: int, count: int, seconds: float) -> list[int]:
+    """Subscribe many times to one topic; return the number of gaps of each subscription."""
+    stamps: list[list[int]] = [[] for _ in range(count)]
+    with closing(Subscriber(domain)) as user:
+        for received in stamps:
+            add = partial(_add_stamp, received)
+            user.node.create_subscription(QuaternionStamped, "/top/orientation", add, DEPTH)
+        user.connection.spin_until(lambda: all(stamps), TIMEOUT)
+        user.spin(seconds)
+    period = round(1e9 / SUBSCRIBED_RATE)
+    # Only nanoseconds within the second are kept, so that a difference is taken modulo 1 s.
+    return [int((np.diff(each) % 1_000_000_000 != period).sum()) for each in stamps]
+
+
+def _add_stamp(stamps: list[int], message: QuaternionStamped) -> None:
+    stamps.append(message.header.stamp.nanosec)
+
+
+def join(domain: int, count: int, events: int) -> list[float]:
+    """Subscribe to the latched events, wait for all and leave, many times; return the times."""
+    received: list[DiagnosticArray] = []
+    times = []
+    with closing(Subscriber(domain)) as user:
+        for _ in range(count):
+            received.clear()
+            began = time.monotonic()
+            subscription = user.node.create_subscription(
+                DiagnosticArray, "/top/events", received.append, LATCHED
+            )
+            if user.connection.spin_until(lambda: len(received) >= events, TIMEOUT):
+                times.append(time.monotonic() - began)
+            user.node.destroy_subscription(subscription)
+    return times

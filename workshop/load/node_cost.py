@@ -4,15 +4,12 @@
 `--docs docs` the figures are written into the documentation.
 """
 
-from __future__ import annotations
-
 import argparse
-import contextlib
 import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
-from pathlib import Path
+from contextlib import closing
 from statistics import median
 from typing import Any
 
@@ -20,7 +17,7 @@ import numpy as np
 
 from workshop.load.bare import TOPICS
 from workshop.load.listener import Listener, Traffic
-from workshop.load.processes import domain, run_program, running, script, top_node
+from workshop.load.processes import DOCS, domain, run_program, running, script, top_node
 from workshop.speed.measure import find_machine
 from workshop.speed.publish import format_tables, publish, write_chapter
 
@@ -75,8 +72,8 @@ def _may_use_real_time() -> bool:
 
 def measure(command: Command, rate: float, seconds: float) -> dict[str, float]:
     """Return the figures of a node at a rate (Hz) in some seconds."""
-    with _listening(command(rate)) as (listener, pid):
-        return summarize(listener.listen(pid, rate, seconds), rate, seconds)
+    with running(command(rate)) as node, closing(Listener(domain())) as listener:
+        return summarize(listener.listen(node.pid, rate, seconds), rate, seconds)
 
 
 def summarize(traffic: Traffic, rate: float, seconds: float) -> dict[str, float]:
@@ -95,7 +92,7 @@ def summarize(traffic: Traffic, rate: float, seconds: float) -> dict[str, float]
 
 def measure_kicks(command: Command, rate: float) -> tuple[float, float]:
     """Return p50 and p99, in ms, of the time from a request to the first sample after it."""
-    with _listening(command(rate)) as (listener, _):
+    with running(command(rate)), closing(Listener(domain())) as listener:
         latencies = [listener.kick(PAUSE) * 1e3 for _ in range(KICKS)]
     p50, p99 = np.percentile(latencies, [50, 99])
     return float(p50), float(p99)
@@ -107,15 +104,15 @@ def find_highest_rate(command: Command, seconds: float) -> float:
     return max(reached, default=0.0)
 
 
-def compare(seconds: float, runs: int, report: Callable[[str], object]) -> Runs:
-    """Measure every node several times, in turn, and report each figure when it is there."""
+def compare(seconds: float, runs: int) -> Runs:
+    """Measure every node several times, in turn, and print each figure when it is there."""
     values: Runs = {}
     with tempfile.TemporaryDirectory() as folder:
         for run in range(1, runs + 1):
             for node, command in list_commands(folder).items():
                 for row, value in _measure_all(node, command, seconds):
                     values.setdefault(row, {}).setdefault(node, []).append(value)
-                    report(f"run {run}: {node}: {row}: {value:.3g}")
+                    print(f"run {run}: {node}: {row}: {value:.3g}", flush=True)
     return values
 
 
@@ -155,38 +152,26 @@ def _format_value(row: str, value: float) -> str:
     return f"{value:.3g}"
 
 
-@contextlib.contextmanager
-def _listening(command: list[str]) -> Iterator[tuple[Listener, int]]:
-    """Run a node, and listen to it."""
-    with running(command) as node, contextlib.closing(Listener(domain())) as listener:
-        yield listener, node.pid
-
-
 def _runs(text: str) -> int:
     if not (text.isdecimal() and int(text) > 0):
-        msg = f"must be a whole number above 0, got {text!r:.40}"
-        raise argparse.ArgumentTypeError(msg)
+        raise argparse.ArgumentTypeError(f"must be a whole number above 0, got {text!r:.40}")
     return int(text)
+
+
+def _run(options: argparse.Namespace) -> bool:
+    facts = {"machine": find_machine(), "count": options.runs}
+    sections = format_sections({**facts, "runs": compare(options.seconds, options.runs)})
+    print(sections[NAME])
+    if options.docs:
+        publish(sections, options.docs)
+    return True
 
 
 def main(args: list[str] | None = None) -> int:
     """Print the comparison; return the exit status."""
-
-    def add_options(parser: argparse.ArgumentParser) -> None:
-        parser.add_argument("--runs", type=_runs, default=3, help="default: %(default)d")
-        parser.add_argument("--docs", type=Path, help="folder of the documentation to update")
-
-    def run(options: argparse.Namespace) -> bool:
-        runs = compare(options.seconds, options.runs, lambda line: print(line, flush=True))
-        facts = {"machine": find_machine(), "count": options.runs, "runs": runs}
-        sections = format_sections(facts)
-        print(sections[NAME])
-        if options.docs:
-            publish(sections, options.docs)
-        return True
-
     description = "CPU, jitter and kick latency of top_node, compared with bare rclpy nodes."
-    return run_program("node_cost.py", description, 5.0, run, args, add_options)
+    runs = {"type": _runs, "default": 3, "help": "default: %(default)d"}
+    return run_program("node_cost.py", description, 5.0, _run, args, runs=runs, docs=DOCS)
 
 
 if __name__ == "__main__":

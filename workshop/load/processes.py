@@ -1,25 +1,25 @@
 """Nodes in separate processes, their use of resources (Linux), and the frame of a load program."""
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from symtop_ros.client.connection import UnreachableError
 from symtop_ros.command import positive
+from symtop_ros.programs import INTERRUPTED
 from workshop.load.domains import claim_domain
 from workshop.load.endings import bound
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = ROOT / "resource"
-INTERRUPTED = 130  # exit status of a program that Ctrl-C has ended
+DOCS = {"type": Path, "help": "folder of the documentation to update"}  # an option
 
 
 @cache
@@ -46,6 +46,24 @@ def top_node(*parameters: str) -> list[str]:
     return program("top_node", "--ros-args", *words, "--log-level", "warn")
 
 
+def cpu_seconds(pid: int) -> float:
+    """Return the user and system time of a process in s."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def memory(pid: int) -> float:
+    """Return the resident memory of a process in MB."""
+    lines = Path(f"/proc/{pid}/status").read_text().splitlines()
+    (line,) = (line for line in lines if line.startswith("VmRSS"))
+    return int(line.split()[1]) / 1024
+
+
+def descriptors(pid: int) -> int:
+    """Return the number of open files and sockets of a process."""
+    return len(list(Path(f"/proc/{pid}/fd").iterdir()))
+
+
 @contextlib.contextmanager
 def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
     """Run a node in the domain of this process, and end it."""
@@ -63,7 +81,7 @@ def run_program(
     seconds: float,
     run: Callable[[argparse.Namespace], bool],
     args: list[str] | None,
-    add_options: Callable[[argparse.ArgumentParser], object] = lambda _: None,
+    **options: Mapping[str, Any],
 ) -> int:
     """Run a load program with the option --seconds and its own options.
 
@@ -77,8 +95,8 @@ def run_program(
         Takes the options, prints its figures, returns True if they are good.
     args : list of str or None
         Arguments of the command line.
-    add_options : callable, optional
-        Adds options to the parser.
+    options : mappings
+        Further options by their names, as `add_argument` takes them.
 
     Returns
     -------
@@ -88,13 +106,14 @@ def run_program(
     """
     parser = argparse.ArgumentParser(prog=name, description=description)
     parser.add_argument("--seconds", type=positive, default=seconds, help="default: %(default)g")
-    add_options(parser)
-    options = parser.parse_args(args)
+    for option, facts in options.items():
+        parser.add_argument(f"--{option}", **facts)
+    chosen = parser.parse_args(args)
     # SIGTERM raises KeyboardInterrupt as well, so that the nodes that were started are ended.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     try:
-        return 0 if run(options) else 1
+        return 0 if run(chosen) else 1
     except KeyboardInterrupt:
         return INTERRUPTED
     except UnreachableError as error:

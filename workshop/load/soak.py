@@ -5,8 +5,6 @@ Every finished log is computed again from its events, as `top_replay --check` do
 example `python -m workshop.load.soak --scene cusps --rate 200`.
 """
 
-from __future__ import annotations
-
 import argparse
 import random
 import subprocess
@@ -14,14 +12,21 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from workshop.load.follower import Follower
-from workshop.load.processes import program, run_program, running, top_node
-from workshop.load.usage import descriptors, memory
+from workshop.load.processes import (
+    descriptors,
+    memory,
+    program,
+    run_program,
+    running,
+    top_node,
+)
 
 LOG_DURATION = 20.0  # s
 LINE_INTERVAL = 10.0  # s; the pools of the middleware and the allocator are filled after one
@@ -90,46 +95,49 @@ HEAD = (
 )
 
 
-def format_row(reading: Reading) -> str:
-    """Return a reading as a line below `HEAD`."""
-    r = reading
-    return (
-        f"{r.seconds:7.0f}{r.samples:10}{r.lost:6}{r.requests:10}{r.late:6}{r.missed:8}"
-        f"{r.dropped:9}{r.memory:7.1f}{r.growth:8.2f}{r.descriptors:7}{r.balance:12.1e}{r.logs:6}"
-        f"{r.wrong:7}{r.megabytes:8.1f}"
-    )
+ROW = (
+    "{seconds:7.0f}{samples:10}{lost:6}{requests:10}{late:6}{missed:8}{dropped:9}{memory:7.1f}"
+    "{growth:8.2f}{descriptors:7}{balance:12.1e}{logs:6}{wrong:7}{megabytes:8.1f}"
+)
 
 
 def soak(seconds: float, scene: str, rate: float) -> Iterator[Reading]:
     """Yield the counts every ten seconds, and at the end, after the check of the last log."""
-    with tempfile.TemporaryDirectory() as folder:
-        logs = Logs(Path(folder))
+    with tempfile.TemporaryDirectory() as folder, closing(Logs(Path(folder))) as logs:
         command = top_node(
             *(f"scene:={scene}", f"publish_rate:={rate}", "record.enabled:=true"),
             *(f"record.directory:={folder}", f"record.max_duration:={LOG_DURATION}"),
         )
         with running(command) as node, closing(User(rate)) as user:
             for reading in _readings(user, node.pid, seconds):
-                logs.check_finished()
+                logs.check()
                 last = logs.add_to(reading)
                 yield last
         node.wait()
-        logs.check_all()
+        logs.check(newest=True)
+        logs.wait()
         yield logs.add_to(last)
 
 
-def _readings(user: User, pid: int, seconds: float) -> Iterator[Reading]:
+def _readings(user: "User", pid: int, seconds: float) -> Iterator[Reading]:
     user.begin()
     began, first = time.monotonic(), 0.0
     while (passed := time.monotonic() - began) < seconds:
         user.play(min(LINE_INTERVAL, seconds - passed))
         now = memory(pid)
         first = first or now
-        yield replace(
-            user.read(time.monotonic() - began),
+        yield Reading(
+            seconds=time.monotonic() - began,
+            samples=user.samples,
+            lost=user.lost,
+            requests=user.requests,
+            late=user.fact("late"),
+            missed=user.missed,
+            dropped=user.fact("dropped"),
             memory=now,
             growth=now - first,
             descriptors=descriptors(pid),
+            balance=user.balance,
         )
 
 
@@ -139,7 +147,7 @@ class User(Follower):
     def __init__(self, rate: float) -> None:
         super().__init__(rate)
         self._random = random.Random(1)
-        self._requests = 0
+        self.requests = 0
 
     def play(self, seconds: float) -> None:
         """Receive for some seconds, and make requests at random moments."""
@@ -147,20 +155,7 @@ class User(Follower):
         while (left := end - time.monotonic()) > 0:
             self.spin(min(left, self._random.uniform(0.0, LONGEST_PAUSE)))
             self.connection.request(*self._random.choice(REQUESTS))
-            self._requests += 1
-
-    def read(self, seconds: float) -> Reading:
-        """Return the counts since the first sample."""
-        return Reading(
-            seconds=seconds,
-            samples=self.samples,
-            lost=self.lost,
-            requests=self._requests,
-            late=self.fact("late"),
-            missed=self.missed,
-            dropped=self.fact("dropped"),
-            balance=self.balance,
-        )
+            self.requests += 1
 
 
 class Logs:
@@ -168,63 +163,55 @@ class Logs:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._checking: tuple[Path, subprocess.Popen[bytes]] | None = None
-        self._count, self._wrong, self._bytes = 0, 0, 0
+        self._pool = ThreadPoolExecutor(1)
+        self._checks: dict[Path, Future[tuple[bool, int]]] = {}
+
+    def close(self) -> None:
+        """Leave out the checks that have not begun."""
+        self._pool.shutdown(cancel_futures=True)
 
     def add_to(self, reading: Reading) -> Reading:
         """Return a reading with the results of the checks."""
-        megabytes = self._bytes / 1e6
-        return replace(reading, logs=self._count, wrong=self._wrong, megabytes=megabytes)
+        done = [check.result() for check in self._checks.values() if check.done()]
+        wrong, sizes = sum(not good for good, _ in done), sum(size for _, size in done)
+        return replace(reading, logs=len(done), wrong=wrong, megabytes=sizes / 1e6)
 
-    def check_finished(self) -> None:
-        """Continue with the checks without waiting; the newest log is still being written."""
-        if self._checking and self._checking[1].poll() is not None:
-            self._take_result()
-        waiting = sorted(self._folder.glob("*.mcap"))[:-1]
-        if waiting and not self._checking:
-            self._begin(waiting[0])
+    def check(self, newest: bool = False) -> None:
+        """Check further logs, without waiting; of a node that runs the newest is still written."""
+        logs = sorted(self._folder.glob("*.mcap"))
+        for log in logs if newest else logs[:-1]:
+            self._checks[log] = self._checks.get(log) or self._pool.submit(_check, log)
 
-    def check_all(self) -> None:
-        """Check the remaining logs, the newest included."""
-        if self._checking:
-            self._take_result()
-        for log in sorted(self._folder.glob("*.mcap")):
-            self._begin(log)
-            self._take_result()
+    def wait(self) -> None:
+        """Wait until all checks have ended."""
+        wait(self._checks.values())
 
-    def _begin(self, log: Path) -> None:
-        command = program("top_replay", str(log), "--check")
-        self._checking = log, subprocess.Popen(command, stdout=subprocess.DEVNULL)
 
-    def _take_result(self) -> None:
-        assert self._checking
-        log, process = self._checking
-        self._wrong += process.wait() != 0
-        self._count += 1
-        self._bytes += log.stat().st_size
-        log.unlink()
-        self._checking = None
+def _check(log: Path) -> tuple[bool, int]:
+    """Return whether a log is right, and its size in bytes; delete it."""
+    command = program("top_replay", str(log), "--check")
+    status = subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode
+    size = log.stat().st_size
+    log.unlink()
+    return status == 0, size
+
+
+def _run(options: argparse.Namespace) -> bool:
+    print(HEAD)
+    for reading in soak(options.seconds, options.scene, options.rate):
+        print(ROW.format(**asdict(reading)), flush=True)
+    return reading.good
 
 
 def main(args: list[str] | None = None) -> int:
     """Print the counts every ten seconds; return the exit status."""
-
-    def run(options: argparse.Namespace) -> bool:
-        print(HEAD)
-        for reading in soak(options.seconds, options.scene, options.rate):
-            print(format_row(reading), flush=True)
-        return reading.good
-
     description = (
         "top_node, recording, kicked at random. "
         "Exit status 1 if a sample was lost or a log was wrong."
     )
-    return run_program("soak.py", description, 3600.0, run, args, _add_options)
-
-
-def _add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--scene", default="friction", help="default: %(default)s")
-    parser.add_argument("--rate", type=float, default=1000.0, help="in Hz; default: %(default)g")
+    scene = {"default": "friction", "help": "default: %(default)s"}
+    rate = {"type": float, "default": 1000.0, "help": "in Hz; default: %(default)g"}
+    return run_program("soak.py", description, 3600.0, _run, args, scene=scene, rate=rate)
 
 
 if __name__ == "__main__":

@@ -4,25 +4,37 @@
 figures are written into the documentation.
 """
 
-from __future__ import annotations
-
 import argparse
-import json
-import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack, closing, contextmanager
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import asdict, dataclass, replace
+from multiprocessing import get_context
 
 import numpy as np
 from geometry_msgs.msg import QuaternionStamped
 
-from workshop.load.clients import SUBSCRIBED_RATE, client_node
-from workshop.load.follower import DEPTH, TIMEOUT, Follower
-from workshop.load.processes import domain, run_program, running, script, top_node
-from workshop.load.usage import cpu_seconds, memory
+from workshop.load.follower import (
+    DEPTH,
+    SUBSCRIBED_RATE,
+    TIMEOUT,
+    Follower,
+    Subscriber,
+    call,
+    join,
+    subscribe,
+)
+from workshop.load.processes import (
+    DOCS,
+    cpu_seconds,
+    domain,
+    memory,
+    run_program,
+    running,
+    top_node,
+)
 from workshop.speed.measure import find_machine
 from workshop.speed.publish import format_list, format_table, publish, write_chapter
 
@@ -71,15 +83,7 @@ class Outcome:
 
 
 HEAD = f"{'':42}{'Hz':>7}{'lost':>6}{'missed':>8}{'unanswered':>12}{'CPU':>7}{'MB more':>9}"
-
-
-def format_row(outcome: Outcome) -> str:
-    """Return an outcome as a line below `HEAD`; CPU is in % of one core."""
-    o = outcome
-    return (
-        f"{o.load:42}{o.rate:7.1f}{o.lost:6}{o.missed:8}{o.unanswered:12}{o.cpu:7.0%}"
-        f"{o.growth:9.2f}   {o.figures}"
-    )
+ROW = "{load:42}{rate:7.1f}{lost:6}{missed:8}{unanswered:12}{cpu:7.0%}{growth:9.2f}   {figures}"
 
 
 def format_section(outcomes: Sequence[Outcome], seconds: float, machine: str) -> str:
@@ -137,10 +141,10 @@ def _measure(load: str, tops: list[tuple[Follower, int]], seconds: float) -> Out
 
 def _clients(seconds: float) -> Outcome:
     """Clients in separate processes, each with one request after the other."""
-    with _top(FAST) as top:
-        clients = [_start("call", seconds) for _ in range(CLIENTS)]
+    with _top(FAST) as top, _processes(CLIENTS) as pool:
+        clients = [pool.submit(call, domain(), seconds) for _ in range(CLIENTS)]
         outcome = _measure(f"{CLIENTS} clients, {FAST:g} Hz", [top], seconds + SETTLING)
-        answers = [json.loads(client.communicate(timeout=2 * TIMEOUT)[0]) for client in clients]
+        answers = [client.result(2 * TIMEOUT) for client in clients]
     latencies = np.concatenate([each["seconds"] for each in answers]) * 1e3
     p50, p99, longest = np.percentile(latencies, [50, 99, 100])
     return replace(
@@ -153,11 +157,11 @@ def _clients(seconds: float) -> Outcome:
 
 def _subscribers(seconds: float) -> Outcome:
     """Many subscriptions to one topic, in one process."""
-    with _top(USUAL) as top:
+    with _top(USUAL) as top, _processes(1) as pool:
         before = top[0].fact("missed")
-        others = _start("subscribe", SUBSCRIBERS, seconds + SETTLING)
+        others = pool.submit(subscribe, domain(), SUBSCRIBERS, seconds + SETTLING)
         outcome = _measure(f"{SUBSCRIBERS} subscribers, {USUAL:g} Hz", [top], seconds + SETTLING)
-        gaps = json.loads(others.communicate(timeout=2 * TIMEOUT)[0])
+        gaps = others.result(2 * TIMEOUT)
         missed = top[0].fact("missed") - before  # by the node: a gap for each of them
     figures = f"gaps in all of them together: {sum(gaps)}"
     lost = outcome.lost + max(0, sum(gaps) - SUBSCRIBERS * missed)
@@ -166,19 +170,19 @@ def _subscribers(seconds: float) -> Outcome:
 
 def _idle_subscriber(seconds: float) -> Outcome:
     """A subscriber that is never spun, so that its queue fills up."""
-    with _top(FAST) as top, client_node(domain()) as node:
-        node.create_subscription(QuaternionStamped, "/top/orientation", lambda _: None, DEPTH)
+    with _top(FAST) as top, closing(Subscriber(domain())) as other:
+        other.node.create_subscription(QuaternionStamped, "/top/orientation", lambda _: None, DEPTH)
         return _measure(f"a subscriber that is never spun, {FAST:g} Hz", [top], seconds)
 
 
 def _late_joiners(seconds: float) -> Outcome:
     """Subscribers that come after the events, one after the other."""
-    with _top(FAST) as top:
+    with _top(FAST) as top, _processes(1) as pool:
         for _ in range(EVENTS):
             top[0].connection.request("hurry_precession")
-        joining = _start("join", JOINERS, EVENTS + 1)
+        joining = pool.submit(join, domain(), JOINERS, EVENTS + 1)
         outcome = _measure(f"{JOINERS} late joiners, {FAST:g} Hz", [top], seconds)
-        times = json.loads(joining.communicate(timeout=JOINERS * TIMEOUT)[0])
+        times = joining.result(JOINERS * TIMEOUT)
     figures = f"ms to all {EVENTS + 1} events: {np.median(times) * 1e3:.0f} (p50), "
     figures += f"{max(times) * 1e3:.0f} (longest)"
     return replace(outcome, unanswered=JOINERS - len(times), figures=figures)
@@ -191,33 +195,29 @@ def _many_tops(seconds: float) -> Outcome:
         return _measure(f"{TOPS} tops in {TOPS} namespaces, {USUAL:g} Hz", tops, seconds)
 
 
-def _start(client: str, *numbers: float) -> subprocess.Popen[bytes]:
-    command = script("clients", client, domain(), *numbers)
-    return subprocess.Popen(command, stdout=subprocess.PIPE)
+def _processes(count: int) -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(count, get_context("spawn"))  # as threads of ROS do not survive fork
+
+
+def _run(options: argparse.Namespace) -> bool:
+    print(HEAD)
+    outcomes = []
+    for outcome in stress(options.seconds):
+        print(ROW.format(**asdict(outcome)), flush=True)
+        outcomes.append(outcome)
+    if options.docs:
+        section = format_section(outcomes, options.seconds, find_machine())
+        publish({NAME: section}, options.docs)
+    return all(outcome.good for outcome in outcomes)
 
 
 def main(args: list[str] | None = None) -> int:
     """Print a line for each load; return the exit status."""
-
-    def add_options(parser: argparse.ArgumentParser) -> None:
-        parser.add_argument("--docs", type=Path, help="folder of the documentation to update")
-
-    def run(options: argparse.Namespace) -> bool:
-        print(HEAD)
-        outcomes = []
-        for outcome in stress(options.seconds):
-            print(format_row(outcome), flush=True)
-            outcomes.append(outcome)
-        if options.docs:
-            section = format_section(outcomes, options.seconds, find_machine())
-            publish({NAME: section}, options.docs)
-        return all(outcome.good for outcome in outcomes)
-
     description = (
         "top_node under five loads, of some seconds each. CPU is in % of one core. "
         "Exit status 1 if a sample was lost or a request was not answered."
     )
-    return run_program("stress.py", description, 10.0, run, args, add_options)
+    return run_program("stress.py", description, 10.0, _run, args, docs=DOCS)
 
 
 if __name__ == "__main__":
