@@ -11,7 +11,7 @@ from symtop_ros.simulation.changes.outcomes import Pushed
 from symtop_ros.simulation.segment import PushedMotion, Pushes
 from workshop.article.answers.impulses import find_impulses, torques_at
 from workshop.article.answers.ledger import hurry_ledger
-from workshop.article.motions import FAST, HANGING_DISC, SLOW, SLOW_ROOT_HURRIED, TOP
+from workshop.article.motions import FAST, HANGING_DISC, HURRIED, SLOW, TOP
 from workshop.article.nutation import times_of_extreme_rate
 from workshop.article.pivot import SHORT_ARM
 from workshop.lesson.steps import read_lesson
@@ -105,7 +105,7 @@ def below_and_above():
 
 
 def hurry_on():
-    found = hurry_ledger(TOP, SLOW_ROOT_HURRIED, "spin_rate")
+    found = hurry_ledger(TOP, HURRIED["slow_root"], "spin_rate")
     heights = (hurried(SLOW_STATE, hold)[0] for hold in ("spin_rate", "spin_momentum"))
     energies = (found.far.weight, found.kick.rest, -found.far.precession)
     return [

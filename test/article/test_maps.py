@@ -19,8 +19,12 @@ FILES = {"perry.rrd"} | {
 def written(tmp_path_factory):
     """Folder of both maps, and what was printed."""
     folder = tmp_path_factory.mktemp("maps")
-    with contextlib.redirect_stdout(io.StringIO()) as printed:
-        assert maps.write_maps(folder, 60) == 0
+    with (
+        contextlib.redirect_stdout(io.StringIO()) as printed,
+        pytest.MonkeyPatch.context() as patch,
+    ):
+        patch.setattr(maps, "POINTS", 60)
+        maps.write_maps(folder)
     return folder, printed.getvalue()
 
 

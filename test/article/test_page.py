@@ -12,8 +12,8 @@ from web.opened import UNDRAWN
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.web.join import write_file
+from workshop.article.claims import check_claims
 from workshop.article.figures import FIGURES
-from workshop.article.retell import check_claims
 from workshop.pictures.pack import pack_figure
 
 DOCS = Path(__file__).parents[2] / "docs"

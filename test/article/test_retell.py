@@ -6,9 +6,10 @@ from rerun.chunk import RrdReader
 from symtop_ros.playback.view import entities
 from workshop import main as report
 from workshop.article import retell as article
+from workshop.article.claims import check_claims
 from workshop.article.figures import FIGURES
 from workshop.article.recordings import MOTIONS, RATE, SCENES, SPAN
-from workshop.article.retell import check_claims, retell
+from workshop.article.retell import retell
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +19,7 @@ def claims():
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory, claims):
-    folder = tmp_path_factory.mktemp("retold") / "made" / "here"
+    folder = tmp_path_factory.mktemp("retold")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(article, "check_claims", lambda: claims)
         assert retell(folder) == 0

@@ -3,8 +3,8 @@
 import pytest
 
 from symtop_ros.physics import Top
+from workshop.article.claims import check_claims
 from workshop.article.motions import HANGING_DISC, TOP
-from workshop.article.retell import check_claims
 
 OF_EVERY_TOP = 23  # claims, whose numbers come from formulas that are compared with each other
 TOPS = {

@@ -3,18 +3,21 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, wraps
+from importlib import import_module
+from inspect import signature
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, ParamSpec
+from typing import Any
 
 import numpy as np
 import yaml
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics import Top
+from workshop.article.motions import TOP
 
 TEXTS = Path(__file__).with_name("texts")
 WIDTH = 96  # characters in a line
-Arguments = ParamSpec("Arguments")
 # Characters that Markdown would read as cell borders or emphasis
 ESCAPES = str.maketrans({character: f"\\{character}" for character in "\\|*_"})
 
@@ -35,6 +38,20 @@ class Claim:
         return "pass" if self.holds else "FAIL"
 
 
+MODULES = (
+    *("torque", "rates", "nutation", "pivot", "frames", "answers.fictitious"),
+    *("answers.release", "answers.ledger", "answers.starts", "answers.resolution"),
+    "answers.statements",
+)
+# The files of texts, in the order of the claims
+CHAPTERS = (
+    *("torque", "momentum", "rates", "nutation", "kinds", "pivot", "fictitious", "release"),
+    *("corrections", "ledger", "starts", "resolution", "statements", "frames"),
+)
+# The checks by their names, each with the further arguments of its claims
+CHECKS: dict[str, tuple[Callable[..., Claim], list[tuple[Any, ...]]]] = {}
+
+
 class Measured:
     """The result of a check: whether the claim holds, and the values that its texts name."""
 
@@ -43,35 +60,49 @@ class Measured:
 
 
 @cache
-def read_texts(module: str) -> Mapping[str, Mapping[str, str]]:
-    """Return the texts of the claims of a module by the names of its checks."""
-    path = TEXTS / f"{module.rpartition('.')[2]}.yaml"
-    texts: dict[str, dict[str, str]] = yaml.safe_load(path.read_text(encoding="utf-8"))
-    return texts
+def read_texts() -> Mapping[str, Mapping[str, str]]:
+    """Return the texts of all claims, in their order, by the names of the checks."""
+    files = [(TEXTS / f"{chapter}.yaml").read_text(encoding="utf-8") for chapter in CHAPTERS]
+    return {name: texts for file in files for name, texts in yaml.safe_load(file).items()}
 
 
-def claim(check: Callable[Arguments, Measured]) -> Callable[Arguments, Claim]:
-    """Decorate a check: it returns a claim, whose texts are those of its name.
+def claim(*cases: Any) -> Callable[[Callable[..., Measured]], Callable[..., Claim]]:
+    """Decorate a check of a top: it returns a claim, whose texts are those of its name.
 
-    They name the values that it has found and constants of its module. A check that cannot be made
-    is a claim that fails: for a falsified constant a root may not be bracketed, or an extremum may
-    not exist.
+    They name its arguments, the values that it has found, and constants of its module. With cases
+    it makes a claim of each of them, which is its further argument, or a tuple of several. A check
+    that cannot be made is a claim that fails: for a falsified constant a root may not be
+    bracketed, or an extremum may not exist.
     """
 
-    @wraps(check)
-    def attempt(*args: Arguments.args, **keywords: Arguments.kwargs) -> Claim:
-        try:
-            with np.errstate(all="ignore"):  # what is not a number does not hold
-                found = check(*args, **keywords)
-            texts = read_texts(check.__module__)[check.__name__]
-            values = check.__globals__ | found.values
-            said = {field: text.format_map(values) for field, text in texts.items()}
-            return Claim(holds=found.holds, **said)
-        except (ValueError, ArithmeticError, IndexError) as reason:
-            sentence = (check.__doc__ or check.__name__).partition("\n")[0]
-            return Claim(sentence, f"cannot be measured: {reason}", holds=False)
+    def decorate(check: Callable[..., Measured]) -> Callable[..., Claim]:
+        @wraps(check)
+        def attempt(*args: Any) -> Claim:
+            try:
+                with np.errstate(all="ignore"):  # what is not a number does not hold
+                    found = check(*args)
+                given = dict(zip(signature(check).parameters, args, strict=False))
+                values = check.__globals__ | given | found.values
+                texts = read_texts()[check.__name__].items()
+                said = {field: text.format_map(values) for field, text in texts}
+                return Claim(holds=found.holds, **said)
+            except (ValueError, ArithmeticError, IndexError) as reason:
+                sentence = (check.__doc__ or check.__name__).partition("\n")[0]
+                return Claim(sentence, f"cannot be measured: {reason}", holds=False)
 
-    return attempt
+        listed = [case if isinstance(case, tuple) else (case,) for case in cases]
+        CHECKS[check.__name__] = attempt, listed or [()]
+        return attempt
+
+    return decorate
+
+
+def check_claims(top: Top = TOP) -> list[Claim]:
+    """Check every claim of the article for its top, or for a different one."""
+    for module in MODULES:
+        import_module(f"workshop.article.{module}")
+    checks = [CHECKS[name] for name in read_texts()]
+    return [check(top, *case) for check, cases in checks for case in cases]
 
 
 def differ(found: Real, expected: Real) -> float:

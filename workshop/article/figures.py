@@ -1,10 +1,13 @@
 """The article's figures: angles, rates and angular momentum against time, and the parabola."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from symtop_ros.arrays import Real
 from symtop_ros.judge.figures import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
 from symtop_ros.physics import (
     EffectivePotential,
@@ -12,15 +15,13 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from workshop.article.angles import draw_euler_angles
-from workshop.article.answers.circle import draw_nutation
-from workshop.article.answers.drawings import draw_cusp_story, draw_release
+from workshop.article.answers.circle import draw_cusp_story, draw_nutation
 from workshop.article.answers.fictitious import draw_fictitious_torques, draw_four_masses
 from workshop.article.answers.impulses import draw_impulses
 from workshop.article.answers.ledger import draw_energy_ledger
+from workshop.article.answers.release import draw_release
 from workshop.article.answers.resolution import draw_resolution
-from workshop.article.answers.starts import draw_map_of_kinds
-from workshop.article.kinds import DISC
+from workshop.article.answers.starts import DISC, draw_map_of_kinds
 from workshop.article.motions import (
     FAST,
     PRINTED_ROOTS,
@@ -36,12 +37,11 @@ from workshop.article.motions import (
 )
 from workshop.article.nutation import horizontal_square
 from workshop.article.pivot import pivot_forces
-from workshop.article.sphere import draw_sphere
 from workshop.article.torque import split_torque
+from workshop.article.views import draw_euler_angles, draw_sphere
 
 TIMES = np.linspace(0.0, 0.5, 2001)  # s; three nutations of cusps
 PHI_DOTS = np.linspace(-8.0, 85.0, 400)  # rad/s
-DEPTH = r"$U_\mathrm{eff} - E'$ ($10^{-3}$ J)"
 COMPARED = {"regular precession": regular(), "cusps": cusps()}
 ROUNDING = 1e-9  # relative; a gap below it is rounding
 LOOKS = {"falls": (RED, "--"), "stays": (INK, "-"), "rises": (BLUE, "-.")}
@@ -93,10 +93,7 @@ def draw_theta_acceleration() -> Figure:
     axes.plot(rates, values, "s", color=INK, ms=5, label="the article's other rates", zorder=3)
     label = "regular precession: it stays"
     axes.plot([SLOW, FAST], [0, 0], "o", color=RED, ms=7, label=label, zorder=3)
-    for root, printed, side in (
-        (SLOW, PRINTED_ROOTS[0], "right"),
-        (FAST, PRINTED_ROOTS[1], "left"),
-    ):
+    for root, printed, side in zip((SLOW, FAST), PRINTED_ROOTS, ("right", "left"), strict=True):
         offset = (-9 if side == "right" else 9, -14)
         axes.annotate(f"{printed} rad/s", (root, 0), offset, textcoords="offset points", ha=side)
     axes.axvspan(SLOW, FAST, color=PALE, alpha=0.35, lw=0)
@@ -188,16 +185,21 @@ def draw_same_accelerations() -> Figure:
         motion = Motion(TOP, start(phi_dot))
         label = rf"$\dot\phi(0)$ = {phi_dot:.3g} rad/s: {motion.kind}"
         left.plot(TIMES, motion.at(TIMES).euler_angles.theta, color=color, ls=dash, label=label)
-        potential, (low, high) = EffectivePotential.of(TOP, motion.start), motion.turning_angles
-        theta = np.linspace(low - 0.04, high + 0.04, 300)
-        depth = 1e3 * (potential.at(theta) - potential.energy)
-        right.plot(theta, depth, color=color, ls=dash)
-        right.plot([low, high], [0, 0], "o", color=color, ms=5)
+        low, high = motion.turning_angles
+        plot_depth(right, motion, np.linspace(low - 0.04, high + 0.04, 300), color=color, ls=dash)
     left.set(xlabel="$t$ (s)", ylabel=r"$\theta$ (rad)", xmargin=0)
-    right.set(xlabel=r"$\theta$ (rad)", ylabel=DEPTH, ylim=(-2.4, 2.4))
+    right.set(ylim=(-2.4, 2.4))
     right.axhline(0.0, color=INK, lw=0.9)
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=2)
     return figure
+
+
+def plot_depth(axes: Axes, motion: Motion, theta: Real, **look: Any) -> None:
+    """Plot the effective potential over E' against theta, with the turning angles."""
+    potential = EffectivePotential.of(motion.top, motion.start)
+    axes.plot(theta, 1e3 * (potential.at(theta) - potential.energy), **look)
+    axes.plot(motion.turning_angles, [0, 0], "o", color=look["color"], ms=5)
+    axes.set(xlabel=r"$\theta$ (rad)", ylabel=r"$U_\mathrm{eff} - E'$ ($10^{-3}$ J)")
 
 
 def draw_parabola_downward() -> Figure:

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Motion, Top, hurry, regular_precession_rates
 from workshop.article.answers.fictitious import point_masses
-from workshop.article.claims import Claim, Measured, claim, differ
+from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, start
 from workshop.article.torque import COUNT, SEED, draw_states, inertia_in_world
 
@@ -18,21 +18,8 @@ SPRING, MASS, REST = 400.0, 0.001, 0.03  # N/m, kg, m: a mass on a spring that t
 FOLLOWED = 1e-9  # relative; DOP853 at a relative tolerance of 1e-12 over ten turns
 
 
-def claims_on_frames(top: Top) -> list[Claim]:
-    """Return the claims on equations 4, 6, 9 and 17, delays, roots of one sign and tension."""
-    return [
-        matrix_turns_body_to_world(),
-        angular_velocity_has_its_components(),
-        torque_has_its_components_in_the_body(top),
-        inertia_is_an_integral(top),
-        delay_does_the_opposite(top),
-        roots_have_the_sign_of_the_spin(top),
-        elastic_body_elongates(),
-    ]
-
-
-@claim
-def matrix_turns_body_to_world() -> Measured:
+@claim()
+def matrix_turns_body_to_world(_: Top) -> Measured:
     """Check the matrix of the attitude against equation 6, and against three turns."""
     states = draw_states()
     angles = np.array(states.euler_angles)
@@ -48,8 +35,8 @@ def matrix_turns_body_to_world() -> Measured:
     return Measured(off < ROUNDED, off=off)
 
 
-@claim
-def angular_velocity_has_its_components() -> Measured:
+@claim()
+def angular_velocity_has_its_components(_: Top) -> Measured:
     """Check the angular velocity in the fixed frame by Euler's rates, equation 9."""
     states = draw_states()
     (phi, theta, _), rates = map(tuple, (states.euler_angles, states.euler_rates))
@@ -66,7 +53,7 @@ def angular_velocity_has_its_components() -> Measured:
     return Measured(off < 10 * ROUNDED, off=off, limit=10 * ROUNDED)
 
 
-@claim
+@claim()
 def torque_has_its_components_in_the_body(top: Top) -> Measured:
     """Check gravity's torque in the body frame, equation 17."""
     states = draw_states()
@@ -80,7 +67,7 @@ def torque_has_its_components_in_the_body(top: Top) -> Measured:
     )
 
 
-@claim
+@claim()
 def inertia_is_an_integral(top: Top) -> Measured:
     """Check the integral of equation 4, over mass elements in the fixed frame, against I'."""
     states, (masses, places) = draw_states(), point_masses(top)
@@ -94,7 +81,7 @@ def inertia_is_an_integral(top: Top) -> Measured:
     return Measured(off < SUMMED, count=len(masses), off=off)
 
 
-@claim
+@claim()
 def delay_does_the_opposite(top: Top) -> Measured:
     """Check that a delayed top falls at the slow root and rises at the fast one."""
     delayed = (Motion(top, hurry(start(rate), 1 / FACTOR)) for rate in (SLOW, FAST))
@@ -104,7 +91,7 @@ def delay_does_the_opposite(top: Top) -> Measured:
     return Measured(falls and rises, slow=slow, fast=fast)
 
 
-@claim
+@claim()
 def roots_have_the_sign_of_the_spin(top: Top) -> Measured:
     """Check that roots of one sign have the sign of the spin rate, also if it is negative."""
     random = np.random.default_rng(SEED + 2)
@@ -122,8 +109,8 @@ def roots_have_the_sign_of_the_spin(top: Top) -> Measured:
     return Measured(holds, roots=roots, good=sum(signs), tried=len(signs))
 
 
-@claim
-def elastic_body_elongates() -> Measured:
+@claim()
+def elastic_body_elongates(_: Top) -> Measured:
     """Check that a mass on a spring that turns keeps a larger distance, by the tension."""
     stretched = SPRING * REST / (SPRING - MASS * PSI_DOT**2)
     tension = SPRING * (stretched - REST)

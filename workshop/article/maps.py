@@ -6,7 +6,6 @@ Parquet tables, and as one Rerun recording.
 
 import io
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -17,16 +16,15 @@ import pyarrow.parquet as pq
 import rerun as rr
 import rerun.blueprint as rrb
 from matplotlib import colormaps
-from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import HurryEffect, compare_hurried, theta_torque
+from workshop.article.answers.starts import PHI_DOTS, PSI_DOTS, draw_regions
 from workshop.article.motions import PSI_DOT, THETA, TOP
 from workshop.article.rates import FACTOR
 
-PHI_DOTS = (-60.0, 120.0)  # rad/s
-PSI_DOTS = (-400.0, 400.0)  # rad/s
+POINTS = 1000  # along each side
 THETAS = (0.02, np.pi - 0.02)  # rad; on the vertical itself phi' is undefined
 RELIEF_POINTS = 250  # along a side of a relief, at most
 # What becomes of the height. The tilt of the kick is a turning point before and after it, as
@@ -51,48 +49,42 @@ class PerryMap:
     torque: Real
 
 
-def map_spin(points: int) -> PerryMap:
-    """Return the map of points x points over psi' and phi', at the article's tilt."""
-    psi_dot = np.linspace(*PSI_DOTS, points)
-    names = "spin", f"theta = {THETA:g} rad", "spin rate psi' (rad/s)"
-    return _map(names, psi_dot, THETA, psi_dot)
+# The quantity that is held, the label of the horizontal axis, and its ends
+MAPS = {
+    "spin": (f"theta = {THETA:g} rad", "spin rate psi' (rad/s)", PSI_DOTS),
+    "tilt": (f"psi' = {PSI_DOT:g} rad/s", "tilt theta (rad)", THETAS),
+}
 
 
-def map_tilt(points: int) -> PerryMap:
-    """Return the map of points x points over theta and phi', at the article's spin."""
-    theta = np.linspace(*THETAS, points)
-    names = "tilt", f"psi' = {PSI_DOT:g} rad/s", "tilt theta (rad)"
-    return _map(names, theta, theta, PSI_DOT)
-
-
-def _map(names: tuple[str, str, str], across: Real, theta: Any, psi_dot: Any) -> PerryMap:
-    phi_dot = np.linspace(*PHI_DOTS, len(across))
+def make_map(name: str) -> PerryMap:
+    """Return a map: psi' and phi' at the article's tilt, or theta and phi' at its spin."""
+    title, label, ends = MAPS[name]
+    across, phi_dot = np.linspace(*ends, POINTS), np.linspace(*PHI_DOTS, POINTS)
+    theta, psi_dot = (across, PSI_DOT) if name == "tilt" else (THETA, across)
     grid = theta, phi_dot[:, np.newaxis], psi_dot
     effect, torque = compare_hurried(TOP, *grid, FACTOR), theta_torque(TOP, *grid)
-    return PerryMap(*names, across, phi_dot, effect, torque)
+    return PerryMap(name, title, label, across, phi_dot, effect, torque)
 
 
-def write_maps(folder: Path, points: int) -> int:
-    """Write both maps of points x points into a folder; return the exit status."""
-    folder.mkdir(parents=True, exist_ok=True)
-    maps = [_write_map(make, folder, points) for make in (map_spin, map_tilt)]
+def write_maps(folder: Path) -> None:
+    """Write both maps into a folder."""
+    maps = [_write_map(name, folder) for name in MAPS]
     write_recording(maps, folder / "perry.rrd")
     print(f"in Rerun: rerun {folder / 'perry.rrd'}")
-    return 0
 
 
-def _write_map(make: Callable[[int], PerryMap], folder: Path, points: int) -> PerryMap:
+def _write_map(name: str, folder: Path) -> PerryMap:
     began = time.perf_counter()
-    perry_map = make(points)
+    perry_map = make_map(name)
     seconds = time.perf_counter() - began
-    stem = folder / f"perry_{perry_map.name}"
+    stem = folder / f"perry_{name}"
     for suffix in ("png", "svg"):
         draw_map(perry_map, stem.with_suffix(f".{suffix}"))
     write_table(perry_map, stem.with_suffix(".parquet"))
     effect = perry_map.effect
     misled = effect.rule_holds & (find_outcome(effect) == LOWER)
     print(
-        f"{perry_map.title}: {points} x {points} points in {seconds:.2f} s; the rule holds on "
+        f"{perry_map.title}: {POINTS} x {POINTS} points in {seconds:.2f} s; the rule holds on "
         f"{effect.rule_holds.mean():.1%} of them (theta'' at the kick), though on "
         f"{misled.mean():.1%} the top is lower in the end: {stem}.png, .svg, .parquet",
         flush=True,
@@ -139,11 +131,7 @@ def _draw_panel(axes: Any, perry_map: PerryMap, raised: Real, title: str) -> Any
 def _draw_outcome(axes: Any, perry_map: PerryMap) -> None:
     """Draw what becomes of the height in the end, whatever theta'' is at the kick."""
     effect, extent = perry_map.effect, _extent(perry_map)
-    colors = ListedColormap(list(OUTCOMES.values()))
-    image = {"origin": "lower", "extent": extent, "aspect": "auto", "interpolation": "nearest"}
-    axes.imshow(find_outcome(effect), cmap=colors, vmin=-0.5, vmax=len(OUTCOMES) - 0.5, **image)
-    for name, color in OUTCOMES.items():
-        axes.fill_between([], [], facecolor=color, edgecolor="k", linewidth=0.3, label=name)
+    draw_regions(axes, find_outcome(effect), OUTCOMES, extent, edgecolor="k", lw=0.3)
     misled = effect.rule_holds & (find_outcome(effect) == LOWER)
     title = f"in the end (rule holds, yet lower: {misled.mean():.1%})"
     axes.set(xlim=extent[:2], ylim=extent[2:], xlabel=perry_map.label)

@@ -7,7 +7,6 @@ start decides what follows.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
@@ -63,13 +62,21 @@ class HurryCase:
     root: int  # root of regular precession before the kick: 0 for the slow one, 1 for the fast one
     place: str  # the case in words
     direction: Direction  # the article's statement on the hurried top
+    disc: Top | None = None  # instead of the article's top
+
+    def begin(self, top: Top = TOP) -> Motion:
+        """Return the regular precession before the kick."""
+        moved = self.disc or top
+        rate = regular_precession_rates(moved, THETA, self.psi_dot)[self.root]
+        return Motion(moved, start(rate, self.psi_dot))
 
 
-SLOW_ROOT_HURRIED = HurryCase(PSI_DOT, 0, "at the slow root", "rises")
-FAST_ROOT_HURRIED = HurryCase(PSI_DOT, 1, "at the fast root", "falls")
-DISC_HURRIED = HurryCase(
-    -25.0, 0, "at the slow root for psi' < 0, Mgl < 0, Iz > Ix and theta < pi/2", "falls"
-)
+PLACE_OF_DISC = "at the slow root for psi' < 0, Mgl < 0, Iz > Ix and theta < pi/2"
+HURRIED = {
+    "slow_root": HurryCase(PSI_DOT, 0, "at the slow root", "rises"),
+    "fast_root": HurryCase(PSI_DOT, 1, "at the fast root", "falls"),
+    "disc": HurryCase(-25.0, 0, PLACE_OF_DISC, "falls", HANGING_DISC),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +125,15 @@ def regular(top: Top = TOP) -> Motion:
     return Motion(top, start(SLOW))
 
 
+Maker = Callable[[Top], Motion]  # `cusps` or `regular`
+
+
+def draw_top(random: np.random.Generator, top: Top) -> Top:
+    """Return a random top with the Ix of another one, and a weight of either sign."""
+    Iz, weight = random.uniform(0.1, 1.9), random.uniform(20.0, 200.0) * random.choice([-1, 1])
+    return Top(top.Ix, Iz * top.Ix, weight * top.Ix)
+
+
 def seven_motions(top: Top = TOP) -> list[Motion]:
     """Return the motions of the six rates, then cusps."""
     return [*(Motion(top, start(rate.phi_dot)) for rate in RATES), cusps(top)]
@@ -157,17 +173,12 @@ def accelerations(top: Top, states: State) -> Real:
     return np.stack([phi, theta_acceleration(top, theta, phi_dot, psi_dot), psi], axis=-1)
 
 
-class Slope(NamedTuple):
-    """Numerical derivatives."""
-
-    values: Real  # derivatives at n times, in units of the function per s
-    error: float  # largest change of the values when the step is doubled
-
-
-def slope(function: Callable[[Real], Real], times: Real, step: float = STEP) -> Slope:
-    """Differentiate a function by central differences of order 8."""
-    fine, coarse = _difference(function, times, step), _difference(function, times, 2 * step)
-    return Slope(fine, float(np.abs(coarse - fine).max()))
+def slope(function: Callable[[Real], Real], times: Real, step: float = STEP) -> Real:
+    """Differentiate a function at n times by central differences of order 8."""
+    total = np.zeros_like(function(times))
+    for k, weight in enumerate(WEIGHTS, start=1):
+        total += weight * (function(times + k * step) - function(times - k * step))
+    return total / step
 
 
 def measure_acceleration(motion: Motion, share: float | None = None) -> float:
@@ -177,11 +188,4 @@ def measure_acceleration(motion: Motion, share: float | None = None) -> float:
     """
     step = STEP if share is None else share * motion.nutation_period
     found = slope(lambda t: np.asarray(motion.at(t).euler_rates.theta), np.zeros(1), step)
-    return float(found.values[0])
-
-
-def _difference(function: Callable[[Real], Real], times: Real, step: float) -> Real:
-    total = np.zeros_like(function(times))
-    for k, weight in enumerate(WEIGHTS, start=1):
-        total += weight * (function(times + k * step) - function(times - k * step))
-    return total / step
+    return float(found[0])

@@ -8,8 +8,9 @@ from scipy.optimize import brentq
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Body, Motion, Top
-from workshop.article.claims import Claim, Measured, claim, differ
+from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import FAST, SLOW, cusps, slope, start
+from workshop.article.nutation import nutation_times
 
 SHORT_ARM = 2.9e-3  # m, with which the same top would hardly slip
 SAMPLES = 400  # of a nutation
@@ -19,56 +20,47 @@ PERIODIC = 1e-12  # relative; the mean of a periodic function. Measured: 9e-16
 MOST_HURRIED = 4.0  # a factor by which the article's top lifts
 
 
-def claims_on_pivot(top: Top) -> list[Claim]:
-    """Return the claims on the force of the pivot on the top."""
-    return [
-        force_accelerates_the_mass(cusps(top)),
-        pivot_carries_the_weight(cusps(top)),
-        peg_slips(top),
-        peg_lifts(top),
-    ]
-
-
 def pivot_forces(motion: Motion, times: Real) -> tuple[Real, Real]:
     """Return the vertical and the horizontal force of the pivot on the top, (n,), in N."""
     forces = Body.of(motion.top).pivot_force(motion, motion.at(times))
     return forces[:, 2], np.linalg.norm(forces[:, :2], axis=1)
 
 
-@claim
-def force_accelerates_the_mass(motion: Motion) -> Measured:
+@claim()
+def force_accelerates_the_mass(top: Top) -> Measured:
     """Check the force against the acceleration of the centre of mass, found by differences."""
-    body, times = Body.of(motion.top), _nutation(motion)
+    body, motion = Body.of(top), cusps(top)
+    times = nutation_times(motion, SAMPLES)
 
     def velocity(t: Real) -> Real:
         states = motion.at(t)
         omega = states.to_world(states.angular_velocity)
         return np.asarray(np.cross(omega, body.centre_of_mass(states)))
 
-    expected = body.mass * (slope(velocity, times).values + np.array([0.0, 0.0, body.gravity]))
+    expected = body.mass * (slope(velocity, times) + np.array([0.0, 0.0, body.gravity]))
     forces = body.pivot_force(motion, motion.at(times))
     off = differ(forces, expected)
     return Measured(off < DIFFERENTIATED, body=body, arm=1e3 * body.arm, off=off)
 
 
-@claim
-def pivot_carries_the_weight(motion: Motion) -> Measured:
+@claim()
+def pivot_carries_the_weight(top: Top) -> Measured:
     """Check that the vertical force is the weight on average over a nutation."""
-    body = Body.of(motion.top)
-    vertical, _ = pivot_forces(motion, _nutation(motion))
+    body, motion = Body.of(top), cusps(top)
+    vertical, _ = pivot_forces(motion, nutation_times(motion, SAMPLES))
     weight = body.mass * body.gravity
     off = abs(float(vertical.mean()) / weight - 1)
     holds = off < PERIODIC and vertical.min() < 0.99 * weight < 1.01 * weight < vertical.max()
     return Measured(holds, least=vertical.min(), most=vertical.max(), weight=weight, off=off)
 
 
-@claim
+@claim()
 def peg_slips(top: Top) -> Measured:
     """Check the friction that a peg needs on both roots of regular precession."""
     needed, offs, body = [], [], Body.of(top)
     for rate in (SLOW, FAST):
         motion = Motion(top, start(rate))
-        vertical, horizontal = pivot_forces(motion, _nutation(motion))
+        vertical, horizontal = pivot_forces(motion, nutation_times(motion, SAMPLES))
         sine = np.sin(motion.start.euler_angles.theta)
         needed.append(float((horizontal / vertical).max()))
         offs.append(abs(needed[-1] / (body.arm * sine * rate**2 / body.gravity) - 1))
@@ -86,7 +78,7 @@ def peg_slips(top: Top) -> Measured:
     )
 
 
-@claim
+@claim()
 def peg_lifts(top: Top) -> Measured:
     """Check that a top hurried far enough from the fast root would lift its peg."""
     weight = Body.of(top).mass * Body.of(top).gravity
@@ -108,9 +100,4 @@ def peg_lifts(top: Top) -> Measured:
 def _least_force(top: Top, factor: float) -> float:
     """Return the least vertical force in N of a nutation that starts at a multiple of FAST."""
     motion = Motion(top, start(factor * FAST))
-    return float(pivot_forces(motion, _nutation(motion))[0].min())
-
-
-def _nutation(motion: Motion) -> Real:
-    """Return times of one nutation, without its end: a mean of these is that of the period."""
-    return np.asarray(np.arange(SAMPLES) * (motion.nutation_period / SAMPLES))
+    return float(pivot_forces(motion, nutation_times(motion, SAMPLES))[0].min())

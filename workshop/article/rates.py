@@ -1,7 +1,6 @@
 """Claims on precession rates: the two roots, the six rates, the parabola, Perry's rule."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -17,18 +16,16 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from workshop.article.claims import Claim, Measured, claim
+from workshop.article.claims import Measured, claim
 from workshop.article.motions import (
-    DISC_HURRIED,
-    FAST_ROOT_HURRIED,
-    HANGING_DISC,
+    HURRIED,
     PRINTED_ROOTS,
     PSI_DOT,
     RATES,
-    SLOW_ROOT_HURRIED,
     THETA,
     HurryCase,
     Rate,
+    draw_top,
     measure_acceleration,
     start,
 )
@@ -49,65 +46,28 @@ SHORT = 0.02  # of a nutation period
 ROUNDING = 1e-12  # rad, or relative to the largest term of the equation for theta''
 
 
-def claims_on_rates(top: Top) -> list[Claim]:
-    """Return the claims on regular precession, rising and falling, and Perry's rule."""
-    return [
-        roots_are_as_printed(top),
-        printed_roots_keep_the_tilt(top),
-        *(rate_decides(top, rate) for rate in RATES),
-        acceleration_is_a_parabola(top),
-        hurrying_decides(top, SLOW_ROOT_HURRIED),
-        hurrying_decides(top, FAST_ROOT_HURRIED),
-        hurrying_decides(HANGING_DISC, DISC_HURRIED),
-        sign_decides("slow", top),
-        sign_decides("fast", top),
-    ]
+def find_departure(motion: Motion) -> tuple[set[Direction], str]:
+    """Return in which directions a top leaves a start with theta' = 0, found in three ways.
 
-
-@dataclass(frozen=True, slots=True)
-class Departure:
-    """The direction in which a top leaves a start with theta' = 0, found in three ways."""
-
-    acceleration: float  # theta'' at the start in rad/s^2, by the article's equation
-    rounding: float  # largest |theta''| in rad/s^2 that rounding can make of zero
-    after: float  # a fiftieth of the nutation period in s
-    moved: float  # change of theta in that time in rad, by the motion
-    turning: tuple[float, float]  # smallest and largest theta minus theta at the start, in rad
-
-    @classmethod
-    def of(cls, motion: Motion) -> "Departure":
-        """Measure a motion that starts with theta' = 0."""
-        top, theta, rates = motion.top, motion.start.euler_angles.theta, motion.start.euler_rates
-        after = SHORT * motion.nutation_period
-        low, high = motion.turning_angles
-        terms = abs(top.Iz * rates.phi * rates.psi) + abs(top.Mgl)
-        return cls(
-            acceleration=float(theta_acceleration(top, theta, rates.phi, rates.psi)),
-            rounding=ROUNDING * float(np.sin(theta)) / top.Ix * terms,
-            after=after,
-            moved=float(motion.at(after).euler_angles.theta) - theta,
-            turning=(low - theta, high - theta),
-        )
-
-    @property
-    def directions(self) -> tuple[Direction, Direction, Direction]:
-        """Return the direction by the equation, by the motion and by the turning angles."""
-        low, high = self.turning
-        farther = low if abs(low) > abs(high) else high
-        return (
-            _direction(self.acceleration, self.rounding),
-            _direction(self.moved, ROUNDING),
-            _direction(farther, ROUNDING),
-        )
-
-    def __str__(self) -> str:
-        """Return the three answers with their numbers."""
-        low, high = self.turning
-        return (
-            f"theta'' = {self.acceleration:.3g} rad/s^2 by the equation; theta changes by "
-            f"{self.moved:.3g} rad in {self.after * 1e3:.1f} ms, and altogether from {low:+.3g} "
-            f"to {high:+.3g} rad"
-        )
+    By the article's equation, by the motion after a fiftieth of the nutation period, and by the
+    farther turning angle; and the three answers with their numbers.
+    """
+    top, theta, rates = motion.top, motion.start.euler_angles.theta, motion.start.euler_rates
+    acceleration = float(theta_acceleration(top, theta, rates.phi, rates.psi))
+    terms = abs(top.Iz * rates.phi * rates.psi) + abs(top.Mgl)
+    rounding = ROUNDING * float(np.sin(theta)) / top.Ix * terms  # what it can make of zero
+    after = SHORT * motion.nutation_period
+    moved = float(motion.at(after).euler_angles.theta) - theta
+    low, high = (angle - theta for angle in motion.turning_angles)
+    farther = max(low, high, key=abs)
+    directions = {
+        _direction(acceleration, rounding),
+        *(_direction(change, ROUNDING) for change in (moved, farther)),
+    }
+    return directions, (
+        f"theta'' = {acceleration:.3g} rad/s^2 by the equation; theta changes by {moved:.3g} rad "
+        f"in {after * 1e3:.1f} ms, and altogether from {low:+.3g} to {high:+.3g} rad"
+    )
 
 
 def _direction(change: float, rounding: float) -> Direction:
@@ -117,34 +77,32 @@ def _direction(change: float, rounding: float) -> Direction:
     return "rises" if change < 0 else "falls"
 
 
-@claim
+@claim()
 def roots_are_as_printed(top: Top) -> Measured:
     """Check the rates of regular precession to the digits that the article prints."""
-    roots = _roots(top)
+    roots = regular_precession_rates(top, THETA, PSI_DOT)
     digits = [len(printed.partition(".")[2]) for printed in PRINTED_ROOTS]
     rounded = [f"{root:.{n}f}" for root, n in zip(roots, digits, strict=False)]
     holds = rounded == list(PRINTED_ROOTS)
     return Measured(holds, listed=" and ".join(f"{root:.6f}" for root in roots) or "not real")
 
 
-@claim
+@claim()
 def printed_roots_keep_the_tilt(top: Top) -> Measured:
     """Check that the article's digits are enough to see no nutation."""
-    widths = []
-    for printed in PRINTED_ROOTS:
-        low, high = Motion(top, start(float(printed))).turning_angles
-        widths.append(high - low)
+    motions = [Motion(top, start(float(printed))) for printed in PRINTED_ROOTS]
+    widths = [np.ptp(motion.turning_angles) for motion in motions]
     return Measured(max(widths) < STILL, widths=widths)
 
 
-@claim
+@claim(*RATES)
 def rate_decides(top: Top, rate: Rate) -> Measured:
     """Check the article's statement on one of the six rates, by the equation and by the motion."""
-    departure = Departure.of(Motion(top, start(rate.phi_dot)))
-    return Measured(departure.directions == (rate.direction,) * 3, rate=rate, departure=departure)
+    found, departure = find_departure(Motion(top, start(rate.phi_dot)))
+    return Measured(found == {rate.direction}, departure=departure)
 
 
-@claim
+@claim()
 def acceleration_is_a_parabola(top: Top) -> Measured:
     """Check that theta'' at theta' = 0 is a parabola in phi' whose zeros are both roots."""
     measured = np.array(
@@ -152,30 +110,28 @@ def acceleration_is_a_parabola(top: Top) -> Measured:
     )
     parabola = np.polynomial.Polynomial.fit(PARABOLA, measured, 2)
     off = np.abs(parabola(PARABOLA) - measured).max() / np.abs(measured).max()
-    zeros, roots = np.sort(parabola.roots().real), _roots(top)
+    zeros, roots = np.sort(parabola.roots().real), regular_precession_rates(top, THETA, PSI_DOT)
     missed = np.abs(zeros - roots).max() if len(roots) == len(zeros) else np.inf
     holds = off < FITTED and missed < FITTED * PARABOLA[-1]
     return Measured(holds, count=len(PARABOLA), off=off, zeros=zeros, missed=missed)
 
 
-@claim
+@claim(*HURRIED.values())
 def hurrying_decides(top: Top, case: HurryCase) -> Measured:
     """Check what a hurried regular precession does, and that `perrys_rule` agrees."""
+    before = case.begin(top)
+    top = before.top
     rises = case.direction == "rises"
     verb, moved = "holds" if rises else "fails", "top" if top.Mgl > 0 else "axis"
     end = "" if top.Mgl > 0 else ", and the centre of mass, below the pivot, rises"
-    rate = _roots(top, case.psi_dot)[case.root]
-    before = start(rate, case.psi_dot)
-    departure = Departure.of(Motion(top, hurry(before, FACTOR)))
-    holds = (
-        departure.directions == (case.direction,) * 3
-        and perrys_rule(top, before, FACTOR).rule_holds is rises
-    )
+    rate = before.start.euler_rates.phi
+    found, departure = find_departure(Motion(top, hurry(before.start, FACTOR)))
+    rule = perrys_rule(top, before.start, FACTOR)
+    holds = found == {case.direction} and rule.rule_holds is rises
     return Measured(
         holds,
         verb=verb,
         moved=moved,
-        case=case,
         end=end,
         rate=rate,
         hurried=FACTOR * rate,
@@ -183,8 +139,8 @@ def hurrying_decides(top: Top, case: HurryCase) -> Measured:
     )
 
 
-@claim
-def sign_decides(root: Root, top: Top) -> Measured:
+@claim("slow", "fast")
+def sign_decides(top: Top, root: Root) -> Measured:
     """Check the exact rule for a small hurry, on random tops of both signs and on this one.
 
     From the slow root s the kick by k makes Ix theta''/sin(theta) of zero
@@ -203,15 +159,15 @@ def sign_decides(root: Root, top: Top) -> Measured:
         for hold, (good, tried) in counts.items()
     )
     holds = all(good == tried > 0 for good, tried in counts.values())
-    return Measured(holds, root=root, rule=rule, instant=1e6 * INSTANT, listed=listed)
+    return Measured(holds, rule=rule, instant=1e6 * INSTANT, listed=listed)
 
 
 def _count_risen(root: Root, hold: Hold, top: Top) -> tuple[int, int]:
     """Return how many tops move as the rule says, and how many were tried."""
     random, good, tried = np.random.default_rng(SEED), 0, 0
     for _ in range(TRIED):
-        Iz, weight = random.uniform(0.1, 1.9), random.uniform(20.0, 200.0) * random.choice([-1, 1])
-        each = Top(top.Ix, Iz * top.Ix, weight * top.Ix) if tried else top
+        drawn = draw_top(random, top)
+        each = drawn if tried else top
         theta, spin = random.uniform(0.2, 2.9), random.choice([-1, 1]) * random.uniform(30.0, 200.0)
         a = LEADING[hold](each) * np.cos(theta)
         roots = np.roots([a, -each.Iz * spin, each.Mgl])
@@ -226,7 +182,3 @@ def _count_risen(root: Root, hold: Hold, top: Top) -> tuple[int, int]:
         expected = each.Mgl > 0 if root == "slow" else a < 0
         good, tried = good + ((fell < 0) == expected), tried + 1
     return good, tried
-
-
-def _roots(top: Top, psi_dot: float = PSI_DOT) -> tuple[float, ...]:
-    return regular_precession_rates(top, THETA, psi_dot)

@@ -14,18 +14,9 @@ import rerun.blueprint as rrb
 
 from symtop_ros.arrays import Stamps
 from symtop_ros.log.batch import Batch, Columns
-from symtop_ros.physics import Motion, State, Top, hurry, regular_precession_rates
+from symtop_ros.physics import Motion, State, Top, hurry
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.blueprint import PLOT_BACKGROUND, around_cursor
-from symtop_ros.playback.view.entities import (
-    BLUE,
-    GREY,
-    ORANGE,
-    WHITE,
-    Stream,
-    create_body,
-    draw_parallel,
-)
 from symtop_ros.playback.view.surroundings import Trace, create_stand, turning_circles
 from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.playback.viewer import create_recording
@@ -34,13 +25,9 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import STATE_TOPICS, Samples
 from workshop.article.motions import (
-    DISC_HURRIED,
     FAST,
-    FAST_ROOT_HURRIED,
-    HANGING_DISC,
+    HURRIED,
     RATES,
-    SLOW_ROOT_HURRIED,
-    THETA,
     TOP,
     KickedMotion,
     cusps,
@@ -53,7 +40,7 @@ RATE, SPAN = 500, 3.0  # Hz, s
 KICK = 0.5  # s; time at which the kicked tops are kicked
 TRACE = 1.0  # s of the trace that stay visible: a turn of the slow precession
 SPREAD, DEPTH = 2.7, 1.5  # of columns and rows, in scene units
-COLORS = {"rises": BLUE, "stays": WHITE, "falls": ORANGE}
+COLORS = {"rises": entities.BLUE, "stays": entities.WHITE, "falls": entities.ORANGE}
 PALE = (150, 156, 168)  # of the turning circles: no colour of a direction
 # A narrow eye from far away shows all tops from the same side. One of 55 degrees, which is the
 # default of Rerun, skews the tops at the sides.
@@ -107,21 +94,15 @@ def six_rates(top: Top = TOP) -> list[Exhibit]:
 
 def kicked_and_not_kicked() -> list[Exhibit]:
     """Return three regular precessions twice: hurried after half a second, and not."""
-    cases = {
-        "slow_root": (TOP, SLOW_ROOT_HURRIED),
-        "fast_root": (TOP, FAST_ROOT_HURRIED),
-        "disc": (HANGING_DISC, DISC_HURRIED),
-    }
     exhibits = []
-    for k, (name, (top, case)) in enumerate(cases.items()):
-        rate = regular_precession_rates(top, THETA, case.psi_dot)[case.root]
-        steady = KickedMotion.of(Motion(top, start(rate, case.psi_dot)))
+    for k, (name, case) in enumerate(HURRIED.items()):
+        steady = KickedMotion.of(case.begin())
         hurried = steady.kick(KICK, lambda state: hurry(state, FACTOR))
         x = (k - 1) * SPREAD
         words = f"{_title(name)}, hurried: {case.direction}"
         color = COLORS[case.direction]
         exhibits += [
-            Exhibit(f"{name}_steady", "not kicked", name, (x, DEPTH), WHITE, steady),
+            Exhibit(f"{name}_steady", "not kicked", name, (x, DEPTH), entities.WHITE, steady),
             Exhibit(f"{name}_hurried", words, name, (x, -DEPTH), color, hurried),
         ]
     return exhibits
@@ -131,7 +112,7 @@ def write_scene(exhibits: Sequence[Exhibit], file: Path) -> None:
     """Write a scene as a Rerun recording."""
     recording = create_recording(file, file.stem)
     recording.send_blueprint(_lay_out(exhibits))
-    stream = Stream(recording)
+    stream = entities.Stream(recording)
     stream.origin = 0
     _place_eye(stream)
     for exhibit in exhibits:
@@ -140,7 +121,7 @@ def write_scene(exhibits: Sequence[Exhibit], file: Path) -> None:
     recording.disconnect()
 
 
-def _place_eye(stream: Stream) -> None:
+def _place_eye(stream: entities.Stream) -> None:
     """Send a camera at `EYE`; a view that tracks it takes over its place and its angle."""
     forward = (TARGET - EYE) / np.linalg.norm(TARGET - EYE)
     right = np.cross(forward, [0.0, 0.0, 1.0])
@@ -157,14 +138,15 @@ def _place_eye(stream: Stream) -> None:
     stream.log(CAMERA, pinhole, static=True)
 
 
-def _send(stream: Stream, exhibit: Exhibit) -> None:
+def _send(stream: entities.Stream, exhibit: Exhibit) -> None:
     root, top = exhibit.root, exhibit.run.pieces[0][1].top
     stream.log(root, rr.Transform3D(translation=(*exhibit.place, 0.0)), static=True)
-    stream.log_mesh(f"{root}/top", create_body(top), static=True)
+    stream.log_mesh(f"{root}/top", entities.create_body(top), static=True)
     if top.Mgl > 0:
         stream.log_mesh(f"{root}/stand", create_stand(), static=True)
-    grid = [draw_parallel(angle) for angle in np.radians([15, 30, 45, 60, 75, 90])]
-    stream.log(f"{root}/sphere", rr.LineStrips3D(grid, colors=[GREY], radii=[0.003]), static=True)
+    grid = [entities.draw_parallel(angle) for angle in np.radians([15, 30, 45, 60, 75, 90])]
+    sphere = rr.LineStrips3D(grid, colors=[entities.GREY], radii=[0.003])
+    stream.log(f"{root}/sphere", sphere, static=True)
     label = rr.Points3D(
         [(0.0, 0.0, 1.45)],
         labels=[exhibit.label],
@@ -178,7 +160,7 @@ def _send(stream: Stream, exhibit: Exhibit) -> None:
     _send_motion(stream, exhibit)
 
 
-def _send_motion(stream: Stream, exhibit: Exhibit) -> None:
+def _send_motion(stream: entities.Stream, exhibit: Exhibit) -> None:
     root = exhibit.root
     stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
     states = exhibit.run.at(np.asarray(stamps * 1e-9))
@@ -243,9 +225,10 @@ def _record(motion: Motion, options: ViewOptions, file: Path) -> None:
     segment = Segment.begin(motion, 0, 1.0)
     stamps = np.arange(round(RATE * SPAN) + 1) * (10**9 // RATE)
     start = sample("start", Start.of(motion), motion.start, segment, stamps)
-    View(recording, options=options).send(start)
+    view = View(recording, options=options)
+    view.send(start)
     recording.flush()
-    recording.disconnect()
+    view.close()
 
 
 def sample(name: str, outcome: Outcome, before: State, segment: Segment, stamps: Stamps) -> Batch:

@@ -16,7 +16,6 @@ from matplotlib.figure import Figure
 from symtop_ros.arrays import Real
 from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import (
-    EffectivePotential,
     Motion,
     hurry,
     push_axle,
@@ -30,7 +29,7 @@ from symtop_ros.simulation.settings import Settings
 from workshop.article.answers.fictitious import draw_arrow, plot_torques
 from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger
-from workshop.article.figures import DEPTH
+from workshop.article.figures import plot_depth
 from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
 from workshop.lesson.sheets import Sheets
 from workshop.lesson.steps import LessonAct, LessonStep, read_lesson
@@ -82,9 +81,8 @@ def draw_step(step: LessonStep) -> Figure:
     figure = new_figure(2.9)
     left, right = figure.subplots(1, 2, width_ratios=[2, 3])
     runs = run_step(step)
-    draw = DRAWS[step.plot]
-    LEFT.get(draw, _draw_from_above)(left, runs)
-    draw(right, runs)
+    for axes, draw in zip((left, right), DRAWS[step.plot], strict=True):
+        draw(axes, runs)
     right.margins(x=0)
     return figure
 
@@ -212,13 +210,9 @@ def draw_potential(axes: Axes, runs: Runs) -> None:
     """Draw the effective potentials, from which the turning angles can be read."""
     looks = zip(LOOKS, runs, _list_first(runs), strict=False)
     for (color, dash), label, motion in looks:
-        potential = EffectivePotential.of(motion.top, motion.start)
-        theta = np.linspace(0.35, 1.25, 600)
-        depth = 1e3 * (potential.at(theta) - potential.energy)
-        axes.plot(theta, depth, color=color, ls=dash, label=label)
-        axes.plot(motion.turning_angles, [0, 0], "o", color=color, ms=5)
+        plot_depth(axes, motion, np.linspace(0.35, 1.25, 600), color=color, ls=dash, label=label)
     axes.axhline(0.0, color=INK, lw=0.9)
-    axes.set(xlabel=r"$\theta$ (rad)", ylabel=DEPTH, ylim=(-6.0, 11.0))
+    axes.set(ylim=(-6.0, 11.0))
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
 
 
@@ -285,44 +279,42 @@ def draw_impulses(axes: Axes, runs: Runs) -> None:
     axes.legend(loc="lower left", bbox_to_anchor=(-0.2, 1.0), ncols=2, fontsize=8, title=title)
 
 
-DRAWS: dict[str, Callable[[Axes, Runs], None]] = {  # by the field `plot` of a step
-    "tilt": draw_tilt,
-    "momentum": draw_momentum,
-    "potential": draw_potential,
-    "turning": draw_turning,
-    "fictitious": draw_fictitious,
-    "ledger": draw_ledger,
-    "impulses": draw_impulses,
-    "pushes": draw_pushes,
-}
-# What is drawn left of these; all others: the end of the axis from above.
-LEFT: dict[Callable[[Axes, Runs], None], Callable[[Axes, Runs], None]] = {
-    draw_turning: _draw_turned,
-    draw_fictitious: _draw_chains,
-    draw_ledger: draw_tilt,
-    draw_pushes: draw_tilt,
+Draw = Callable[[Axes, Runs], None]
+DRAWS: dict[str, tuple[Draw, Draw]] = {  # left and right, by the field `plot` of a step
+    "tilt": (_draw_from_above, draw_tilt),
+    "momentum": (_draw_from_above, draw_momentum),
+    "potential": (_draw_from_above, draw_potential),
+    "turning": (_draw_turned, draw_turning),
+    "fictitious": (_draw_chains, draw_fictitious),
+    "ledger": (draw_tilt, draw_ledger),
+    "impulses": (_draw_from_above, draw_impulses),
+    "pushes": (draw_tilt, draw_pushes),
 }
 
 
-def write_lesson(folder: Path) -> int:
-    """Write the pictures step_01.png, step_02.png ...; return the exit status."""
-    folder.mkdir(parents=True, exist_ok=True)
+def draw_lesson(folder: Path, sheets: bool, language: str) -> None:
+    """Write the pictures, or the sheets in a language."""
+    if sheets:
+        write_sheets(folder, language)
+    else:
+        write_lesson(folder)
+
+
+def write_lesson(folder: Path) -> None:
+    """Write the pictures step_01.png, step_02.png ..."""
     steps = read_lesson()
     for number, step in enumerate(steps, start=1):
         (folder / f"step_{number:02}.png").write_bytes(picture_of(step))
     print(f"wrote {len(steps)} pictures to {folder}")
-    return 0
 
 
-def write_sheets(folder: Path, language: str = "en") -> int:
-    """Write the sheets in a language; return the exit status."""
-    folder.mkdir(parents=True, exist_ok=True)
+def write_sheets(folder: Path, language: str = "en") -> None:
+    """Write the sheets in a language."""
     sheets = Sheets(language)
     pictures = [picture_of(step) for step in read_lesson()]
     (folder / "worksheet.html").write_text(sheets.write_worksheet(), encoding="utf-8")
     (folder / "teacher.html").write_text(sheets.write_teacher_sheet(pictures), encoding="utf-8")
     print(f"wrote worksheet.html and teacher.html to {folder}; print them from a browser")
-    return 0
 
 
 def picture_of(step: LessonStep) -> bytes:

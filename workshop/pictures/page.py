@@ -3,8 +3,6 @@
 python -m workshop.pictures.page [FOLDER]
 """
 
-from __future__ import annotations
-
 import io
 import sys
 import tempfile
@@ -12,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
+import yaml
 from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
@@ -27,64 +26,55 @@ DOCS = Path(__file__).parents[2] / "docs"
 TIMEOUT = 60_000  # ms
 # The canvas is drawn twice as large and shrunk: its edges are smooth, as with a graphics card.
 SMOOTH = "Object.defineProperty(window, 'devicePixelRatio', {value: 2})"
-PUSH = {"angular_impulse": [-1e-3, -1e-3, 0.0]}
-HURRY = {"precession_rate_factor": 1.4}
 
 
 class Picture(NamedTuple):
-    """A picture: file, size of the window, scene, what is done, colours, and the tab."""
+    """A picture; `page.yaml` says what the fields are."""
 
     name: str
-    width: int
-    height: int
+    window: tuple[int, int]
     scene: str
-    act: Mapping[str, Any]  # fields of ~/kick; empty for a motion without a kick
-    nutations: tuple[float, float]  # of the motion before and after the act
+    act: Mapping[str, Any] = {}
+    nutations: tuple[float, float] = (0.0, 0.0)
     scheme: Literal["light", "dark"] = "light"
-    tab: str = ""  # none is open
+    tab: str = ""
+    step: int = 0
+    prediction: str = ""
 
 
-PICTURES = (
-    Picture("panel", 1280, 720, "hurry_slow", HURRY, (1.7, 0.5)),
-    Picture("panel_dark", 1280, 720, "looping", PUSH, (2.2, 2.4), "dark", "History"),
-    Picture("panel_tablet", 820, 1180, "cusps", {}, (2.5, 0.0), tab="Push"),
-    Picture("panel_phone", 390, 844, "hurry_slow", HURRY, (1.7, 0.5)),
-    Picture("panel_question", 390, 844, "hurry_slow", {}, (0.0, 0.0)),
-)
-LESSON = Picture("panel_lesson", 1280, 720, "cusps", {"precession_rate": 9.0}, (0.0, 4.0))
-STEP = "#lesson=10"
-PREDICTION = "The centrifugal torque lifts it, more and more."
+TABLE = Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8")
+PICTURES = [Picture(name, **facts) for name, facts in yaml.safe_load(TABLE).items()]
 
 
 def main(folder: Path) -> None:
     """Draw all pictures into a folder."""
     with sync_playwright() as playwright:
         browser = launch(playwright)
-        for picture in (*PICTURES, LESSON):
+        for picture in PICTURES:
             print(f"wrote {draw(browser, picture, folder)}")
         browser.close()
 
 
 def draw(browser: Browser, picture: Picture, folder: Path) -> Path:
     """Draw a picture."""
-    path = folder / f"{picture.name}.png"
+    path, (width, height) = folder / f"{picture.name}.png", picture.window
     with tempfile.TemporaryDirectory() as place:
         page = Path(place, "top.html")
         run = play(picture) if any(picture.nutations) else None  # without one it asks its question
         page.write_text(write_file(run=run), encoding="utf-8")
         tab = browser.new_page(
-            viewport={"width": picture.width, "height": picture.height},
+            viewport={"width": width, "height": height},
             color_scheme=picture.scheme,
             reduced_motion="reduce",  # it begins at rest
         )
         tab.add_init_script(SMOOTH)
-        tab.goto(page.as_uri() + (STEP if picture is LESSON else ""))
+        tab.goto(page.as_uri() + (f"#lesson={picture.step}" if picture.step else ""))
         tab.wait_for_selector("#headline:not(:empty)", state="attached", timeout=TIMEOUT)
-        if picture is LESSON:
-            tab.get_by_label("Your prediction").fill(PREDICTION)
+        if picture.prediction:
+            tab.get_by_label("Your prediction").fill(picture.prediction)
         elif picture.tab:
             tab.get_by_role("tab", name=picture.tab).click()
-        tab.mouse.move(picture.width / 2, 5)
+        tab.mouse.move(width / 2, 5)
         tab.wait_for_timeout(3000)  # the browser may be some frames behind
         with Image.open(io.BytesIO(tab.screenshot())) as shot:
             path.write_bytes(pack_shaded(shot))

@@ -1,7 +1,5 @@
 """Rerun's viewer without a screen: renders recordings to PNG and reports what is wrong in them."""
 
-from __future__ import annotations
-
 import contextlib
 import glob
 import io

@@ -5,15 +5,17 @@ nutation is the free precession of a top without torque, on top of the precessio
 forces. Seen by who turns with the mean precession, the end of the axis goes round on a circle.
 """
 
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
-from symtop_ros.judge.figures import BLUE, GREY, INK, RED, new_figure
+from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure, rows
 from symtop_ros.physics import Motion
-from workshop.article.motions import cusps
+from workshop.article.motions import accelerations, cusps
+from workshop.article.nutation import times_of_extreme_rate
 
 SHOWN = (0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875)  # of a nutation: places of the circle
 
@@ -76,4 +78,38 @@ def draw_nutation() -> Figure:
     for axes in (left, right):
         axes.invert_yaxis()
     left.set_ylim(0.11, -0.11)
+    return figure
+
+
+def draw_cusp_story() -> Figure:
+    """Draw one nutation from cusp to cusp with t1, T/2 and t2, and the signs of accelerations."""
+    figure, motion = new_figure(6.4), cusps()
+    period = motion.nutation_period
+    first, second = times_of_extreme_rate(motion)
+    marks = {"0": 0.0, "$t_1$  ": first, "$T/2$": period / 2, "  $t_2$": second, "$T$": period}
+    quarters = {"  $T/4$": period / 4, "$3T/4$  ": 3 * period / 4}
+    times = np.linspace(0.0, period, 801)
+    states = motion.at(times)
+    changes = dict(zip(("phi", "theta", "psi"), accelerations(motion.top, states).T, strict=True))
+    parts = zip(rows(figure, 3), ("theta", "phi", "psi"), (BLUE, RED, INK), strict=True)
+    for axes, name, color in parts:
+        axes.plot(times, states.euler_rates._asdict()[name], color=color)
+        axes.set(ylabel=rf"$\dot\{name}$ (rad/s)", xmargin=0, ymargin=0.22)
+        inner = [0.0, first, second, period] if name == "theta" else [0.0, period / 2, period]
+        for low, high in pairwise(inner):
+            between = (3 * low + high) / 4  # no mark is there
+            sign = ">" if np.interp(between, times, changes[name]) > 0 else "<"
+            place, top = (between, 0.97), axes.get_xaxis_transform()
+            words = rf"$\ddot\{name} {sign} 0$"
+            axes.text(*place, words, transform=top, ha="center", va="top", color=color)
+        for time in marks.values():
+            axes.axvline(time, color=GREY, lw=0.9, ls=":")
+        for time in quarters.values():
+            axes.axvline(time, color=GOLD, lw=0.9, ls="--")
+    upper, all_marks = figure.axes[0].secondary_xaxis("top"), marks | quarters
+    upper.set_xticks(list(all_marks.values()), list(all_marks))
+    for label in upper.get_xticklabels():  # t1 is close to T/4, and t2 to 3T/4
+        words = label.get_text()
+        if words != words.strip():
+            label.set_horizontalalignment("left" if words[0] == " " else "right")
     return figure

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from symtop_ros.arrays import Real
 from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion, Top, precessing_frame_torques, theta_acceleration
-from workshop.article.claims import Claim, Measured, claim, differ
+from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start
 
 PHI_DOTS = (SLOW, 9.0, FAST, 73.0)  # rad/s; both roots, and a rate beyond each
@@ -23,12 +23,7 @@ SHOWN = np.linspace(0.0, 85.0, 200)  # rad/s
 SWEEP = np.linspace(0.0, 2 * math.pi, 200)  # rad
 
 
-def claims_on_fictitious_forces(top: Top) -> list[Claim]:
-    """Return the claims on what a turning observer adds."""
-    return [three_torques_raise_or_lower(top), masses_feel_the_same(top), body_frame_has_one(top)]
-
-
-@claim
+@claim()
 def three_torques_raise_or_lower(top: Top) -> Measured:
     """Check that the three torques are Ix theta'' of the closed form, with the signs of Perry's."""
     rates = np.array(PHI_DOTS)
@@ -44,7 +39,7 @@ def three_torques_raise_or_lower(top: Top) -> Measured:
     return Measured(off < SUMMED and balanced < SUMMED and signs, listed=listed)
 
 
-@claim
+@claim()
 def masses_feel_the_same(top: Top) -> Measured:
     """Check the Coriolis and the centrifugal torque as sums over mass elements."""
     masses, places = point_masses(top)
@@ -63,7 +58,7 @@ def masses_feel_the_same(top: Top) -> Measured:
     return Measured(largest < SUMMED, count=len(masses), rates=len(PHI_DOTS), largest=largest)
 
 
-@claim
+@claim()
 def body_frame_has_one(top: Top) -> Measured:
     """Check that in the body frame nothing moves, and the centrifugal torque is -omega x L."""
     masses, places = point_masses(top)

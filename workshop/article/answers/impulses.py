@@ -4,15 +4,13 @@ For an observer who precesses with the top Ix theta'' is the sum of gravity's, C
 centrifugal torque. So Ix theta' is the sum of their impulses since a cusp, where theta' is zero.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.arrays import Real
 from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure, rows
-from symtop_ros.physics import Motion, precessing_frame_torques
+from symtop_ros.physics import FrameTorques, Motion, precessing_frame_torques
 from workshop.article.motions import cusps
 from workshop.article.nutation import times_of_extreme_rate
 
@@ -26,31 +24,18 @@ LOOKS = {
 }
 
 
-class Impulses(NamedTuple):
-    """Impulses about the line of nodes, in N m s."""
-
-    gravity: float
-    coriolis: float
-    centrifugal: float
-
-    @property
-    def total(self) -> float:
-        """Their sum, which is the change of Ix theta'."""
-        return self.gravity + self.coriolis + self.centrifugal
-
-
 def torques_at(motion: Motion, times: Real) -> Real:
     """Return gravity's, Coriolis' and the centrifugal torque (3, n) in N m at times in s."""
     states = motion.at(times)
     rates = states.euler_rates
-    torques = precessing_frame_torques(motion.top, states.euler_angles.theta, rates.phi, rates.psi)
-    return np.array([torques.gravity, torques.coriolis, torques.centrifugal])
+    theta = states.euler_angles.theta
+    return np.array(precessing_frame_torques(motion.top, theta, rates.phi, rates.psi))
 
 
-def find_impulses(motion: Motion, time: float) -> Impulses:
-    """Return the impulses from the start to a time in s."""
+def find_impulses(motion: Motion, time: float) -> FrameTorques:
+    """Return the impulses of the torques from the start to a time in s, in N m s."""
     times = (NODES + 1) * time / 2
-    return Impulses(*map(float, torques_at(motion, times) @ WEIGHTS * time / 2))
+    return FrameTorques(*(torques_at(motion, times) @ WEIGHTS * time / 2))
 
 
 def plot_impulses(axes: Axes, motion: Motion) -> None:

@@ -4,7 +4,7 @@ E' = E - p_psi^2/(2 Iz) is what the spin does not keep. A kick at theta' = 0 put
 precession and, if it holds psi', into the spin; afterwards weight and precession exchange it.
 """
 
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,29 +17,24 @@ from symtop_ros.physics import (
     State,
     Top,
     hurry,
-    regular_precession_rates,
     theta_acceleration,
 )
-from workshop.article.claims import Claim, Measured, claim
+from workshop.article.claims import Measured, claim
 from workshop.article.motions import (
-    DISC_HURRIED,
-    FAST_ROOT_HURRIED,
-    HANGING_DISC,
-    SLOW_ROOT_HURRIED,
+    HURRIED,
     THETA,
     TOP,
     HurryCase,
-    start,
 )
 from workshop.article.rates import FACTOR
 
 MILLI = 1e3  # mJ in a J
 CLOSED = 1e-13  # of the energy; sums of rounded parts. Measured: 4e-16
 HOLDS: dict[Hold, str] = {"spin_rate": "psi' held", "spin_momentum": "p_psi held"}
-CASES: dict[str, tuple[Top, HurryCase]] = {
-    "the top at its slow root": (TOP, SLOW_ROOT_HURRIED),
-    "the top at its fast root": (TOP, FAST_ROOT_HURRIED),
-    "the hanging disc at its slow root": (HANGING_DISC, DISC_HURRIED),
+TITLES = {
+    "slow_root": "the top at its slow root",
+    "fast_root": "the top at its fast root",
+    "disc": "the hanging disc at its slow root",
 }
 COLORS = {"weight": GOLD, "precession": BLUE, "E'": INK}
 
@@ -103,17 +98,8 @@ class KickLedger:
 
 def hurry_ledger(top: Top, case: HurryCase, hold: Hold) -> KickLedger:
     """Return the ledger of a regular precession that is hurried."""
-    before = start(regular_precession_rates(top, THETA, case.psi_dot)[case.root], case.psi_dot)
-    return KickLedger.of(top, before, hurry(before, FACTOR, hold))
-
-
-def claims_on_energy(top: Top) -> list[Claim]:
-    """Return the claims on the energy of a kick, for what it holds."""
-    return [
-        precession_lifts(top, "spin_rate"),
-        precession_lifts(top, "spin_momentum"),
-        hold_decides(HANGING_DISC),
-    ]
+    before = case.begin(top)
+    return KickLedger.of(before.top, before.start, hurry(before.start, FACTOR, hold))
 
 
 # At the slow root, hurried by 1.4, in mJ: what the weight gains, the push puts into E', and the
@@ -124,10 +110,10 @@ PRINTED: dict[Hold, tuple[str, str, str, str]] = {
 }
 
 
-@claim
+@claim(*HOLDS)
 def precession_lifts(top: Top, hold: Hold) -> Measured:
     """Check how much of what lifts the hurried top comes from the push."""
-    found = hurry_ledger(top, SLOW_ROOT_HURRIED, hold)
+    found = hurry_ledger(top, HURRIED["slow_root"], hold)
     lift, push, spin = found.far.weight, found.kick.rest, abs(found.kick.spin)
     words = f"{lift:.2f}", f"{push:.2f}", f"{-found.far.precession:.2f}", f"{spin:.1f}"
     printed = PRINTED[hold]
@@ -135,13 +121,14 @@ def precession_lifts(top: Top, hold: Hold) -> Measured:
     return Measured(holds, held=HOLDS[hold], printed=printed, lift=lift, found=found)
 
 
-@claim
-def hold_decides(disc: Top) -> Measured:
+@claim()
+def hold_decides(_: Top) -> Measured:
     """Check the disc at its fast root: the axis rises with psi' held, and falls with p_psi held."""
-    rate = regular_precession_rates(disc, THETA, DISC_HURRIED.psi_dot)[1]
+    before = replace(HURRIED["disc"], root=1).begin()
+    disc, rate = before.top, before.start.euler_rates.phi
     words, heights = [], []
     for hold in HOLDS:
-        after = hurry(start(rate, DISC_HURRIED.psi_dot), FACTOR, hold)
+        after = hurry(before.start, FACTOR, hold)
         rates = after.euler_rates
         found = float(theta_acceleration(disc, THETA, rates.phi, rates.psi))
         low, high = Motion(disc, after).turning_angles
@@ -153,12 +140,12 @@ def hold_decides(disc: Top) -> Measured:
 def draw_energy_ledger() -> Figure:
     """Draw the changes of energy by the kick of each case, for both holds."""
     figure = new_figure(6.4)
-    grid = figure.subplots(len(CASES), len(HOLDS), sharey="row", squeeze=False)
-    for line, name in zip(grid, CASES, strict=True):
+    grid = figure.subplots(len(TITLES), len(HOLDS), sharey="row", squeeze=False)
+    for line, (name, title) in zip(grid, TITLES.items(), strict=True):
         for axes, (hold, words) in zip(line, HOLDS.items(), strict=True):
-            ledger = hurry_ledger(*CASES[name], hold)
+            ledger = hurry_ledger(TOP, HURRIED[name], hold)
             plot_ledger(axes, ledger)
-            axes.set_title(f"{name},\n{words}: spin {ledger.kick.spin:+.1f} mJ", fontsize=9)
+            axes.set_title(f"{title},\n{words}: spin {ledger.kick.spin:+.1f} mJ", fontsize=9)
         line[0].set_ylabel("change (mJ)")
     handles = grid[0][0].get_legend_handles_labels()
     figure.legend(*handles, loc="outside upper center", ncols=3)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from symtop_ros.arrays import Real
 from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, columns, new_figure
 from symtop_ros.physics import Motion, State, Top, apply_impulse
-from workshop.article.claims import Claim, Measured, claim
+from workshop.article.claims import Measured, claim
 from workshop.article.motions import cusps
 
 SPAN = 0.5  # s; three nutations
@@ -21,11 +21,6 @@ COUNTS = (100, 200, 400, 800, 1600)  # steps in this time
 SHOWN = 12  # steps of the chain that is drawn
 STORY = 0.48  # s, in which they are made: three nutations
 ORDER = 0.02  # of an order that is found from two steps. Measured: 0.001 and 0.0001
-
-
-def claims_on_resolution(top: Top) -> list[Claim]:
-    """Return the claim on the resolution principle."""
-    return [resolution_converges(cusps(top))]
 
 
 def resolve(motion: Motion, span: float, count: int, symmetric: bool = False) -> list[State]:
@@ -54,9 +49,10 @@ def find_errors(motion: Motion, symmetric: bool) -> list[float]:
     return [float(np.linalg.norm(np.cross(end, exact))) for end in ends]
 
 
-@claim
-def resolution_converges(motion: Motion) -> Measured:
+@claim()
+def resolution_converges(top: Top) -> Measured:
     """Check that the steps of the resolution principle converge to the motion, and how fast."""
+    motion = cusps(top)
     first, second = find_errors(motion, symmetric=False), find_errors(motion, symmetric=True)
     orders = [float(np.log2(each[-2] / each[-1])) for each in (first, second)]
     errors = first[-1], second[-1]
