@@ -3,13 +3,16 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
+
+import yaml
 
 from symtop_ros.models.descriptions import PLAIN, TURN, describe
 from symtop_ros.models.snippets import STEPS, format_world_snippets
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State
 from symtop_ros.testset.score import DESCRIPTIONS, read_problems
-from workshop.releases.programs import CANNON, DRAKE, MUJOCO, PINOCCHIO, PYBULLET, PYTHON, SNIPPETS
+from workshop.releases.programs import PROGRAMS
 
 # Older releases of Jolt have no body for the world: a static one of their own takes its place.
 WORLD = "Jolt.JoltInterface.prototype.sGetFixedToWorldBody()"
@@ -19,7 +22,7 @@ GROUND = """system.GetBodyInterface().CreateBody(new Jolt.BodyCreationSettings(
 
 @dataclass(frozen=True)
 class Engine:
-    """An engine with releases in a registry."""
+    """An engine with releases in a registry; `engines.yaml` says what the fields are."""
 
     name: str
     package: str
@@ -34,28 +37,11 @@ class Engine:
         return bool(self.form)
 
 
-# Lines of change logs, as far as they were read: those of MuJoCo to 3.12.0, of Rapier to 0.20.0.
-MUJOCO_LOG = {
-    "3.7.0": "Added midpoint integration for standalone free bodies in `implicit` and "
-    "`implicitfast` integrators.",
-    "3.8.1": "Midpoint integration is now restricted to the `implicitfast` integrator",
-    "3.11.0": "Replaced midpoint integration of free bodies with gyroscopic derivatives in the "
-    "`implicitfast` integrator",
-}
-RAPIER_LOG = {
-    "0.20.0": "Update to Rapier 0.35.0 (whose log says: Gyroscopic forces are applied per-substep "
-    "in the principal inertia frame)"
-}
-ENGINES = (
-    Engine(
-        "MuJoCo", "mujoco", PYTHON % MUJOCO, "mjcf", ("free_rod_fast", "gentle_looping"), MUJOCO_LOG
-    ),
-    Engine("pybullet", "pybullet", PYTHON % PYBULLET, "urdf", ("gentle_free", "gentle_looping")),
-    Engine("cannon-es", "cannon-es", CANNON),
-    Engine("Rapier", "@dimforge/rapier3d-compat", SNIPPETS, log=RAPIER_LOG),
-    Engine("Jolt", "jolt-physics", SNIPPETS),
-    Engine("Pinocchio", "pin", PYTHON % PINOCCHIO, "urdf", ("gentle_looping",)),
-    Engine("Drake", "drake", PYTHON % DRAKE, "sdf", ("free_rod_fast", "gentle_looping")),
+ENGINES = tuple(
+    Engine(name, **{**facts, "program": PROGRAMS[facts["program"]]})
+    for name, facts in yaml.safe_load(
+        Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8")
+    ).items()
 )
 
 

@@ -12,13 +12,11 @@ NAME = "releases"  # of its section in the docs
 SHOWN = 4  # names of scores in a row
 
 
-def measure_releases(folder: Path, docs: Path | None = None) -> int:
-    """Write releases.md and releases.json; return the exit status."""
-    folder.mkdir(parents=True, exist_ok=True)
+def measure_releases(folder: Path, docs: Path | None = None) -> None:
+    """Write releases.md and releases.json."""
     facts = {engine.name: measure_engine(engine) for engine in ENGINES}
     write_results(NAME, facts, format_releases(facts), folder, docs)
     print(f"{folder / 'releases.md'} and releases.json")
-    return 0
 
 
 def format_releases(facts: Mapping[str, Mapping[str, Row]]) -> str:

@@ -6,7 +6,7 @@ for Python 3.7. Rapier and Jolt run what `top_judge --testset NAME -o FOLDER` ha
 
 from pathlib import Path
 
-SCRIPTS = ("cannon.mjs", "snippets.mjs")  # of cannon-es; of Rapier and Jolt
+SCRIPTS = {"CANNON": "cannon.mjs", "SNIPPETS": "snippets.mjs"}
 PYTHON = """\
 import json, site, sys
 sys.path.insert(0, sys.argv[1])  # what is installed elsewhere comes later
@@ -135,4 +135,6 @@ def run(case, variant):
         q = plant.EvalBodyPoseInWorld(context, body).rotation().ToQuaternion()
         yield [q.w(), q.x(), q.y(), q.z()]
 """
-CANNON, SNIPPETS = (Path(__file__).with_name(each).read_text() for each in SCRIPTS)
+PYTHONS = {"MUJOCO": MUJOCO, "PYBULLET": PYBULLET, "PINOCCHIO": PINOCCHIO, "DRAKE": DRAKE}
+PROGRAMS = {name: PYTHON % program for name, program in PYTHONS.items()}
+PROGRAMS |= {name: Path(__file__).with_name(file).read_text() for name, file in SCRIPTS.items()}
