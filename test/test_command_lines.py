@@ -64,8 +64,7 @@ UNREADABLE = {
     "--node /top --no-such-option",
     "top_replay": "run.json --rate 100 | run.json --mcap a.mcap --rate CONTROL |  | a --save | "
     "a.mcap --fly | a --web --check",
-    "workshop": " | CONTROL | maps --points 1000000 | maps --points CONTROL | speed --limit nan | "
-    "filters --docs nowhere",
+    "workshop": " | CONTROL | speed --limit nan | speed --limit CONTROL | filters --docs nowhere",
     "top_model": " | --format CONTROL",
     "top_judge": " | a --topic b --max-error nan | a --topic b --remove CONTROL | --live | "
     "a --topic b --ros-args",

@@ -1,12 +1,9 @@
 """Try the node with each ROS 2, Python and NumPy, and the playback with each Rerun; print a table.
 
-python workshop/matrix.py [--folder .venv/matrix]: each cell gets a separate environment, in which
-it installs the package and runs TESTS. The table is for docs/ros.md.
+python workshop/matrix.py: each cell gets a separate environment in .venv/matrix, in which it
+installs the package and runs TESTS. The table is for docs/ros.md.
 """
 
-from __future__ import annotations
-
-import argparse
 import json
 import os
 import re
@@ -18,7 +15,8 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import NamedTuple
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).resolve().parents[1]
+ENVIRONMENT = ROOT / ".venv" / "matrix" / "cell"
 TESTS = ("test/node/test_topics.py", "test/client/test_main.py", "test/check/test_samples.py")
 DISTRIBUTIONS = {"jazzy": ("3.11", "3.12", "3.13"), "kilted": ("3.11", "3.12", "3.13", "3.14")}
 NUMPYS = {"1": "numpy<2", "2": "numpy>=2,<3"}
@@ -59,16 +57,15 @@ def find_python(version: str) -> str | None:
     return str(installed[-1]) if installed else shutil.which(f"python{version}")
 
 
-def try_cell(cell: Cell, folder: Path) -> str:
+def try_cell(cell: Cell) -> str:
     """Try a combination and return its row of the table."""
     python = find_python(cell.python)
     if python is None:
         return row(cell, {}, "not tried: no such Python on this machine")
-    environment = folder / "cell"
-    shutil.rmtree(environment, ignore_errors=True)
+    shutil.rmtree(ENVIRONMENT, ignore_errors=True)
     try:
-        run(python, "-m", "venv", environment)
-        inside = environment / "bin" / "python"
+        run(python, "-m", "venv", ENVIRONMENT)
+        inside = ENVIRONMENT / "bin" / "python"
         wanted = [f".[{cell.extra}]", cell.wanted, *TOOLS]
         installed = run(inside, "-m", "pip", "install", "--quiet", "--prefer-binary", *wanted)
         if installed.returncode:
@@ -80,7 +77,7 @@ def try_cell(cell: Cell, folder: Path) -> str:
     except subprocess.TimeoutExpired:
         return row(cell, {}, f"ended after {TIMEOUT} s")
     finally:
-        shutil.rmtree(environment, ignore_errors=True)
+        shutil.rmtree(ENVIRONMENT, ignore_errors=True)
 
 
 def run(*command: object) -> subprocess.CompletedProcess[str]:
@@ -122,15 +119,12 @@ def is_good(line: str) -> bool:
     return "not tried" in result or ("passed" in result and not re.search("failed|error", result))
 
 
-def main(args: list[str] | None = None) -> int:
+def main() -> int:
     """Try all cells; return 1 if one of those that were tried did not pass."""
-    parser = argparse.ArgumentParser(prog="matrix.py", description=str(__doc__))
-    parser.add_argument("--folder", type=Path, default=ROOT / ".venv" / "matrix")
-    options = parser.parse_args(args)
     print(f"Tried on {datetime.now(timezone.utc):%Y-%m-%d}:\n\n{HEAD}", flush=True)
     good = True
     for cell in cells():
-        found = try_cell(cell, options.folder.absolute())
+        found = try_cell(cell)
         print(found, flush=True)
         good = good and is_good(found)
     return 0 if good else 1

@@ -5,8 +5,6 @@ With a folder in PAGE_COVERAGE each test process writes there what its tabs have
 than 90 % of all lines ran. A line counts if it has code other than brackets.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -124,10 +122,8 @@ def mark(source: str, functions: Sequence[Mapping[str, Any]]) -> list[bool]:
 
 def align(wanted: Sequence[str], lines: Iterable[tuple[str, bool]]) -> list[bool]:
     """Return whether each wanted line ran, from lines among which they stand in their order."""
-    found, rest = [], iter(lines)
-    for line in wanted:
-        found.append(next((ran for text, ran in rest if text == line), False))
-    return found
+    rest = iter(lines)
+    return [next((ran for text, ran in rest if text == line), False) for line in wanted]
 
 
 def main() -> int:
@@ -140,13 +136,11 @@ def main() -> int:
     for name, lines in sorted(ran.items()):
         texts = list_lines(name)
         code = [k for k, text in enumerate(texts) if counts(text)]
-        missed = [texts[k].strip() for k in code if not lines[k]]
-        total[0] += len(code) - len(missed)
+        missed = sum(not lines[k] for k in code)
+        total[0] += len(code) - missed
         total[1] += len(code)
-        share = 100 * (1 - len(missed) / max(len(code), 1))
+        share = 100 * (1 - missed / max(len(code), 1))
         print(f"{name + '.js':22} {len(code):4} lines {share:6.1f} %")
-        if "--missed" in sys.argv:
-            print("".join(f"    {text}\n" for text in missed), end="")
     share = 100 * total[0] / total[1]
     print(f"{'all':22} {total[1]:4} lines {share:6.1f} %, at least {LEAST:g} % are asked")
     return int(share < LEAST)
