@@ -3,8 +3,6 @@
 Run it when a topic with a new message type is added: python -m workshop.definitions
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -9,6 +9,7 @@ import socket
 import subprocess
 import sys
 from contextlib import closing, suppress
+from functools import partial
 from pathlib import Path
 
 import rclpy
@@ -36,6 +37,9 @@ FIRST_PORT, PORTS = 7400, 250  # of domain 0, and of each domain
 USED = 60  # ports of a domain that 25 participants use
 LOCAL_HOST = "127.0.0.1"
 TIMEOUT = 20.0  # s
+
+
+_say = partial(print, flush=True)  # at once, also into a pipe: it takes some seconds
 
 
 class DemoError(Exception):
@@ -76,10 +80,8 @@ def claim_domain() -> tuple[int, socket.socket]:
             _bind_all(domain)
             return domain, claim
         claim.close()
-    raise DemoError(
-        f"one of the ROS domains {DOMAINS[0]} to {DOMAINS[-1]} must be free, got none on this "
-        "machine"
-    )
+    span = f"{DOMAINS[0]} to {DOMAINS[-1]}"
+    raise DemoError(f"one of the ROS domains {span} must be free, got none on this machine")
 
 
 def _bind_all(domain: int) -> None:
@@ -104,7 +106,8 @@ def _run(domain: int) -> Path:
             node = subprocess.Popen(command)
             with closing(Connection(rclpy.create_node("demo"), f"{space}/top", TIMEOUT)) as top:
                 listen()
-                top.spin_until(lambda: node.poll() is not None or _is_known(top), TIMEOUT)
+                names = top.node.get_fully_qualified_node_names
+                top.spin_until(lambda: node.poll() is not None or top.name in names(), TIMEOUT)
                 if node.poll() is not None:
                     raise DemoError(f"top_node ended with status {node.returncode}")
                 return _show(top)
@@ -114,15 +117,6 @@ def _run(domain: int) -> Path:
         if node:
             node.terminate()
             node.wait(timeout=10)
-
-
-def _is_known(top: Connection) -> bool:
-    return top.name in top.node.get_fully_qualified_node_names()
-
-
-def _say(text: str) -> None:
-    """Print a line at once, also into a pipe: the demonstration takes some seconds."""
-    print(text, flush=True)
 
 
 def _show(top: Connection) -> Path:

@@ -7,8 +7,6 @@ has the Python package, and its lib the libraries, for PYTHONPATH and LD_LIBRARY
 PACKAGE-VERSION has what is different in another version, which is built too.
 """
 
-from __future__ import annotations
-
 import importlib
 import os
 import shutil
