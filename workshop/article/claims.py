@@ -18,6 +18,16 @@ from workshop.article.motions import TOP
 
 TEXTS = Path(__file__).with_name("texts")
 WIDTH = 96  # characters in a line
+MODULES = (
+    *("torque", "rates", "nutation", "pivot", "frames", "answers.fictitious"),
+    *("answers.release", "answers.ledger", "answers.starts", "answers.resolution"),
+    "answers.statements",
+)
+# The files of texts, in the order of the claims
+CHAPTERS = (
+    *("torque", "momentum", "rates", "nutation", "kinds", "pivot", "fictitious", "release"),
+    *("corrections", "ledger", "starts", "resolution", "statements", "frames"),
+)
 # Characters that Markdown would read as cell borders or emphasis
 ESCAPES = str.maketrans({character: f"\\{character}" for character in "\\|*_"})
 
@@ -38,16 +48,6 @@ class Claim:
         return "pass" if self.holds else "FAIL"
 
 
-MODULES = (
-    *("torque", "rates", "nutation", "pivot", "frames", "answers.fictitious"),
-    *("answers.release", "answers.ledger", "answers.starts", "answers.resolution"),
-    "answers.statements",
-)
-# The files of texts, in the order of the claims
-CHAPTERS = (
-    *("torque", "momentum", "rates", "nutation", "kinds", "pivot", "fictitious", "release"),
-    *("corrections", "ledger", "starts", "resolution", "statements", "frames"),
-)
 # The checks by their names, each with the further arguments of its claims
 CHECKS: dict[str, tuple[Callable[..., Claim], list[tuple[Any, ...]]]] = {}
 
@@ -101,7 +101,8 @@ def check_claims(top: Top = TOP) -> list[Claim]:
     """Check every claim of the article for its top, or for a different one."""
     for module in MODULES:
         import_module(f"workshop.article.{module}")
-    checks = [CHECKS[name] for name in read_texts()]
+    order = list(read_texts())
+    checks = [CHECKS[name] for name in sorted(CHECKS, key=order.index)]
     return [check(top, *case) for check, cases in checks for case in cases]
 
 
