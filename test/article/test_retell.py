@@ -1,3 +1,5 @@
+import importlib
+
 import numpy as np
 import pytest
 from PIL import Image
@@ -64,6 +66,12 @@ def test_a_recording_has_what_it_shows_at_each_sample(folder, name):
         if chunk.entity_path in rows and not chunk.is_static:
             rows[chunk.entity_path] += chunk.to_record_batch().num_rows
     assert all(count >= RATE * SPAN for count in rows.values()), rows
+
+
+@pytest.mark.parametrize("name", report.COMMANDS)
+def test_each_command_names_the_function_that_it_runs(name):
+    module, _, function = report.COMMANDS[name]["run"].rpartition(".")
+    assert callable(getattr(importlib.import_module(module), function))
 
 
 @pytest.mark.parametrize("name", ["file", "file/below"])

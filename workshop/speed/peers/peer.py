@@ -50,7 +50,7 @@ class Solution(NamedTuple):
         def record(t: float) -> tuple[Real, Real]:
             times, states = run(t)
             # From the end back: the time t itself is always among them.
-            chosen = choose_steps(len(times) - 1)
+            chosen = slice(None, None, -(-(len(times) - 1) // OWN_STEPS))
             return times[:0:-1][chosen], read(states[:0:-1][chosen])
 
         return cls(lambda t: np.asarray(read(reach(t))[0]), record)
@@ -133,11 +133,6 @@ class Peer:
 def spread_times(t: float) -> Real:
     """Return `RECORDED` times, evenly in (0, t] (s)."""
     return np.asarray(np.arange(1, RECORDED + 1) * (t / RECORDED))
-
-
-def choose_steps(number: int) -> slice:
-    """Return a choice of at most 1000 of a number of an integrator's own steps."""
-    return slice(None, None, -(-number // OWN_STEPS))
 
 
 def from_euler_angles(angles: Real) -> Real:
