@@ -1,14 +1,10 @@
 """A browser for all tests of the page, and the page in it."""
 
-from pathlib import Path
-
 import pytest
 from web.modules import load_kernel, open_tab
 from web.opened import Opened
 
 from symtop_ros.web.join import write_file
-
-SCRIPT = Path(__file__).with_name("judge_cases.js").read_text()
 
 
 @pytest.fixture(scope="session")
@@ -21,10 +17,9 @@ def browser():
 
 @pytest.fixture(scope="module")
 def tab(browser):
-    """A tab in which each module can be imported, with a kernel, and `judgeCases`."""
+    """A tab in which each module can be imported, with a kernel."""
     tab = open_tab(browser)
     load_kernel(tab)
-    tab.add_script_tag(content=SCRIPT)
     yield tab
     tab.close()
 

@@ -14,6 +14,7 @@ def open_tab(browser):
     tab = browser.new_page()
     tab.route("**/*", _answer)
     tab.goto(SITE)
+    tab.add_script_tag(content=Path(__file__).with_name("modules.js").read_text())
     return tab
 
 
@@ -29,18 +30,5 @@ def _answer(route):
 
 def load_kernel(tab):
     """Have the tab keep the kernel and the English texts as `kernel` and `phrase`."""
-    arguments = [
-        base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
-        read_texts("en"),
-    ]
-    tab.evaluate(
-        """async ([module, templates]) => {
-            const { Kernel } = await import("/physics/kernel.js");
-            const { phrase, setTemplates } = await import("/words/wording.js");
-            const decode = (text) => Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
-            window.kernel = await Kernel.load(decode(module));
-            setTemplates(templates);
-            window.phrase = phrase;
-        }""",
-        arguments,
-    )
+    kernel = base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode()
+    tab.evaluate("loadKernel", [kernel, read_texts("en")])

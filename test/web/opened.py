@@ -2,11 +2,14 @@
 
 import json
 import time
+from pathlib import Path
 
 from symtop_ros.physics import ExactTimes, Motion, State, Top
 
 TIMEOUT = 20.0  # s; ends a test that hangs, and is never waited for
 NO_REQUESTS = "file:", "blob:", "data:"
+FILES = (Path(__file__).with_name(f"{name}.js") for name in ("acts", "looks", "patches"))
+FUNCTIONS = "".join(path.read_text() for path in FILES)
 # Software draws the scene here: a few frames a second are enough, and leave time for the test.
 FEW_FRAMES = """
 const requestFrame = window.requestAnimationFrame.bind(window);
@@ -38,7 +41,7 @@ class Opened:
     ):
         options = {"locale": "en-US", **options}  # else that of the machine
         self.context = browser.new_context(offline=True, accept_downloads=True, **options)
-        self.context.add_init_script(known + script)
+        self.context.add_init_script(FUNCTIONS + known + script)
         self.tab = self.context.new_page()
         self.tab.set_default_timeout(TIMEOUT * 1000)
         self.problems, self.requests = [], []
@@ -68,13 +71,7 @@ class Opened:
 
     def wait_for_frames(self, count=2):
         """Wait until the page has drawn: what was asked for before is then shown."""
-        self.tab.evaluate(
-            """(count) => new Promise((done) => {
-                const step = (left) => left ? requestAnimationFrame(() => step(left - 1)) : done();
-                step(count);
-            })""",
-            count,
-        )
+        self.tab.evaluate("acts.waitForFrames", count)
 
     def wait_for_texts(self):
         """Wait until the page has written the texts that follow the motion, four times a second."""
@@ -91,14 +88,7 @@ class Opened:
 
     def drop(self, run):
         """Drop a file with a run."""
-        self.tab.evaluate(
-            """(text) => {
-                const dataTransfer = new DataTransfer();
-                dataTransfer.items.add(new File([text], "run.json"));
-                document.dispatchEvent(new DragEvent("drop", {dataTransfer, cancelable: true}));
-            }""",
-            json.dumps(run),
-        )
+        self.tab.evaluate("acts.drop", ["run.json", json.dumps(run)])
 
     def follow(self, fragment):
         """Follow a link to this page."""
@@ -127,14 +117,7 @@ class Opened:
 
     def open_charts(self, *names):
         """Open charts, or all of them."""
-        self.tab.evaluate(
-            """(names) => {
-                for (const place of document.querySelectorAll("[data-chart]"))
-                    if (!names.length || names.includes(place.dataset.chart))
-                        place.closest("details").open = true;
-            }""",
-            names,
-        )
+        self.tab.evaluate("acts.openCharts", names)
 
     def enter(self, name, text):
         """Type a value into a field of a tab, and take it over."""
@@ -192,15 +175,7 @@ class Opened:
 
     def seek(self, seconds):
         """Move the slider of the run to a time."""
-        self.tab.evaluate(
-            """(time) => {
-                const line = document.getElementById("timeline");
-                line.value = time;
-                line.dispatchEvent(new Event("input"));
-                line.dispatchEvent(new Event("change"));
-            }""",
-            seconds,
-        )
+        self.tab.evaluate("acts.change", ["timeline", seconds])
 
 
 def read_state(event):

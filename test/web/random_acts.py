@@ -9,7 +9,7 @@ from pathlib import Path
 
 from simulation.page_runs import find_refusal, list_hostile_runs
 from web.odd_tops import draw_start, write_address
-from web.opened import Opened
+from web.opened import UNDRAWN, Opened
 
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.web.join import write_file
@@ -19,18 +19,6 @@ KEYS = (*"hhhddssr ", *(f"{shift}Arrow{way}" for way in ("Up", "Left") for shift
 FIELDS = ("theta", "psi_dot", "phi_dot", "factor", "top.Ix", "top.Mgl", "friction.axial")
 TEXTS = ("0", "1", "pi/3", "-5", "1e-9", "1e20", "-1e99", "1e300", "abc", "")
 SPEEDS = ("1", "0.1", "0.01")
-# Counts the frames, of which there are fewer than the browser would draw.
-COUNT = """
-const requestOwn = window.requestAnimationFrame.bind(window);
-window.framesDone = 0;
-window.requestAnimationFrame = (draw) => setTimeout(() => requestOwn((now) => {
-    window.framesDone += 1;
-    draw(now);
-}), 40);
-"""
-SILENT = """
-WebGL2RenderingContext.prototype.drawArrays = () => {};
-"""
 FRAMES = 2  # that follow an act
 LONGEST = 20.0  # s
 
@@ -46,7 +34,7 @@ class Trial:
         self.page = self.open(path)
 
     def open(self, path):
-        return Opened(self.browser, path, script=COUNT + SILENT)
+        return Opened(self.browser, path, script="patches.countFrames();" + UNDRAWN)
 
     def act(self, names):
         """Do one of some acts; return its name. The page goes on, and Python reads its run."""
@@ -72,12 +60,10 @@ class Trial:
 
     def do_start(self):
         address = write_address(draw_start(self.rng))
-        self.page.tab.evaluate("(address) => { location.hash = address; }", address)
+        self.page.follow(address)
 
     def do_scene(self):
-        self.page.tab.evaluate(
-            "(name) => { location.hash = `scene=${name}`; }", self.rng.choice(scene_names())
-        )
+        self.page.follow(f"scene={self.rng.choice(scene_names())}")
 
     def do_key(self):
         for _ in range(self.rng.randint(1, 5)):
@@ -112,14 +98,7 @@ class Trial:
             self.page.seek(self.rng.uniform(-0.1, 1.1) * end)
 
     def do_speed(self):
-        self.page.tab.evaluate(
-            """(speed) => {
-                const list = document.getElementById("speed");
-                list.value = speed;
-                list.dispatchEvent(new Event("change"));
-            }""",
-            self.rng.choice(SPEEDS),
-        )
+        self.page.tab.evaluate("acts.change", ["speed", self.rng.choice(SPEEDS)])
 
     def do_run(self):
         if self.page.say("pause") == "Run":
@@ -153,7 +132,7 @@ class Trial:
         self.page.drop(json.loads(saved.read_text()))
 
     def do_lesson(self):
-        self.page.tab.evaluate(f"location.hash = 'lesson={self.rng.randint(1, 11)}'")
+        self.page.follow(f"lesson={self.rng.randint(1, 11)}")
         self.page.tab.locator("#lesson-acts button:enabled").first.click()
 
 

@@ -91,32 +91,18 @@ def test_kinds_are_decided_as_in_the_article(tab):
         Ix = 10 ** random.uniform(-4, 0)
         top = {"Ix": Ix, "Iz": random.uniform(0.1, 1.9) * Ix, "Mgl": random.normal() * 100 * Ix}
         cases.append([top, random.uniform(0.2, 2.9), *random.normal(scale=(20, 100)).tolist()])
-    found = tab.evaluate(
-        """async (cases) => {
-            const { makesLoops, findBoundaries } = await import("/charts/kinds.js");
-            return cases.map(([top, theta, phi, psi]) =>
-                [makesLoops(top, theta, phi, psi), findBoundaries(top, theta, phi)]);
-        }""",
-        cases,
-    )
-    for (values, theta, phi_dot, psi_dot), (is_looping, boundaries) in zip(
-        cases, found, strict=True
-    ):
+    found = zip(cases, tab.evaluate("decideKinds", cases), strict=True)
+    for (values, theta, phi_dot, psi_dot), (is_looping, boundaries) in found:
         top = Top(**values)
         assert is_looping == bool(loops(top, theta, phi_dot, psi_dot))
         state = State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot)
         assert Motion(top, state).kind == ("looping" if is_looping else "unidirectional")
         slow_or_fast = regular_precession_rates(top, theta=theta, psi_dot=boundaries["regular"])
         assert min(abs(rate / phi_dot - 1) for rate in slow_or_fast) < 1e-9
+    article = dict(zip(("Ix", "Iz", "Mgl"), ARTICLE.moments, strict=True))
     for rate in (-30.0, 11.0, 60.0):
         expected = find_curves(ARTICLE, np.array([rate]))
-        (boundaries,) = tab.evaluate(
-            """async ([top, rate]) => {
-                const { findBoundaries } = await import("/charts/kinds.js");
-                return [findBoundaries(top, 0.5, rate)];
-            }""",
-            [{"Ix": ARTICLE.Ix, "Iz": ARTICLE.Iz, "Mgl": ARTICLE.Mgl}, rate],
-        )
+        ((_, boundaries),) = tab.evaluate("decideKinds", [[article, 0.5, rate, 0.0]])
         cusps = math.nan if boundaries["cusps"] is None else boundaries["cusps"]
         assert cusps == pytest.approx(expected["cusps"][0][0], nan_ok=True)
         assert boundaries["upper"] == pytest.approx(expected["through the vertical"][0][0])
@@ -168,32 +154,6 @@ def test_a_run_is_kept_for_comparison(opened):
     opened.until(lambda: not opened.tab.locator("#kept").evaluate(read))
 
 
-def find_ball(page):
-    """The place of the ball, by its colour, in the middle of the scene's canvas."""
-    return page.tab.evaluate(
-        """() => {
-            const canvas = document.querySelector("canvas");
-            const copy = document.createElement("canvas");
-            Object.assign(copy, { width: canvas.width, height: canvas.height });
-            const context = copy.getContext("2d");
-            context.drawImage(canvas, 0, 0);
-            const { data } = context.getImageData(0, 0, copy.width, copy.height);
-            let [x, y, count] = [0, 0, 0];
-            for (let k = 0; k < data.length; k += 4) {
-                const [r, g, b] = [data[k], data[k + 1], data[k + 2]];
-                const isOrange = r > 190 && g > 95 && g < 160 && b < 50;
-                if (!isOrange || data[k + 3] < 255) continue;
-                x += (k / 4) % copy.width;
-                y += Math.floor(k / 4 / copy.width);
-                count += 1;
-            }
-            const { left, top, width } = canvas.getBoundingClientRect();
-            const size = width / copy.width;
-            return [left + (x / count) * size, top + (y / count) * size, count];
-        }"""
-    )
-
-
 def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_pushed(open_page):
     opened = open_page(script=FEW_FRAMES)  # drawn: the ball is found by its colour
     opened.open_tab("view")
@@ -201,8 +161,7 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
         opened.tab.get_by_label(name).uncheck()
     opened.tab.click("#pause")
     opened.wait_for_frames()
-    x, y, _ = find_ball(opened)
-    opened.drag(x, y, 0, 60)
+    opened.drag(*opened.tab.evaluate("looks.findBall"), 0, 60)
     opened.wait_for_frames()
     assert len(opened.read_events()) == 1  # nothing has happened yet
     opened.tab.mouse.up()
@@ -215,9 +174,8 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     opened.tab.click("#pause")
     opened.wait_for_frames()
     opened.tab.click("#pause")
-    x, y, _ = find_ball(opened)
     opened.tab.keyboard.down("Shift")
-    opened.drag(x, y, 60, 0)
+    opened.drag(*opened.tab.evaluate("looks.findBall"), 60, 0)
     opened.tab.mouse.up()
     opened.tab.keyboard.up("Shift")
     kick = opened.read_events()[-1]

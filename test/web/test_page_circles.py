@@ -8,29 +8,6 @@ from web.opened import FEW_FRAMES, UNDRAWN
 from web.test_page_charts import read_axis
 from web.test_page_numbers import NUMBER, Shown, is_rounded
 
-# Two circles of 96 pieces, of six corners with eight numbers each; keeps the heights of all points.
-CIRCLES = """
-const load = WebGL2RenderingContext.prototype.bufferData;
-window.circles = [];
-WebGL2RenderingContext.prototype.bufferData = function (target, numbers, ...rest) {
-    if (numbers.length === 2 * 96 * 6 * 8) {
-        const circles = [0, 1].map((n) => [...Array(96).keys()].map((k) =>
-            numbers[(n * 96 + k) * 48 + 2]));
-        const areLevel = circles.every((all) => all.every((each) => each === all[0]));
-        if (areLevel) window.circles = circles.map((all) => all[0]); // and no trace
-    }
-    load.call(this, target, numbers, ...rest);
-};
-"""
-# The heights of the level of the energy and of the place on it, the angles below, and the curve.
-READ_WELL = """() => {
-    const level = document.querySelector("#well path[stroke='var(--gold)']").getAttribute("d");
-    const place = document.querySelector("#well circle").getAttribute("cy");
-    const curve = document.querySelector("#potential").getAttribute("d");
-    const names = document.querySelectorAll("#well text.tick[text-anchor=middle]");
-    const angles = [...names].map((each) => each.textContent);
-    return [Number(level.match(/M44 ([\\d.]+)H/)[1]), Number(place), angles, curve];
-}"""
 SINGLE = 2.0**-23  # a coordinate of the scene, rounded
 TENTH = 0.1001  # units of a chart: two coordinates are written in tenths, of a level and of a tick
 
@@ -49,7 +26,7 @@ def is_right(page, seconds):
 
 def read_well(page):
     """What the well shows: the energy of the state but for its spin, and the turning angles."""
-    (*heights, names, curve), shown = page.tab.evaluate(READ_WELL), Shown(page)
+    (*heights, names, curve), shown = page.tab.evaluate("looks.readWell"), Shown(page)
     first, lowest, scale = read_axis(page, "well")
     spin = shown.top.Iz * shown.state.angular_velocity[2] ** 2 / 2
     found = first + scale * (np.array(heights) - lowest)
@@ -65,7 +42,7 @@ def read_well(page):
     "scene", ["friction", pytest.param("vertical_torque", marks=pytest.mark.long)]
 )
 def test_circles_and_energy_are_those_of_a_driven_state_after_waiting_and_a_seek(open_page, scene):
-    page = open_page(f"#scene={scene}", script=FEW_FRAMES + UNDRAWN + CIRCLES)
+    page = open_page(f"#scene={scene}", script=FEW_FRAMES + UNDRAWN + "patches.keepCircles();")
     page.open_charts("well")
     page.tab.locator("#well > svg").scroll_into_view_if_needed()
     page.tab.select_option("#speed", "1")

@@ -2,14 +2,9 @@
 
 from web.opened import FEW_FRAMES, UNDRAWN
 
-# The stamp of a frame may be older than the clock when its script runs.
-OLD_STAMPS = """
-window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now() - 300), 50);
-"""
-
 
 def test_frames_with_old_stamps_do_not_run_the_time_backwards(open_page):
-    opened = open_page(script=OLD_STAMPS + UNDRAWN)
+    opened = open_page(script="patches.ageStamps();" + UNDRAWN)
     opened.tab.click("#hurry")
     opened.wait_for_time(0.01)
     start, kick = opened.read_events()

@@ -20,22 +20,6 @@ EACH = [
     for language in LANGUAGES
     for size in (PHONE, (1366, 768), (1920, 1080))
 ]
-# What is wider or higher than its place, and what another element of its row covers.
-FIND_CUT = """() => {
-    const seen = (element) => element.checkVisibility() && element.getClientRects().length;
-    const name = (element) => `${element.id || element.className} "${element.textContent}"`;
-    const places = "#strip, #bar, button, summary, label, th, td, p, h2, #legend li, #entries";
-    const cut = [...document.querySelectorAll(places)].filter((each) => seen(each)
-        && (each.scrollWidth > each.clientWidth + 1 && getComputedStyle(each).display !== "inline"
-            || each.id === "strip" && each.scrollHeight > each.clientHeight + 1));
-    const beyond = [...document.querySelectorAll("svg[role=img] text")].filter((text) => {
-        const svg = text.closest("svg[role=img]");
-        const [own, all] = [text, svg].map((each) => each.getBoundingClientRect());
-        return all.width && (own.left < all.left - 1 || own.right > all.right + 1);
-    });
-    const wide = document.documentElement.scrollWidth > innerWidth ? ["the page is too wide"] : [];
-    return [...wide, ...cut.map(name), ...beyond.map(name)];
-}"""
 
 
 def test_every_language_is_complete_and_the_command_names_each_fault(capsys):
@@ -70,18 +54,18 @@ def test_nothing_is_cut_in_any_window(open_page, language, size):
     window = {"viewport": {"width": width, "height": height}, "locale": language}
     page = open_page(known="", **window)
     page.wait_for_frames()
-    assert page.tab.evaluate(FIND_CUT) == []
+    assert page.tab.evaluate("looks.findCut") == []
     page.tab.click("[data-answer=rises]")
     page.until(lambda: page.tab.is_visible("#compared"))
-    assert page.tab.evaluate(FIND_CUT) == []
+    assert page.tab.evaluate("looks.findCut") == []
     page.follow("#lesson=3")
     page.open_charts()
     page.tab.locator("#lesson-predict:not(:empty)").wait_for()
     page.wait_for_frames(20)
-    assert page.tab.evaluate(FIND_CUT) == []
+    assert page.tab.evaluate("looks.findCut") == []
     for tab in ("start", "push", "view", "save"):
         page.open_tab(tab)
-        assert page.tab.evaluate(FIND_CUT) == [], tab
+        assert page.tab.evaluate("looks.findCut") == [], tab
 
 
 def is_in(page, language):

@@ -18,15 +18,6 @@ from symtop_ros.physics import (
 FIELDS = "theta", "phi_dot", "psi_dot"
 ACTS = "run", "run", "scrub", "key", "torque", "friction"  # after which numbers may be old ones
 NUMBER = r"-?[\d.]+(?:e[+-]?\d+)?"
-READ = """() => ({
-    time: document.body.dataset.time,
-    fields: Object.fromEntries(["theta", "phi_dot", "psi_dot"].map((name) =>
-        [name, document.getElementById(`field-${name}`).value])),
-    roots: [...document.querySelectorAll("#roots button")].filter((each) => !each.hidden)
-        .map((each) => each.textContent),
-    rows: Object.fromEntries([...document.querySelectorAll("#constants tr")]
-        .map((row) => [...row.children].map((each) => each.textContent))),
-})"""
 
 
 def is_rounded(text, value, digits=None):
@@ -43,7 +34,7 @@ class Shown:
     """The run of a page at the time that it shows, in Python."""
 
     def __init__(self, page):
-        self.texts = page.tab.evaluate(READ)
+        self.texts = page.tab.evaluate("looks.readNumbers")
         run, time = page.read_run(), round(float(self.texts["time"]) * 1e9)
         events = [each for each in run["events"] if round(each["time"] * 1e9) <= time]
         self.event = events[-1]

@@ -5,7 +5,7 @@ import time
 import pytest
 from serving import serving
 from simulation.page_runs import change
-from web.opened import KNOWN
+from web.opened import FUNCTIONS, KNOWN
 
 from symtop_ros.web.join import write_file
 
@@ -16,33 +16,6 @@ HOSTILE = (
     "<!--<script>window.pwned = 1",
     "\\u003c/script\\u003e<img src=x onerror='window.pwned = 1'>",
 )
-# What a page may not do; the answer has what it has done nevertheless, and what was forbidden.
-ATTACK = """async (own) => {
-    const done = [], forbidden = new Set();
-    addEventListener("securitypolicyviolation", (event) => forbidden.add(event.effectiveDirective));
-    const add = (name, values) => {
-        const element = Object.assign(document.createElement(name), values);
-        document.body.append(element);
-        return element;
-    };
-    add("script", { textContent: "window.pwned = 1" });
-    add("div", { innerHTML: "<img src='data:,' onerror='window.pwned = 1'>" });
-    add("div", { innerHTML: "<p style='color: red'></p>" });
-    add("style", { textContent: "p { color: red }" });
-    add("iframe", { src: "data:text/html,x" });
-    add("img", { src: "http://elsewhere.test/x.png" });
-    setTimeout("window.pwned = 1");
-    for (const address of ["http://elsewhere.test/", own]) {
-        try {
-            await fetch(address);
-            done.push(address);
-        } catch {}
-    }
-    for (let k = 0; k < 100 && forbidden.size < 8; k += 1)
-        await new Promise((wait) => setTimeout(wait, 50));
-    if (window.pwned) done.push("script");
-    return { done, forbidden: [...forbidden].sort() };
-}"""
 FORBIDDEN = ["connect-src", "frame-src", "img-src", "script-src", "script-src-attr"]
 FORBIDDEN += ["script-src-elem", "style-src-attr", "style-src-elem"]
 
@@ -62,13 +35,13 @@ class Node:
 @pytest.fixture
 def tab(browser):
     context = browser.new_context()
-    context.add_init_script(KNOWN)
+    context.add_init_script(FUNCTIONS + KNOWN)
     yield context.new_page()
     context.close()
 
 
 def attack(frame, own="http://elsewhere.test/"):
-    answer = frame.evaluate(ATTACK, own)
+    answer = frame.evaluate("acts.attack", own)
     assert answer["forbidden"] == FORBIDDEN
     return answer["done"]
 
@@ -105,15 +78,8 @@ def test_a_saved_page_that_is_dropped_onto_a_page_is_opened(opened, tmp_path):
     saved = opened.save("This run as a page", tmp_path)
     opened.press("r")
     assert opened.read_events() != events
-    opened.tab.evaluate(DROP, saved.read_text())
+    opened.tab.evaluate("acts.drop", ["top.html", saved.read_text()])
     opened.until(lambda: opened.read_events() == events)
-
-
-DROP = """(text) => {
-    const dataTransfer = new DataTransfer();
-    dataTransfer.items.add(new File([text], "top.html"));
-    document.dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
-}"""
 
 
 def test_the_policy_holds_in_a_page_that_is_served(tab):

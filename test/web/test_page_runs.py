@@ -33,24 +33,6 @@ NO_MOTION = [
     change(1, top=[0, 0, 0]),
     change(1, friction=[-1, 0]),
 ]
-# Each answer: the refusal, whether the events stayed as they were, and how many a key has added.
-REFUSE = """async (runs) => {
-    const read = () => window.symtop.run().events;
-    const refusal = document.getElementById("refusal");
-    const answers = [];
-    for (const text of runs) {
-        const before = JSON.stringify(read());
-        const count = read().length;
-        const dataTransfer = new DataTransfer();
-        dataTransfer.items.add(new File([text], "run.json"));
-        document.dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
-        while (refusal.hidden) await new Promise((done) => setTimeout(done, 1));
-        const answer = [refusal.dataset.text, JSON.stringify(read()) === before];
-        document.dispatchEvent(new KeyboardEvent("keydown", { key: "r" }));
-        answers.push([...answer, read().length - count]);
-    }
-    return answers;
-}"""
 
 
 def get_condition(refusal):
@@ -59,7 +41,7 @@ def get_condition(refusal):
 
 def refuse(opened, runs):
     """Drop runs, and return their refusals; the present run stays, and a key is answered."""
-    answers = opened.tab.evaluate(REFUSE, [json.dumps(run) for run in runs])
+    answers = opened.tab.evaluate("acts.refuse", [json.dumps(run) for run in runs])
     assert {(is_same, added) for _, is_same, added in answers} == {(True, 1)}
     return [refusal for refusal, *_ in answers]
 

@@ -5,13 +5,6 @@ import pytest
 # A laptop, a tablet held upright, a phone; a laptop with a zoom of 200 % and of 400 %.
 WINDOWS = ((1280, 720), (820, 1180), (390, 844), (640, 360), (600, 500), (320, 230))
 
-# True if nothing covers the middle of a part.
-IS_ON_TOP = """(name) => {
-    const part = document.getElementById(name);
-    const { left, top, width, height } = part.getBoundingClientRect();
-    return part.contains(document.elementFromPoint(left + width / 2, top + height / 2));
-}"""
-
 
 def open_in(open_page, size, **options):
     width, height = size
@@ -80,7 +73,7 @@ def test_a_refusal_is_in_sight_and_escape_puts_it_away(open_page, size):
     page = open_in(open_page, size)
     page.enter("theta", "9")
     page.until(lambda: is_inside(find_box(page, "#refusal"), size))
-    page.until(lambda: page.tab.evaluate(IS_ON_TOP, "refusal"))
+    page.until(lambda: page.tab.evaluate("looks.isOnTop", "refusal"))
     page.tab.keyboard.press("Escape")
     page.tab.locator("#refusal").wait_for(state="hidden")
 

@@ -12,14 +12,6 @@ from symtop_ros.simulation.presets import scene_names
 LONGEST = 1000  # ms
 # An axis of values far larger than their span: k + 1 is k.
 HANGING = "#Ix=1&Iz=0.5&Mgl=0&theta=0.5&psi_dot=25&precession=fast"
-# The time until what an address starts is shown.
-OPEN = """(hash) => new Promise((done) => {
-    const begin = performance.now();
-    const end = () => done(performance.now() - begin);
-    addEventListener("hashchange", () => requestAnimationFrame(() => requestAnimationFrame(end)),
-        {once: true});
-    location.hash = hash;
-})"""
 
 
 @pytest.mark.realtime
@@ -27,7 +19,7 @@ OPEN = """(hash) => new Promise((done) => {
 def test_starts_over_300_decades_open_in_a_second_each(open_page, count):
     opened, rng = open_page(script=UNDRAWN), random.Random(49)
     for address in (HANGING, *(write_address(draw_start(rng)) for _ in range(count))):
-        times = (opened.tab.evaluate(OPEN, address) for _ in range(2))
+        times = (opened.tab.evaluate("acts.open", address) for _ in range(2))
         # another program may have taken the processor from the first of them
         assert any(time < LONGEST for time in times), address
         assert opened.problems == [], address
@@ -44,28 +36,12 @@ HOSTILE = [f"#{name}={value}" for name in NAMES for value in VALUES]
 HOSTILE += ["#", "##", "#=", "#&&", "#theta", "#__proto__", "#constructor=1", "#hasOwnProperty=1"]
 HOSTILE += [f"#lesson={value}" for value in VALUES]
 HOSTILE += ["#theta=1&theta=2&theta=x", "#scene=looping&scene=x", "#" + "theta=1&" * 5000]
-# Each answer: how many events an address and then a key have added.
-FOLLOW = """async (addresses) => {
-    const count = () => window.symtop.run().events.length;
-    const answers = [];
-    for (const address of addresses) {
-        const before = count();
-        const isNew = location.hash !== new URL(address, location.href).hash;
-        const followed = new Promise((done) => addEventListener("hashchange", done, {once: true}));
-        location.hash = address;
-        if (isNew) await followed;
-        const after = count();
-        document.dispatchEvent(new KeyboardEvent("keydown", { key: "r" }));
-        answers.push([after - before, count() - after]);
-    }
-    return answers;
-}"""
 
 
 # Every third of them in each run of the tests: some of each name and of each value.
 @pytest.mark.parametrize("step", [3, pytest.param(1, marks=pytest.mark.long)])
 def test_hostile_addresses_end_nothing_and_a_key_is_answered_after_each(opened, step):
-    answers = opened.tab.evaluate(FOLLOW, HOSTILE[::step])
+    answers = opened.tab.evaluate("acts.follow", HOSTILE[::step])
     assert {started for started, _ in answers} == {0, 1}
     assert {answered for _, answered in answers} == {1}
 

@@ -8,20 +8,6 @@ import pytest
 from symtop_ros.physics import Top, regular_precession_rates, theta_acceleration
 
 IX, IZ, THETA, SPIN = 0.000228, 0.0000572, 0.5, 200.0
-# What the page says of a start: headline, reason and kind of the motion.
-SAY = """async (cases) => {
-    const { Course } = await import("/physics/course.js");
-    const { State } = await import("/physics/state.js");
-    const { findOutcome } = await import("/words/headline.js");
-    return cases.map(({ top, theta, phi_dot, theta_dot = 0, psi_dot }) => {
-        const rates = { phi: phi_dot, theta: theta_dot, psi: psi_dot };
-        const course = new Course(kernel, top, State.fromEuler(kernel, { theta }, rates));
-        const moment = { kind: "start", asked: {}, course };
-        const { headline, name, outcome } = findOutcome(moment, course);
-        const say = phrase;
-        return [say("headline", headline), say(name, outcome), course.motion.kind];
-    });
-}"""
 
 
 def list_starts(Mgl):
@@ -59,7 +45,7 @@ def find_direction(start):
 @pytest.mark.parametrize("Mgl", [0.068, -0.068, 0.0])
 def test_headline_and_reason_of_every_kind_agree_with_the_motion(tab, Mgl):
     starts, kinds = list_starts(Mgl), set()
-    for start, (headline, why, kind) in zip(starts, tab.evaluate(SAY, starts), strict=True):
+    for start, (headline, why, kind) in zip(starts, tab.evaluate("sayStarts", starts), strict=True):
         kinds.add(kind)
         direction = find_direction(start)
         verb = {1: "falls", -1: "rises", 0: "keeps its tilt"}[direction]

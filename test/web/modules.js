@@ -1,8 +1,19 @@
-// What the page's modules say of cases: the state after a kick, records, and their text.
+// What the page's modules say of cases, without the page: `kernel` and `phrase` are kept first.
 
 const toRecord = (value) =>
   JSON.parse(JSON.stringify(value, (_, each) => (Object.is(each, -0) ? 0 : each)));
 
+/** Keep the kernel of these bytes, in base 64, and the texts of a language. */
+window.loadKernel = async ([module, templates]) => {
+  const { Kernel } = await import("/physics/kernel.js");
+  const { phrase, setTemplates } = await import("/words/wording.js");
+  const decode = (text) => Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
+  window.kernel = await Kernel.load(decode(module));
+  setTemplates(templates);
+  window.phrase = phrase;
+};
+
+/** The state after a kick, records, and their text. */
 window.judgeCases = async (cases) => {
   const { Course } = await import("/physics/course.js");
   const { State } = await import("/physics/state.js");
@@ -37,4 +48,27 @@ window.judgeCases = async (cases) => {
       },
     });
   });
+};
+
+/** Headline, reason and kind of motion of starts. */
+window.sayStarts = async (starts) => {
+  const { Course } = await import("/physics/course.js");
+  const { State } = await import("/physics/state.js");
+  const { findOutcome } = await import("/words/headline.js");
+  return starts.map(({ top, theta, phi_dot, theta_dot = 0, psi_dot }) => {
+    const rates = { phi: phi_dot, theta: theta_dot, psi: psi_dot };
+    const course = new Course(kernel, top, State.fromEuler(kernel, { theta }, rates));
+    const moment = { kind: "start", asked: {}, course };
+    const { headline, name, outcome } = findOutcome(moment, course);
+    return [phrase("headline", headline), phrase(name, outcome), course.motion.kind];
+  });
+};
+
+/** Whether each start makes loops, and the spins at which the kinds of its motions change. */
+window.decideKinds = async (cases) => {
+  const { makesLoops, findBoundaries } = await import("/charts/kinds.js");
+  return cases.map(([top, theta, phi, psi]) => [
+    makesLoops(top, theta, phi, psi),
+    findBoundaries(top, theta, phi),
+  ]);
 };
