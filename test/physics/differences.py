@@ -6,33 +6,20 @@ from fractions import Fraction
 
 import numpy as np
 from mpmath import mp, mpf
-from physics.tops import multiply
+from physics.tops import follow_exactly, multiply
 
-from symtop_ros.physics.reference import ClosedForm, Inputs, Series
-from workshop.testset.exact import returning_series
+from symtop_ros.physics.reference import Inputs
 
 DIGITS = 70
 FEW_DIGITS = 34  # enough in the first nutations: derivatives with some 20 digits
 BLOCKS = ((slice(0, 1)), slice(1, 2), slice(2, 3), slice(3, 6), slice(6, 9))
 
 
-def differentiate(motion, times, returns=True, digits=DIGITS, is_closed=False):
-    """The Jacobians (n, 6, 9) at times in s > 0.
-
-    `returns` says that the nutation has a period; `is_closed` takes the closed form instead of
-    Taylor series, a tenth of their time.
-    """
-    friction = motion.friction.axial, motion.friction.transverse
-    driven = any(friction) or any(motion.applied_torque)
+def differentiate(motion, times, digits=DIGITS):
+    """The Jacobians (n, 6, 9) at times in s > 0."""
 
     def follow(moments, *start):
-        inputs = Inputs.exact(*moments, *start)
-        if is_closed:
-            exact = ClosedForm(inputs, digits)
-        elif driven or not returns:
-            exact = Series(inputs, digits, friction, motion.applied_torque)
-        else:
-            exact = returning_series(inputs, digits)
+        exact = follow_exactly(motion, Inputs.exact(*moments, *start), digits)
         return [exact.at(t) for t in times]
 
     # Of a parameter of size 1: its square is the relative error, as much as rounding leaves.

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from drawn import Numbers, normalize
 from mpmath import mp, mpf
-from physics.tops import ARTICLE, CUSPS, EPS, Case, series_of, turn
+from physics.tops import ARTICLE, CUSPS, EPS, Case, follow_exactly, turn
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY
@@ -38,8 +38,8 @@ def find_error(motion, position):
         (abs(motion.top.Mgl) + sum(map(abs, motion.applied_torque))) / motion.top.Iz
     )
     h = 2.0 ** round(math.log2(STEP / rate))
-    series = series_of(motion)
-    exact = differentiate(lambda t: series.at(t)[0], position, h)
+    followed = follow_exactly(motion)
+    exact = differentiate(lambda t: followed.at(t)[0], position, h)
     ours = state.to_world(point_acceleration(motion, state, position))
     return float(np.abs(ours - exact).max() / (rate**2 * np.linalg.norm(position)) / EPS)
 

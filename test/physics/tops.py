@@ -15,7 +15,7 @@ from mpmath import mp, mpf
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
-from workshop.testset.exact import DIGITS, returning_series
+from workshop.testset.exact import DIGITS
 
 EPS = 2.0**-52
 FAMILIES = ("any", "weak gravity", "fast", "critical", "pendulum", "from below")
@@ -115,13 +115,15 @@ def attitude_error(exact, doubles, size: float = 1.0) -> float:
     return min(error(exact, sign * np.asarray(doubles), size) for sign in (1, -1))
 
 
-def series_of(motion: Motion, digits: int = 40) -> Series:
-    """The Taylor series of a motion, with its friction and torque."""
-    inputs = Inputs.of(motion.top, motion.start)
+def follow_exactly(
+    motion: Motion, inputs: Inputs | None = None, digits: int = 40
+) -> ClosedForm | Series:
+    """The exact motion with the friction and torque of one of doubles, maybe from other inputs."""
+    inputs = inputs or Inputs.of(motion.top, motion.start)
+    if not motion.is_driven:
+        return ClosedForm(inputs, digits)
     friction = motion.friction.axial, motion.friction.transverse
-    if any(friction) or any(motion.applied_torque):
-        return Series(inputs, digits, friction, motion.applied_torque)
-    return returning_series(inputs, digits)
+    return Series(inputs, digits, friction, motion.applied_torque)
 
 
 def to_state(exact) -> State:

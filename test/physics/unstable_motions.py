@@ -68,13 +68,16 @@ def _pass_by(rng: Numbers, ratio: float) -> tuple[Motion, float]:
     return Motion(Top(1.0, ratio, Mgl), start), gap
 
 
-def find_error(case: Case) -> float | None:
-    """The largest error of the derivatives, as a part of what is promised; None if refused."""
+def find_error(case: Case, exact: Motion | None = None) -> float | None:
+    """The largest error of the derivatives, as a part of what is promised; None if refused.
+
+    `exact` is the motion with which they are compared, if another one.
+    """
     try:
         found = case.motion.jacobian([case.t])
     except ValueError as refusal:
         if "at which double precision resolves the derivatives" not in str(refusal):
             raise
         return None
-    right = differentiate(case.motion, [case.t], digits=DIGITS, is_closed=True)
+    right = differentiate(exact or case.motion, [case.t], digits=DIGITS)
     return float(find_errors(case.motion, found, right).max()) / PROMISED

@@ -10,23 +10,18 @@ import numpy as np
 import pytest
 from physics.exact_motions import read_motions
 from physics.refusals import refused
-from physics.tops import ARTICLE, CUSPS, EPS, distance, error, series_of, to_state
+from physics.tops import ARTICLE, CUSPS, EPS, distance, error, follow_exactly, to_state
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 
 pytestmark = pytest.mark.untraced
 LONG = pytest.mark.long
-NONE = (0.0, 0.0, 0.0)
-DRIVES = {
-    "friction": (Friction(2e-6, 1e-5), NONE),
-    "vertical torque": (Friction(), (0.0, 0.0, 1e-4)),
-    "both": (Friction(1e-6, 2e-5), (1e-3, -2e-3, 5e-4)),
-}
+DRIVE = Friction(1e-6, 2e-5), (1e-3, -2e-3, 5e-4)
 
 
 def exact(motion, t):
     """The state at t as doubles, from 30 digits."""
-    return to_state(series_of(motion).at(t))
+    return to_state(follow_exactly(motion).at(t))
 
 
 # It changes no bit of a state, and makes a motion under gravity one that is integrated.
@@ -84,7 +79,7 @@ def test_a_top_at_rest_stays_there_at_any_time_in_one_step():
 @pytest.mark.parametrize("nanoseconds", [999_999_937, pytest.param(9_999_999_967, marks=LONG)])
 def test_exact_times_are_not_rounded_to_doubles(nanoseconds):
     times = ExactTimes(np.array([5, nanoseconds]), factor=0.7, elapsed=Fraction(1, 4))
-    motion = Motion(ARTICLE, CUSPS, *DRIVES["friction"])
+    motion = Motion(ARTICLE, CUSPS, Friction(2e-6, 1e-5))
     t = (times.elapsed + Fraction(times.factor) * nanoseconds) / 10**9
     # as at times that are doubles; as a double the time would be off by 400 eps in the second case
     assert distance(motion.at(times)[1], exact(motion, t)) < 2 * EPS
@@ -97,7 +92,7 @@ def test_exact_times_are_not_rounded_to_doubles(nanoseconds):
 def test_an_elapsed_time_of_more_digits_than_four_doubles_is_refused(elapsed):
     times = ExactTimes(np.array([10**8, 2 * 10**8]), elapsed=elapsed)
     with refused("elapsed", "a sum of four doubles"):
-        Motion(ARTICLE, CUSPS, *DRIVES["both"]).at(times)
+        Motion(ARTICLE, CUSPS, *DRIVE).at(times)
 
 
 def test_a_swing_near_the_vertical_is_right_to_rounding_of_itself():
