@@ -4,9 +4,7 @@ import random
 import struct
 
 import pytest
-from log_files import write_mcap
 from mcap.opcode import Opcode
-from mcap.writer import CompressionType
 from physics.tops import seeds
 
 from symtop_ros.check.run import check_run, find_damage
@@ -76,13 +74,6 @@ def test_indexes_are_verified_without_a_checksum_of_the_data(log, tmp_path):
     path.write_bytes(flip(log, first + 5, 6))  # the number of its entries
     problem, *_ = find_damage(path)
     assert problem.startswith("the record before byte ")
-
-
-@pytest.mark.parametrize("compression", list(CompressionType))
-def test_files_of_another_writer_are_whole(tmp_path, compression):
-    topics = [("/c", "s", [(time, b"0123456789") for time in range(50)])]
-    options = {"chunk_size": 100, "compression": compression, "enable_data_crcs": True}
-    assert find_damage(write_mcap(tmp_path / "other.mcap", topics, **options)) == []
 
 
 def test_a_check_of_a_run_names_the_damage(log, tmp_path):

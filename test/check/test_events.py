@@ -11,25 +11,9 @@ from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 
 # Not said elsewhere in a log: the scene's name, the paths of logs, the frame of /tf, whether
-# another version wrote it, and why a torque changed.
-GIVEN = (
-    "top",
-    "friction",
-    "applied_torque",
-    "gravity",
-    "motion.",
-    "imu.",
-    "magnetic_field.",
-)  # of the first event
-FREE = (
-    "request.scene",
-    "outcome.path",
-    "top_frame",
-    "version",
-    "kernel_version",
-    "number",
-    "format",
-)
+# another version wrote it, and why a torque changed. `GIVEN` is of the first event.
+GIVEN = ("top", "friction", "applied_torque", "gravity", "motion.", "imu.", "magnetic_field.")
+FREE = ("request.scene", "outcome.path", "top_frame", "version", "kernel_version", "number", "format")
 
 
 @pytest.fixture(scope="module")

@@ -112,29 +112,23 @@ def set_missed(data, count):
     return encode_statuses(statuses[0].stamp, "world", statuses)
 
 
-def tell(first, name, stamp, **values):
-    named = {key.replace("__", "."): value for key, value in values.items()}
-    return replace(first, name=name, stamp=stamp, values={"format": "3", **named})
-
-
-def test_jumps_steps_and_pauses_of_a_recording_have_no_samples(memory):
+def tell(memory, name, *told):
+    """Events of one name: the stamp and one value of each."""
     first = next(TopLog(memory).events())
-    events = [
-        tell(first, "record", 1, outcome__kind="ended"),
-        tell(first, "kick", 2, outcome__kind="begun"),
-        tell(first, "record", 3, outcome__kind="begun"),
-        tell(first, "clock", 7, request__from="5", request__to="9"),
-        tell(first, "step", 10, request__from="8", request__to="12"),
-        tell(first, "record", 13, outcome__kind="ended"),
-    ]
-    assert sorted(_list_jumps(events)) == [(1, 3), (5, 7), (10, 12)]
+    return [replace(first, name=name, stamp=at, values={"format": "3", **of}) for at, of in told]
+
+
+def test_pauses_of_a_recording_have_no_samples(memory):
+    """Random sessions have jumps and steps."""
+    kinds = ((1, "ended"), (3, "begun"), (13, "ended"))
+    events = tell(memory, "record", *((at, {"outcome.kind": kind}) for at, kind in kinds))
+    assert list(_list_jumps(events)) == [(1, 3)]
 
 
 def test_tf_has_no_samples_while_it_is_switched_off(memory):
-    first = next(TopLog(memory).events())
-    switches = [(1, "false"), (3, "true"), (4, "false")]
-    events = [tell(first, "parameters", at, request__publish_tf=text) for at, text in switches]
-    events.insert(1, tell(first, "kick", 2))
+    told = ((1, "false"), (2, None), (3, "true"), (4, "false"))
+    switches = ((at, {"request.publish_tf": text} if text else {}) for at, text in told)
+    events = tell(memory, "parameters", *switches)
     assert [*_list_times_without_tf(events)] == [(1, 3), (4, MAX_STAMP)]
 
 
