@@ -65,16 +65,6 @@ def _warnings_are_errors():
         yield
 
 
-def refusal(call, *arguments):
-    """Return the sentence of a refusal, None if the call was granted."""
-    try:
-        call(*arguments)
-    except RefusedError as refused:
-        assert_one_sentence(str(refused))
-        return str(refused)
-    return None
-
-
 @pytest.mark.parametrize("examples", trials(150, 400))
 def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
     @deterministic(examples)
@@ -106,10 +96,3 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
             assert_one_sentence(str(kick_verdict(after, state, hold)))
 
     check()
-
-
-def test_a_root_faster_than_any_top_is_refused():
-    settings = Settings.from_values({"top.Ix": 1.0, "top.Iz": 1.0, "top.Mgl": 1.0})
-    asked = {"precession": "slow", "theta": 0.7, "psi_dot": 1e-20}
-    reason = refusal(initial_state, settings.top, settings.initial, asked)
-    assert "regular precession has no real root up to 1e+09 rad/s" in reason

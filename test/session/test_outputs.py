@@ -15,7 +15,6 @@ from symtop_ros.session.session import Session
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import imu_frame
-from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN
 from symtop_ros.wire.messages import CLOCK
 
@@ -151,17 +150,24 @@ def test_the_clock_has_the_stamp_of_each_sample_and_is_sent_while_the_motion_res
     assert len(sent) == count + 1
 
 
-def test_without_a_root_the_parameters_are_refused():
-    session, _ = start(Program(), initial__precession="slow", initial__psi_dot=200.0)
-    for changes in ({"initial.psi_dot": 3.0}, {"top.Mgl": 10.0}):
-        with pytest.raises(RefusedError, match="precession must be a rate that exists"):
-            session.plan_settings(changes)
+SLOW = {"initial__precession": "slow", "initial__psi_dot": 200.0}
+HEAVY = {"top__Mgl": 1e16}  # it swings at 7e9 rad/s
+NO_ROOT, TOO_FAST = "precession must be a rate that exists", "motion must be so slow that it stays "
 
 
-def test_parameters_of_a_motion_too_fast_for_a_day_are_refused_when_they_are_planned():
-    session, _ = start(Program(), top__Mgl=1e16)
-    with pytest.raises(ValueError, match=r"^motion must be so slow"):
-        session.plan_settings({"top.Mgl": 1e24})
+@pytest.mark.parametrize(
+    ("begun", "changes", "reason"),
+    [
+        (SLOW, {"initial.psi_dot": 3.0}, NO_ROOT),
+        (SLOW, {"top.Mgl": 10.0}, NO_ROOT),
+        (HEAVY, {"top.Mgl": 1e24}, TOO_FAST),
+        (HEAVY, {"real_time_factor": 100.0}, TOO_FAST),
+    ],
+)
+def test_parameters_without_a_motion_are_refused_when_they_are_planned(begun, changes, reason):
+    session, _ = start(Program(), **begun)
+    with pytest.raises(ValueError, match=f"^{reason}"):
+        session.plan_settings(changes)
 
 
 def test_the_urdf_moves_by_tf_while_that_is_published():

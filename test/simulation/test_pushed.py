@@ -94,26 +94,3 @@ def test_a_run_goes_on_with_its_pushes_through_a_pause_a_step_and_another_pace(o
     assert event.name == "kick"
     assert int(event.values["before.pushes"]) == given
     assert not isinstance(event.segment().motion, PushedMotion)
-
-
-@pytest.mark.parametrize(
-    ("scene", "asked", "reason"),
-    [
-        ("cusps", {"rate": 20.0}, "pushes must have axle_impulse, rate, number, got ['rate']"),
-        ("cusps", {**ASKED, "hold": "spin_rate"}, "pushes must have axle_impulse, rate, number, "),
-        ("cusps", {**ASKED, "number": 1001}, "number must be 1 to 1000, got 1001"),
-        ("cusps", {**ASKED, "number": 2.5}, "number must be a whole number up to 1000, got 2.5"),
-        ("cusps", {**ASKED, "rate": 0.0}, "rate must be 0.01 to 1000 pushes per s of the motion,"),
-        ("cusps", {**ASKED, "axle_impulse": 1e9}, "axle_impulse must be such that the top stays "),
-        ("cusps", {"axle_impulse": 1e-5, "hold": "spin_rate"}, "hold must be given without axle_"),
-        ("friction", ASKED, "friction and torque must be 0 for a series of pushes, got ["),
-        ("sleeping", ASKED, "axis must be tilted (phi' is undefined on the vertical"),
-    ],
-)
-def test_pushes_that_cannot_be_are_refused_and_the_motion_stays(scene, asked, reason):
-    run = Run(scene)
-    motion = run.simulation.segment.motion
-    granted, answer = run.ask("kick", asked)
-    assert not granted
-    assert answer.startswith(reason)
-    assert run.simulation.segment.motion is motion
