@@ -66,6 +66,7 @@ UNREADABLE = {
     "a.mcap --fly | a --web --check",
     "workshop": " | CONTROL | speed --limit nan | speed --limit CONTROL | filters --docs nowhere",
     "top_model": " | --format CONTROL",
+    "top_imu": "--rate 1_0 -o x.csv | --seed 1_0 -o x.csv | --magnetic-field 1_0 -o x.csv",
     "top_judge": " | a --topic b --max-error nan | a --topic b --remove CONTROL | --live | "
     "a --topic b --ros-args",
 }

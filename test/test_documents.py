@@ -27,10 +27,9 @@ from documents import (
 from geometry_msgs.msg import WrenchStamped
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from log_files import Run
-from node.listener import Listener
+from node.listener import Listener, fill
 from node.running_top import RunningTop
 from programs import PATIENT, execute, find_fault, run, running_node
-from rcl_interfaces.msg import Parameter as ParameterMessage
 from simulation.page_runs import make_run
 
 import workshop.main
@@ -245,18 +244,6 @@ def call_service(name, kind, text="{}"):
         request = fill(service.Request(), yaml.safe_load(text))
         answer = str(connection._call(service, short, request))
     assert "success=True" in answer or "successful=True" in answer
-
-
-def fill(message, values):
-    """Set the fields of a message from YAML, as rosidl_runtime_py does it."""
-    for name, value in values.items():
-        if isinstance(value, dict):
-            fill(getattr(message, name), value)
-        elif name == "parameters":
-            message.parameters = [fill(ParameterMessage(), each) for each in value]
-        else:
-            setattr(message, name, type(getattr(message, name))(value))  # YAML: 5e-4 is text
-    return message
 
 
 def publish_torque(_, __, topic, kind, text):

@@ -1,4 +1,4 @@
-"""What needs no ROS runs without Python's POSIX modules, and names the encoding of every text."""
+"""What needs no ROS runs without it, without POSIX, and names the encoding of every text."""
 
 import sys
 
@@ -6,13 +6,17 @@ import pytest
 from log_files import Run
 from programs import execute
 
-# Of Python's library on Linux only; and a text without a named encoding is an error.
+# Modules of Python on Linux, of ROS, and what only logs and pictures need are missing; and a text
+# without a named encoding is an error.
 PROGRAM = """
 import os, signal, subprocess, sys, tempfile, warnings
-if sys.argv[1] == "top_replay" and "--save" in sys.argv:
+missing = ["fcntl", "grp", "pty", "pwd", "resource", "syslog", "termios", "tty"]
+missing += ["rclpy", "std_srvs", "geometry_msgs"]
+if "--save" in sys.argv:
     import rerun  # whose psutil has another file for each system
-for name in ("fcntl", "grp", "pty", "pwd", "resource", "syslog", "termios", "tty"):
-    sys.modules[name] = None
+elif "top_replay" not in sys.argv:
+    missing += ["rerun", "mcap", "lz4", "zstandard", "matplotlib"]
+sys.modules.update(dict.fromkeys(missing))
 for name in ("SIGHUP", "SIGKILL", "SIGPIPE", "SIGQUIT", "SIGUSR1", "pthread_sigmask"):
     delattr(signal, name)
 for name in ("fork", "geteuid", "getuid", "kill", "sched_setscheduler"):
@@ -25,6 +29,9 @@ sys.exit(getattr(programs, name)())
 TRAJECTORY = "t,w,x,y,z\n" + "".join(f"{k / 2},1,0,0,0\n" for k in range(41))
 COMMANDS = (
     "top_panel --write page.html",
+    "top_judge --help",
+    "top_judge --testset",
+    "top_judge --scene cusps --estimates trajectory.csv",
     "top_model --format urdf -o top.urdf",
     "top_imu --seconds 0.1 -o größe.csv",
     "top_judge --testset cusps trajectory.csv",

@@ -9,7 +9,6 @@ import pytest
 from mpmath import mp, mpf
 from physics.test_body import differentiate
 from physics.tops import ARTICLE, CUSPS, Case, cross, turn
-from python_runs import run_without
 
 from symtop_ros.imu import Imu, record_imu
 from symtop_ros.imu.main import main
@@ -168,16 +167,3 @@ def test_a_log_that_cannot_be_written_is_named_as_it_was_given(tmp_path, capsys)
     path = tmp_path / "missing/x.mcap"
     assert main([*SHORT, "-o", str(path)]) == 1
     assert capsys.readouterr().err.startswith(f"top_imu: cannot write {path}: ")
-
-
-@pytest.mark.parametrize("option", ["--rate", "--seed", "--magnetic-field"])
-def test_a_number_has_no_underscores(tmp_path, option, capsys):
-    with pytest.raises(SystemExit):
-        main([option, "1_0", "-o", str(tmp_path / "run.csv")])
-    assert "value: '1_0'" in capsys.readouterr().err
-
-
-def test_a_table_needs_neither_ros_nor_mcap(tmp_path):
-    missing = "mcap", "rclpy", "matplotlib", "rerun"
-    done = run_without(missing, "top_imu", *SHORT, "-o", "run.csv", cwd=tmp_path)
-    assert (done.returncode, done.stderr) == (0, "")

@@ -7,7 +7,6 @@ import os
 import numpy as np
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
-from python_runs import run_without
 from scipy.spatial.transform import Rotation
 from testset.test_scorers import make_table, write
 
@@ -120,14 +119,3 @@ def test_a_csv_file_is_judged_against_a_scene_as_json(tmp_path, capsys):
     assert facts["attitude"]["p100"] == 0.0
     assert main(["--scene", "none", "--estimates", str(path)]) == 1
     assert capsys.readouterr().err.startswith("top_judge: scene must be one of ")
-
-
-@pytest.mark.parametrize(
-    "arguments", [["--help"], ["--testset"], ["--scene", "cusps", "--estimates", "mine.csv"]]
-)
-def test_the_judge_works_without_mcap_and_matplotlib(arguments, tmp_path):
-    write_csv(tmp_path / "mine.csv")
-    missing = "mcap", "lz4", "zstandard", "matplotlib", "rclpy"
-    done = run_without(missing, "top_judge", *arguments, cwd=tmp_path)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout

@@ -81,10 +81,8 @@ def list_requests() -> dict[str, Build]:
         },
         **{name: partial(_get, kind, name, names) for name, kind in ASKED.items()},
         **{f"filter, {name}": partial(_filter, filter=text) for name, text in FILTERS.items()},
-        "filter, tags": lambda: _filter(tags=_standard("msg", "TagsFilter")(tags=["a"] * MANY)),
-        "filter, categories": lambda: _filter(
-            categories=[_standard("msg", "EntityCategory")()] * MANY
-        ),
+        "filter, tags": lambda: _filter(tags=_standard("TagsFilter")(tags=["a"] * MANY)),
+        "filter, categories": lambda: _filter(categories=[_standard("EntityCategory")()] * MANY),
         "entity of a long name": _get_entity,
         "frame of a long name": _set_entity,
         "list_parameters": lambda: (ListParameters, "list_parameters", few),
@@ -102,23 +100,23 @@ def _get(kind: Any, service: str, names: list[str]) -> tuple[Any, str, Any]:
     return kind, service, kind.Request(names=names)
 
 
-def _standard(package: str, name: str) -> Any:
+def _standard(name: str, package: str = "msg") -> Any:
     """A type of all simulators, whose messages may have been built for the tests."""
     return getattr(importlib.import_module(f"simulation_interfaces.{package}"), name)
 
 
 def _filter(**fields: Any) -> tuple[Any, str, Any]:
-    kind, filters = _standard("srv", "GetEntities"), _standard("msg", "EntityFilters")(**fields)
+    kind, filters = _standard("GetEntities", "srv"), _standard("EntityFilters")(**fields)
     return kind, "get_entities", kind.Request(filters=filters)
 
 
 def _get_entity() -> tuple[Any, str, Any]:
-    kind = _standard("srv", "GetEntityState")
+    kind = _standard("GetEntityState", "srv")
     return kind, "get_entity_state", kind.Request(entity="t" * 10 * MILLION)
 
 
 def _set_entity() -> tuple[Any, str, Any]:
-    kind = _standard("srv", "SetEntityState")
+    kind = _standard("SetEntityState", "srv")
     request = kind.Request(entity="top", set_pose=True)
     request.state.header.frame_id = "w" * 10 * MILLION
     return kind, "set_entity_state", request

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Self
 
 import rclpy
+from rcl_interfaces.msg import Parameter
 from rclpy.executors import SingleThreadedExecutor
 from waiting import until
 
@@ -45,3 +46,15 @@ class Listener:
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             self.executor.spin_once(timeout_sec=0.01)
+
+
+def fill(message: Any, values: Mapping[str, Any]) -> Any:
+    """Set the fields of a message from nested values, as rosidl_runtime_py does it from YAML."""
+    for name, value in values.items():
+        if isinstance(value, dict):
+            fill(getattr(message, name), value)
+        elif name == "parameters":
+            message.parameters = [fill(Parameter(), each) for each in value]
+        else:
+            setattr(message, name, type(getattr(message, name))(value))  # YAML: 5e-4 is text
+    return message

@@ -13,7 +13,6 @@ from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.listener import Listener
 from node.running_top import LATCHED, torque_of
 from programs import command, environment, set_parameters
-from std_msgs.msg import String
 from waiting import until
 
 from symtop_ros.log.reader import McapFile
@@ -47,15 +46,6 @@ def test_each_file_of_a_recording_can_be_checked_alone(limits, start_top, tmp_pa
         assert_no_deviation(path)
     files = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
     assert all(path.stat().st_size > limits.get("max_size", 0) for path in files[:2])
-
-
-def test_a_description_that_changes_is_logged_anew(start_top, tmp_path):
-    run = start_top(record=tmp_path)
-    heard = run.collect(String, "/robot_description", LATCHED)
-    run.change({"top.Iz": 1e-4})
-    run.spin_until(lambda: heard and "0.0001" in heard[-1].data)
-    logged = messages_of(run.end_log())
-    assert len([topic for topic, _, _ in logged if topic == "/robot_description"]) == 2
 
 
 # As processes

@@ -13,6 +13,7 @@ import yaml
 from documents import commands, names, rows
 from geometry_msgs.msg import QuaternionStamped
 from node.built_messages import find_messages, importing
+from node.listener import fill
 from node.running_top import stamp_of
 from programs import execute
 from rclpy.action import ActionClient
@@ -83,16 +84,6 @@ class Client:
         self.run.spin_until(sent.done)
         assert sent.result().accepted
         return sent.result()
-
-
-def fill(message, fields):
-    """Set fields of a message from nested dicts."""
-    for name, value in fields.items():
-        if isinstance(value, dict):
-            fill(getattr(message, name), value)
-        else:
-            setattr(message, name, value)
-    return message
 
 
 def pose(fields):

@@ -1,12 +1,13 @@
 """Every topic against the library, evaluated again at the stamp of each message."""
 
+import sys
 from xml.etree import ElementTree
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from node.running_top import LATCHED, facts, segment_of, stamp_of
-from sensor_msgs.msg import Imu, JointState
+from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
 from symtop_ros.physics import Body
@@ -102,8 +103,9 @@ def test_diagnostics_report_the_motion_and_constants_that_do_not_drift(start_top
     assert abs(float(balance["energy.balance"])) < 1e-14  # 24 terms, each with the rounding of 1 J
 
 
-def test_the_sensor_may_have_the_topic_of_rep_145(start_top):
-    run = start_top(arguments=["--ros-args", "-r", "~/imu:=/imu/data"], imu__enabled=True)
-    heard = run.collect(Imu, "/imu/data")
-    run.spin_until(lambda: heard)
-    assert heard[0].header.frame_id == "top_imu"
+def test_without_their_package_markers_are_only_logged(start_top, monkeypatch, capfd):
+    monkeypatch.setitem(sys.modules, "visualization_msgs.msg", None)  # as if it were missing
+    run = start_top(publish_markers=True)
+    run.spin_until(lambda: run.top.simulation.ticker._next > 10)
+    line = "visualization_msgs is not installed: ~/markers is only logged"
+    assert capfd.readouterr().err.count(line) == 1

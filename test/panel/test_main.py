@@ -5,7 +5,6 @@ import ipaddress
 import os
 import re
 import signal
-import sys
 import urllib.request
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -30,9 +29,9 @@ def _folder(tmp_path, monkeypatch):
 
 
 @contextlib.contextmanager
-def running_panel(*words, start=None):
+def running_panel(*words):
     """top_panel on any free port, and the address that it prints; it has ended afterwards."""
-    words = [*(start or command("top_panel")), "--port", "0", "--no-browser", *words]
+    words = command("top_panel", "--port", "0", "--no-browser", *words)
     with running(words, 0, env={**os.environ, "PYTHONPATH": str(ROOT)}) as process:
         line = process.stdout.readline()
         found = re.fullmatch(r".+: open (http://\S+) in a browser; Ctrl-C ends it\n", line)
@@ -72,17 +71,6 @@ def test_other_machines_are_told_an_address_and_nothing_is_to_be_guarded():
     ipaddress.ip_address(host)  # other machines may not know the name of this one
     assert host != "0.0.0.0"
     assert errors == ""  # each page has its own top
-
-
-def test_it_runs_where_there_is_no_ros_and_no_mcap():
-    """As on Windows or macOS, where also termios and fcntl are missing."""
-    missing = ("rclpy", "rerun", "mcap", "std_srvs", "geometry_msgs", "termios", "fcntl", "tty")
-    code = (
-        f"import sys; sys.modules.update(dict.fromkeys({missing!r}));"
-        "from symtop_ros.panel.main import main; sys.exit(main(sys.argv[1:]))"
-    )
-    with running_panel(start=[sys.executable, "-c", code]) as (_, url):
-        assert "<title>" in load(url)
 
 
 def test_without_options_the_file_is_written_here_and_opened(monkeypatch, capsys):
