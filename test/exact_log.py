@@ -52,12 +52,16 @@ def assert_agrees(log: TopLog, samples: int) -> None:
         assert found == (samples, 0.0, 0, 0, 0)
 
 
-def stamps_of(path: Path, topic: str = "/orientation") -> list[int]:
-    """Log times of a topic, in the order of the file."""
+def read_messages(path: Path) -> list[tuple[str, int, bytes]]:
+    """Topic, log time and bytes of each message, in the order of the file."""
     file = McapFile(path)
     return [
-        message.log_time
+        (file.channels[message.channel_id].topic, message.log_time, bytes(message.data))
         for chunk in file.chunks()
         for message in chunk
-        if file.channels[message.channel_id].topic.endswith(topic)
     ]
+
+
+def stamps_of(path: Path, topic: str = "/orientation") -> list[int]:
+    """Log times of a topic, in the order of the file."""
+    return [stamp for name, stamp, _ in read_messages(path) if name.endswith(topic)]

@@ -2,7 +2,6 @@
 
 import math
 
-import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 
@@ -34,11 +33,6 @@ def deterministic(examples):
         database=None,
         suppress_health_check=list(HealthCheck),
     )
-
-
-def trials(often, count):
-    """Numbers of examples for a test; the larger one is for the long trials."""
-    return [often, pytest.param(count, marks=pytest.mark.long)]
 
 
 def assert_one_sentence(text, longest=700):

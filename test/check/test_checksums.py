@@ -5,7 +5,7 @@ import struct
 
 import pytest
 from mcap.opcode import Opcode
-from physics.tops import seeds
+from trials import seeds
 
 from symtop_ros.check.run import check_run, find_damage
 from symtop_ros.log.reader import MAGIC, McapFile

@@ -4,7 +4,7 @@ import random
 from dataclasses import replace
 
 import pytest
-from physics.tops import seeds
+from trials import seeds
 
 from symtop_ros.check.events import NOTHING, Mismatch, find_mismatches, is_of_this_version
 from symtop_ros.log.reader import McapFile

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from check.run_log import Memory
+from trials import choose
 
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
@@ -60,12 +61,7 @@ def test_a_log_of_an_earlier_version_opens_and_its_samples_agree(capsys):
     assert words == "15 events are of symtop_ros 0.3.0: their words and verdicts are not judged"
 
 
-PLACES = [
-    pytest.param(k, marks=() if k in (0, 3, -1) else pytest.mark.long) for k in range(-1, 13)
-]  # of the events
-
-
-@pytest.mark.parametrize("number", PLACES)
+@pytest.mark.parametrize("number", choose(range(-1, 13), (0, 3, -1)))  # places of events
 def test_an_event_that_cannot_be_read_is_named_and_the_status_is_1(memory, number, capsys):
     place = memory.places("/top/events")[number]
     message = memory.messages[place]

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 from check.run_log import Memory
-from physics.tops import seeds
+from trials import seeds
 
 from symtop_ros import __version__
 from symtop_ros.check.events import find_wrong_texts

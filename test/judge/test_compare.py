@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from judge.cases import SECOND, make_estimates, make_events, truth_and_stamps
 from judge.made import Made
-from physics.tops import ARTICLE, EPS, seeds
+from physics.tops import ARTICLE, EPS
 from scipy.spatial.transform import Rotation
+from trials import seeds
 
 from symtop_ros.judge.compare import compare
 from symtop_ros.judge.estimates import Estimates

@@ -2,6 +2,7 @@
 
 import pytest
 from judge.trial import FOREIGN, draw_file
+from trials import choose
 
 from symtop_ros.judge.causes import CHANGES, LEVELS
 from symtop_ros.judge.fit import PARAMETERS
@@ -12,12 +13,7 @@ SHORT = range(3)  # of them those that are tried by every run of the tests
 OWN = (0, 1, 3, 4, 7, 8, 12, 13, 34)  # with every change, level and parameter
 
 
-def choose(tried):
-    marks = [pytest.mark.long]
-    return [pytest.param(k, marks=marks * (k not in tried)) for k in range(LONG)]
-
-
-@pytest.mark.parametrize("number", choose(SHORT))
+@pytest.mark.parametrize("number", choose(range(LONG), SHORT))
 def test_no_cause_is_named_that_is_not_there(number):
     file = draw_file(number, own=False)
     found = find_causes(file.estimates, file.truth)
@@ -25,7 +21,7 @@ def test_no_cause_is_named_that_is_not_there(number):
     assert found.best.kind == ("", "none", ())
 
 
-@pytest.mark.parametrize("number", choose(OWN))
+@pytest.mark.parametrize("number", choose(range(LONG), OWN))
 def test_a_cause_of_its_own_is_named_with_its_size(number):
     file = draw_file(number, own=True)
     found = find_causes(file.estimates, file.truth)

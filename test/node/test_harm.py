@@ -15,6 +15,7 @@ from node.built_messages import with_messages
 from node.listener import Listener
 from node.test_simulator import _messages  # noqa: F401 - makes the messages importable
 from programs import command, environment, running, set_parameters
+from trials import choose
 from waiting import until
 
 from workshop.load.domains import claim_domain, release_domain
@@ -80,14 +81,8 @@ def nodes(tmp_path_factory):
         yield top, b
 
 
-CASES = [
-    pytest.param(name, marks=() if name in SHARP else pytest.mark.long, id=name)
-    for name in harm.list_requests()
-]
-
-
 @pytest.mark.realtime
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", choose(harm.list_requests(), SHARP))
 def test_a_request_stops_samples_hardly_longer_than_those_of_a_bare_node(name, nodes):
     request, (top, bare) = harm.list_requests()[name](), nodes
     allowed = max(bare.ask(*request) for _ in range(2)) + MORE

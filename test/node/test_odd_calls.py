@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from node.odd_messages import parameters
 from node.running_top import RunningTop, stamp_of, torque_of
-from odd_values import CONTROL, NUMBERS, SIZES, assert_one_sentence, deterministic, trials
+from odd_values import CONTROL, NUMBERS, SIZES, assert_one_sentence, deterministic
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
+from trials import trials
 
 from symtop_ros.check.samples import check_log
 from symtop_ros.simulation.changes.requests import KICK_FIELDS, START_FIELDS

@@ -8,7 +8,7 @@ import time
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from exact_log import assert_exact, assert_no_deviation
+from exact_log import assert_exact, assert_no_deviation, read_messages
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.listener import Listener
 from node.running_top import LATCHED, torque_of
@@ -19,16 +19,6 @@ from symtop_ros.log.reader import McapFile
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
-
-
-def messages_of(path):
-    """Topic, log time and bytes, in the order of the file."""
-    file = McapFile(path)
-    return [
-        (file.channels[message.channel_id].topic, message.log_time, message.data)
-        for chunk in file.chunks()
-        for message in chunk
-    ]
 
 
 @pytest.mark.parametrize("limits", [{"max_duration": 0.5}, {"max_size": 50_000}], ids=str)
@@ -86,7 +76,7 @@ def test_a_log_holds_applied_torques_as_they_were_received(start_top, tmp_path):
         run.wait_for(heard)
     run.spin_until(lambda: any("0.0 0.0 0.0001" in str(each) for each in events))
     path = run.end_log()
-    logged = [each for name, *each in messages_of(path) if name == "/top/applied_torque"]
+    logged = [each for name, *each in read_messages(path) if name == "/top/applied_torque"]
     assert [data for _, data in logged] == heard
     assert min(stamp for stamp, _ in logged) > 0
     assert_exact(path)

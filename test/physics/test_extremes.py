@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from drawn import Numbers, normalize
 from physics.refusals import meet
-from physics.tops import ARTICLE, EPS, distance, seeds, within
+from physics.tops import ARTICLE, EPS, distance, within
+from trials import seeds
 
 from symtop_ros.physics import (
     ExactTimes,

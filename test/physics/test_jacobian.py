@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from physics.differences import FEW_DIGITS, differentiate, find_errors
 from physics.exact_motions import read_motions
-from physics.tops import ARTICLE, CUSPS, DISC, precess, seeds
+from physics.tops import ARTICLE, CUSPS, DISC, precess
 from physics.unstable_motions import Case, find_error, make_case
+from trials import choose, seeds
 
 from symtop_ros.physics import Friction, Motion, Motions, State, Top
 from symtop_ros.physics.arguments import NO_FRICTION
@@ -40,18 +41,6 @@ DRIVEN = {
 }
 
 
-def leave_some(names):
-    """Leave every second one to the long trials."""
-    marks = [pytest.mark.long]
-    return [pytest.param(name, marks=marks * (k % 2)) for k, name in enumerate(names)]
-
-
-def leave_last(count, kept):
-    """Numbers, of which those after the first ones are left to the long trials."""
-    marks = [pytest.mark.long]
-    return [pytest.param(k, marks=marks * (k >= kept)) for k in range(count)]
-
-
 def list_motions():
     """Each motion, with the times in s at which its derivatives are compared."""
     for name, arguments in RETURNING.items():
@@ -66,7 +55,7 @@ def list_motions():
 MOTIONS = {name: each for name, *each in list_motions()}
 
 
-@pytest.mark.parametrize("name", leave_some(MOTIONS))
+@pytest.mark.parametrize("name", choose(MOTIONS, [*MOTIONS][::2]))
 def test_derivatives_are_exact(name):
     motion, times = MOTIONS[name]
     right = differentiate(motion, times, digits=FEW_DIGITS)
@@ -170,7 +159,7 @@ def test_derivatives_of_stored_motions_are_exact(_, motion, times):
 FLAT_DISCS = (7530, 7826, 8336, 8780)  # next to the vertical
 
 
-@pytest.mark.parametrize("number", [*leave_last(400, kept=12), *FLAT_DISCS])
+@pytest.mark.parametrize("number", [*seeds(12, 400), *FLAT_DISCS])
 def test_motions_next_to_what_is_unstable_are_right_or_refused(number):
     case = make_case(number)
     error = find_error(case)

@@ -9,7 +9,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
-import pytest
 from drawn import Numbers, cos, sin
 from mpmath import mp, mpf
 
@@ -182,8 +181,3 @@ def within(seconds: float, error: type[BaseException] = AssertionError) -> Itera
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, usual)
-
-
-def seeds(often, count):
-    """Numbers for a test; those from `often` on are for the long trials."""
-    return [*range(often), *(pytest.param(n, marks=pytest.mark.long) for n in range(often, count))]

@@ -14,7 +14,8 @@ from exact_log import STATES
 from hypothesis import given
 from hypothesis import strategies as st
 from log_files import LAYOUTS, Run, write_mcap
-from odd_values import CONTROL, assert_one_sentence, deterministic, trials
+from odd_values import CONTROL, assert_one_sentence, deterministic
+from trials import trials
 
 from symtop_ros.check.samples import check_log
 from symtop_ros.log.reader import MAGIC, McapFile, list_problems
@@ -64,8 +65,6 @@ BAD_FACTOR, BAD_NS = f"{FACTOR} must be 1e-300 to 1e+06, got ", f"{NS} must be a
 BAD_SHAPE = "orientation must be of shape (..., 4), got shape"
 ABSURD = {
     (NS, "1" + "0" * 21): TOO_LONG,
-    (NS, "-1" + "0" * 21): TOO_LONG,
-    ("motion.stamp", "0"): TOO_LONG,
     ("friction", "1e30 0.0"): TOO_LONG,
     ("applied_torque", "1e300 0 0"): TOO_LONG,
     (NS, "nan"): f"{BAD_NS} or a fraction",
@@ -74,24 +73,17 @@ ABSURD = {
     ("motion.stamp", "9" * 5000): "Exceeds the limit (4300 digits)",
     (FACTOR, "0"): f"{BAD_FACTOR}0",
     (FACTOR, "inf"): f"{BAD_FACTOR}inf",
-    (TURNED, "1e300 0 0 0"): "must be a quaternion of norm 1 within 0.001, got a norm of inf",
     (TURNED, " 1" * 100_000): f"{BAD_SHAPE} (100000,)",
     (TURNED, CONTROL): "could not convert string to float: '\\x1b[31m",
-    ("motion.angular_velocity", "1e101 0 0"): "must be at most 1e+100 rad/s, got 1e+101",
     ("top", "nan nan nan"): "Ix must be a finite number (kg m^2), got nan",
     ("top", None): "event 'start' must have all values, 'top' is missing or incomplete",
     ("after.orientation", None): f"{BAD_SHAPE} (0,)",
 }
-RARELY = (1, 2)  # as 0: a time that is too long
-ABSURD_CASES = [
-    pytest.param(*case, id=str(k), marks=pytest.mark.long if k in RARELY else ())
-    for k, case in enumerate(ABSURD.items())
-]
 
 
-@pytest.mark.parametrize(("change", "sentence"), ABSURD_CASES)
-def test_an_event_of_absurd_numbers_is_told_in_one_sentence(change, sentence, tmp_path, capsys):
-    path = with_event(tmp_path, dict([change]))
+@pytest.mark.parametrize("change", ABSURD, ids=range(len(ABSURD)))
+def test_an_event_of_absurd_numbers_is_told_in_one_sentence(change, tmp_path, capsys):
+    path, sentence = with_event(tmp_path, dict([change])), ABSURD[change]
     status, lines = asked(capsys, path, "--check")
     assert status == 1
     assert sum(sentence in line for line in lines) == 1

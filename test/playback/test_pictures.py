@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from log_files import BEGIN, REGULAR, Run
 from PIL import Image
+from trials import choose
 from waiting import until
 
 from symtop_ros.physics import State, Top
@@ -21,13 +22,7 @@ SCENES = {
 }
 
 
-NAMES = [
-    "hurried",
-    *(pytest.param(name, marks=pytest.mark.long) for name in ("hanging", "cusps", "regular")),
-]
-
-
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", choose(SCENES, ("hurried",)))
 def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
     target = tmp_path / f"{name}.rrd"
     replay(SCENES[name].open(tmp_path), target)

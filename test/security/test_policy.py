@@ -3,7 +3,6 @@
 import contextlib
 import socket
 import subprocess
-import time
 import urllib.error
 import urllib.request
 
@@ -13,6 +12,7 @@ from node.running_top import RunningTop
 from programs import command, running, running_node
 from rclpy.node import NodeNameNonExistentError
 from security.policy import Uses, allowed, used
+from waiting import until
 
 from symtop_ros.playback import viewer
 from symtop_ros.simulation.topics import STATE_TOPICS
@@ -40,20 +40,20 @@ def processes(*commands):
         yield
 
 
-def watched(names, as_name, until):
-    """Return the union for all nodes when it equals `until`, or after a time-out."""
-    seen = Uses()
+def assert_allowed(program, *names):
+    """Assert that the nodes of these names, or of the program's, use what it is allowed to."""
+    seen, expected = Uses(), allowed()[f"/top/{program}"]
 
     def all_seen():
         nonlocal seen
-        for name in names:
+        for name in names or [program]:
             with contextlib.suppress(NodeNameNonExistentError):
-                seen |= used(listener.node, name, as_name)
-        return seen == until
+                seen |= used(listener.node, name, program)
+        return seen == expected
 
     with Listener(DOMAIN) as listener, contextlib.suppress(AssertionError):
         listener.spin_until(all_seen)
-    return seen
+    assert seen == expected
 
 
 def test_the_policy_allows_top_node_what_it_uses():
@@ -76,46 +76,35 @@ def test_the_policy_allows_top_ctl_what_its_commands_use():
         command("top_ctl", "--timeout", "30", *each, "--ros-args", "-r", f"__node:=ctl_{name}")
         for name, each in COMMANDS.items()
     ]
-    expected = allowed()["/top/top_ctl"]
     with processes(*words):
-        assert watched([f"ctl_{name}" for name in COMMANDS], "top_ctl", expected) == expected
+        assert_allowed("top_ctl", *(f"ctl_{name}" for name in COMMANDS))
 
 
 def test_the_policy_allows_top_live_what_it_uses():
-    expected = allowed()["/top/top_live"]
     with socket.create_server((viewer.HOST, 0)) as taken_for_a_viewer:
         port = taken_for_a_viewer.getsockname()[1]
         with processes(command("top_live", "--port", str(port))):
-            assert watched(["top_live"], "top_live", expected) == expected
+            assert_allowed("top_live")
 
 
 def test_the_policy_allows_top_judge_what_it_uses():
-    expected = allowed()["/top/top_judge"]
     words = command("top_judge", "--live", "--topic", "/top/imu")
     with running_node(DOMAIN, "imu.enabled:=true"), processes(words):
-        assert watched(["top_judge"], "top_judge", expected) == expected
+        assert_allowed("top_judge")
 
 
-@contextlib.contextmanager
 def open_page(url):
-    """Ask for the news of a node, as its page does; the server may still be starting."""
-    deadline = time.monotonic() + TIMEOUT
-    while True:
-        try:
-            with urllib.request.urlopen(url, timeout=TIMEOUT):
-                yield
-            return
-        except urllib.error.URLError:
-            assert time.monotonic() < deadline
-            time.sleep(0.05)
+    """Ask for the news of a node, as its page does; None while the server is starting."""
+    with contextlib.suppress(urllib.error.URLError):
+        return urllib.request.urlopen(url, timeout=TIMEOUT)
 
 
 def test_the_policy_allows_top_panel_what_it_uses():
     """It takes samples while a page is open only."""
-    expected, port = allowed()["/top/top_panel"], viewer.free_port()
+    port = viewer.free_port()
     words = command("top_panel", "--node", "/top", "--port", str(port), "--no-browser")
-    with processes(words), open_page(f"http://{viewer.HOST}:{port}/news"):
-        assert watched(["top_panel"], "top_panel", expected) == expected
+    with processes(words), until(lambda: open_page(f"http://{viewer.HOST}:{port}/news")):
+        assert_allowed("top_panel")
 
 
 def test_only_two_programs_may_ask_the_top_for_anything():

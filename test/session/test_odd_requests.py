@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from odd_values import SIZES, VALUES, assert_one_sentence, deterministic, trials
+from odd_values import SIZES, VALUES, assert_one_sentence, deterministic
+from trials import trials
 
 from symtop_ros.physics import Motion, kick_verdict, perrys_rule
 from symtop_ros.session.diagnostics import summarize_state

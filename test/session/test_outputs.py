@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from exact_log import read_messages
 from rosbags.typesys import Stores, get_typestore
 
-from symtop_ros.log.reader import McapFile
 from symtop_ros.models.urdf import LENGTH
 from symtop_ros.physics import ExactTimes
 from symtop_ros.session.diagnostics import _log_status, _pace_status
@@ -100,13 +100,8 @@ def record_with_markers(folder):
 
 
 def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_path):
-    file = McapFile(record_with_markers(tmp_path))
-    data = [
-        bytes(message.data)
-        for messages in file.chunks()
-        for message in messages
-        if file.channels[message.channel_id].topic == "/top/markers"
-    ]
+    logged = read_messages(record_with_markers(tmp_path))
+    data = [each for topic, _, each in logged if topic == "/top/markers"]
     assert len(data) == 31
     types = get_typestore(Stores.ROS2_JAZZY)
     last = types.deserialize_cdr(data[-1], "visualization_msgs/msg/MarkerArray")

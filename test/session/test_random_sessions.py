@@ -6,8 +6,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from drawn import Numbers
-from physics.tops import seeds
 from session.test_outputs import Program, advance, start
+from trials import seeds
 
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog, open_run

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from exact_log import read_messages, stamps_of
 from simulation.page_runs import START, make_run
 
 from symtop_ros.check.run import check_run
@@ -31,9 +32,7 @@ def _path(tmp_path_factory):
 
 def list_stamps(path):
     """The stamps of the samples in a log."""
-    return np.concatenate(
-        [batch.columns["orientation"].stamps for batch in read(path).batches() if batch.columns]
-    )
+    return np.array(stamps_of(path))
 
 
 def test_it_has_the_samples_and_the_diagnostics_of_a_node(path):
@@ -42,12 +41,7 @@ def test_it_has_the_samples_and_the_diagnostics_of_a_node(path):
     # on the grid of 200 Hz, which begins anew with each event
     assert np.isin(np.diff(stamps), (5_000_000, 4_567_891, 2_654_321)).all()
     assert END - stamps[-1] < 5_000_000
-    log = read(path)
-    topics = [
-        log.file.channels[message.channel_id].topic
-        for messages in log.file.chunks()
-        for message in messages
-    ]
+    topics = [topic for topic, *_ in read_messages(path)]
     assert topics.count(DIAGNOSTICS.ros_name) == 4  # once a second
 
 

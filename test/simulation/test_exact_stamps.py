@@ -14,6 +14,7 @@ from drawn import Numbers
 from mpmath import mp, mpf
 from physics.tops import EPS, attitude_error, error, exact_euler, turn
 from simulation.runs import SECOND, ListSink, Run
+from trials import choose, trials
 
 from symtop_ros.physics.reference import ClosedForm, Inputs
 from symtop_ros.simulation.topics import STATE_TOPICS
@@ -24,7 +25,7 @@ pytestmark = pytest.mark.untraced
 # of sines and exponentials.
 BOUND = 4.0
 YEAR = 365 * 86_400 * SECOND
-FACTORS = (1.0, 1 / 3, *(pytest.param(each, marks=pytest.mark.long) for each in (0.1, 7.0, 1e-3)))
+FACTORS = choose((1.0, 1 / 3, 0.1, 7.0, 1e-3), (1.0, 1 / 3))
 SCENES = (
     *("cusps", "looping", "unidirectional", "regular_precession", "fast_precession"),
     *("hurry_slow", "hurry_fast", "perry_fails", "sleeping", "sleeping_unstable"),
@@ -138,15 +139,9 @@ def test_samples_of_a_minute_and_after_a_year(scene, factor):
 
 
 @pytest.mark.parametrize(
-    ("scene", "count"),
-    [
-        ("cusps", 200),
-        *(
-            pytest.param(scene, 1000, marks=pytest.mark.long)
-            for scene in ("cusps", "free", "looping", "through_the_pole")
-        ),
-    ],
+    "scene", choose(("cusps", "free", "looping", "through_the_pole"), ["cusps"])
 )
+@pytest.mark.parametrize("count", trials(200, 1000))
 def test_samples_after_many_pauses_steps_and_changes(scene, count):
     run, chance = start(scene, publish_rate=30.0), Numbers(1)
     for _ in range(count):

@@ -5,7 +5,8 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from odd_values import VALUES, assert_one_sentence, deterministic, trials
+from odd_values import VALUES, assert_one_sentence, deterministic
+from trials import trials
 
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.validation import MAX_SENTENCE, RefusedError, one_line

@@ -3,23 +3,13 @@
 import json
 
 import pytest
+from trials import choose
 
 from symtop_ros.panel.main import main
 from symtop_ros.web.join import LANGUAGES, TEXTS, read_texts
 from workshop.languages import _compare, check_languages
 
 PHONE = (360, 640)
-# The narrowest window, and German, a third longer than English; the others in the long run.
-EACH = [
-    pytest.param(
-        language,
-        size,
-        marks=() if size == PHONE and language in ("en", "de") else pytest.mark.long,
-        id=f"{language} {size[0]}x{size[1]}",
-    )
-    for language in LANGUAGES
-    for size in (PHONE, (1366, 768), (1920, 1080))
-]
 
 
 def test_every_language_is_complete_and_the_command_names_each_fault(capsys):
@@ -48,7 +38,9 @@ def test_a_fault_of_a_translation_is_found(english, text, fault):
     assert list(_compare(english, english)) == []
 
 
-@pytest.mark.parametrize(("language", "size"), EACH)
+# The narrowest window, and German, a third longer than English; the others in the long run.
+@pytest.mark.parametrize("language", choose(LANGUAGES, ("en", "de")))
+@pytest.mark.parametrize("size", choose((PHONE, (1366, 768), (1920, 1080)), [PHONE]))
 def test_nothing_is_cut_in_any_window(open_page, language, size):
     width, height = size
     window = {"viewport": {"width": width, "height": height}, "locale": language}

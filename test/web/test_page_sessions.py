@@ -5,8 +5,8 @@ from functools import partial
 
 import pytest
 from drawn import Numbers
-from physics.tops import seeds
 from session.test_random_sessions import move
+from trials import seeds
 
 from symtop_ros.log.top_log import TopLog, open_run
 from symtop_ros.simulation.run_file import record_run, write_run

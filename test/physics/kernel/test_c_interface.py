@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physics.kernel.motions import encode, expect, list_many, list_samples, normalize
+from trials import choose
 
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parents[2]
@@ -88,11 +89,10 @@ def test_a_build_with_fast_math_is_refused_in_words(tmp_path, option):
 
 
 LONG = pytest.mark.long
-FIRST_OF_UNSOUND = [pytest.param(name, marks=() if name == "order" else LONG) for name in UNSOUND]
 
 
 @needs_compiler
-@pytest.mark.parametrize("name", FIRST_OF_UNSOUND)
+@pytest.mark.parametrize("name", choose(UNSOUND, ("order",)))
 def test_a_build_that_may_change_sums_answers_nothing(tmp_path, name):
     kernel = compile_kernel(tmp_path, *UNSOUND[name])
     if name == "fused" and "fma" not in Path("/proc/cpuinfo").read_text():
@@ -127,8 +127,7 @@ def run_sound(folder, kernel, state):
 
 @needs_compiler
 @pytest.mark.parametrize(
-    "processor",
-    ["x86-64-v4", *(pytest.param(name, marks=LONG) for name in ("skylake-avx512", "native"))],
+    "processor", choose(("x86-64-v4", "skylake-avx512", "native"), ("x86-64-v4",))
 )
 def test_the_kernel_compiles_for_one_kind_of_processor(tmp_path, processor):
     if platform.machine() != "x86_64":

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from drawn import Numbers
 from mpmath import mp, mpf
-from physics.tops import ARTICLE, DISC, exact_euler, exact_parts, precess, random_case, seeds
+from physics.tops import ARTICLE, DISC, exact_euler, exact_parts, precess, random_case
+from trials import seeds
 
 from symtop_ros.physics import (
     HOLDS,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from drawn import Numbers
 from physics.refusals import refused
-from physics.tops import seeds
+from trials import seeds
 
 from symtop_ros.physics import Friction, Motion, State, Top
 

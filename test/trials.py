@@ -1,0 +1,24 @@
+"""Values of families of tests: some for each run of the tests, the others for the long trials."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable
+from typing import Any
+
+import pytest
+
+
+def choose(values: Iterable[Any], kept: Container[Any]) -> list[Any]:
+    """Return values, of which those that are not kept are for the long trials."""
+    marks = [pytest.mark.long]
+    return [pytest.param(each, marks=marks * (each not in kept), id=str(each)) for each in values]
+
+
+def seeds(often: int, count: int) -> list[Any]:
+    """Return numbers for a test; those from `often` on are for the long trials."""
+    return choose(range(count), range(often))
+
+
+def trials(often: int, count: int) -> list[Any]:
+    """Return numbers of examples for a test; the larger one is for the long trials."""
+    return choose((often, count), (often,))
