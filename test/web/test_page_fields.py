@@ -1,6 +1,7 @@
 """Fields, sliders and keys of the page: what is typed, and what is refused."""
 
 import math
+from functools import partial
 
 import pytest
 
@@ -90,12 +91,19 @@ def test_a_scene_that_is_picked_with_the_pointer_starts_at_once(opened):
     assert not opened.tab.is_visible("#start-scene")
 
 
-def test_the_view_is_turned_and_moved_by_keys_and_the_top_is_not_touched(opened):
+def test_keys_drags_and_the_wheel_turn_and_move_the_view_and_do_not_touch_the_top(opened):
     opened.press("Space")
     opened.show_arrows("torque")
-    for key in ("Shift+ArrowLeft", "Shift+ArrowUp", "+", "-"):
+    box = opened.tab.locator("canvas").bounding_box()
+
+    def drag():
+        opened.drag(box["x"] + 60, box["y"] + 60, 80, 20)
+        opened.tab.mouse.up()
+
+    keys = [partial(opened.press, key) for key in ("Shift+ArrowLeft", "Shift+ArrowUp", "+", "-")]
+    for act in (*keys, drag, partial(opened.tab.mouse.wheel, 0, 300)):
         before = opened.read_labels()
-        opened.press(key)
+        act()
         opened.until(lambda before=before: opened.read_labels() != before)
     assert len(opened.read_events()) == 1
     opened.press("ArrowLeft")

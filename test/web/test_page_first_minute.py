@@ -112,7 +112,7 @@ def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_highe
     page.until(lambda: bracket.text_content() == "0.063 rad higher")
 
 
-def test_a_kick_is_a_step_in_the_chart_of_the_rate(opened):
+def test_a_kick_is_a_step_in_the_chart_of_the_rate_and_a_mark_at_the_slider_of_the_time(opened):
     opened.open_charts("phi_dot")
     opened.wait_for_time(0.02)
     opened.tab.click("#hurry")
@@ -126,20 +126,11 @@ def test_a_kick_is_a_step_in_the_chart_of_the_rate(opened):
     jump = np.flatnonzero(points[:, 0] == place)
     assert np.ptp(points[jump, 1]) > 0.8 * np.ptp(points[:, 1])
     assert np.ptp(points[points[:, 0] < place, 1]) < 0.2  # tenths: nothing begins before the kick
-
-
-def test_the_time_stands_beside_its_slider_with_a_mark_at_each_act(opened):
-    opened.wait_for_time(0.05)
-    opened.tab.click("#hurry")
-    opened.wait_for_time(0.08)
-    opened.tab.click("#pause")
-    opened.wait_for_frames(4)
     _, kick = opened.read_events()
     end = float(opened.tab.get_attribute("#timeline", "max"))
     places = opened.tab.locator("#marks i").evaluate_all("all => all.map(e => e.style.left)")
-    assert [float(place[:-1]) for place in places] == pytest.approx(
-        [0.0, 100 * kick["time"] / end], abs=0.006
-    )
+    expected = pytest.approx([0.0, 100 * kick["time"] / end], abs=0.006)
+    assert [float(place[:-1]) for place in places] == expected
     assert opened.tab.text_content("#clock") == f"{end:.2f} s"
 
 

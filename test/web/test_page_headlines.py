@@ -24,12 +24,13 @@ def test_the_headline_of_a_driven_motion_says_what_acts(opened):
     assert [False, True] in said.values()
 
 
-def test_a_kick_under_friction_is_judged_apart_from_friction(opened):
+def test_a_kick_under_friction_is_judged_apart_from_friction_and_said_to_be_past(opened):
     opened.start_scene("friction")
-    opened.tab.click("#hurry")
-    assert opened.say("headline").endswith(" (apart from friction).") or (
-        "(apart from friction):" in opened.say("headline")
-    )
+    opened.press("h")
+    headline = opened.say("headline")
+    assert headline.endswith(" (apart from friction).") or "(apart from friction):" in headline
+    assert "between" not in headline
+    assert opened.say("why").startswith("Just after the kick: Precession ")
 
 
 def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):

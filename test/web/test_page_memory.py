@@ -1,4 +1,4 @@
-"""A run is kept: over a reload, with Back, through a sleep of the computer, and in a small file."""
+"""A run is kept over a reload and through a sleep of the computer."""
 
 import pytest
 
@@ -24,17 +24,6 @@ def test_a_reload_loses_nothing(open_page, fragment):
     page.reload()
     assert page.say("pause") == "Pause"  # what ran runs on
     assert page.read_events() == run["events"]
-
-
-def test_a_run_is_there_after_another_page_and_back(open_page):
-    page = open_page()
-    page.tab.click("#hurry")
-    events = page.read_events()
-    page.tab.goto("about:blank")
-    page.tab.go_back()
-    page.wait_for_page()
-    assert page.read_events() == events
-    assert "higher" in page.say("headline")
 
 
 def test_a_sleep_of_the_computer_loses_nothing(open_page):

@@ -93,13 +93,6 @@ def test_every_number_shown_is_that_of_the_state_drawn(browser, tmp_path, seed, 
     trial.page.close()
 
 
-def test_a_kick_under_friction_is_said_to_be_past(open_page):
-    page = open_page("#scene=friction")
-    page.press("h")
-    assert page.say("why").startswith("Just after the kick: Precession ")
-    assert "between" not in page.say("headline")
-
-
 def test_the_digits_that_are_shown_start_the_motion_that_is_shown(opened):
     """Tilt, spin and the slow rate are typed again, as fields and buttons show them."""
     opened.press("Space")

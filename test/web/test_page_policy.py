@@ -61,6 +61,7 @@ def test_a_hostile_text_is_only_a_text_in_a_saved_page_of_a_saved_page(open_page
     for _ in range(3):
         page = open_page(file=file)
         file = page.save("This run as a page", tmp_path)
+        assert file.stat().st_size - len(write_file().encode()) < 20_000
         assert [event["request"] for event in page.read_events()] == [*HOSTILE]
         assert page.tab.evaluate("window.pwned") is None
     check(page.tab.main_frame)

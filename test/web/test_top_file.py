@@ -1,29 +1,9 @@
 """The page as one file: opened from a disk without a network, saved and opened again."""
 
-import json
-
 import numpy as np
 import pytest
 
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.web.join import write_file
-
-
-def test_a_saved_page_holds_the_run_and_goes_on(opened, open_page, tmp_path):
-    opened.wait_for_time(0.03)
-    opened.tab.click("#hurry")
-    wanted = opened.read_run()
-    saved = opened.save("This run as a page", tmp_path)
-    grown = saved.stat().st_size - len(write_file().encode())
-    assert grown < 20_000
-    other = open_page(file=saved)
-    assert other.read_events() == wanted["events"]
-    as_json = opened.save("This run (JSON)", tmp_path).read_text()
-    assert json.loads(as_json)["events"] == wanted["events"]
-    other.tab.click("#hurry")
-    events = other.read_events()
-    assert events[:-1] == wanted["events"]
-    assert events[-1]["kind"] == "kick"
 
 
 def test_a_frame_of_another_site_shows_the_top_and_says_that_it_may_not_save(browser, path):
