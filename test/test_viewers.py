@@ -8,7 +8,7 @@ import re
 import runpy
 import sys
 from pathlib import Path
-from types import ModuleType
+from unittest.mock import Mock
 from xml.etree import ElementTree
 
 import pytest
@@ -21,10 +21,8 @@ from symtop_ros.wire.messages import JOINTS
 ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config"
 NAMES = {topic.resolve("/top") for topic in TOPICS.values()}
-MODULES = (
-    *("launch", "launch.actions", "launch.conditions", "launch.substitutions", "launch_ros"),
-    *(f"launch_ros.{name}" for name in ("actions", "parameter_descriptions", "substitutions")),
-)
+MODULES = ("launch", "launch.actions", "launch.substitutions")
+MODULES += ("launch_ros", "launch_ros.actions", "launch_ros.substitutions")
 
 
 def test_rviz_shows_topics_and_a_frame_that_there_are():
@@ -74,33 +72,21 @@ class Argument:
 @pytest.fixture
 def launch(monkeypatch):
     """Return what the launch file starts for some arguments: nodes by their executables."""
-    defaults, functions = {}, []
-    for name in MODULES:
-        module = ModuleType(name)
-        module.__getattr__ = lambda attribute: lambda *values, **_: (attribute, *values)
+    modules = {name: Mock() for name in MODULES}
+    for name, module in modules.items():
         monkeypatch.setitem(sys.modules, name, module)
-
-    def replace(module, **attributes):
-        for name, value in attributes.items():
-            monkeypatch.setattr(sys.modules[module], name, value, raising=False)
-
-    def declare(name, default_value, description):
-        assert description
-        defaults[name] = default_value
-
-    def keep(function):
-        functions.append(function)
-
-    replace("launch.actions", DeclareLaunchArgument=declare, OpaqueFunction=keep)
-    replace("launch.substitutions", LaunchConfiguration=Argument)
-    replace("launch", LaunchDescription=list, LaunchContext=object)
-    replace("launch_ros.actions", Node=lambda **values: values)
-    runpy.run_path(str(ROOT / "launch" / "top.launch.py"))["generate_launch_description"]()
-    (start,) = functions
+    modules["launch.substitutions"].LaunchConfiguration = Argument
+    modules["launch.substitutions"].PathJoinSubstitution = list
+    modules["launch_ros.actions"].Node = dict
+    file = runpy.run_path(str(ROOT / "launch" / "top.launch.py"))
+    file["generate_launch_description"]()
+    modules["launch.actions"].OpaqueFunction.assert_called_once_with(function=file["start"])
+    declared = modules["launch.actions"].DeclareLaunchArgument.call_args_list
+    defaults = {each.args[0]: each.kwargs["default_value"] for each in declared}
 
     def run(**given):
         assert given.keys() <= defaults.keys()
-        return {node["executable"]: node for node in start({**defaults, **given})}
+        return {node["executable"]: node for node in file["start"]({**defaults, **given})}
 
     return run
 
@@ -140,5 +126,5 @@ def test_a_launch_starts_viewers_of_the_node(launch, namespace, name):
     assert nodes["top_live"]["arguments"] == ["--node", name]
     for program in ("top_node", "top_live"):
         assert (ROOT / "resource" / program).is_file()
-    folder, layout = nodes["rviz2"]["arguments"][1][1][1:]
+    _, folder, layout = nodes["rviz2"]["arguments"][1]
     assert (ROOT / folder / layout).is_file()

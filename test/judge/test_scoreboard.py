@@ -24,16 +24,6 @@ def write_entry(folder, problem, name, error):
     (folder / problem / f"{name}.csv").write_text(write(table, NAMES[:5]))
 
 
-@pytest.fixture
-def folder(tmp_path):
-    for problem in PROBLEMS:
-        for step in ("0.1", "0.01", "1e-3"):
-            write_entry(tmp_path, problem, f"rk4-{step}", 0.5 * float(step) ** 4)
-    write_entry(tmp_path, "cusps", "euler-0.01", 3.0)
-    (tmp_path / "cusps" / "states.csv").write_text("no entry")
-    return tmp_path
-
-
 def test_an_entry_that_tries_more_and_solves_nothing_more_is_not_ranked_first(tmp_path, capsys):
     # solved: 2 of 2 tried, 1 of 3 tried with the rest off by 2 rad, 1 of 1 tried
     errors = {
@@ -66,8 +56,13 @@ def test_the_step_of_an_entry_is_the_number_at_its_end(name, step):
     assert Entry(name, score).step == step
 
 
-def test_the_same_is_given_as_json(folder, capsys):
-    assert main(["--testset", "all", str(folder), "--json"]) == 0
+def test_the_same_is_given_as_json(tmp_path, capsys):
+    for problem in PROBLEMS:
+        for step in ("0.1", "0.01", "1e-3"):
+            write_entry(tmp_path, problem, f"rk4-{step}", 0.5 * float(step) ** 4)
+    write_entry(tmp_path, "cusps", "euler-0.01", 3.0)
+    (tmp_path / "cusps" / "states.csv").write_text("no entry")
+    assert main(["--testset", "all", str(tmp_path), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert len(facts["scores"]) == 7
     scores = {(each["problem"], each["entry"]): each for each in facts["scores"]}

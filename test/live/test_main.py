@@ -14,17 +14,6 @@ from workshop.pictures.viewer import running_viewer, views
 DOMAIN = claim_domain()
 
 
-@pytest.fixture
-def live():
-    """A viewer that top_live shows a top in."""
-    port = viewer.free_port()
-    with (
-        running_viewer(port=port) as (client, _),
-        running(command("top_live", "--port", port), DOMAIN),
-    ):
-        yield client
-
-
 def moving(client):
     """Wait until the top is seen to move."""
     pictures = set()
@@ -47,12 +36,15 @@ def picture_now(client):
         return set()
 
 
-def test_the_scene_follows_a_node_and_finds_it_again(live):
-    for scene in ("cusps", "looping"):
-        with running_node(DOMAIN, f"scene:={scene}"):
-            moving(live)
-            assert run("top_ctl", *PATIENT, "hurry", domain=DOMAIN).returncode == 0
-            assert not any(each.reports for each in views(live, 13).values())
+def test_the_scene_follows_a_node_and_finds_it_again():
+    port = viewer.free_port()
+    words = command("top_live", "--port", port)
+    with running_viewer(port=port) as (client, _), running(words, DOMAIN):
+        for scene in ("cusps", "looping"):
+            with running_node(DOMAIN, f"scene:={scene}"):
+                moving(client)
+                assert run("top_ctl", *PATIENT, "hurry", domain=DOMAIN).returncode == 0
+                assert not any(each.reports for each in views(client, 13).values())
 
 
 def test_a_program_on_the_port_that_does_not_answer_does_not_keep_it_from_ending():

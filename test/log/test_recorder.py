@@ -5,8 +5,8 @@ import os
 import threading
 import time
 
-import pytest
 from disks import mounted
+from exact_log import stamps_of
 from mcap.reader import make_reader
 from waiting import until
 
@@ -144,37 +144,27 @@ def test_what_was_flushed_is_readable_while_the_recording_goes_on(tmp_path):
     recorder = create(tmp_path)
     path = recorder.start({})
     recorder.add(1, 5, b"x")
-
-    def read():
-        return [message.log_time for chunk in McapFile(path).chunks() for message in chunk]
-
-    until(lambda: read() == [5])
+    until(lambda: stamps_of(path, "/plain") == [5])
     recorder.stop()
 
 
-@pytest.fixture
-def small_disk(tmp_path):
+def test_a_full_disk_stops_the_recording_and_what_was_written_opens(tmp_path):
     with mounted(tmp_path / "small", "size=300k") as folder:
-        yield folder
-
-
-def test_a_full_disk_stops_the_recording_and_what_was_written_opens(small_disk):
-    recorder = create(small_disk)
-    path = recorder.start({})
-    stamp = 0
-    while not recorder.failure:
-        recorder.add(1, stamp, os.urandom(400))
-        stamp += 1
-        time.sleep(0.0005)
-        assert stamp < 100_000
-    assert recorder.failure == f"{path}: {os.strerror(errno.ENOSPC)}"
-    file = McapFile(path)
-    found = [message.log_time for chunk in file.chunks() for message in chunk]
-    assert len(found) > 100
-    assert found == list(range(len(found)))
-    (problem,) = file.problems
-    assert "not finished" in problem
-    assert [log_time for _, log_time, _ in contents(path)] == found  # a whole file for others
+        recorder = create(folder)
+        path = recorder.start({})
+        stamp = 0
+        while not recorder.failure:
+            recorder.add(1, stamp, os.urandom(400))
+            stamp += 1
+            time.sleep(0.0005)
+            assert stamp < 100_000
+        assert recorder.failure == f"{path}: {os.strerror(errno.ENOSPC)}"
+        (problem,) = read_whole(path).problems
+        assert "not finished" in problem
+        found = [log_time for _, log_time, _ in contents(path)]  # a whole file for others
+        assert found == list(range(len(found)))
+        assert len(found) > 100
+        assert stamps_of(path, "/plain") == found
 
 
 def test_messages_of_the_first_channel_are_written_before_the_others(tmp_path):

@@ -15,6 +15,7 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import WrenchStamped
 from node.listener import Listener
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.clock_type import ClockType
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
@@ -147,6 +148,15 @@ class RunningTop(Listener):
 
     def set(self, service: str, **values: Any) -> tuple[bool, str]:
         return self.connection.request(service, values)
+
+    def send(self, service: str, parameters: list[Any]) -> list[tuple[bool, str]]:
+        """Send parameters as they are to a service of named values; return its answers."""
+        each = service == "set_parameters"
+        kind = SetParameters if each else SetParametersAtomically
+        answer = self.connection._call(kind, service, kind.Request(parameters=parameters))
+        results = answer.results if each else [answer.result]
+        assert len(results) == (len(parameters) if each else 1)
+        return [(result.successful, result.reason) for result in results]
 
     def trigger(self, service: str) -> tuple[bool, str]:
         return self.connection.request(service)

@@ -2,7 +2,6 @@
 
 import sys
 
-import pytest
 from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped
 from node.running_top import events_named
@@ -25,18 +24,6 @@ def fail(*_):
     raise ZeroDivisionError("by a\nbug")
 
 
-@pytest.fixture
-def run(start_top, tmp_path):
-    return start_top(publish_rate=500.0, record=tmp_path)
-
-
-@pytest.fixture
-def failures(run):
-    """The events that report exceptions."""
-    events = run.collect_events()
-    return lambda: [each.status[0].message for each in events_named(events, "failure")]
-
-
 def assert_keeps_running(run):
     """Samples are published, requests are answered, and the log agrees with its events."""
     samples = run.collect(QuaternionStamped, "/top/orientation")
@@ -47,15 +34,17 @@ def assert_keeps_running(run):
     assert run.top.failure is None
 
 
-def test_one_in_a_request_that_took_effect_leaves_the_log_exact(run, failures, monkeypatch):
-    write = Change.event
+def test_one_in_a_request_that_took_effect_leaves_the_log_exact(start_top, tmp_path, monkeypatch):
+    run = start_top(publish_rate=500.0, record=tmp_path)
+    events, write = run.collect_events(), Change.event
     monkeypatch.setattr(
         Change, "event", lambda each, n: fail() if each.act.name == "kick" else write(each, n)
     )
     before, report = run.top.simulation.segment, report_of("~/hurry_precession")
     for _ in range(2):
         assert run.trigger("hurry_precession") == (False, report)
-    run.spin_until(lambda: failures() == [report] * 2)
+    run.spin_until(lambda: len(events_named(events, "failure")) == 2)
+    assert {each.status[0].message for each in events_named(events, "failure")} == {report}
     assert run.top.simulation.segment is not before
     monkeypatch.undo()
     assert_keeps_running(run)

@@ -12,7 +12,6 @@ from node.odd_messages import parameters
 from node.running_top import RunningTop, stamp_of, torque_of
 from odd_values import CONTROL, NUMBERS, SIZES, assert_one_sentence, deterministic
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from trials import trials
 
 from symtop_ros.check.samples import check_log
@@ -54,15 +53,6 @@ class Watched(RunningTop):
         self.hand = self.publisher(WrenchStamped, "/top/applied_torque")
         self.spin_until(lambda: self.samples)
 
-    def ask(self, service, messages):
-        """Sentences of the answer, with whether they grant."""
-        each = service == "set_parameters"
-        kind = SetParameters if each else SetParametersAtomically
-        answer = self.connection._call(kind, service, kind.Request(parameters=messages))
-        results = answer.results if each else [answer.result]
-        assert len(results) == (len(messages) if each else 1)
-        return [(result.successful, result.reason) for result in results]
-
     def restore(self):
         """The motion and the parameters of the beginning."""
         self.switch("pause", False)
@@ -103,7 +93,7 @@ def act(run, name, argument):
     elif name == "pause":
         assert_one_sentence(run.switch(name, argument)[1])
     else:
-        for granted, reason in run.ask(name, argument):
+        for granted, reason in run.send(name, argument):
             if name.startswith("set_parameters") and granted:
                 assert reason == ""
             else:
@@ -131,7 +121,7 @@ def test_any_acts_are_answered_and_leave_the_samples_and_the_log_exact(run, exam
 def test_more_parameters_than_any_file_has_are_refused(run, service):
     messages = [Parameter(name="top.Ix", value=ParameterValue(type=3, double_value=1.0))] * 1001
     reason = "a request must have at most 1000 parameters, got 1001"
-    assert set(run.ask(service, messages)) == {(False, reason)}
+    assert set(run.send(service, messages)) == {(False, reason)}
 
 
 ONE = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=1.0)
@@ -147,14 +137,14 @@ ODD = [
 def test_fields_that_cannot_be_read_are_refused(run, service, value, times, reason):
     before = run.top.simulation.segment.motion
     name = NAMES[service][0]
-    found = run.ask(service, [Parameter(name=name, value=value)] * times)
+    found = run.send(service, [Parameter(name=name, value=value)] * times)
     assert found[0] == (False, reason.format(name))
     assert run.top.simulation.segment.motion is before
 
 
 @pytest.mark.parametrize("name", ["initial.orientation", "steady_torque", "top.Ix", "publish_rate"])
 def test_a_parameter_cannot_be_taken_away(run, name):
-    ((granted, reason),) = run.ask("set_parameters", [Parameter(name=name)])
+    ((granted, reason),) = run.send("set_parameters", [Parameter(name=name)])
     assert not granted
     assert reason.startswith(f"{name} must ")
     assert reason.endswith(", got None")

@@ -4,7 +4,6 @@ import pytest
 import yaml
 from odd_values import assert_one_sentence
 from rcl_interfaces.msg import Parameter, ParameterValue
-from rcl_interfaces.srv import SetParametersAtomically
 
 from symtop_ros.simulation.validation import RefusedError
 
@@ -73,11 +72,10 @@ def test_a_bad_override_of_qos_is_refused_in_one_line(start_top, policy, value, 
 def test_a_value_without_a_type_is_the_one_field_that_is_set(start_top, value, granted):
     run = start_top()
     parameter = Parameter(name="precession_rate", value=value)
-    request = SetParametersAtomically.Request(parameters=[parameter])
-    result = run.connection._call(SetParametersAtomically, "kick", request).result
-    assert result.successful is granted
+    ((successful, reason),) = run.send("kick", [parameter])
+    assert successful is granted
     if granted:
         rate = run.top.simulation.segment.motion.start.euler_rates.phi
         assert rate == pytest.approx(9.0, rel=1e-13)  # rounding of psi' = 200 rad/s
     else:
-        assert result.reason.startswith("type of 'precession_rate' must be ")
+        assert reason.startswith("type of 'precession_rate' must be ")

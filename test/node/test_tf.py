@@ -2,7 +2,6 @@
 
 import importlib
 
-import pytest
 from geometry_msgs.msg import QuaternionStamped
 from node.built_messages import importing
 from node.running_top import stamp_of
@@ -10,18 +9,12 @@ from node.running_top import stamp_of
 from symtop_ros.log.writer import load_definitions
 
 
-@pytest.fixture
-def kind():
-    """The class of the messages, which PyPI does not have."""
-    with importing("tf2_msgs"):
-        yield importlib.import_module("tf2_msgs.msg").TFMessage
-
-
-def test_tf_has_the_quaternion_of_the_topic_and_the_type_of_the_log(kind, start_top):
-    run = start_top(arguments=["--ros-args", "-r", "__ns:=/a"])
-    heard = run.collect(kind, "/tf")
-    samples = run.collect(QuaternionStamped, "/a/top/orientation")
-    run.spin_until(lambda: len(heard) > 50)
+def test_tf_has_the_quaternion_of_the_topic_and_the_type_of_the_log(start_top):
+    with importing("tf2_msgs"):  # which PyPI does not have
+        run = start_top(arguments=["--ros-args", "-r", "__ns:=/a"])
+        heard = run.collect(importlib.import_module("tf2_msgs.msg").TFMessage, "/tf")
+        samples = run.collect(QuaternionStamped, "/a/top/orientation")
+        run.spin_until(lambda: len(heard) > 50)
     by_stamp = {stamp_of(each): each.quaternion for each in samples}
     transforms = [each for message in heard for each in message.transforms]
     found = [each for each in transforms if stamp_of(each) in by_stamp]

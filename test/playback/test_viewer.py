@@ -50,30 +50,21 @@ def test_what_is_undefined_for_a_sleeping_top_is_a_dash(top):
 TIMEOUT = 120.0
 
 
-@pytest.fixture(name="address")
-def _address(capsys):
-    process = viewer.start(web=True)
+def test_the_page_asks_no_other_host(capsys):
+    process, asked, said = viewer.start(web=True), [], []
+    address = re.search(r"open (\S+) in", capsys.readouterr().out)[1]
     try:
-        yield re.search(r"open (\S+) in", capsys.readouterr().out)[1]
+        with running_browser() as browser:
+            tab = browser.new_page()
+            tab.on("response", lambda response: asked.append(urlsplit(response.url).hostname))
+            tab.on("requestfinished", lambda request: asked.append(urlsplit(request.url).hostname))
+            tab.on("console", lambda line: said.append(line.text))
+            url = f"{address}&renderer=webgl"
+            until(lambda: tab.goto(url).status != 503, timeout=TIMEOUT)
+            assert {host for host in asked if host} == {"127.0.0.1"}
+            refused = [text for text in said if "Content Security Policy" in text]
+            assert any("fonts.googleapis.com" in text for text in refused)  # as it tries to
+            tab.close()
     finally:
         process.terminate()
         process.wait(timeout=TIMEOUT)
-
-
-def open_viewer(browser, address):
-    """The hosts that the page asks, and those that its policy refuses, until the viewer runs."""
-    tab = browser.new_page()
-    asked, refused = [], []
-    tab.on("response", lambda response: asked.append(urlsplit(response.url).hostname))
-    tab.on("requestfinished", lambda request: asked.append(urlsplit(request.url).hostname))
-    tab.on("console", lambda line: refused.append(line.text))
-    until(lambda: tab.goto(f"{address}&renderer=webgl").status != 503, timeout=TIMEOUT)
-    return tab, asked, [text for text in refused if "Content Security Policy" in text]
-
-
-def test_the_page_asks_no_other_host(address):
-    with running_browser() as browser:
-        tab, asked, refused = open_viewer(browser, address)
-        assert {host for host in asked if host} == {"127.0.0.1"}
-        assert any("fonts.googleapis.com" in text for text in refused)  # as it tries to
-        tab.close()
