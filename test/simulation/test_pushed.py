@@ -6,7 +6,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from physics.tops import ARTICLE, CUSPS
-from simulation.runs import SECOND, Run
 
 from symtop_ros.physics import ExactTimes, Motion, State, push_axle, regular_precession_rates
 from symtop_ros.simulation.changes.outcomes import Pushed
@@ -15,7 +14,6 @@ from symtop_ros.simulation.segment import PushedMotion, Pushes
 START = push_axle(ARTICLE, CUSPS, 2.0**-15)
 PUSHES = Pushes(2.0**-15, 30.0, 7)  # a third of a second is no whole number of ns
 MOTION = PushedMotion(ARTICLE, START, PUSHES)
-ASKED = {"axle_impulse": 2.0**-15, "rate": 20, "number": 20}
 
 
 @pytest.mark.parametrize(
@@ -65,32 +63,3 @@ def test_pushes_hold_the_spin_momentum_and_do_the_work_that_the_energy_gains():
     last = MOTION.pieces[-1].start
     gained = 1e3 * float(ARTICLE.energy(last) - ARTICLE.energy(CUSPS))
     assert Pushed.of(MOTION, CUSPS).work == gained > 0
-
-
-@pytest.mark.parametrize("own_time", [False, True])
-def test_a_run_goes_on_with_its_pushes_through_a_pause_a_step_and_another_pace(own_time):
-    run = Run("cusps", publish_clock=own_time)
-    run.advance(0.1)
-    granted, answer = run.ask("kick", ASKED)
-    assert granted
-    assert answer == run.sink.events[-1].verdict
-    motion = run.simulation.segment.motion
-    run.advance(0.22)
-    run.ask("pause", True)
-    run.ask("step", {"duration": 0.25})
-    run.ask("pause", False)
-    run.change({"real_time_factor": 0.5})
-    run.advance(0.02)
-    assert run.simulation.segment.motion is motion
-    elapsed = run.simulation.segment.elapsed_at(run.simulation.stamp)
-    given = motion.count(elapsed)
-    assert 0.45 * SECOND < elapsed < 0.6 * SECOND
-    assert given == elapsed * 20 // SECOND + 1
-    stamp, numbers = run.sink.samples[-1]
-    expected = run.simulation.segment.state_at(stamp).orientation
-    assert numbers == expected[[1, 2, 3, 0]].tolist()
-    run.ask("kick", {"axle_impulse": 0.0})  # ends them
-    event = run.sink.events[-1]
-    assert event.name == "kick"
-    assert int(event.values["before.pushes"]) == given
-    assert not isinstance(event.segment().motion, PushedMotion)

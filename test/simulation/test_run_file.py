@@ -80,23 +80,6 @@ class Told:
         self.events.append(change.event(len(self.events) + 1))
 
 
-def test_pauses_steps_and_factors_leave_no_trace_in_the_time_of_a_run():
-    told = Told(real_time_factor=0.5)
-    told.act("pause", 3 * SECOND)  # 1 s of the motion
-    told.act("step", 4 * SECOND, {"duration": 0.25})
-    told.act("resume", 5 * SECOND)
-    told.act("kick", 7 * SECOND, KICK)  # 1 s more
-    told.do(told.timeline.move(8 * SECOND, 99 * SECOND))  # 0.5 s, and a jump of the clock
-    told.do(told.timeline.restart(101 * SECOND))  # 1 s
-    events, end = record_run(told.events, 103 * SECOND)
-    assert [event.kind for event in events] == ["start", "kick", "start"]
-    assert [event.time for event in events] == [0, 2_250_000_000, 3_750_000_000]
-    assert end == 4_750_000_000
-    assert events[1].act == KICK
-    told_start, start = told.events[4].segment().motion.start, events[1].motion.start
-    assert start.given_orientation.tolist() == told_start.given_orientation.tolist()
-
-
 def test_of_changes_at_one_instant_the_last_one_holds():
     told = Told()
     settings = Settings.from_scene("cusps", friction__axial=1e-6, steady_torque=[0, 0, 1e-4])

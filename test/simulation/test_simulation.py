@@ -55,22 +55,6 @@ def test_a_kick_separates_the_samples_at_its_stamp_and_precedes_them_in_the_log(
     run.assert_recomputed()
 
 
-def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
-    run = Run()
-    run.advance(0.5)
-    before = run.simulation.state
-    run.jump(90 * SECOND)
-    run.tick()
-    assert run.sink.events[-1].name == "clock"
-    stamp, numbers = run.sink.samples[-1]
-    w, x, y, z = before.orientation.tolist()
-    assert (stamp, numbers) == (90 * SECOND, [x, y, z, w])
-    run.clock.now = 10 * SECOND  # backwards, without a notification
-    run.tick()
-    assert [event.name for event in run.sink.events].count("clock") == 2
-    assert run.sink.samples[-1][0] == 10 * SECOND
-
-
 def test_a_request_between_a_jump_and_the_next_tick_belongs_to_the_time_after_the_jump():
     run = Run("hurry_slow")
     run.advance(0.5)

@@ -3,9 +3,8 @@
 import pytest
 from simulation.runs import Run
 
-from symtop_ros.physics import KickVerdict
 from symtop_ros.simulation.changes import outcomes
-from symtop_ros.simulation.changes.outcomes import OUTCOMES, Setting
+from symtop_ros.simulation.changes.outcomes import OUTCOMES
 from symtop_ros.simulation.events import Event, decode_events
 
 
@@ -50,34 +49,6 @@ def test_an_event_of_every_name_reads_back_to_the_same_record_and_sentence(run):
 def test_events_have_running_numbers(run):
     numbers = [again(event).number for event in run.sink.events]
     assert numbers == list(range(1, len(numbers) + 1))
-
-
-def test_a_kick_has_factor_hold_rates_and_what_became_of_both_limits(run):
-    kick, push = (event for event in run.sink.events if event.name == "kick")
-    assert kick.request == {"precession_rate_factor": "1.4", "hold": "spin_momentum"}
-    found = again(kick).outcome()
-    assert isinstance(found, KickVerdict)
-    assert found.hold == "spin_momentum"
-    # the kick rounds the angular velocity, of which phi' is a sixtieth
-    assert found.factor == pytest.approx(1.4, rel=1e-13)
-    assert found.after == pytest.approx(1.4 * found.before, rel=1e-13)
-    assert {found.highest.kind, found.lowest.kind} <= {"higher", "lower", "unchanged"}
-    assert push.request == {"angular_impulse": "0.0 0.0 1e-05"}
-    assert (push.outcome().hold, push.outcome().factor) == (None, None)
-
-
-def test_each_outcome_has_the_numbers_of_its_event(run):
-    found = {event.name: again(event).outcome() for event in run.sink.events}
-    assert isinstance(found["start"], outcomes.Start)
-    assert found["start"].motion == found["reset"].motion == "cusps"
-    assert isinstance(found["pause"], outcomes.Pause)
-    assert found["step"] == outcomes.Step("stepped", found["pause"].time + 0.01)
-    assert found["torque"] == outcomes.Torque("released", (0.0, 0.0, 0.0))
-    changes = (Setting("top.Mgl", "0.05"), Setting("hurry_factor", "1.5"))
-    assert found["parameters"] == outcomes.Parameters(changes)
-    assert (found["pace"].before, found["pace"].after) == (1.0, 0.25)
-    assert found["clock"].after - found["clock"].before > 9e11
-    assert found["record"].path == "a  b/c; d=e.mcap"
 
 
 def test_a_jump_of_the_clock_ends_the_segment_before_where_it_left(run):
