@@ -185,6 +185,11 @@ def torque_of(x: float = 0.0, y: float = 0.0, z: float = 0.0, frame: str = "") -
     return message
 
 
+def vector(message: Any) -> list[float]:
+    """Components of a vector."""
+    return [message.x, message.y, message.z]
+
+
 def stamp_of(message: Any) -> int:
     stamp = message.header.stamp
     return stamp.sec * 1_000_000_000 + stamp.nanosec

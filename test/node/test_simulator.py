@@ -14,7 +14,7 @@ from documents import commands, names, rows
 from geometry_msgs.msg import QuaternionStamped
 from node.built_messages import find_messages, importing
 from node.listener import fill
-from node.running_top import stamp_of
+from node.running_top import stamp_of, vector
 from programs import execute
 from rclpy.action import ActionClient
 from rosgraph_msgs.msg import Clock
@@ -97,10 +97,6 @@ def twist(fields):
 @pytest.fixture
 def client(start_top):
     return Client(start_top(scene="hurry_slow"))
-
-
-def vector(message):
-    return [message.x, message.y, message.z]
 
 
 def numbers(q):

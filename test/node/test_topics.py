@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
-from node.running_top import LATCHED, facts, segment_of, stamp_of
+from node.running_top import LATCHED, facts, segment_of, stamp_of, vector
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
@@ -18,24 +18,13 @@ pytestmark = pytest.mark.untraced
 JOINTS = ["precession", "tilt", "spin"]
 
 
-def vector(message):
-    return [message.x, message.y, message.z]
-
-
-TYPES = {
-    "orientation": QuaternionStamped,
-    "angular_velocity": TwistStamped,
-    "torque": WrenchStamped,
-    "angular_momentum": Vector3Stamped,
-    "euler_angles": JointState,
-}
-# What a message says.
+# The type of a topic, and what its message says.
 READ = {
-    "orientation": lambda m: [m.quaternion.w, *vector(m.quaternion)],
-    "angular_velocity": lambda m: [vector(m.twist.angular), vector(m.twist.linear)],
-    "angular_momentum": lambda m: vector(m.vector),
-    "torque": lambda m: [vector(m.wrench.torque), vector(m.wrench.force)],
-    "euler_angles": lambda m: [m.name, *m.position, *m.velocity],
+    "orientation": (QuaternionStamped, lambda m: [m.quaternion.w, *vector(m.quaternion)]),
+    "angular_velocity": (TwistStamped, lambda m: [vector(m.twist.angular), vector(m.twist.linear)]),
+    "angular_momentum": (Vector3Stamped, lambda m: vector(m.vector)),
+    "torque": (WrenchStamped, lambda m: [vector(m.wrench.torque), vector(m.wrench.force)]),
+    "euler_angles": (JointState, lambda m: [m.name, *m.position, *m.velocity]),
 }
 
 
@@ -54,11 +43,11 @@ def compute(motion, state):
 
 def test_all_state_topics_say_what_the_library_says_at_their_stamp(start_top):
     run = start_top(publish_rate=200.0)
-    got = {name: run.collect(kind, f"/top/{name}") for name, kind in TYPES.items()}
+    got = {name: run.collect(kind, f"/top/{name}") for name, (kind, _) in READ.items()}
     (event,) = run.collect_events()
     run.spin_until(lambda: all(len(messages) > 20 for messages in got.values()))
     segment = segment_of(event)
-    for name, read in READ.items():
+    for name, (_, read) in READ.items():
         for message in got[name][5:20]:
             expected = compute(segment.motion, segment.state_at(stamp_of(message)))[name]
             assert (name, read(message)) == (name, expected)

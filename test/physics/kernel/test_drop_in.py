@@ -43,25 +43,6 @@ def drop_in(tmp_path_factory):
     return write(tmp_path_factory.mktemp("dist"))
 
 
-@pytest.fixture(scope="module")
-def kernel(drop_in, tmp_path_factory):
-    """The one source compiled, without a path to any other file and without a warning."""
-    target = tmp_path_factory.mktemp("kernel") / "symtop.o"
-    command = ["g++", "-std=c++17", "-O2", "-ffp-contract=off", *WARNINGS, "-c", "symtop.cpp"]
-    subprocess.run([*command, "-o", target], cwd=drop_in, check=True, timeout=300)
-    return target
-
-
-@pytest.fixture(scope="module")
-def example(drop_in, kernel):
-    """The program of the README, in C99 to the letter."""
-    program = kernel.with_name("example")
-    command = ["gcc", "-std=c99", "-pedantic", *WARNINGS, "example.c", kernel]
-    command += ["-lstdc++", "-lm", "-o", program]
-    subprocess.run(command, cwd=drop_in, check=True, timeout=60)
-    return program
-
-
 def read_console(folder, number):
     """The commands of a block of the README as one script, and the output that it shows."""
     block = re.findall(r"```console\n(.*?)```", (folder / "README.md").read_text(), re.S)[number]
@@ -107,8 +88,16 @@ def test_the_one_source_is_the_kernel_word_for_word(drop_in):
 
 @pytest.mark.long
 @needs_compiler
-def test_the_example_says_what_is_refused(example):
-    done = execute([example, "1e101"])
+def test_source_and_example_compile_without_a_warning_and_the_example_says_what_is_refused(
+    drop_in, tmp_path
+):
+    """The one source needs no other file, and the example is C99 to the letter."""
+    kernel, program = tmp_path / "symtop.o", tmp_path / "example"
+    options = ["-O2", "-ffp-contract=off", *WARNINGS, "-c", "symtop.cpp", "-o", kernel]
+    subprocess.run(["g++", "-std=c++17", *options], cwd=drop_in, check=True, timeout=300)
+    options = [*WARNINGS, "example.c", kernel, "-lstdc++", "-lm", "-o", program]
+    subprocess.run(["gcc", "-std=c99", "-pedantic", *options], cwd=drop_in, check=True, timeout=60)
+    done = execute([program, "1e101"])
     assert done.returncode == 1
     assert done.stderr == "angular_velocity must be finite, at most 1e100 rad/s in size\n"
 
