@@ -19,6 +19,7 @@ from mpmath import mp, mpf
 
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
+from workshop.testset.exact import distance
 
 PATH = Path(__file__).with_name("exact_motions.json.xz")
 DIGITS = 25  # that are written
@@ -62,7 +63,8 @@ class ExactMotion:
         states = list(map(self.series(42).at, self.times))
         shifted = tuple(each * (1 + Fraction(SHIFT)) for each in self.inputs.angular_velocity)
         other = self.series(42, self.inputs._replace(angular_velocity=shifted))
-        growth = [apart(a, other.at(t)) / SHIFT for a, t in zip(states, self.times, strict=True)]
+        pairs = zip(states, map(other.at, self.times), strict=True)
+        growth = [float(distance(a.orientation, b.orientation)) / SHIFT for a, b in pairs]
         return {"states": list(map(write_state, states)), "growth": growth}
 
     def _solve(self) -> dict[str, Any]:
@@ -107,13 +109,6 @@ def find_largest(inputs: Inputs, exact: ClosedForm) -> float:
     if nutation := exact._nutation:
         squared -= nutation.beta * nutation.s[0]  # the lowest point, measured from the start
     return float(mp.sqrt(squared))
-
-
-def apart(one: ExactState, other: ExactState) -> float:
-    """Return the distance of two attitudes."""
-    with mp.workdps(40):
-        pairs = [*zip(one.orientation, other.orientation, strict=True)]
-        return float(min(mp.norm([a - sign * b for a, b in pairs]) for sign in (1, -1)))
 
 
 def write_state(state: ExactState) -> list[str]:

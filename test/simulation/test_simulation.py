@@ -39,37 +39,6 @@ def test_a_tick_computes_one_topic_of_the_samples_to_come_at_most():
     assert sum(counts) == 10 * len(STATE_TOPICS)
 
 
-def test_a_kick_separates_the_samples_at_its_stamp_and_precedes_them_in_the_log():
-    run = Run("hurry_slow")
-    run.advance(0.1)
-    granted, answer = run.ask("hurry_precession")
-    assert granted
-    run.advance(0.1)
-    kick = run.sink.events[-1]
-    found = kick.outcome()
-    assert answer == kick.verdict == str(found)
-    assert (found.hold, found.direction, found.factor) == ("spin_rate", "rises", pytest.approx(1.4))
-    assert [event.number for event in run.sink.events] == [1, 2]
-    assert (kick.name, kick.stamp) == ("kick", 105 * MS)
-    assert run.sink.order.index("kick") == 1 + sum(each < kick.stamp for each in run.stamps)
-    run.assert_recomputed()
-
-
-def test_a_request_between_a_jump_and_the_next_tick_belongs_to_the_time_after_the_jump():
-    run = Run("hurry_slow")
-    run.advance(0.5)
-    state = run.simulation.state
-    run.jump(90 * SECOND)
-    assert run.ask("hurry_precession")[0]
-    assert [event.name for event in run.sink.events] == ["start", "clock", "kick"]
-    kick = run.sink.events[-1]
-    assert kick.stamp == 90 * SECOND
-    before = kick.values["before.orientation"].split()
-    assert [float(each) for each in before] == state.orientation.tolist()
-    assert run.simulation.ticker.missed == 0
-    run.assert_recomputed()
-
-
 @pytest.mark.parametrize(("used", "factor"), [(0.45, 1.0), (0.55, 0.25)])
 def test_the_pace_returns_if_half_of_the_share_is_left(used, factor):
     run = Run()
