@@ -10,17 +10,16 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from geometry_msgs.msg import QuaternionStamped
 from node import harmful_requests as harm
 from node.built_messages import with_messages
 from node.listener import Listener
 from node.test_simulator import _messages  # noqa: F401 - makes the messages importable
 from programs import command, environment, running, set_parameters
 from trials import choose
-from waiting import until
 
 from workshop.load.domains import claim_domain, release_domain
 
-HERE = Path(__file__).parent
 MORE = 0.1  # s without samples, more than a bare node
 TRIES = 4  # of a request: another process may have the processor meanwhile
 AFTER = 0.3  # s after an answer in which samples may be late
@@ -29,55 +28,48 @@ SHARP = ("filter, backtracking", "kick, doubles", "set_parameters, list as text"
 
 
 class Watched:
-    """A program that publishes samples, their arrivals, and a client."""
+    """A client of a program that publishes samples, with the times at which they are published."""
 
-    def __init__(self, domain: int, arrivals: Path) -> None:
-        self._client, self._arrivals = Listener(domain), arrivals
-        self._clients: dict[str, object] = {}
-        until(self._read)
+    def __init__(self, domain: int) -> None:
+        self._client, self._sent = Listener(domain), []
+        self._client.node.create_subscription(
+            QuaternionStamped, "/top/orientation", self._receive, 10_000, raw=True
+        )
+        self._client.wait_for(self._sent)
 
-    def _read(self) -> list[int]:
-        return [int(line) for line in self._arrivals.read_text().splitlines(True) if "\n" in line]
+    def _receive(self, _, info) -> None:
+        self._sent.append(info["source_timestamp"])
 
     def ask(self, kind, name, request) -> float:
         """Send a request; return the longest time in s without samples until it is answered."""
-        client = self._clients.get(name) or self._client.node.create_client(kind, f"/top/{name}")
-        self._clients[name] = client
+        client = self._client.node.create_client(kind, f"/top/{name}")
         self._client.spin_until(client.service_is_ready)
-        begin = time.monotonic_ns()
+        begin = time.time_ns()
         answer = client.call_async(request)
         self._client.spin_until(answer.done)
-        end = time.monotonic_ns() + int(AFTER * 1e9)
-        until(lambda: self._read()[-1] > end)
-        times = [each for each in self._read() if begin - 10**8 < each < end + 10**8]
+        end = time.time_ns() + int(AFTER * 1e9)
+        self._client.spin_until(lambda: self._sent[-1] > end)
+        self._client.node.destroy_client(client)
+        times = [each for each in self._sent if begin - 10**8 < each < end + 10**8]
         return max(b - a for a, b in pairwise(times)) / 1e9
 
 
 @contextlib.contextmanager
-def watch(words, folder, name) -> Iterator[Watched]:
-    domain, arrivals = claim_domain(), folder / f"{name}.txt"
+def watch(words) -> Iterator[Watched]:
+    domain = claim_domain()
     variables = with_messages("simulation_interfaces", environment(domain))
-    quiet = {"stdout": None, "stderr": None, "env": variables}
     try:
-        with (
-            running(words, domain, **quiet),
-            arrivals.open("w") as file,
-            running([sys.executable, HERE / "arrivals.py"], domain, stdout=file, stderr=None),
-        ):
-            yield Watched(domain, arrivals)
+        with running(words, domain, stdout=None, stderr=None, env=variables):
+            yield Watched(domain)
     finally:
         release_domain(domain)
 
 
 @pytest.fixture(scope="module")
 def nodes(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("arrivals")
-    options = set_parameters(f"record.directory:={folder / 'logs'}")
-    bare = [sys.executable, HERE / "bare_services.py"]
-    with (
-        watch(command("top_node", *options), folder, "top") as top,
-        watch(bare, folder, "bare") as b,
-    ):
+    options = set_parameters(f"record.directory:={tmp_path_factory.mktemp('logs')}")
+    bare = [sys.executable, Path(__file__).with_name("bare_services.py")]
+    with watch(command("top_node", *options)) as top, watch(bare) as b:
         yield top, b
 
 
