@@ -80,18 +80,6 @@ class Told:
         self.events.append(change.event(len(self.events) + 1))
 
 
-def test_of_changes_at_one_instant_the_last_one_holds():
-    told = Told()
-    settings = Settings.from_scene("cusps", friction__axial=1e-6, steady_torque=[0, 0, 1e-4])
-    for each in told.timeline.change_settings(settings, 2 * SECOND):
-        told.do(each)
-    assert len(told.events) == 3
-    events, _ = record_run(told.events, 2 * SECOND)
-    (_, changed) = events
-    assert (changed.kind, changed.motion.applied_torque) == ("change", (0.0, 0.0, 1e-4))
-    assert changed.motion.friction.axial == 1e-6
-
-
 def test_impulses_and_rates_are_kept_as_they_were_asked_for():
     told = Told()
     acts = {"angular_impulse": [0.0, 1e-4, -0.1]}, {"precession_rate_change": 0.1}
