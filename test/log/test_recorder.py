@@ -47,26 +47,6 @@ def read_whole(path):
     return file
 
 
-def test_all_messages_are_in_the_file_in_order(tmp_path):
-    recorder = create(tmp_path)
-    assert not recorder.running
-    path = recorder.start({"scene": "x"})
-    given = [(k, bytes([k % 251]) * (k % 50)) for k in range(5000)]
-    for stamp, data in given:
-        recorder.add(1, stamp, data)
-    assert recorder.running
-    recorder.stop()
-    assert not recorder.running
-    assert [(stamp, data) for _, stamp, data in contents(path)] == given
-    assert recorder.dropped == 0
-    file = read_whole(path)
-    assert file.metadata == {
-        "symtop_ros": {"scene": "x"},
-        "symtop_ros.end": {"dropped": "0", "missed": "0"},
-    }
-    assert file.problems == []
-
-
 def test_a_file_begins_with_the_current_latched_messages(tmp_path):
     recorder = create(tmp_path)
     recorder.add(0, 1, b"old")
