@@ -17,6 +17,7 @@ from typing import Any
 
 import pytest
 import waiting
+from programs import running
 
 TIMEOUT = 120.0  # s; ends a test that hangs, and is never waited for
 HELP = "sh test/get_browsers.sh, as root"
@@ -101,7 +102,7 @@ def running_firefox() -> Iterator[Any]:
         lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});" for k, v in preferences.items()]
         Path(profile, "user.js").write_text("\n".join(lines))
         command = [program, "--marionette", "--no-remote", "--profile", profile]
-        with running_screen() as screen, running(command, screen):
+        with running_screen() as screen, running(command, 0, **silent(screen)):
             wait_for_port(port)
             client = module.Marionette(host="127.0.0.1", port=port)
             client.start_session()
@@ -154,7 +155,8 @@ def running_webkit() -> Iterator[Any]:
     if not shutil.which("WebKitWebDriver") or not shutil.which("Xvfb"):
         pytest.skip(f"no WebKit: {HELP}")
     port = find_port()
-    with running_screen() as screen, running(["WebKitWebDriver", f"--port={port}"], screen):
+    driver_command = ["WebKitWebDriver", f"--port={port}"]
+    with running_screen() as screen, running(driver_command, 0, **silent(screen)):
         wait_for_port(port)
         driver = WebKit(port)
         try:
@@ -163,27 +165,19 @@ def running_webkit() -> Iterator[Any]:
             driver.close()
 
 
+def silent(variables: dict[str, str]) -> dict[str, Any]:
+    """Options of a program whose output nobody reads."""
+    nothing = subprocess.DEVNULL
+    return {"env": {**os.environ, **variables}, "stdout": nothing, "stderr": nothing}
+
+
 @contextlib.contextmanager
 def running_screen() -> Iterator[dict[str, str]]:
     """Run a screen in memory; yield the environment of programs on it."""
     screen = f":{find_port()}"
-    with running(["Xvfb", screen, "-screen", "0", "1280x800x24", "-nolisten", "tcp"]):
+    command = ["Xvfb", screen, "-screen", "0", "1280x800x24", "-nolisten", "tcp"]
+    with running(command, 0, **silent({})):
         yield {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1", "GDK_BACKEND": "x11"}
-
-
-@contextlib.contextmanager
-def running(command: list[str], environment: dict[str, str] | None = None) -> Iterator[None]:
-    """Run a program in the background."""
-    with subprocess.Popen(
-        command,
-        env={**os.environ, **(environment or {})},
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    ) as process:
-        try:
-            yield
-        finally:
-            process.terminate()
 
 
 def wait_for_port(port: int) -> None:

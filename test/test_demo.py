@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from exact_log import assert_no_deviation
 from listening import udp_addresses
+from programs import running
 
 from workshop.demo import FIRST_PORT, PORTS
 from workshop.load.endings import bound
@@ -21,20 +22,12 @@ BARE |= {name: value for name, value in os.environ.items() if name.startswith("C
 
 
 @contextlib.contextmanager
-def running_demo(folder, **variables):
+def running_demo(folder):
     """The demonstration in a folder, with its output in a pipe, and its first lines of output."""
-    with subprocess.Popen(
-        bound([sys.executable, "-m", "workshop.demo"]),
-        cwd=folder,
-        env={**BARE, **variables},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
+    with running(
+        bound([sys.executable, "-m", "workshop.demo"]), 0, cwd=folder, env=BARE
     ) as process:
-        try:
-            yield process, process.stdout.readline()
-        finally:
-            process.terminate()
+        yield process, process.stdout.readline()
 
 
 def domain_of(line):

@@ -1,6 +1,5 @@
 """A folder that fails: one error, the motion keeps running, and the next log is complete."""
 
-import subprocess
 import sys
 from itertools import pairwise
 
@@ -9,7 +8,7 @@ from disks import mounted, remount
 from exact_log import assert_exact, stamps_of
 from node.listener import Listener
 from node.running_top import facts, status_of
-from programs import environment, set_parameters
+from programs import running, set_parameters
 from sensor_msgs.msg import JointState
 
 from workshop.load.domains import claim_domain
@@ -90,19 +89,14 @@ def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_p
 
 def test_a_log_that_fails_at_the_very_end_is_one_line(tmp_path):
     options = set_parameters(f"record.directory:={tmp_path}", "record.enabled:=true")
-    node = subprocess.Popen(
-        bound([sys.executable, "-c", LATE, *options]),
-        env=environment(DOMAIN),
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    with Listener(DOMAIN) as listener:
+    words = bound([sys.executable, "-c", LATE, *options])
+    with running(words, DOMAIN) as node, Listener(DOMAIN) as listener:
         angles = listener.collect(JointState, "/top/euler_angles")
         listener.spin_until(lambda: len(angles) > 20)
-    (path,) = tmp_path.iterdir()
-    path.unlink()
-    node.terminate()
-    _, errors = node.communicate(timeout=60)
+        (path,) = tmp_path.iterdir()
+        path.unlink()
+        node.terminate()
+        _, errors = node.communicate(timeout=60)
     # A machine that is overloaded adds its own warning, which is not the matter here.
     lines = [line for line in errors.splitlines() if "no samples for" not in line]
     assert lines == [f"top_node: recording stopped: {path}: the file was removed"]

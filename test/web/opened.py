@@ -4,7 +4,7 @@ import json
 import time
 from pathlib import Path
 
-from symtop_ros.physics import ExactTimes, Motion, State, Top
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 
 TIMEOUT = 20.0  # s; ends a test that hangs, and is never waited for
 NO_REQUESTS = "file:", "blob:", "data:"
@@ -183,7 +183,8 @@ def read_state(event):
 
 
 def read_motion(event):
-    return Motion(Top(*event["top"]), read_state(event))
+    friction = Friction(*event["friction"])
+    return Motion(Top(*event["top"]), read_state(event), friction, event["torque"])
 
 
 def find_time(before, event):

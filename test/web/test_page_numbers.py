@@ -4,16 +4,10 @@ import math
 import re
 
 import pytest
+from web.opened import read_motion
 from web.random_acts import Trial
 
-from symtop_ros.physics import (
-    ExactTimes,
-    Friction,
-    Motion,
-    State,
-    Top,
-    regular_precession_rates,
-)
+from symtop_ros.physics import ExactTimes, Motion, regular_precession_rates
 
 FIELDS = "theta", "phi_dot", "psi_dot"
 ACTS = "run", "run", "scrub", "key", "torque", "friction"  # after which numbers may be old ones
@@ -38,13 +32,8 @@ class Shown:
         run, time = page.read_run(), round(float(self.texts["time"]) * 1e9)
         events = [each for each in run["events"] if round(each["time"] * 1e9) <= time]
         self.event = events[-1]
-        self.top = Top(*self.event["top"])
-        motion = Motion(
-            self.top,
-            State(self.event["orientation"], self.event["angular_velocity"]),
-            Friction(*self.event["friction"]),
-            self.event["torque"],
-        )
+        motion = read_motion(self.event)
+        self.top = motion.top
         self.state = motion.at(ExactTimes(time - round(self.event["time"] * 1e9)))
         self.free = Motion(self.top, self.state)
 
