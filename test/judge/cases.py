@@ -45,6 +45,9 @@ def truth_and_stamps(count=3000, seed=1):
     return Truth(make_events()), stamps
 
 
+SOME = make_estimates(*truth_and_stamps(50))
+
+
 def write_log(path, topics):
     """Write a log with the events and, for each topic, its type and its messages (stamp, bytes)."""
     from log_files import write_mcap  # it needs mcap

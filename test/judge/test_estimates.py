@@ -1,29 +1,23 @@
 """Estimates from each message type."""
 
 import pytest
-from judge.cases import encode, make_estimates, truth_and_stamps
+from judge.cases import SOME, encode
 
 from symtop_ros.judge.estimates import FORMATS, decode_estimates
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.messages import TRANSFORM
 
 
-@pytest.fixture(scope="module")
-def estimates():
-    truth, stamps = truth_and_stamps(50)
-    return make_estimates(truth, stamps)
-
-
 @pytest.mark.parametrize("kind", sorted(FORMATS))
-def test_every_type_with_an_attitude_is_read(kind, estimates):
-    _, messages = encode(kind, estimates)
+def test_every_type_with_an_attitude_is_read(kind):
+    _, messages = encode(kind, SOME)
     found = decode_estimates(kind, [data for _, data in messages])
-    assert (found.stamps == estimates.stamps).all()
-    assert (found.orientations == estimates.orientations).all()
+    assert (found.stamps == SOME.stamps).all()
+    assert (found.orientations == SOME.orientations).all()
     if not {"angular_velocity", "angular"} & set(FORMATS[kind].quantities):
         assert found.angular_velocities is None
     else:
-        assert (found.angular_velocities == estimates.angular_velocities).all()
+        assert (found.angular_velocities == SOME.angular_velocities).all()
 
 
 @pytest.mark.parametrize("kind", sorted(FORMATS))
@@ -45,15 +39,15 @@ def test_the_real_message_classes_are_read(kind):
     assert found.orientations.tolist() == [[0.5, -0.5, 0.5, 0.5]]
 
 
-def test_an_imu_without_orientation_is_left_out(estimates):
-    _, messages = encode("sensor_msgs/msg/Imu", estimates)
+def test_an_imu_without_orientation_is_left_out():
+    _, messages = encode("sensor_msgs/msg/Imu", SOME)
     layout = FORMATS["sensor_msgs/msg/Imu"].layout("imu")
     unknown = layout.encode(5, [0.0, 0, 0, 1, -1.0, *[0.0] * 32])
     found = decode_estimates("sensor_msgs/msg/Imu", [messages[0][1], unknown, b"noise"])
     assert (len(found), found.left_out) == (1, 2)
 
 
-def test_transforms_of_several_frames_need_a_name(estimates):
+def test_transforms_of_several_frames_need_a_name():
     numbers = [0.0, 0, 0, 0, 0, 0, 1]
     data = [TRANSFORM.layout("world", child).encode(9, numbers) for child in ("a", "b")]
     with pytest.raises(RefusedError, match="--frame must be one of a, b, got none"):

@@ -4,17 +4,11 @@ import re
 
 import numpy as np
 import pytest
-from judge.cases import make_estimates, truth_and_stamps
+from judge.cases import SOME
 
 from symtop_ros.judge.main import main
 from symtop_ros.judge.tables import read_table
 from symtop_ros.simulation.validation import RefusedError
-
-
-@pytest.fixture(scope="module")
-def estimates():
-    truth, stamps = truth_and_stamps(50)
-    return make_estimates(truth, stamps)
 
 
 @pytest.mark.parametrize(
@@ -72,14 +66,14 @@ FORMS = {
 
 
 @pytest.mark.parametrize("name", FORMS)
-def test_tables_of_all_forms_are_read(tmp_path, estimates, name):
+def test_tables_of_all_forms_are_read(tmp_path, name):
     path = tmp_path / name
-    path.write_text(write_rows(estimates, **FORMS[name]))
+    path.write_text(write_rows(SOME, **FORMS[name]))
     found = read_table(path)
-    assert found.stamps.tolist() == estimates.stamps.tolist()
-    assert (found.orientations == estimates.orientations).all()
+    assert found.stamps.tolist() == SOME.stamps.tolist()
+    assert (found.orientations == SOME.orientations).all()
     if "wx" in FORMS[name].get("header", ()):
-        assert (found.angular_velocities == estimates.angular_velocities).all()
+        assert (found.angular_velocities == SOME.angular_velocities).all()
     else:
         assert found.angular_velocities is None
     assert found.notes == ()

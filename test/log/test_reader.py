@@ -52,14 +52,6 @@ def read(path):
     ]
 
 
-def test_a_good_file_is_read_whole_and_in_order(good):
-    file, messages = read(good)
-    assert messages == RUN.messages
-    assert file.problems == []
-    assert file.profile == "ros2"
-    assert file.metadata["symtop_ros"] == {"version": "test"}
-
-
 @settings(max_examples=100)
 @given(st.data())
 def test_a_file_cut_at_any_byte_gives_all_whole_chunks_and_says_so(good, tmp_path_factory, data):

@@ -28,6 +28,14 @@ def write(form, top, start):
     return FORMATS[form](top, start, Body.of(top))
 
 
+def open_in_mujoco(form, scene):
+    """The module, a top, its start, and the model and data that it makes of a description."""
+    mujoco = pytest.importorskip("mujoco")
+    top, start = read_scene(scene)
+    model = mujoco.MjModel.from_xml_string(write(form, top, start))
+    return mujoco, top, start, model, mujoco.MjData(model)
+
+
 def angle(q, p):
     """Angle in rad between two attitudes."""
     return 2 * min(np.linalg.norm(q - p), np.linalg.norm(q + p))
@@ -35,10 +43,7 @@ def angle(q, p):
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_mujoco_reads_the_inertia_and_follows_the_closed_form(scene):
-    mujoco = pytest.importorskip("mujoco")
-    top, start = read_scene(scene)
-    model = mujoco.MjModel.from_xml_string(write("mjcf", top, start))
-    data = mujoco.MjData(model)
+    mujoco, top, start, model, data = open_in_mujoco("mjcf", scene)
     mujoco.mj_resetDataKeyframe(model, data, model.key("start").id)
     mujoco.mj_forward(model, data)
     # The inertia about the pivot, as MuJoCo has it. 1e-12 is asked for; 1e-15 is found.
@@ -58,12 +63,9 @@ def test_mujoco_reads_the_inertia_and_follows_the_closed_form(scene):
 # Of these scenes none is so near to the vertical, or so small, that the links count.
 @pytest.mark.parametrize("scene", SCENES)
 def test_the_urdf_moves_in_mujoco_as_the_top_does(scene):
-    mujoco = pytest.importorskip("mujoco")
-    top, start = read_scene(scene)
-    model = mujoco.MjModel.from_xml_string(write("urdf", top, start))
+    mujoco, top, start, model, data = open_in_mujoco("urdf", scene)
     assert model.body("top_tilt").mass == MUJOCO_BOUND
     model.opt.integrator, model.opt.timestep = mujoco.mjtIntegrator.mjINT_RK4, 2.0**-13
-    data = mujoco.MjData(model)
     data.qpos, data.qvel = start.euler_angles, start.euler_rates
     mujoco.mj_step(model, data, nstep=int(DURATION * 2**13))
     mujoco.mj_kinematics(model, data)

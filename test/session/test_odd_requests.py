@@ -2,7 +2,6 @@
 
 import json
 import math
-import warnings
 
 import numpy as np
 import pytest
@@ -57,13 +56,6 @@ KICKS = (
 FRICTION = dict.fromkeys(("friction.axial", "friction.transverse"), SIZES.map(abs))
 VECTORS = st.lists(SIZES, min_size=3, max_size=3)
 TORQUES = st.fixed_dictionaries({}, optional={**FRICTION, "steady_torque": VECTORS})
-
-
-@pytest.fixture(autouse=True)
-def _warnings_are_errors():
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        yield
 
 
 @pytest.mark.parametrize("examples", trials(150, 400))

@@ -4,7 +4,7 @@ import pytest
 from simulation.runs import Run
 
 from symtop_ros.simulation.changes import outcomes
-from symtop_ros.simulation.changes.outcomes import OUTCOMES
+from symtop_ros.simulation.changes.outcomes import OUTCOMES, Setting
 from symtop_ros.simulation.events import Event, decode_events
 
 
@@ -46,14 +46,18 @@ def test_an_event_of_every_name_reads_back_to_the_same_record_and_sentence(run):
         assert type(read.outcome()) is OUTCOMES[event.name]
 
 
-def test_events_have_running_numbers(run):
-    numbers = [again(event).number for event in run.sink.events]
-    assert numbers == list(range(1, len(numbers) + 1))
-
-
-def test_a_jump_of_the_clock_ends_the_segment_before_where_it_left(run):
-    (jump,) = (event for event in run.sink.events if event.name == "clock")
-    assert again(jump).previous_end == jump.outcome().before
+def test_each_outcome_has_the_numbers_of_its_event(run):
+    found = {event.name: again(event).outcome() for event in run.sink.events}
+    assert isinstance(found["start"], outcomes.Start)
+    assert found["start"].motion == found["reset"].motion == "cusps"
+    assert isinstance(found["pause"], outcomes.Pause)
+    assert found["step"] == outcomes.Step("stepped", found["pause"].time + 0.01)
+    assert found["torque"] == outcomes.Torque("released", (0.0, 0.0, 0.0))
+    changes = (Setting("top.Mgl", "0.05"), Setting("hurry_factor", "1.5"))
+    assert found["parameters"] == outcomes.Parameters(changes)
+    assert (found["pace"].before, found["pace"].after) == (1.0, 0.25)
+    assert found["clock"].after - found["clock"].before > 9e11
+    assert found["record"].path == "a  b/c; d=e.mcap"
 
 
 @pytest.mark.parametrize(
