@@ -2,6 +2,7 @@
 
 import socket
 import subprocess
+from itertools import product
 
 import pytest
 from listening import tcp_addresses
@@ -9,6 +10,7 @@ from log_files import Run
 from node.running_top import RunningTop
 from programs import command, run, running
 from rclpy.parameter import Parameter
+from trials import choose
 from waiting import until
 
 from symtop_ros.playback import viewer
@@ -24,17 +26,14 @@ PROGRAMS = (
 )
 
 
+SECURED = list(product(PROGRAMS, (".", "missing")))
+OFTEN = [*SECURED[:2], *SECURED[2::2]]
+
+
 # Without a keystore all programs fail on the same way: top_node stands for them in `make test`.
-SECURED = [
-    pytest.param(words, keystore, id=f"{words[0]}-{keystore}", marks=marks)
-    for words in PROGRAMS
-    for keystore in (".", "missing")
-    for marks in [pytest.mark.long if words != PROGRAMS[0] and keystore == "missing" else ()]
-]
-
-
-@pytest.mark.parametrize(("words", "keystore"), SECURED)
-def test_told_to_be_secure_a_program_does_not_run_without(words, keystore, tmp_path, monkeypatch):
+@pytest.mark.parametrize("case", choose(SECURED, OFTEN))
+def test_told_to_be_secure_a_program_does_not_run_without(case, tmp_path, monkeypatch):
+    words, keystore = case
     name = words[0]
     (tmp_path / "enclaves" / "top" / name).mkdir(parents=True)  # of which all files are missing
     monkeypatch.setenv("ROS_SECURITY_ENABLE", "true")

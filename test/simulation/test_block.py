@@ -100,29 +100,23 @@ def due(ticker, now, until=NEVER):
     return ticker.due(now, CATCH_UP, until)
 
 
-def test_stamps_are_on_the_grid_however_late_the_timer_is():
-    ticker = Ticker(1000.0, 0)
-    assert due(ticker, 0) == [0]
-    assert due(ticker, int(2.5 * MS)) == [MS, 2 * MS]
-    assert due(ticker, int(2.9 * MS)) == []
-    assert due(ticker, 3 * MS) == [3 * MS]
-    assert ticker.late == 1  # the tick of 1 ms, published at 2.5 ms
-    assert ticker.missed == 0
-
-
-def test_after_a_long_stop_there_is_no_burst_and_missed_ticks_are_counted():
-    ticker = Ticker(1000.0, 0)
-    due(ticker, 0)
-    stamps = due(ticker, 5_000 * MS)
-    assert stamps == [k * MS for k in range(4900, 5001)]
-    assert ticker.missed == 4899
-
-
-def test_a_clock_that_is_set_back_a_little_is_waited_for():
-    ticker = Ticker(100.0, 1_000 * MS)
-    assert due(ticker, 1_000 * MS) == [1_000 * MS]
-    assert due(ticker, 950 * MS) == []
-    assert due(ticker, 1_010 * MS) == [1_010 * MS]
+@pytest.mark.parametrize(
+    ("rate", "begin", "ticks", "late", "missed"),
+    [
+        # the tick of 1 ms is published at 2.5 ms
+        (1000.0, 0, [(0, [0]), (2.5, [1, 2]), (2.9, []), (3, [3])], 1, 0),
+        # after a long stop there is no burst
+        (1000.0, 0, [(0, [0]), (5000, range(4900, 5001))], None, 4899),
+        # a clock that is set back a little is waited for
+        (100.0, 1000, [(1000, [1000]), (950, []), (1010, [1010])], 0, 0),
+    ],
+)
+def test_stamps_are_on_the_grid_however_late_the_timer_is(rate, begin, ticks, late, missed):
+    ticker = Ticker(rate, begin * MS)
+    for now, stamps in ticks:
+        assert due(ticker, int(now * MS)) == [each * MS for each in stamps]
+    assert late in (None, ticker.late)
+    assert ticker.missed == missed
 
 
 def test_the_grid_continues_from_any_of_its_stamps():

@@ -34,15 +34,15 @@ def count_turns(budget, segment, stamp):
     return turns
 
 
-def test_the_closed_form_takes_one_call_for_any_time():
+@pytest.mark.parametrize(
+    "segment",
+    [Segment.begin(Motion(TOP, START), 0, 100.0), Segment.begin(fast(), 0, 1.0).pause(0)],
+    ids=["the closed form", "a pause"],
+)
+def test_what_needs_no_integration_takes_one_call_for_any_time(segment):
     budget = ComputeBudget(0, Clock(0.001))
-    assert count_turns(budget, Segment.begin(Motion(TOP, START), 0, 100.0), 10**6 * SECOND) == 1
+    assert count_turns(budget, segment, 10**6 * SECOND) == 1
     assert budget.shortfall is None
-
-
-def test_a_paused_motion_needs_no_work():
-    budget = ComputeBudget(0, Clock(1.0))
-    assert count_turns(budget, Segment.begin(fast(), 0, 1.0).pause(0), 10**6 * SECOND) == 1
 
 
 def test_a_stretch_that_lasts_longer_than_its_work_is_prepared_in_many_calls():

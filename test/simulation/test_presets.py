@@ -1,7 +1,6 @@
 """Invalid scene files are refused in one sentence, quickly and in little memory."""
 
 import os
-import re
 import sys
 import time
 from pathlib import Path
@@ -44,6 +43,9 @@ REFUSED = {
     "a set": (HEAD + "    publish_rate: !!set {a}", "a list of them, got {'a'}"),
     "an integer of 70 bits": (HEAD + f"    publish_rate: {2**70}", "a list of them, got 1180591"),
     "an integer of 6000 digits": (HEAD + "    publish_rate: " + "9" * 6000, "Exceeds the limit"),
+    "nine levels": (f"{HEAD}    x: {'[' * 6}1{']' * 6}\n", NO_ALIASES),
+    "eight levels, three of maps": (f"{HEAD}    x: {'[' * 5}1{']' * 5}\n", "a list of them"),
+    "more than 64 KiB": (HEAD.ljust(65_536, "#") + "\n", "65537 bytes (limit 65536)"),
     "bytes that are no text": (b"\xff\xfe\xfa", "'utf-8' codec can't decode"),
 }
 
@@ -68,22 +70,10 @@ def test_an_invalid_scene_is_refused_quickly_and_in_one_sentence(folder, content
     assert_one_sentence(str(refusal.value))
 
 
-@pytest.mark.parametrize(("size", "refusal"), [(65_536, ""), (65_537, "65537 bytes (limit 65536)")])
-def test_a_scene_may_have_64_kib(folder, size, refusal):
+def test_a_scene_may_have_64_kib(folder):
     text = HEAD + "    top: {Mgl: 0.05}\n"
-    (folder / "odd.yaml").write_text(text.ljust(size - 1, "#") + "\n")
-    if refusal:
-        with pytest.raises(RefusedError, match=re.escape(refusal)):
-            load_scene("odd")
-    else:
-        assert load_scene("odd") == {"top.Mgl": 0.05}
-
-
-@pytest.mark.parametrize(("lists", "reason"), [(5, "a list of them"), (6, NO_ALIASES)])
-def test_eight_levels_are_read_of_which_three_are_maps(folder, lists, reason):
-    (folder / "odd.yaml").write_text(f"{HEAD}    x: {'[' * lists}1{']' * lists}\n")
-    with pytest.raises(RefusedError, match=reason):
-        load_scene("odd")
+    (folder / "odd.yaml").write_text(text.ljust(65_535, "#") + "\n")
+    assert load_scene("odd") == {"top.Mgl": 0.05}
 
 
 @pytest.mark.parametrize("make", [os.mkdir, os.mkfifo])

@@ -160,3 +160,13 @@ def test_requests_of_many_threads_are_carried_out_one_at_a_time():
     for before, after in pairwise(kicks):
         assert after.values["before.orientation"] == before.values["after.orientation"]
     run.assert_recomputed()
+
+
+def test_a_clock_that_is_set_back_without_a_notification_is_followed():
+    run = Run()
+    run.jump(90 * SECOND)
+    run.tick()
+    run.clock.now = 10 * SECOND
+    run.tick()
+    assert [event.name for event in run.sink.events] == ["start", "clock", "clock"]
+    assert run.sink.samples[-1][0] == 10 * SECOND

@@ -2,13 +2,11 @@
 
 import pytest
 
+LONGEST_HEADLINE = (
+    "Friction and a torque act. Without them, the top precesses in cusps and comes to rest at each."
+)
 # A laptop, a tablet held upright, a phone; a laptop with a zoom of 200 % and of 400 %.
 WINDOWS = ((1280, 720), (820, 1180), (390, 844), (640, 360), (600, 500), (320, 230))
-
-
-def open_in(open_page, size, **options):
-    width, height = size
-    return open_page(viewport={"width": width, "height": height}, **options)
 
 
 def find_box(page, name):
@@ -54,45 +52,34 @@ def is_in_sight(box, size):
 
 
 @pytest.mark.parametrize("size", WINDOWS)
-def test_hurry_is_in_the_window_and_the_scene_and_charts_in_reach(open_page, size):
-    page = open_in(open_page, size)
-    page.open_charts()
-    hurry = settle(page, "#hurry")
-    assert is_inside(hurry, size)
-    page.until(lambda: is_large(find_box(page, "canvas"), 0.25 * min(size)))
-    page.until(lambda: page.tab.evaluate("document.documentElement.scrollWidth") <= size[0])
-    for name in ("#psi_dot", "#constants"):
-        page.until(lambda name=name: is_in_sight(scroll_to(page, name), size))
-    page.until(lambda: abs(find_box(page, "#hurry")["y"] - hurry["y"]) <= 1)  # stays in reach
-    for name in ("Delay", "Pause", "Step", "Reset"):
-        page.tab.get_by_role("button", name=name, exact=True).scroll_into_view_if_needed()
-
-
-@pytest.mark.parametrize("size", WINDOWS)
-def test_a_refusal_is_in_sight_and_escape_puts_it_away(open_page, size):
-    page = open_in(open_page, size)
-    page.enter("theta", "9")
-    page.until(lambda: is_inside(find_box(page, "#refusal"), size))
-    page.until(lambda: page.tab.evaluate("looks.isOnTop", "refusal"))
-    page.tab.keyboard.press("Escape")
-    page.tab.locator("#refusal").wait_for(state="hidden")
-
-
-@pytest.mark.parametrize("size", WINDOWS)
-def test_no_headline_moves_the_scene_and_no_legend_covers_much_of_it(open_page, size):
-    page = open_in(open_page, size)
+def test_in_any_window_no_headline_moves_the_scene_hurry_is_in_reach_and_a_refusal_in_sight(
+    open_page, size
+):
+    width, height = size
+    page = open_page(viewport={"width": width, "height": height})
     before = settle(page, "#scene")
-    words = (
-        "Friction and a torque act. Without them, the top precesses in cusps and comes to rest at "
-        "each."
-    )
     page.tab.evaluate(
-        "(text) => { document.querySelector('#headline').textContent = text; }", words
+        "(text) => { document.querySelector('#headline').textContent = text; }", LONGEST_HEADLINE
     )
     if size != (320, 230):  # there the page scrolls as one column
         assert find_box(page, "#scene") == before
     legend = settle(page, "#legend")
     assert legend is None or legend["height"] < 0.25 * before["height"]
+    page.open_charts()
+    hurry = settle(page, "#hurry")
+    assert is_inside(hurry, size)
+    page.until(lambda: is_large(find_box(page, "canvas"), 0.25 * min(size)))
+    page.until(lambda: page.tab.evaluate("document.documentElement.scrollWidth") <= width)
+    for name in ("#psi_dot", "#constants"):
+        page.until(lambda name=name: is_in_sight(scroll_to(page, name), size))
+    page.until(lambda: abs(find_box(page, "#hurry")["y"] - hurry["y"]) <= 1)  # stays in reach
+    for name in ("Delay", "Pause", "Step", "Reset"):
+        page.tab.get_by_role("button", name=name, exact=True).scroll_into_view_if_needed()
+    page.enter("theta", "9")
+    page.until(lambda: is_inside(find_box(page, "#refusal"), size))
+    page.until(lambda: page.tab.evaluate("looks.isOnTop", "refusal"))
+    page.tab.keyboard.press("Escape")
+    page.tab.locator("#refusal").wait_for(state="hidden")
 
 
 def test_labels_do_not_cover_each_other(open_page):
