@@ -59,7 +59,7 @@ REFUSED = [
     (FRICTION, "kick", PUSHES, "friction and torque must be 0 for a series of pushes, got ["),
     (SLEEPING, "kick", PUSHES, "axis must be tilted (phi' is undefined on the vertical"),
     ({}, "step", {"duration": 1e15}, "duration must be 0 to 1e+09 s, got "),
-    ({"top.Mgl": 1e16}, "step", {"duration": 1e9}, "duration must be within 1e15 turns of the mot"),
+    ({"top.Mgl": 1e16}, "step", {"duration": 1e9}, "duration must be within 1e15 turns of the "),
     (FRICTION, "step", {"duration": 1e9}, "duration must be up to "),  # of what takes too long
 ]
 

@@ -82,6 +82,17 @@ def test_impulses_and_rates_are_kept_as_they_were_asked_for():
     assert [event.to_json()["hold"] for event in events[1:]] == [None, "spin_rate"]
 
 
+def test_pushes_have_the_number_that_was_given_until_something_else_was_done():
+    told, pushes = Told(), {"axle_impulse": 1e-6, "rate": 20.0, "number": 20}
+    for seconds in (2, 5):
+        told.act("push", seconds * SECOND, pushes)
+    told.act("kick", 5 * SECOND + SECOND // 3, KICK)
+    events, _ = record_run(told.events, 7 * SECOND)
+    assert [event.kind for event in events] == ["start", "push", "push", "kick"]
+    assert [event.act.get("number") for event in events[1:3]] == [20, 7]
+    assert events[1].act == pushes
+
+
 def test_a_log_that_begins_in_the_middle_of_a_run_begins_with_a_start():
     told = Told()
     told.act("kick", 2 * SECOND, KICK)
