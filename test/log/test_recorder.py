@@ -47,6 +47,16 @@ def read_whole(path):
     return file
 
 
+def test_a_file_begins_with_the_current_latched_messages(tmp_path):
+    recorder = create(tmp_path)
+    recorder.add(0, 1, b"old")
+    recorder.add(0, 2, b"holds")
+    path = recorder.start({})
+    recorder.add(1, 7, b"first")
+    recorder.stop()
+    assert contents(path) == [("/latched", 7, b"holds"), ("/plain", 7, b"first")]
+
+
 def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp_path):
     recorder = create(tmp_path, max_duration=1.0)
     path = recorder.start({"scene": "x"})

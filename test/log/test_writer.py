@@ -57,6 +57,25 @@ def cut(tmp_path):
     return path
 
 
+def test_the_readable_messages_become_a_complete_file_for_every_reader(cut, tmp_path):
+    target = tmp_path / "whole.mcap"
+    file = McapFile(cut)
+    count = repair(file, target)
+    assert 0 < count < len(RUN.messages)
+    assert "messages after" in file.problems[0]
+    with target.open("rb") as stream:
+        reader = make_reader(stream, validate_crcs=True)
+        assert reader.get_summary().statistics.message_count == count
+        channels = reader.get_summary().channels.values()
+        kept = {each.name: each.metadata for each in reader.iter_metadata()}
+        assert kept["symtop_ros"] == file.metadata["symtop_ros"]
+        assert {each.metadata["topic_type_hash"][:7] for each in channels} == {"RIHS01_"}
+        messages = [message.data for _, _, message in reader.iter_messages(log_time_order=False)]
+    assert messages == [data for _, _, data in RUN.messages[:count]]
+    with AnyReader([target]) as other:
+        assert sum(1 for _ in other.messages()) == count
+
+
 def test_the_target_is_never_overwritten(cut, tmp_path):
     target = tmp_path / "there.mcap"
     target.write_text("mine")

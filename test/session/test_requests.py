@@ -10,6 +10,19 @@ from symtop_ros.simulation.changes.outcomes import Pause, Step
 from symtop_ros.wording import write
 
 
+def test_a_start_on_a_root_is_regular_and_reset_returns_to_it():
+    run = Run()
+    granted, answer = run.ask("set_initial_conditions", {"precession": "slow", "theta": 0.7})
+    assert granted
+    assert run.sink.events[-1].outcome().motion == "regular"
+    assert answer == run.sink.events[-1].verdict
+    start = run.simulation.timeline.start
+    run.advance(0.1)
+    assert run.ask("kick", {"precession_rate_factor": 2.0})[0]
+    assert run.ask("reset")[0]
+    assert run.simulation.segment.motion.start == start
+
+
 @pytest.mark.parametrize(
     ("request_", "rates"),
     [
