@@ -66,11 +66,13 @@ def test_the_direction_is_where_the_top_then_moves(seed):
         psi_dot=rng.uniform(-200, 200),
         theta=rng.uniform(0.05, 3.0),
     )
-    theta = Motion(top, state).at(1e-5).euler_angles.theta - state.euler_angles.theta
+    motion, verdict = Motion(top, state), perrys_rule(top, state)
+    theta = motion.at(1e-5).euler_angles.theta - state.euler_angles.theta
     # theta''/2 t^2 with t = 10 us is above rounding of theta for theta'' > 1e-4; these starts all
     # have much more
     assert abs(theta) > 1e-14
-    assert perrys_rule(top, state).direction == ("rises" if theta < 0 else "falls")
+    assert verdict.direction == ("rises" if theta < 0 else "falls")
+    assert verdict.turning_angles == motion.turning_angles
 
 
 @pytest.mark.parametrize("hold", HOLDS)
