@@ -27,20 +27,8 @@ def _rounded(name: str) -> Callable[..., float]:
     return compute
 
 
-sin, cos, tan, asin, atan2 = map(_rounded, ("sin", "cos", "tan", "asin", "atan2"))
-sqrt, log, _power = map(_rounded, ("sqrt", "log", "power"))
+sin, cos, sqrt, log, _power = map(_rounded, ("sin", "cos", "sqrt", "log", "power"))
 PI = float(mp.pi)
-
-
-def hypot(*parts: float) -> float:
-    """Return the length of a vector."""
-    with mp.workdps(DIGITS):
-        return float(mp.norm(parts))
-
-
-def ten_to(exponent: float) -> float:
-    """Return a power of ten."""
-    return _power(10, exponent)
 
 
 class Numbers(random.Random):
@@ -48,7 +36,7 @@ class Numbers(random.Random):
 
     def power(self, low: float, high: float) -> float:
         """Return a power of ten with an exponent between two numbers."""
-        return ten_to(self.uniform(low, high))
+        return _power(10, self.uniform(low, high))
 
     def gauss(self, mu: float = 0.0, sigma: float = 1.0) -> float:
         """Return a normal number, as the base class does: by Box and Muller, two at a time."""

@@ -125,11 +125,6 @@ def follow_exactly(
     return Series(inputs, digits, friction, motion.applied_torque)
 
 
-def to_state(exact) -> State:
-    """The state of doubles next to an exact one."""
-    return State(*([float(c) for c in part] for part in exact))
-
-
 def exact_parts(state: State):
     """w, x, y, z of norm 1 and omega of a state of doubles, with many digits."""
     q, omega = ([mpf(c) for c in part.tolist()] for part in state.parts)

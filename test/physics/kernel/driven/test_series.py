@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from physics.exact_motions import read_motions
 from physics.refusals import refused
-from physics.tops import ARTICLE, CUSPS, EPS, distance, error, follow_exactly, to_state
+from physics.tops import ARTICLE, CUSPS, EPS, distance, error, follow_exactly
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 
@@ -21,7 +21,7 @@ DRIVE = Friction(1e-6, 2e-5), (1e-3, -2e-3, 5e-4)
 
 def exact(motion, t):
     """The state at t as doubles, from 30 digits."""
-    return to_state(follow_exactly(motion).at(t))
+    return State(*(list(map(float, part)) for part in follow_exactly(motion).at(t)))
 
 
 # It changes no bit of a state, and makes a motion under gravity one that is integrated.
