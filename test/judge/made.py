@@ -11,7 +11,6 @@ from symtop_ros.arrays import compose, invert
 
 NED = Rotation.from_quat([np.sqrt(0.5), np.sqrt(0.5), 0.0, 0.0])
 FRD = Rotation.from_rotvec([np.pi, 0.0, 0.0])
-MOUNT = Rotation.from_rotvec([0.3, -0.2, 0.1])
 TILT = Rotation.from_rotvec([0.4, 0.2, 0.0])
 
 
