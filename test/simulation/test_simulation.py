@@ -55,6 +55,21 @@ def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
     assert run.sink.samples[-1][0] == 10 * SECOND
 
 
+def test_a_request_between_a_jump_and_the_next_tick_belongs_to_the_time_after_the_jump():
+    run = Run("hurry_slow")
+    run.advance(0.5)
+    state = run.simulation.state
+    run.jump(90 * SECOND)
+    assert run.ask("hurry_precession")[0]
+    assert [event.name for event in run.sink.events] == ["start", "clock", "kick"]
+    kick = run.sink.events[-1]
+    assert kick.stamp == 90 * SECOND
+    before = kick.values["before.orientation"].split()
+    assert [float(each) for each in before] == state.orientation.tolist()
+    assert run.simulation.ticker.missed == 0
+    run.assert_recomputed()
+
+
 @pytest.mark.parametrize(("used", "factor"), [(0.45, 1.0), (0.55, 0.25)])
 def test_the_pace_returns_if_half_of_the_share_is_left(used, factor):
     run = Run()
