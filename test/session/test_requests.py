@@ -71,6 +71,8 @@ REFUSED = [
     ({}, "kick", {"axle_impulse": 1e-5, "hold": "spin_rate"}, "hold must be given without axle_"),
     (FRICTION, "kick", PUSHES, "friction and torque must be 0 for a series of pushes, got ["),
     (SLEEPING, "kick", PUSHES, "axis must be tilted (phi' is undefined on the vertical"),
+    ({}, "step", {"duration": 1.0, "speed": 2.0}, "field name must be one of duration, got "),
+    ({}, "step", {}, "duration must be 0 to 1e+09 s, got none"),
     ({}, "step", {"duration": 1e15}, "duration must be 0 to 1e+09 s, got "),
     ({"top.Mgl": 1e16}, "step", {"duration": 1e9}, "duration must be within 1e15 turns of the "),
     (FRICTION, "step", {"duration": 1e9}, "duration must be up to "),  # of what takes too long
