@@ -136,7 +136,6 @@ class Recorder:
                 self._file = file = self._open(metadata, latched)
         except Exception as error:
             file.abandon()
-            self._queue.clear()
             self.running = False
             # Set last: who reads it may open the file, which must be complete by then.
             self.failure = f"{file.path}: {describe_error(error)}"

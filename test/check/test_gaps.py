@@ -125,6 +125,14 @@ def test_pauses_of_a_recording_have_no_samples(memory):
     assert list(_list_jumps(events)) == [(1, 3)]
 
 
+def test_events_that_are_missing_are_named_by_their_numbers_also_by_hostile_ones(memory):
+    first = next(TopLog(memory).events())
+    later = [replace(first, values={"number": str(number)}) for number in (3, 10**12)]
+    one, many = Course([first, *later]).list_missing()
+    assert one.startswith("event 2 is missing, between ")
+    assert many.startswith("events 4 to 999999999999 are missing, between ")
+
+
 def test_tf_has_no_samples_while_it_is_switched_off(memory):
     told = ((1, "false"), (2, None), (3, "true"), (4, "false"))
     switches = ((at, {"request.publish_tf": text} if text else {}) for at, text in told)

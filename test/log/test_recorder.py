@@ -4,6 +4,7 @@ import errno
 import os
 import threading
 import time
+from dataclasses import replace
 
 from disks import mounted
 from exact_log import stamps_of
@@ -145,6 +146,11 @@ def test_a_full_disk_stops_the_recording_and_what_was_written_opens(tmp_path):
         assert found == list(range(len(found)))
         assert len(found) > 100
         assert stamps_of(path, "/plain") == found
+    recorder.settings = replace(recorder.settings, directory=str(tmp_path))
+    path = recorder.start({})  # nothing of what was left
+    recorder.add(1, stamp, b"new")
+    recorder.stop()
+    assert stamps_of(path, "/plain") == [stamp]
 
 
 def test_messages_of_the_first_channel_are_written_before_the_others(tmp_path):

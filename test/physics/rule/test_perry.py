@@ -213,6 +213,8 @@ def test_on_the_vertical_the_direction_is_away_from_the_pole():
     assert perrys_rule(ARTICLE, State((1, 0, 0, 0), (0, 0, 200.0))).direction == "stays"
     assert perrys_rule(ARTICLE, State((1, 0, 0, 0), (1.0, 0, 200.0))).direction == "falls"
     assert perrys_rule(ARTICLE, State((0, 1, 0, 0), (1.0, 0, 200.0))).direction == "rises"
+    many = State([(1, 0, 0, 0), (1, 0, 0, 0)], [(0, 0, 200.0), (1.0, 0, 200.0)])
+    assert np.isnan(perrys_rule(ARTICLE, many).regular_rates).all()
 
 
 def test_below_the_pivot_axis_and_centre_of_mass_are_named_apart():
