@@ -94,3 +94,19 @@ def test_other_folders_import_physics_by_its_public_names_only():
         for path, node in nodes(folder):
             module = getattr(node, "module", None) or ""
             assert not module.startswith("symtop_ros.physics") or module in public, path
+
+
+# They count, or keep what was computed; every other record stays what it was when it was made.
+CHANGING = {"Markers", "Tables", "Fit", "StepBudget", "Deviation", "Gaps", "Walk"}
+
+
+def test_records_are_frozen_but_for_those_that_count():
+    classes = [
+        (node.name, ast.unparse(each))
+        for path in PACKAGE.rglob("*.py")
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.ClassDef)
+        for each in node.decorator_list
+    ]
+    records = [each for each in classes if each[1].startswith("dataclass")]
+    assert {name for name, decorator in records if "frozen=True" not in decorator} == CHANGING
