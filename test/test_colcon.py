@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 from conftest import UNDECLARED
+from documents import ROOT
 from programs import execute
 
-ROOT = Path(__file__).parents[1]
 UBUNTU = Path(sys.prefix, "ubuntu", "bin", "python")
 # A plugin of pytest without which modules would be found that only `make test` installs.
 HIDE = f"""

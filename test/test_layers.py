@@ -2,11 +2,11 @@
 
 import ast
 import sys
-from pathlib import Path
 
 import pytest
+from documents import ROOT
 
-PACKAGE = Path(__file__).parents[1] / "symtop_ros"
+PACKAGE = ROOT / "symtop_ros"
 # Files of the package itself.
 TOP = {"__init__", "arrays", "command", "programs", "shutdown"}
 # Folder -> folders and files of the package | other packages. Each entry is exact: an import that

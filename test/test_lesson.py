@@ -6,9 +6,9 @@ import json
 import re
 import shlex
 from itertools import pairwise
-from pathlib import Path
 
 import pytest
+from documents import ROOT
 from node.listener import Listener
 from programs import running_node
 from shown_pictures import assert_same_picture
@@ -24,7 +24,6 @@ from workshop.lesson.pictures import picture_of, run_step, write_sheets
 from workshop.lesson.steps import read_lesson
 from workshop.load.domains import claim_domain
 
-ROOT = Path(__file__).parents[1]
 LESSON = PAGE.read_text(encoding="utf-8")
 STEPS = read_lesson()
 DOMAIN = claim_domain()

@@ -4,15 +4,14 @@ import os
 import re
 import shutil
 import sys
-from pathlib import Path
 
 import groups
 import pytest
+from documents import ROOT
 from programs import execute
 
 from symtop_ros.web.join import write_file
 
-ROOT = Path(__file__).parents[1]
 MAKEFILE = ROOT / "Makefile"
 ACTIVATE = ".venv/bin/activate"  # the target that makes the environment
 

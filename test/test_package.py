@@ -9,12 +9,12 @@ import tarfile
 from pathlib import Path
 
 import pytest
+from documents import ROOT
 from programs import execute
 
 from symtop_ros import __version__
 
 pytestmark = pytest.mark.untraced
-ROOT = Path(__file__).parents[1]
 PARTS = (
     *("symtop_ros", "config", "launch", "resource", "setup.py", "setup.cfg", "package.xml"),
     "build_kernel.py",

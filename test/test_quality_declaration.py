@@ -3,8 +3,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import groups
-
-ROOT = Path(__file__).parents[1]
+from documents import ROOT
 
 
 def test_every_dependency_of_the_package_is_declared():

@@ -1,13 +1,12 @@
 """Needs of a build farm: keys of rosdep, a changelog that bloom reads, a Debian package."""
 
 import re
-from pathlib import Path
 
 import docutils.core
+from documents import ROOT
 
 from symtop_ros import __version__
 
-ROOT = Path(__file__).parents[1]
 MANIFEST = (ROOT / "package.xml").read_text()
 CHANGELOG = ROOT / "CHANGELOG.rst"
 DEPENDENCIES = re.findall(r"<(\w+)_depend>([\w-]+)</", MANIFEST)

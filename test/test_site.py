@@ -3,15 +3,14 @@
 import inspect
 import re
 import sys
-from pathlib import Path
 
 import pytest
+from documents import ROOT
 from programs import execute
 
 from symtop_ros import physics
 
 pytestmark = [pytest.mark.untraced, pytest.mark.long]
-ROOT = Path(__file__).parents[1]
 LOADED = re.compile(r'<(?:script|img|link)[^>]*(?:src|href)="([^"]+)"')
 
 

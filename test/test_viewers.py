@@ -7,18 +7,17 @@ import json
 import re
 import runpy
 import sys
-from pathlib import Path
 from unittest.mock import Mock
 from xml.etree import ElementTree
 
 import pytest
 import yaml
+from documents import ROOT
 
 from symtop_ros.simulation.settings import PARAMETERS
 from symtop_ros.simulation.topics import TOPICS
 from symtop_ros.wire.messages import JOINTS
 
-ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "config"
 NAMES = {topic.resolve("/top") for topic in TOPICS.values()}
 MODULES = ("launch", "launch.actions", "launch.substitutions")

@@ -9,17 +9,16 @@ import shutil
 import struct
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from documents import ROOT
 from physics.exact_motions import PATH
 from physics.kernel.motions import list_many, normalize
 from physics.kernel.test_kernel import BITS
 from programs import execute
 
 pytestmark = pytest.mark.untraced
-ROOT = Path(__file__).parents[1]
 ZIG, ARM, WINE = (ROOT / ".venv" / name for name in ("zig", "aarch64", "wine"))
 LIBRARIES = {
     "manylinux_2_28_x86_64": "libsymtop.so",

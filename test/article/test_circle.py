@@ -1,14 +1,13 @@
 """Nutation as a point on a circle that moves along: how nearly, and the numbers of the article."""
 
-from pathlib import Path
-
 import numpy as np
+from documents import ROOT
 
 from symtop_ros.physics import Motion
 from workshop.article.answers.circle import find_nutation
 from workshop.article.motions import TOP, start
 
-ARTICLE = " ".join((Path(__file__).parents[2] / "docs/article.md").read_text().split())
+ARTICLE = " ".join((ROOT / "docs/article.md").read_text().split())
 
 
 def find(spin):

@@ -1,9 +1,9 @@
 """The impulses of one fall: they make theta', and the numbers of the documents are theirs."""
 
 import re
-from pathlib import Path
 
 import pytest
+from documents import ROOT
 
 from workshop.article.answers.impulses import find_impulses, torques_at
 from workshop.article.motions import TOP, cusps
@@ -11,7 +11,7 @@ from workshop.article.nutation import times_of_extreme_rate
 
 MOTION = cusps()
 FASTEST, BOTTOM = times_of_extreme_rate(MOTION)[0], MOTION.nutation_period / 2
-ARTICLE = Path(__file__).parents[2] / "docs/article.md"
+ARTICLE = ROOT / "docs/article.md"
 ROUNDING = 1e-15  # N m s; 64 products of up to 3e-3 N m s are summed
 
 

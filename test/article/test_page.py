@@ -2,11 +2,11 @@
 
 import io
 import re
-from pathlib import Path
 from urllib.parse import parse_qsl
 
 import pytest
 from browser import running_browser
+from documents import ROOT
 from shown_pictures import assert_same_picture
 from web.opened import UNDRAWN
 
@@ -16,7 +16,7 @@ from workshop.article.claims import check_claims
 from workshop.article.figures import FIGURES
 from workshop.pictures.pack import pack_figure
 
-DOCS = Path(__file__).parents[2] / "docs"
+DOCS = ROOT / "docs"
 TEXT = (DOCS / "article.md").read_text(encoding="utf-8")
 LINK = re.compile(r"\]\(\.\./top\.html#([^)]+)\)")
 QUICK = ("euler_angles", "four_masses")

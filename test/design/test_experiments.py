@@ -2,9 +2,9 @@
 
 import importlib
 import pkgutil
-from pathlib import Path
 
 import pytest
+from documents import ROOT
 
 import design
 from design.digits import measure_loss
@@ -14,7 +14,6 @@ from design.lost_sums import find_mean_spins
 from design.nomes import COMPLEMENTS, count_terms
 from design.phases import TIMES, measure_errors
 
-ROOT = Path(design.__file__).parents[1]
 DERIVATION = ROOT / "docs/derivation.md"
 NAMES = [each.name for each in pkgutil.iter_modules(design.__path__)]
 

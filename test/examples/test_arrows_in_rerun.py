@@ -1,14 +1,13 @@
 """Rerun's own reader makes arrows of a log: those of its messages, in their frame."""
 
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from documents import ROOT
 from programs import execute
 
 chunk = pytest.importorskip("rerun.chunk")
-ROOT = Path(__file__).parents[2]
 SCALES = {"angular_momentum": 20.0, "angular_velocity": 1e-3, "torque": 2.0}
 FIELDS = {"angular_momentum": ["vector"], "angular_velocity": ["twist", "angular"]}
 

@@ -1,13 +1,12 @@
 """The example with VQF: a magnetometer gives it the heading, and the page has its numbers."""
 
-from pathlib import Path
-
 import pytest
+from documents import ROOT
 
 pytest.importorskip("vqf", reason="no vqf: pip install vqf")
 from examples.heading_with_vqf import find_headings
 
-PAGE = Path(__file__).parents[2] / "docs" / "filters.md"
+PAGE = ROOT / "docs" / "filters.md"
 
 
 @pytest.mark.parametrize(

@@ -2,10 +2,10 @@
 
 import re
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from documents import ROOT
 from programs import execute
 
 from symtop_ros.physics import Motion, State
@@ -13,7 +13,6 @@ from symtop_ros.physics import Motion, State
 pytest.importorskip("distributed", reason="no distributed: pip install distributed")
 from examples.map_on_dask import SPINS, TILTS, TOP, compute_rows
 
-ROOT = Path(__file__).parents[2]
 SIZE = 200
 
 

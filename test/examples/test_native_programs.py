@@ -3,16 +3,15 @@
 import itertools
 import re
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pytest
+from documents import ROOT
 from log_files import ARTICLE, CUSPS
 from programs import execute, find_fault
 
 from symtop_ros.physics import Motion
 
-ROOT = Path(__file__).parents[2]
 TRUTH = (ROOT / "docs/truth.md").read_text()
 
 needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")

@@ -1,10 +1,7 @@
 """The documents quote the programs of examples/; test_documents.py runs what they quote."""
 
-from pathlib import Path
-
 import pytest
-
-ROOT = Path(__file__).parents[2]
+from documents import ROOT
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,6 @@ from workshop.load.domains import claim_domain
 from workshop.load.endings import SETPRIV
 from workshop.load.listener import Traffic
 
-ROOT = Path(__file__).parents[2]
-
 
 @pytest.mark.long
 def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, docs):

@@ -10,6 +10,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from documents import ROOT
 from programs import command, running
 
 from symtop_ros.panel import main as module
@@ -17,7 +18,6 @@ from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.web.join import write_file
 
 TIMEOUT = 60.0
-ROOT = Path(__file__).parents[2]
 
 
 pytestmark = pytest.mark.usefixtures("signals_as_before")

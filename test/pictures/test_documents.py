@@ -1,14 +1,12 @@
 """`make -C workshop pictures` writes every picture of the documents but those of measurements."""
 
 import io
-from pathlib import Path
 
 import numpy as np
+from documents import ROOT
 from PIL import Image
 
 from workshop.pictures.pack import pack_shaded
-
-ROOT = Path(__file__).parents[2]
 
 
 def list_pictures(folder):

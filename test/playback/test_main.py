@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from documents import ROOT
 from exact_log import STATES
 from log_files import Run
 from programs import execute
@@ -21,7 +22,6 @@ from symtop_ros.simulation.run_file import write_run
 
 RUN = Run()
 SITE = Path(sysconfig.get_paths()["purelib"])
-ROOT = Path(__file__).parents[2]
 PROGRAM = "import sys; from symtop_ros.programs import top_replay; sys.exit(top_replay())"
 
 

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+from documents import ROOT
 
 from symtop_ros.physics import State, Top
 from symtop_ros.physics.reference import closed_form
@@ -11,7 +12,7 @@ from symtop_ros.physics.reference.series import Inputs
 
 pytestmark = pytest.mark.untraced
 NAMES = "A", "B", "omega"
-PAGE = Path(__file__).parents[2] / "docs/derivation.md"
+PAGE = ROOT / "docs/derivation.md"
 
 
 def test_what_the_derivation_quotes_is_the_code_of_the_reference():

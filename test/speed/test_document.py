@@ -1,7 +1,5 @@
-from pathlib import Path
-
 import pytest
-from documents import find_section
+from documents import ROOT, find_section
 
 from workshop.load import node_cost, stress
 from workshop.releases import page
@@ -38,7 +36,6 @@ def test_a_peer_that_is_ahead_in_a_table_is_named(name):
     assert all("peer" in line for line in lines)
 
 
-ROOT = Path(__file__).parents[2]
 TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"
 PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SECTIONS = (

@@ -1,10 +1,9 @@
 """The report in a small form: errors are asserted, never times."""
 
 import json
-from pathlib import Path
 
 import pytest
-from documents import find_section
+from documents import ROOT, find_section
 from PIL import Image
 
 from workshop.speed import measure as report
@@ -19,7 +18,7 @@ from workshop.speed.peers import CLOSED_FORM, TAYLOR, find_peers
 from workshop.speed.plots import DRAWINGS
 from workshop.speed.reference import Reference
 
-DOCS = Path(__file__).parents[2] / "docs"
+DOCS = ROOT / "docs"
 
 
 @pytest.fixture(scope="module")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import programs
 import pytest
+from documents import ROOT
 from programs import LOSSY_PROFILES, command, set_parameters
 from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
 from waiting import until
@@ -20,7 +21,7 @@ pytestmark = [
     pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}"),
     pytest.mark.untraced,
 ]
-CONFIG = Path(__file__).parents[2] / "config"
+CONFIG = ROOT / "config"
 WITNESS = Path(__file__).with_name("witness.py")
 RANGE, PEERS = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS"
 SETTINGS = (RANGE, PEERS, *VARIABLES)

@@ -40,12 +40,12 @@ def test_each_model_has_the_body_and_the_start_of_its_problem(name, folder):
         first = rotation([mpf(each) for each in facts["orientations"][0]])
         for path, named in find_models(folder, name):
             body, scored = read_model(path), find_problem(PROBLEMS, named).facts
-            frame = rotation(list(body.orientation))
+            frame = body.frame
             assert body.mass == pytest.approx(facts["mass"], rel=rounding)
             off = frame * body.moments * frame.T - moments
             assert mp.mnorm(off) < rounding * size, path.name
             assert mp.norm(frame * body.weighted - centre) < rounding * arm, path.name
-            turning = frame * mp.matrix(body.angular_velocity) - rates
+            turning = frame * body.angular_velocity - rates
             assert mp.norm(turning) <= rounding * mp.norm(rates), path.name
             # the frame of the model is that in which its states are scored
             own = rotation([mpf(each) for each in scored["orientations"][0]])
