@@ -20,6 +20,7 @@ LINK = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]+))?\)")
 PATH = re.compile(
     r"(?<![\w/])((?:test|symtop_ros|workshop|examples|design|config|docs)/[\w./]+\.(?:py|yaml|xml|md|json))"
 )
+WRITTEN = "top.html"  # by `make panel` and `make docs`; article/test_page.py opens each link to it
 
 
 def blocks(page: Path, language: str) -> list[tuple[str, str]]:
@@ -40,6 +41,26 @@ def commands(page: Path) -> Iterator[tuple[list[str], str]]:
         for line in code.replace("\\\n", " ").splitlines():
             if words := shlex.split(line, comments=True):
                 yield words, output
+
+
+def console(page: Path, name: str) -> tuple[list[str], str]:
+    """Return the commands of the block of a page that names a file, and the output shown there."""
+    found = re.findall(r"```console\n(.*?)```", page.read_text(encoding="utf-8"), re.S)
+    (lines,) = (each.splitlines() for each in found if name in each)
+    typed = [line.removeprefix("$ ") for line in lines if line.startswith("$ ")]
+    return typed, "".join(f"{line}\n" for line in lines if not line.startswith("$ "))
+
+
+def find_broken_links(page: Path) -> Iterator[str]:
+    """Yield the links and paths of a page that lead to no file or heading."""
+    text = page.read_text(encoding="utf-8")
+    for link, anchor in LINK.findall(text):
+        target = page.parent / link if link else page
+        if link.startswith("http") or target.name == WRITTEN:
+            continue
+        if not target.exists() or (anchor and anchor not in anchors(target)):
+            yield f"{link}#{anchor}"
+    yield from (path for path in PATH.findall(text) if not (ROOT / path).exists())
 
 
 def anchors(page: Path) -> set[str]:

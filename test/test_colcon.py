@@ -33,16 +33,8 @@ def test_what_can_run_is_run_and_the_rest_is_skipped_with_its_reason(words, tmp_
     (tmp_path / "hide.py").write_text(HIDE)
     variables = {**os.environ, "PYTHONPATH": str(tmp_path)}
     # As colcon starts it, in the folder of the package.
-    start = [
-        UBUNTU,
-        "-m",
-        "pytest",
-        "-p",
-        "hide",
-        "--tb=short",
-        f"--junit-xml={tmp_path}/found.xml",
-    ]
-    done = execute([*start, *words], cwd=ROOT, env=variables, timeout=240)
+    options = ["-p", "hide", "--tb=short", f"--junit-xml={tmp_path}/found.xml"]
+    done = execute([UBUNTU, "-m", "pytest", *options, *words], cwd=ROOT, env=variables, timeout=240)
     assert done.returncode == 0, done.stdout
     assert "pytest-7.4" in done.stdout
     for name in ("mcap", "rosbags"):

@@ -89,24 +89,16 @@ def replace(word):
     return word
 
 
-def status_and_lines(capsys, name, *arguments):
-    status = MAINS[name](list(arguments))
-    return status, capsys.readouterr().err.splitlines()
-
-
-@pytest.mark.parametrize("arguments", [*list_lines(FAILED)], ids=shorten)
-def test_what_cannot_be_done_is_status_1_and_one_line(arguments, capsys, monkeypatch):
+@pytest.mark.parametrize("arguments", [*list_lines(FAILED), *list_lines(MISUSED)], ids=shorten)
+def test_what_cannot_be_done_or_is_not_allowed_is_status_1_or_2_and_one_line(
+    arguments, capsys, monkeypatch
+):
     monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
-    status, (line,) = status_and_lines(capsys, *arguments)
-    assert status == 1
-    assert line.startswith(f"{arguments[0]}: ")
-    assert_one_sentence(line)
-
-
-@pytest.mark.parametrize("arguments", [*list_lines(MISUSED)], ids=shorten)
-def test_values_that_are_not_allowed_are_status_2_and_one_line(arguments, capsys):
-    status, (line,) = status_and_lines(capsys, *arguments)
-    assert status == 2
+    name, *words = arguments
+    status = MAINS[name](words)
+    (line,) = capsys.readouterr().err.splitlines()
+    assert status == 1 + (arguments in list_lines(MISUSED))
+    assert line.startswith(f"{name}: ")
     assert_one_sentence(line)
 
 

@@ -12,13 +12,12 @@ import pytest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from documents import (
-    LINK,
     PAGES,
-    PATH,
     ROOT,
-    anchors,
     blocks,
     commands,
+    console,
+    find_broken_links,
     names,
     rows,
     same,
@@ -46,7 +45,6 @@ LAUNCH_FILE = ROOT / "launch/top.launch.py"
 # The modules of programs whose options are parsed here; test/MODULE runs them.
 PARSED = {"top_panel": "panel", "top_live": "live"}
 MODULES = {**PARSED, "top_ctl": "client", "top_judge": "judge", "top_replay": "playback"}
-WRITTEN = "top.html"  # by `make panel` and `make docs`; article/test_page.py opens each link to it
 # These need a network, a shell, or a ROS 2 with security.
 NOT_RUN = (
     *(["git", "clone"], ["cd"], ["ros2", "security"], ["export"]),
@@ -68,13 +66,7 @@ COMMANDS = [
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_links_and_paths_lead_to_files_and_headings(page):
-    text = page.read_text(encoding="utf-8")
-    for link, anchor in LINK.findall(text):
-        if not link.startswith("http") and Path(link).name != WRITTEN:
-            target = page.parent / link if link else page
-            assert target.exists(), link
-            assert not anchor or anchor in anchors(target), f"{link}#{anchor}"
-    assert [path for path in PATH.findall(text) if not (ROOT / path).exists()] == []
+    assert [*find_broken_links(page)] == []
 
 
 @pytest.mark.parametrize(
@@ -128,12 +120,9 @@ def test_a_program_of_the_page_compiles_without_a_warning_and_prints_what_it_sho
 )
 def test_the_commands_of_the_page_give_a_first_score(language, name, program, testset):
     write_block(language, testset / name, program)
-    text = (ROOT / "docs/truth.md").read_text()
-    (block,) = (each for each in text.split("```console\n") if f" {name} " in each.split("\n")[0])
-    *lines, shown = block.partition("```")[0].splitlines()
-    for line in lines:
-        if line.startswith("$ "):
-            printed = execute(["sh", "-c", line[2:]], check=True).stdout
+    words, shown = console(ROOT / "docs/truth.md", f" {name} ")
+    for line in words:
+        printed = execute(["sh", "-c", line], check=True).stdout
     # the same numbers up to the last of two digits, which the order of sums may change
     assert printed.startswith("cusps: attitude 3.")
     found, wanted = (

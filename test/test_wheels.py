@@ -18,7 +18,6 @@ from physics.kernel.motions import list_many, normalize
 from physics.kernel.test_kernel import BITS
 from programs import execute
 
-pytestmark = pytest.mark.untraced
 ZIG, ARM, WINE = (ROOT / ".venv" / name for name in ("zig", "aarch64", "wine"))
 LIBRARIES = {
     "manylinux_2_28_x86_64": "libsymtop.so",
@@ -27,7 +26,11 @@ LIBRARIES = {
     "macosx_11_0_x86_64": "libsymtop.dylib",
     "win_amd64": "libsymtop.dll",
 }
-needs_zig = pytest.mark.skipif(not (ZIG / "done").exists(), reason="make .venv/zig/done fetches it")
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(not (ZIG / "done").exists(), reason="make .venv/zig/done fetches it"),
+    pytest.mark.untraced,
+]
 CODE_SIGNATURE = 0x1D  # a load command
 # Prints the digest of the states of the first motions of the table that it is given.
 PROGRAM = """
@@ -64,8 +67,6 @@ def wheels(tmp_path_factory):
     return found
 
 
-@pytest.mark.long
-@needs_zig
 def test_there_is_a_wheel_for_each_platform_with_its_library(wheels):
     assert wheels.keys() == LIBRARIES.keys()
     for platform, folder in wheels.items():
@@ -77,8 +78,6 @@ def test_there_is_a_wheel_for_each_platform_with_its_library(wheels):
         assert f"Tag: py3-none-{platform}\n" in tags.read_text()
 
 
-@pytest.mark.long
-@needs_zig
 @pytest.mark.parametrize("processor", ["x86_64", "aarch64"])
 def test_a_wheel_for_linux_asks_for_no_newer_c_library(wheels, processor):
     (kernel,) = wheels[f"manylinux_2_28_{processor}"].rglob("libsymtop.so")
@@ -87,8 +86,6 @@ def test_a_wheel_for_linux_asks_for_no_newer_c_library(wheels, processor):
     assert b"libstdc++" not in kernel.read_bytes()
 
 
-@pytest.mark.long
-@needs_zig
 @pytest.mark.parametrize(("processor", "number"), [("arm64", 0x100000C), ("x86_64", 0x1000007)])
 def test_a_wheel_for_macos_has_a_library_for_its_processor_that_it_may_load(
     wheels, processor, number
@@ -105,14 +102,10 @@ def test_a_wheel_for_macos_has_a_library_for_its_processor_that_it_may_load(
         assert CODE_SIGNATURE in commands
 
 
-@pytest.mark.long
-@needs_zig
 def test_the_wheel_for_this_processor_has_the_same_bits(wheels):
     assert compute([sys.executable], PYTHONPATH=wheels["manylinux_2_28_x86_64"]) == BITS
 
 
-@pytest.mark.long
-@needs_zig
 @pytest.mark.skipif(not (WINE / "done").exists(), reason="make .venv/wine fetches it")
 def test_the_library_for_windows_has_the_same_bits_in_wine(wheels, tmp_path):
     (library,) = wheels["win_amd64"].rglob("libsymtop.dll")
@@ -147,8 +140,6 @@ def test_the_library_for_windows_has_the_same_bits_in_wine(wheels, tmp_path):
     assert normalize(np.frombuffer(wine.stdout)) == expected
 
 
-@pytest.mark.long
-@needs_zig
 @pytest.mark.skipif(
     not list(ARM.glob("python/usr/bin/python3.*")), reason="make .venv/aarch64 fetches a Python"
 )

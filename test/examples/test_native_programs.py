@@ -6,13 +6,11 @@ import shutil
 
 import numpy as np
 import pytest
-from documents import ROOT
+from documents import ROOT, console
 from log_files import ARTICLE, CUSPS
 from programs import execute, find_fault
 
 from symtop_ros.physics import Motion
-
-TRUTH = (ROOT / "docs/truth.md").read_text()
 
 needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")
 needs_rust = pytest.mark.skipif(bool(find_fault("rustc")), reason=find_fault("rustc"))
@@ -20,15 +18,13 @@ needs_rust = pytest.mark.skipif(bool(find_fault("rustc")), reason=find_fault("ru
 
 def run_block(name, folder):
     """Run the commands of the block that names a program; return its output, and what is shown."""
-    (block,) = (each for each in re.findall(r"```console\n(.*?)```", TRUTH, re.S) if name in each)
-    lines = block.splitlines()
-    commands = [line.removeprefix("$ ") for line in lines if line.startswith("$ ")]
+    commands, shown = console(ROOT / "docs/truth.md", name)
     for part in ("symtop_ros", "examples"):
         (folder / part).symlink_to(ROOT / part)
     output = ""
     for command in commands:
         output += execute(["sh", "-c", command], cwd=folder, check=True, timeout=300).stdout
-    return output, "".join(f"{line}\n" for line in lines if not line.startswith("$ "))
+    return output, shown
 
 
 @needs_compiler

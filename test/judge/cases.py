@@ -11,6 +11,7 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 
 SECOND = 1_000_000_000
+NONE = Rotation.identity()
 KICK = 3_123_456_789  # ns
 
 
@@ -30,12 +31,11 @@ def make_events():
     return events
 
 
-def make_estimates(truth, stamps, world=None, body=None, delay=0.0):
+def make_estimates(truth, stamps, world=NONE, body=NONE, delay=0.0):
     """Estimates that are turned and late."""
     exact, rates, known = truth.states_at(stamps - round(delay * SECOND))
     assert known.all()
     q = Rotation.from_quat(exact[:, [1, 2, 3, 0]])
-    world, body = world or Rotation.identity(), body or Rotation.identity()
     turned = (world * q * body).as_quat()[:, [3, 0, 1, 2]]
     return Estimates.of(stamps, turned, body.inv().apply(rates))
 

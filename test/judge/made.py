@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from judge.cases import SECOND, make_estimates
+from judge.cases import NONE, SECOND, make_estimates
 from physics.tops import multiply
 from scipy.spatial.transform import Rotation
 
@@ -22,8 +22,8 @@ def heading(angle):
 class Made:
     """An error of estimates."""
 
-    world: Rotation | None = None
-    body: Rotation | None = None
+    world: Rotation = NONE
+    body: Rotation = NONE
     delay: float = 0.0
     drift: float = 0.0
     spin: float = 0.0
@@ -38,15 +38,13 @@ class Made:
         random = np.random.default_rng(seed)
         seconds = (stamps - stamps[0]) / SECOND
         shifted = stamps - np.rint(self.clock * (stamps - stamps[0])).astype(np.int64)
-        found = make_estimates(truth, shifted, None, None, self.delay)
+        found = make_estimates(truth, shifted, delay=self.delay)
         q = found.orientations
         if self.scale:
             late = shifted - round(self.delay * SECOND)
             q = integrate_rates(truth, late, 1 + self.scale)
-        q = compose(turn_z(self.drift * seconds), _turn_world(self.world, q))
-        q = compose(q, turn_z(self.spin * seconds))
-        if self.body is not None:
-            q = compose(q, wxyz(self.body))
+        q = compose(turn_z(self.drift * seconds), compose(wxyz(self.world), q))
+        q = compose(compose(q, turn_z(self.spin * seconds)), wxyz(self.body))
         q = OTHERS[self.other](q)
         if self.noise:
             q = compose(q, wxyz(Rotation.from_rotvec(random.normal(0, self.noise, (len(q), 3)))))
@@ -78,10 +76,6 @@ def wxyz(rotation):
 
 def turn_z(angles):
     return wxyz(Rotation.from_rotvec(np.outer(angles, [0.0, 0.0, 1.0])))
-
-
-def _turn_world(world, q):
-    return q if world is None else compose(wxyz(world), q)
 
 
 WRONG = {

@@ -12,7 +12,7 @@ from random import Random
 from typing import Any
 
 import numpy as np
-from judge.cases import SECOND
+from judge.cases import NONE, SECOND
 from judge.made import FRD, NED, WRONG, Made, turn_z, wxyz
 from scipy.spatial.transform import Rotation
 
@@ -72,8 +72,8 @@ def draw_own(random: Random) -> tuple[Made, tuple[str, str, tuple[str, ...]]]:
         "heading": Rotation.from_rotvec([0.0, 0.0, random.uniform(0.05, 2.5)]),
         "world": draw_rotation(random),
         "both": draw_rotation(random),
-    }.get(level)
-    body = draw_rotation(random) if level in ("body", "both") else None
+    }.get(level, NONE)
+    body = draw_rotation(random) if level in ("body", "both") else NONE
     world, body = (NED if "ned" in change else world), (FRD if "frd" in change else body)
     wrong = change if change in WRONG else ""
     made = Made(world, body, change=wrong, noise=random.choice(NOISES), **values)

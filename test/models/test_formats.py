@@ -107,33 +107,17 @@ def test_what_a_model_leaves_out_is_told(capsys):
 FRAMES = [("world", "top"), ("map", "a/top"), ('w"&<', "gyro's")]
 
 
-def joints(text):
-    """Type, parent and child of each joint."""
-    robot = ElementTree.fromstring(text)
-    return [
-        (each.get("type"), each.find("parent").get("link"), each.find("child").get("link"))
-        for each in robot.iter("joint")
-    ]
-
-
-def published(text, world, top, with_tf, with_state_publisher):
-    """Parent and child of each transform; robot_state_publisher leaves out floating joints."""
-    own = [(world, top)] if with_tf else []
-    others = [(parent, child) for kind, parent, child in joints(text) if kind != "floating"]
-    return own + (others if with_state_publisher else [])
-
-
 @pytest.mark.parametrize(("world", "top"), FRAMES)
 @pytest.mark.parametrize(
     ("with_tf", "with_state_publisher"), [(True, True), (True, False), (False, True)]
 )
 def test_the_body_hangs_from_the_world(world, top, with_tf, with_state_publisher):
     text = robot_description(ARTICLE, world, top, tf_moves_it=with_tf)
-    (body,) = ElementTree.fromstring(text).iterfind("link[visual]")
-    parents = {
-        child: parent
-        for parent, child in published(text, world, top, with_tf, with_state_publisher)
-    }
+    robot, parents = ElementTree.fromstring(text), {top: world} if with_tf else {}
+    (body,) = robot.iterfind("link[visual]")
+    for joint in robot.iterfind("joint") if with_state_publisher else ():
+        if joint.get("type") != "floating":  # robot_state_publisher leaves these out
+            parents[joint.find("child").get("link")] = joint.find("parent").get("link")
     frame = body.get("name")
     assert frame == top
     while frame in parents:

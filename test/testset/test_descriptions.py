@@ -8,7 +8,7 @@ from testset.model_files import DIGITS, read_model, rotation
 from symtop_ros.models.descriptions import TURN as OF_MODELS
 from symtop_ros.models.descriptions import describe
 from symtop_ros.physics import State
-from symtop_ros.testset.score import DESCRIPTIONS, find_problem, main, read_problems
+from symtop_ros.testset.score import DESCRIPTIONS, find_problem, read_problems
 from symtop_ros.testset.tables import TURN
 from workshop.testset.problems import SETTINGS
 
@@ -102,13 +102,3 @@ def test_a_frame_is_moved_with_the_size_of_the_body():
     assert 0.005 < max(map(abs, described.pivot)) < 0.05
     place, velocity = described.find_origin(State((1, 0, 0, 0), (1.0, 2.0, 3.0)))
     assert velocity == pytest.approx(np.cross((1.0, 2.0, 3.0), place), rel=4 * EPS)
-
-
-def test_a_description_that_is_none_is_refused(capsys):
-    for name, reason in (
-        ("cusps.bent", "description must be one of turned, offset, nested, nested_half, got bent"),
-        ("cusps.", "description must be one of turned, offset, nested, nested_half, got \n"),
-        ("tops.turned", "problem must be one of gentle_cusps, "),
-    ):
-        assert main([name]) == 1
-        assert capsys.readouterr().err.startswith(reason.replace("\\n", "\n"))

@@ -2,13 +2,14 @@
 
 import json
 import shutil
-import subprocess
 from base64 import b64encode
 
 import numpy as np
 import pytest
 from browser import running_browser
+from programs import execute
 
+from symtop_ros.arrays import invert
 from symtop_ros.physics import State
 from symtop_ros.testset.score import FILE, find_problem, main, read_problems
 
@@ -40,10 +41,6 @@ def write(table, names=NAMES, separator=","):
     return "\n".join([separator.join(names), *rows]) + "\n"
 
 
-def conjugate(q):
-    return q * [1.0, -1.0, -1.0, -1.0]
-
-
 def make_mistakes():
     """Tables with a mistake of convention, by what is named."""
     t, q, omega = read_exact("cusps")
@@ -51,8 +48,8 @@ def make_mistakes():
     xyzw = [1, 2, 3, 0]
     tables = {
         "order x, y, z, w": (q[:, xyzw], omega),
-        "conjugate: world to body": (conjugate(q), omega),
-        "conjugate, in the order x, y, z, w": (conjugate(q)[:, xyzw], omega),
+        "conjugate: world to body": (invert(q), omega),
+        "conjugate, in the order x, y, z, w": (invert(q)[:, xyzw], omega),
         "in deg/s": (q, np.degrees(omega)),
         "in the world frame": (q, world),
         "in deg/s, in the world frame": (q, np.degrees(world)),
@@ -121,7 +118,7 @@ def cpp(folder):
     if not compiler:
         pytest.skip("no g++: apt install g++")
     command = [compiler, "-O1", "-std=c++17", "-Wall", "-Wextra", "-Werror", "score.cpp"]
-    subprocess.run([*command, "-o", "score"], cwd=folder, check=True)
+    execute([*command, "-o", "score"], cwd=folder, check=True)
     return lambda *args: run(folder / "score", *args)
 
 
@@ -138,7 +135,7 @@ def javascript(folder):
 
 
 def run(*command):
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+    done = execute(command)
     return done.returncode, done.stdout, done.stderr
 
 

@@ -13,6 +13,8 @@ from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.view import ViewOptions
 from symtop_ros.playback.viewer import replay
 
+FLOAT = 4 * float(np.finfo(np.float32).eps)  # of a rotation in single precision
+
 
 def record(log, folder, **options):
     """Return the recording of a run or of the file of its log."""

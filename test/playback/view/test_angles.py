@@ -2,14 +2,13 @@
 
 import numpy as np
 from log_files import Run
-from playback.view.rows import entities_of, record, rows
+from playback.view.rows import FLOAT, entities_of, record, rows
 from rerun.chunk import RrdReader
 
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.surroundings import RADII, draw_arcs
 
-FLOAT = 4 * float(np.finfo(np.float32).eps)  # of a rotation in single precision
 # of a point: sums of four rounded products of numbers up to 1.1
 ROUNDING = 8 * float(np.finfo(float).eps)
 

@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 from log_files import ARTICLE, Run
-from playback.view.rows import arrows, entities_of, record, rows
+from playback.view.rows import FLOAT, arrows, entities_of, record, rows
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.surroundings import has_cones
 
-FLOAT = 4 * float(np.finfo(np.float32).eps)
 STARTS = {
     "rod": (0.25, {"theta": 0.5, "phi_dot": 30.0, "psi_dot": 60.0}),
     "disc": (1.9, {"theta": 1.2, "theta_dot": 9.0, "psi_dot": 20.0}),

@@ -2,13 +2,11 @@
 
 import numpy as np
 from log_files import ARTICLE, CUSPS, Run
-from playback.view.rows import arrows, record, rows
+from playback.view.rows import FLOAT, arrows, record, rows
 
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.torques import DEPTHS, LONGEST, find_scale
-
-FLOAT = 4 * float(np.finfo(np.float32).eps)
 
 
 def drawn(start, folder):

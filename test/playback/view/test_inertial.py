@@ -2,13 +2,11 @@
 
 import numpy as np
 from log_files import ARTICLE, CUSPS, Run
-from playback.view.rows import arrows, record, rows
+from playback.view.rows import FLOAT, arrows, record, rows
 
 from symtop_ros.physics import Motion
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.torques import ARROWS, LENGTH, Torques
-
-FLOAT = 4 * float(np.finfo(np.float32).eps)
 
 
 def read(start, folder):

@@ -23,21 +23,14 @@ MOTIONS = {
 }
 
 
-@pytest.fixture(params=MOTIONS, name="motion")
-def _motion(request):
-    return MOTIONS[request.param]
-
-
-def test_the_turning_angles_and_the_energy_line_are_inside_the_chart(motion):
+@pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
+def test_turning_angles_energy_and_the_roots_that_are_angles_are_inside_the_charts(motion):
     potential = EffectivePotential.of(motion.top, motion.start)
     chart = frame_potential(motion, potential)
     assert chart.left <= motion.turning_angles[0] <= motion.turning_angles[1] <= chart.right
     assert chart.bottom < potential.energy < chart.top
     assert math.isfinite(chart.top - chart.bottom)
-
-
-def test_the_roots_that_are_angles_are_inside_the_chart_of_the_cubic(motion):
-    chart = frame_cubic(motion, EffectivePotential.of(motion.top, motion.start))
+    chart = frame_cubic(motion, potential)
     assert chart.left < -1 < 1 < chart.right
     assert chart.bottom < 0 < chart.top
 
