@@ -16,7 +16,7 @@ from symtop_ros.log.top_log import TopLog
 from symtop_ros.log.writer import LogFile
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict, regular_precession_rates
-from symtop_ros.simulation.changes.outcomes import Outcome, Start
+from symtop_ros.simulation.changes.outcomes import Start
 from symtop_ros.simulation.changes.requests import plan_kick
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
@@ -57,7 +57,8 @@ class Run:
     def __post_init__(self) -> None:
         motion = Motion(self.top, self.start, self.friction, self.torque)
         segment = Segment.begin(motion, BEGIN, 1.0)
-        self._announce("start", BEGIN, Start.of(motion), {}, segment.state_at(BEGIN), segment)
+        state = segment.state_at(BEGIN)
+        self._announce(Event.of(BEGIN, "start", Start.of(motion), {}, state, segment, self.frame))
         count = int(self.seconds * self.rate)
         stamps = [BEGIN + round(k * 1e9 / self.rate) for k in range(count)]
         half = count // 2 if self.hurried else count
@@ -68,21 +69,12 @@ class Run:
             kicked, hold = plan_kick(segment.motion, before, request)
             segment = segment.replace_motion(kicked, stamp)
             outcome = kick_verdict(kicked, before, hold)
-            self._announce("kick", stamp, outcome, request, before, segment)
+            kick = Event.of(stamp, "kick", outcome, request, before, segment, self.frame, number=2)
+            self._announce(kick)
             self._samples(segment, stamps[half:])
 
-    def _announce(
-        self,
-        name: str,
-        stamp: int,
-        outcome: Outcome,
-        request: dict[str, object],
-        before: State,
-        segment: Segment,
-    ) -> None:
-        number = 1 + sum(topic == "events" for topic, *_ in self.messages)
-        event = Event.of(stamp, name, outcome, request, before, segment, self.frame, number)
-        self.messages.append(("events", stamp, event.encode("world")))
+    def _announce(self, event: Event) -> None:
+        self.messages.append(("events", event.stamp, event.encode("world")))
 
     def _samples(self, segment: Segment, stamps: list[int]) -> None:
         samples = Samples.at(segment, np.array(stamps))

@@ -16,11 +16,6 @@ from examples.map_on_dask import SPINS, TILTS, TOP, compute_rows
 SIZE = 200
 
 
-def run(*options):
-    words = [sys.executable, "examples/map_on_dask.py", *options]
-    return execute(words, timeout=300, check=True, cwd=ROOT).stdout
-
-
 def test_a_block_has_the_tilts_of_its_rows():
     whole = compute_rows(0, 6, 6, 10.0)
     assert (compute_rows(2, 4, 6, 10.0) == whole[2:4]).all()
@@ -34,7 +29,9 @@ def test_a_block_has_the_tilts_of_its_rows():
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_cluster_of_workers_computes_the_map(workers, tmp_path):
     path = tmp_path / "map.npy"
-    text = run("--motions", SIZE**2, "--workers", workers, "-o", path)
+    words = [sys.executable, "examples/map_on_dask.py"]
+    words += ["--motions", SIZE**2, "--workers", workers, "-o", path]
+    text = execute(words, timeout=300, check=True, cwd=ROOT).stdout
     assert re.match(rf"{SIZE**2} motions in [\d.]+ s on {workers} workers", text)
     tilts = np.load(path)
     assert tilts.shape == (SIZE, SIZE)

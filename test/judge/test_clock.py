@@ -41,15 +41,13 @@ def test_a_delay_and_a_rate_are_found_within_five_deviations(made, delay, rate):
     assert clock.rate_deviation < 2 * np.sqrt(12) / 5 * seconds
 
 
-def test_jitter_is_told_from_noise_and_from_a_late_clock():
+def test_jitter_is_told_from_noise_and_from_a_late_clock_and_noise_is_not_jitter():
     made = Made(delay=-40e-6, clock=1e-5, noise=NOISE)
     clock = measure_clock(jittered(made, 10e-6), TRUTH, "file")
     assert clock.kind == "jitter"
     # A variance from n estimates has a deviation of sqrt(2 / n), at most sqrt(3) times that here.
     assert abs(clock.jitter - 10) < 10 * 5 * np.sqrt(1.5 / len(STAMPS))
 
-
-def test_noise_is_not_jitter():
     clock = measure_clock(Made(noise=NOISE).make(TRUTH, STAMPS), TRUTH, "file")
     assert clock.kind == "none"
     assert clock.jitter < 1e6 * NOISE / FASTEST

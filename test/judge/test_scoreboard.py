@@ -1,6 +1,7 @@
 """All trajectories of the test set scored together."""
 
 import json
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -42,18 +43,10 @@ def test_an_entry_that_tries_more_and_solves_nothing_more_is_not_ranked_first(tm
 
 @pytest.mark.parametrize(
     ("name", "step"),
-    [
-        ("rk4-0.001", ("rk4", 0.001)),
-        ("rk4-1e-03", ("rk4", 0.001)),
-        ("euler-2-1e-3", ("euler-2", 0.001)),
-        ("rk4", None),
-        ("rk4-0", None),
-    ],
+    [("rk4-1e-3", ("rk4", 0.001)), ("euler-2-1", ("euler-2", 1.0)), ("rk4", None), ("rk4-0", None)],
 )
 def test_the_step_of_an_entry_is_the_number_at_its_end(name, step):
-    problem = read_problems()["cusps"]
-    score = problem.score(np.array(problem.facts["orientations"], dtype=float))
-    assert Entry(name, score).step == step
+    assert Entry(name, Mock()).step == step
 
 
 def test_the_same_is_given_as_json(tmp_path, capsys):

@@ -10,15 +10,10 @@ from workshop.load.stress import HEAD, Outcome
 pytestmark = pytest.mark.realtime
 
 
-@pytest.fixture
-def few(monkeypatch):
+@pytest.mark.long
+def test_under_load_nothing_is_lost_and_every_request_is_answered(capsys, monkeypatch):
     for name, number in {"CLIENTS": 2, "SUBSCRIBERS": 20, "JOINERS": 20, "TOPS": 2}.items():
         monkeypatch.setattr(stress, name, number)
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("few")
-def test_under_load_nothing_is_lost_and_every_request_is_answered(capsys):
     assert stress.main(["--seconds", "0.5"]) == 0
     head, *rows = capsys.readouterr().out.splitlines()
     assert head == HEAD

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from documents import blocks
 
 from symtop_ros.judge.main import main
 from symtop_ros.physics import State
@@ -33,16 +34,12 @@ def measure_pinocchio(names):
 MEASURE = {"mujoco": measure_mujoco, "pinocchio": measure_pinocchio}
 
 
-def find_blocks(folder):
-    return re.findall("```python\n(.*?)```", (folder / "README.md").read_text(), re.DOTALL)
-
-
 @pytest.mark.parametrize("name", PROBLEMS)
 @pytest.mark.parametrize("engine", ["mujoco", pytest.param("pinocchio", marks=pytest.mark.long)])
 def test_the_snippet_starts_the_engine_as_the_problem_starts(engine, name, tmp_path, monkeypatch):
     pytest.importorskip(engine)
     assert main(["--testset", name, "-o", str(tmp_path)]) == 0
-    code = next(each for each in find_blocks(tmp_path) if engine in each)
+    code = next(code for code, _ in blocks(tmp_path / "README.md", "python") if engine in code)
     monkeypatch.chdir(tmp_path)
     names = {}
     exec(code, names)
@@ -65,10 +62,9 @@ ENGINES = ("bullet", "rapier", "jolt", "dart")
 def copy_problem(name, folder):
     """Copy a problem; return its programs by their engines."""
     assert main(["--testset", name, "-o", str(folder)]) == 0
-    text = (folder / "README.md").read_text()
-    text = text[text.index("## Start in Bullet") :]
-    blocks = re.findall(r"```(?:cpp|js|python)\n(.*?)```", text, re.DOTALL)[:4]
-    return dict(zip(ENGINES, blocks, strict=True))
+    _, _, text = (folder / "README.md").read_text().partition("## Start in Bullet")
+    found = re.findall(r"```(?:cpp|js|python)\n(.*?)```", text, re.DOTALL)[:4]
+    return dict(zip(ENGINES, found, strict=True))
 
 
 @pytest.mark.parametrize("name", ["cusps", "nodding", "heavy_top", "small", "gentle_free"])

@@ -12,15 +12,11 @@ from workshop.speed.derivatives import derive_by_package, find_error, read_case
 from workshop.speed.filters import MOUNTS, format_trials
 
 
-@pytest.fixture
-def short(monkeypatch):
-    for name, value in {"SPAN": 1, "SCENES": ("conical_pendulum",)}.items():
-        monkeypatch.setattr(filters, name, value)
-    monkeypatch.setattr(filters, "FILTERS", ("AngularRate", "Mahony"))
-
-
-def test_tables_and_plot_are_written(short, tmp_path, capsys):
+def test_tables_and_plot_are_written(monkeypatch, tmp_path, capsys):
     pytest.importorskip("ahrs")
+    short = {"SPAN": 1, "SCENES": ("conical_pendulum",), "FILTERS": ("AngularRate", "Mahony")}
+    for name, value in short.items():
+        monkeypatch.setattr(filters, name, value)
     folder = tmp_path / "made" / "here"
     assert main(["filters", str(folder)]) == 0
     facts = json.loads((folder / "filters.json").read_text())

@@ -26,14 +26,6 @@ RECORDING = ("publish_rate:=1000", "record.enabled:=true")
 SECONDS, ATTEMPTS = 1.0, 3
 
 
-@contextlib.contextmanager
-def begun(*words):
-    """Run a program; it is there when it has begun to run its own lines."""
-    with running(command(*words), DOMAIN) as process:
-        _wait_for_first_line(process)
-        yield process
-
-
 def _wait_for_first_line(process):
     """Wait until Python's own handler of SIGINT has come and gone.
 
@@ -58,7 +50,8 @@ def _handles_sigint(pid):
 
 def ended_at_random(chance, *words):
     """End a program at a moment of chance; return its exit status and what it wrote to stderr."""
-    with begun(*words) as process:
+    with running(command(*words), DOMAIN) as process:
+        _wait_for_first_line(process)
         time.sleep(chance.uniform(0.0, SECONDS))
         process.send_signal(chance.choice([signal.SIGINT, signal.SIGTERM]))
         _, told = process.communicate(timeout=TIMEOUT)

@@ -32,23 +32,12 @@ PERIOD = SECOND // 200  # of the samples of a top
 KICK = Parameter("precession_rate", value=9.0).to_parameter_msg()
 
 
-class Samples:
-    """The samples of one topic as they arrived."""
-
-    def __init__(self) -> None:
-        self.stamps: list[int] = []
-
-    def take(self, data: bytes) -> None:
-        stamp = deserialize_message(data, Header).stamp
-        self.stamps.append(stamp.sec * SECOND + stamp.nanosec)
-
-    def report(self) -> dict[str, Any]:
-        steps = [b - a for a, b in pairwise(self.stamps)]
-        return {
-            "count": len(self.stamps),
-            "lost": sum(step // PERIOD - 1 for step in steps if step > 0),
-            "unordered": sum(step <= 0 for step in steps),
-        }
+def summarize(samples: list[bytes]) -> dict[str, int]:
+    """Count the samples of one topic as they arrived."""
+    stamps = [deserialize_message(data, Header).stamp for data in samples]
+    steps = [(b.sec - a.sec) * SECOND + b.nanosec - a.nanosec for a, b in pairwise(stamps)]
+    lost = sum(step // PERIOD - 1 for step in steps if step > 0)
+    return {"count": len(stamps), "lost": lost, "unordered": sum(step <= 0 for step in steps)}
 
 
 class Witness:
@@ -58,17 +47,17 @@ class Witness:
         node = rclpy.create_node("witness")
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(node)
-        self._samples = {name: Samples() for name in TYPES}
+        self._samples: dict[str, list[bytes]] = {name: [] for name in TYPES}
         self._events: list[str] = []
         for name, kind in TYPES.items():
-            take = self._samples[name].take
+            take = self._samples[name].append
             node.create_subscription(kind, f"/top/{name}", take, DEPTH, raw=True)
         node.create_subscription(DiagnosticArray, "/top/events", self._take_event, LATCHED)
         self._client = node.create_client(SetParametersAtomically, "/top/kick")
 
     def report(self) -> dict[str, Any]:
         """Return statistics of the received samples by topic."""
-        samples = {name: each.report() for name, each in self._samples.items() if each.stamps}
+        samples = {name: summarize(each) for name, each in self._samples.items() if each}
         return {"samples": samples, "events": self._events}
 
     def kick(self) -> float:

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from symtop_ros.arrays import compose
 from symtop_ros.testset.score import main, read_problems, read_trajectory
 
 CUSPS = read_problems()["cusps"]
@@ -14,10 +15,7 @@ EXACT = np.array([[float(c) for c in q] for q in CUSPS.facts["orientations"]])
 def test_an_error_is_an_angle_whatever_the_sign_and_the_norm():
     angle = 1e-3
     turn = [math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2)]  # about the vertical
-    w, x, y, z = EXACT.T
-    c, _, _, s = turn
-    turned = np.stack((c * w - s * z, c * x - s * y, c * y + s * x, c * z + s * w), axis=1)
-    score = CUSPS.score(-1.001 * turned)
+    score = CUSPS.score(-1.001 * compose(turn, EXACT))
     # 2 |q - q_exact| is 4 sin(angle/4): below the angle by angle^3/96
     assert score.angles == pytest.approx(np.full(20, angle), rel=1e-7)
     assert score.in_limits.max() == pytest.approx(

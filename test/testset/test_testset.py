@@ -25,11 +25,6 @@ PROBLEMS = {name: each.facts for name, each in read_problems().items()}
 SUMS = "da68e849981bc090482bc9014ceceaba14ef9cbd80d8100835c604ed3b91f170"
 
 
-def read_inputs(facts):
-    keys = "Ix", "Iz", "Mgl", "orientation", "angular_velocity"
-    return Inputs.exact(*(facts[key] for key in keys))
-
-
 def test_there_are_seventy_problems_of_six_levels_at_twenty_times():
     assert list(PROBLEMS) == [setting.name for setting in SETTINGS]
     assert len(PROBLEMS) == 70
@@ -42,7 +37,9 @@ def test_there_are_seventy_problems_of_six_levels_at_twenty_times():
 def test_a_state_of_every_other_problem_is_made_again_to_the_digit(setting):
     facts = PROBLEMS[setting.name]
     k = sum(setting.name.encode()) % COUNT
-    q, omega = ClosedForm(read_inputs(facts), DIGITS).at(facts["times"][k])
+    keys = "Ix", "Iz", "Mgl", "orientation", "angular_velocity"
+    inputs = Inputs.exact(*(facts[key] for key in keys))
+    q, omega = ClosedForm(inputs, DIGITS).at(facts["times"][k])
     for name, rows in list_all(setting, [(q, omega)]).items():
         # the lists of what follows from states begin with the start
         assert rows == [facts[name][place] for place in ((k,) if name in STATES else (0, k + 1))]
