@@ -1,7 +1,5 @@
 """Parts of the documents that can be tried: code blocks, links, and names in tables."""
 
-from __future__ import annotations
-
 import math
 import re
 import shlex

@@ -5,8 +5,6 @@ processor. Here sums, products, quotients and square roots are those of IEEE 754
 computed with 30 digits and rounded once.
 """
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable
 from typing import Any

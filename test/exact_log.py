@@ -1,7 +1,5 @@
 """Comparison of a log with the run computed again from its events."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from symtop_ros.check.run import check_run

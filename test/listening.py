@@ -1,7 +1,5 @@
 """Addresses that processes listen on."""
 
-from __future__ import annotations
-
 import contextlib
 
 import psutil

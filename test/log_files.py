@@ -1,11 +1,9 @@
 """Logs as the node writes them, without waiting for a node."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from mcap.writer import Writer
@@ -88,7 +86,7 @@ class Run:
         """Places of the messages of a topic."""
         return [place for place, each in enumerate(self.messages) if each[0] == name]
 
-    def without(self, name: str) -> Run:
+    def without(self, name: str) -> Self:
         """Leave the messages of a topic out."""
         self.messages = [each for each in self.messages if each[0] != name]
         return self

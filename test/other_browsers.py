@@ -1,7 +1,5 @@
 """Firefox and WebKit on a screen in memory, by their own drivers."""
 
-from __future__ import annotations
-
 import base64
 import contextlib
 import json

@@ -4,8 +4,6 @@ What NumPy, OpenBLAS and the C library compute in the last bits depends on the i
 they find. An instruction that is missing cannot be added: each variable takes some away.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 try:

@@ -1,7 +1,5 @@
 """The installed programs as processes in a given ROS domain."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """Lines of Python in a separate process, and programs where some modules are missing."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

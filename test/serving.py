@@ -1,7 +1,5 @@
 """The server of a page in a thread of the test."""
 
-from __future__ import annotations
-
 import contextlib
 import threading
 from collections.abc import Iterator

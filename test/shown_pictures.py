@@ -1,7 +1,5 @@
 """Pictures of the documents, compared with those that are drawn now."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import IO
 

@@ -48,9 +48,6 @@ def assert_tree(prefix, programs):
     assert sorted(path.name for path in installed) == CONFIG
     (package,) = prefix.glob("lib/python*/site-packages/symtop_ros")
     assert (package.parent / LIBRARY).is_file()
-    web = ("web/page.html", "web/page.css", "web/js/start.js", "web/lesson.yaml")
-    for name in ("py.typed", "log/definitions.json", *web):
-        assert (package / name).is_file()
     for name in PROGRAMS:
         assert os.access(programs / f"top_{name}", os.X_OK)
 

@@ -1,7 +1,5 @@
 """Values of families of tests: some for each run of the tests, the others for the long trials."""
 
-from __future__ import annotations
-
 from collections.abc import Container, Iterable
 from typing import Any
 

@@ -4,8 +4,6 @@ Half of the causes are the judge's own: a mistake of convention, one level of ro
 parameter. The others are not, and are not to be named.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from random import Random

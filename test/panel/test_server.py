@@ -154,17 +154,16 @@ def test_the_name_of_this_machine_may_have_capitals(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "body", ["", "[1]", "{", "[" * 60_000, "\udcff".encode(errors="surrogateescape")]
+    ("body", "headers"),
+    [
+        *((text, {}) for text in ("", "[1]", "{", "[" * 60_000, b"\xff", " " * (MAX_REQUEST + 1))),
+        ("{}", {"Content_Length": "-1"}),
+    ],
 )
-def test_a_request_that_is_no_object_is_refused(live, body):
+def test_a_request_that_is_no_object_or_too_long_is_refused(live, body, headers):
     before = len(live.node.asked)
-    assert kick(live, body)[0] == 400
+    assert kick(live, body, **headers)[0] == 400
     assert len(live.node.asked) == before
-
-
-def test_a_long_request_is_not_read(live):
-    assert kick(live, " " * (MAX_REQUEST + 1))[0] == 400
-    assert kick(live, "{}", Content_Length="-1")[0] == 400
 
 
 def test_news_are_messages_of_an_event_stream(live):

@@ -14,6 +14,8 @@ from exact_log import STATES
 from hypothesis import given
 from hypothesis import strategies as st
 from log_files import LAYOUTS, Run, write_mcap
+from mcap.data_stream import RecordBuilder
+from mcap.records import Channel, Chunk, Message, Schema
 from odd_values import CONTROL, assert_one_sentence, deterministic
 from trials import trials
 
@@ -133,13 +135,14 @@ def test_a_kick_that_cannot_be_read_is_a_change_of_the_motion_in_the_page(text, 
 DAMAGED = "a chunk is damaged: all messages of"
 
 
-def record(opcode, data):
-    return struct.pack("<BQ", opcode, len(data)) + data
+def write_record(record):
+    builder = RecordBuilder()
+    record.write(builder)
+    return builder.end()
 
 
 def chunk(packed_data, size, crc):
-    body = struct.pack("<QQQII", 0, 1, size, crc, 4) + b"zstd"
-    return record(6, body + struct.pack("<Q", len(packed_data)) + packed_data)
+    return write_record(Chunk("zstd", packed_data, 1, 0, crc, size))
 
 
 def repeated(one, count):
@@ -162,38 +165,34 @@ def grown(call):
 
 
 def test_millions_of_messages_in_a_chunk_of_a_few_bytes_are_not_held_at_once(tmp_path):
-    path = file_of(tmp_path, repeated(record(5, struct.pack("<HIQQ", 1, 0, 5, 5)), 300_000))
+    path = file_of(tmp_path, repeated(write_record(Message(1, 5, b"", 5, 0)), 300_000))
     file = McapFile(path)
     counted = []
     assert grown(lambda: counted.append(sum(map(len, file.chunks())))) < 100
     assert counted == [300_000]
 
 
-@pytest.mark.parametrize(
-    ("one", "count"), [(bytes(1024), 64 * 1024), (record(5, b"short"), 1)], ids=["none", "short"]
-)
+SHORT = struct.pack("<BQ5s", 5, 5, b"short")  # a message of five bytes
+
+
+@pytest.mark.parametrize(("one", "count"), [(bytes(1024), 64 * 1024), (SHORT, 1)], ids=["0", "1"])
 def test_a_chunk_of_records_that_are_none_is_damaged_at_once(one, count, tmp_path, capsys):
     path = file_of(tmp_path, repeated(one, count))
     _, lines = asked(capsys, path, "--repair", tmp_path / "whole.mcap")
     assert any(DAMAGED in line for line in lines)
 
 
-def text(data):
-    return struct.pack("<I", len(data)) + data
-
-
 def schema(number):
-    return record(3, struct.pack("<HI", number, 1) + b"a" + text(b"") + text(bytes(2**20)))
+    return Schema(number, bytes(2**20), "", "a")
 
 
 def channel(number):
-    names = text(b"/a%d" % number) + text(b"cdr")
-    return record(4, struct.pack("<HH", number, 0) + names + text(text(b"k") + text(b"v" * 2**20)))
+    return Channel(number, f"/a{number}", "cdr", {"k": "v" * 2**20}, 0)
 
 
 @pytest.mark.parametrize("make", [schema, channel])
 def test_chunks_that_unpack_to_ever_more_descriptions_are_refused(make, tmp_path, capsys):
-    path = file_of(tmp_path, *(repeated(make(number), 1) for number in range(1, 80)))
+    path = file_of(tmp_path, *(repeated(write_record(make(number)), 1) for number in range(1, 80)))
     for way in (["--check"], ["--repair", tmp_path / "whole.mcap"]):
         status, (line,) = asked(capsys, path, *way)
         assert status == 1

@@ -14,6 +14,7 @@ import pytest
 from documents import ROOT
 from exact_log import STATES
 from log_files import Run
+from packaging.requirements import Requirement
 from programs import execute
 from simulation.page_runs import make_run
 
@@ -35,13 +36,10 @@ def distributions(extra):
     found, wanted = set(), [("symtop_ros", extra)]
     while wanted:
         name, with_extra = wanted.pop()
-        for line in importlib.metadata.requires(name) or []:
-            marker = line.partition(";")[2]
-            needed = f'extra == "{with_extra}"' in marker if "extra ==" in marker else True
-            other = re.match(r"[\w.-]+", line)[0]
-            if needed and other not in found and "python_version" not in marker:
-                found.add(other)
-                wanted.append((other, None))
+        every = map(Requirement, importlib.metadata.requires(name) or [])
+        names = {r.name for r in every if not r.marker or r.marker.evaluate({"extra": with_extra})}
+        wanted += [(each, "") for each in names - found]
+        found |= names
     return found
 
 

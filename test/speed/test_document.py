@@ -44,20 +44,11 @@ SECTIONS = (
 )
 
 
-def read_tables(text):
-    """The cells of each table of a text."""
-    return [
-        [[cell.strip() for cell in line.split("|")[1:-1]] for line in table.splitlines()]
-        for table in text.split("\n\n")
-        if table.startswith("|")
-    ]
-
-
 def test_each_table_of_a_command_stands_in_one_page():
     texts = [page.read_text(encoding="utf-8") for page in PAGES]
     for name in SECTIONS:
         (table,) = filter(None, (find_section(text, name) for text in texts))
-        assert read_tables(table)
+        assert "\n|" in f"\n{table}"
     assert sum(text.count("<!-- figures: ") for text in texts) == len(SECTIONS)
 
 

@@ -4,8 +4,6 @@ Run it by hand after a change: PYTHONPATH=.:test python test/speed/write_referen
 Inputs and times are those of the file: a new motion is an entry without `exact` and `limit`.
 """
 
-from __future__ import annotations
-
 import json
 import lzma
 from typing import Any

@@ -4,8 +4,6 @@ The cable ends in TAP devices and runs through this process, which loses, delays
 frames as `tc ... netem` would, where the kernel has no netem as well.
 """
 
-from __future__ import annotations
-
 import contextlib
 import fcntl
 import heapq

@@ -3,8 +3,6 @@
 A line `kick` or `report` on its standard input is answered by a line of JSON.
 """
 
-from __future__ import annotations
-
 import json
 import queue
 import sys

@@ -1,7 +1,5 @@
 """Model files as other engines read them: what they say of a body and its start, in mpmath."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from pathlib import Path

@@ -5,11 +5,8 @@ import pytest
 from mpmath import mp, mpf
 from testset.model_files import DIGITS, read_model, rotation
 
-from symtop_ros.models.descriptions import TURN as OF_MODELS
 from symtop_ros.models.descriptions import describe
-from symtop_ros.physics import State
 from symtop_ros.testset.score import DESCRIPTIONS, find_problem, read_problems
-from symtop_ros.testset.tables import TURN
 from workshop.testset.problems import SETTINGS
 
 PROBLEMS = read_problems()
@@ -50,10 +47,6 @@ def test_each_model_has_the_body_and_the_start_of_its_problem(name, folder):
             # the frame of the model is that in which its states are scored
             own = rotation([mpf(each) for each in scored["orientations"][0]])
             assert mp.mnorm(start.T * frame - first.T * own) < rounding, path.name
-
-
-def test_the_set_and_its_models_turn_a_frame_alike():
-    assert tuple(map(float, TURN)) == tuple(map(float, OF_MODELS))
 
 
 @pytest.mark.long  # 0.4 GB to fetch; MuJoCo reads the same bodies
@@ -98,7 +91,4 @@ def test_a_frame_is_moved_with_the_size_of_the_body():
     body = PROBLEMS["cusps"].facts
     assert body["arm"] < 0.02
     (setting,) = (each for each in SETTINGS if each.name == "cusps")
-    described = describe("offset", setting.body)
-    assert 0.005 < max(map(abs, described.pivot)) < 0.05
-    place, velocity = described.find_origin(State((1, 0, 0, 0), (1.0, 2.0, 3.0)))
-    assert velocity == pytest.approx(np.cross((1.0, 2.0, 3.0), place), rel=4 * EPS)
+    assert 0.005 < max(map(abs, describe("offset", setting.body).pivot)) < 0.05
