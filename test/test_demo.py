@@ -3,14 +3,13 @@ import os
 import re
 import shlex
 import signal
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from exact_log import assert_no_deviation
 from listening import udp_addresses
-from programs import running
+from programs import execute, running
 
 from workshop.demo import FIRST_PORT, PORTS
 from workshop.load.endings import bound
@@ -86,7 +85,7 @@ def assert_commands(lines, log, replay):
         assert os.access(log.parents[1] / program, os.X_OK)
         assert {log.parents[1] / each for each in rest} & {log, replay}
     (check,) = [each for each in words if "--check" in each]
-    subprocess.run(check, cwd=log.parents[1], check=True, capture_output=True, timeout=60)
+    execute(check, cwd=log.parents[1], check=True)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -1,11 +1,11 @@
 """The groups of `make test`: all of them run, and the summary says what failed."""
 
 import shlex
-import subprocess
 import sys
 
 import groups
 import pytest
+from programs import execute
 
 TESTS = """
 import pytest
@@ -62,5 +62,5 @@ def test_each_failed_test_is_named_with_the_command_that_runs_it_alone(monkeypat
     (again,) = [shlex.split(line) for line in printed.splitlines() if "::" in line and "-m" in line]
     assert again[-1] == "test_some.py::test_one[a - b [c]]"
     alone = [sys.executable, *again[1:]]
-    result = subprocess.run(alone, cwd=folder, capture_output=True, text=True, check=False)
+    result = execute(alone, cwd=folder)
     assert "1 failed in" in result.stdout

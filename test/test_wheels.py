@@ -7,7 +7,6 @@ import os
 import re
 import shutil
 import struct
-import subprocess
 import sys
 
 import numpy as np
@@ -58,7 +57,7 @@ def compute(command, **variables):
 def wheels(tmp_path_factory):
     """The wheels, unpacked: a folder for each platform."""
     folder = tmp_path_factory.mktemp("wheels")
-    subprocess.run([ZIG / "bin/python", ROOT / "workshop/wheels.py", folder], check=True)
+    execute([ZIG / "bin/python", ROOT / "workshop/wheels.py", folder], check=True, timeout=900)
     found = {}
     for path in folder.glob("*.whl"):
         platform = re.search(r"-py3-none-(\w+)\.whl", path.name)[1]
@@ -111,14 +110,9 @@ def test_the_library_for_windows_has_the_same_bits_in_wine(wheels, tmp_path):
     (library,) = wheels["win_amd64"].rglob("libsymtop.dll")
     shutil.copy(library, tmp_path)
     options = ["-target", "x86_64-windows-gnu", "-O1", "-ffp-contract=off", "-I", library.parent]
-    program = tmp_path / "print_motions.exe"
-    subprocess.run(
-        [
-            *(ZIG / "bin/python", "-m", "ziglang", "cc", *options),
-            *(ROOT / "test/physics/kernel/print_motions.c", tmp_path / library.name, "-o", program),
-        ],
-        check=True,
-    )
+    program, source = tmp_path / "print_motions.exe", ROOT / "test/physics/kernel/print_motions.c"
+    compiler = [ZIG / "bin/python", "-m", "ziglang", "cc", *options]
+    execute([*compiler, source, tmp_path / library.name, "-o", program], check=True, timeout=600)
     environment = {
         "WINEPREFIX": tmp_path / "prefix",
         "LD_LIBRARY_PATH": WINE / "usr/lib/x86_64-linux-gnu",
@@ -128,15 +122,8 @@ def test_the_library_for_windows_has_the_same_bits_in_wine(wheels, tmp_path):
         "PATH": os.environ["PATH"],
     }
     samples, expected = list_many()
-    wine = subprocess.run(
-        [WINE / "usr/lib/wine/wine64", program],
-        input=samples,
-        env=environment,
-        cwd=tmp_path,
-        capture_output=True,
-        check=True,
-        timeout=600,
-    )
+    words, pipes = [WINE / "usr/lib/wine/wine64", program], {"input": samples, "text": False}
+    wine = execute(words, check=True, timeout=600, env=environment, cwd=tmp_path, **pipes)
     assert normalize(np.frombuffer(wine.stdout)) == expected
 
 
@@ -146,15 +133,10 @@ def test_the_library_for_windows_has_the_same_bits_in_wine(wheels, tmp_path):
 def test_the_wheel_for_arm_has_the_same_bits_in_the_emulator(wheels, tmp_path):
     (python,) = ARM.glob("python/usr/bin/python3.*")
     version = python.name.removeprefix("python")
-    subprocess.run(
-        [
-            *(sys.executable, "-m", "pip", "install", "--quiet", "--target", tmp_path, "numpy"),
-            *("--no-deps", "--only-binary=:all:", "--python-version", version),
-            *(f"--platform=manylinux_2_{minor}_aarch64" for minor in (17, 27, 28)),
-            "--platform=manylinux2014_aarch64",
-        ],
-        check=True,
-    )
+    words = [sys.executable, "-m", "pip", "install", "--quiet", "--target", tmp_path, "numpy"]
+    words += ["--no-deps", "--only-binary=:all:", "--python-version", version]
+    words += [f"--platform=manylinux_2_{minor}_aarch64" for minor in (17, 27, 28)]
+    execute([*words, "--platform=manylinux2014_aarch64"], check=True, timeout=600)
     emulator = [ARM / "usr/bin/qemu-aarch64-static", "-L", ARM / "python"]
     path = os.pathsep.join(map(str, (wheels["manylinux_2_28_aarch64"], tmp_path)))
     options = ["-E", f"PYTHONHOME={ARM / 'python/usr'}", "-E", f"PYTHONPATH={path}"]

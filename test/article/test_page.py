@@ -6,7 +6,7 @@ from urllib.parse import parse_qsl
 
 import pytest
 from browser import running_browser
-from documents import ROOT
+from documents import ROOT, rows
 from shown_pictures import assert_same_picture
 from web.opened import UNDRAWN
 
@@ -22,13 +22,8 @@ LINK = re.compile(r"\]\(\.\./top\.html#([^)]+)\)")
 QUICK = ("euler_angles", "four_masses")
 
 
-def list_rows():
-    """The cells of each passage: article, what it says, claims, figures, page."""
-    table = TEXT[TEXT.index("## Passage by passage") : TEXT.index("[The lesson](lesson.md)")]
-    return [row.split("|")[1:-1] for row in table.splitlines() if row.startswith("| ")][1:]
-
-
-ROWS = list_rows()
+# of each passage: article, what it says, claims, figures, page
+ROWS = rows(DOCS / "article.md", "Passage by passage")
 LINKS = sorted({link for row in ROWS for link in LINK.findall(row[4])})
 
 

@@ -1,12 +1,12 @@
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from documents import find_section
+from documents import ROOT, find_section
+from programs import running
 from waiting import until
 
 from workshop.load import node_cost
@@ -51,8 +51,6 @@ def test_lost_samples_are_late():
 
 
 DOMAIN = claim_domain()
-TEST = Path(__file__).parents[1]
-TIMEOUT = 20.0
 RUN = """
 import sys
 from programs import running_node
@@ -64,19 +62,12 @@ with running_node(int(sys.argv[1])) as node:
 
 @pytest.mark.skipif(SETPRIV is None, reason="setpriv (util-linux) is not installed")
 def test_a_node_ends_with_the_test_run_that_is_killed():
-    path = os.pathsep.join([str(TEST), str(TEST / "load"), os.environ.get("PYTHONPATH", "")])
-    run = subprocess.Popen(
-        [sys.executable, "-c", RUN, str(DOMAIN)],
-        env={**os.environ, "PYTHONPATH": path},
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    node = Path("/proc", run.stdout.readline().strip())
-    # A parent that dies before setpriv has asked for the signal is not noticed. While a process
-    # becomes another program its command line is empty.
-    until(lambda: (node / "cmdline").read_bytes().startswith(sys.executable.encode()))
-    run.send_signal(signal.SIGKILL)
-    run.wait(timeout=TIMEOUT)
-    until(lambda: not node.is_dir())
-    run.communicate(timeout=TIMEOUT)
+    path = os.pathsep.join([str(ROOT / "test"), os.environ.get("PYTHONPATH", "")])
+    options = {"env": {**os.environ, "PYTHONPATH": path}, "stdin": subprocess.PIPE}
+    with running([sys.executable, "-c", RUN, DOMAIN], DOMAIN, **options) as run:
+        node = Path("/proc", run.stdout.readline().strip())
+        # A parent that dies before setpriv has asked for the signal is not noticed. While a process
+        # becomes another program its command line is empty.
+        until(lambda: (node / "cmdline").read_bytes().startswith(sys.executable.encode()))
+        run.kill()
+        until(lambda: not node.is_dir())

@@ -4,7 +4,6 @@ import importlib.metadata
 import json
 import re
 import shutil
-import subprocess
 import sys
 import sysconfig
 from pathlib import Path
@@ -47,7 +46,7 @@ def distributions(extra):
 def laptop(tmp_path_factory):
     """A Python with what the extra `playback` brings and nothing else: no ROS."""
     folder = tmp_path_factory.mktemp("laptop") / "venv"
-    subprocess.run([sys.executable, "-m", "venv", "--without-pip", folder], check=True)
+    execute([sys.executable, "-m", "venv", "--without-pip", folder], check=True)
     site = next(folder.glob("lib/python*/site-packages"))
     for name in distributions("playback"):
         for file in importlib.metadata.files(name):

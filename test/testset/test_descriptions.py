@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from physics.tops import EPS
 from testset.model_files import DIGITS, read_model, rotation
 
 from symtop_ros.models.descriptions import describe
@@ -10,7 +11,6 @@ from symtop_ros.testset.score import DESCRIPTIONS, find_problem, read_problems
 from workshop.testset.problems import SETTINGS
 
 PROBLEMS = read_problems()
-EPS = 2.0**-52
 
 
 def find_models(folder, name):

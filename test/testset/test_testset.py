@@ -8,6 +8,7 @@ import shutil
 
 import numpy as np
 import pytest
+from physics.tops import EPS
 from python_runs import run_python
 from testset.test_scorers import make_table, write
 
@@ -67,36 +68,28 @@ def test_the_package_has_the_same_forces_energies_accelerations_and_states_in_th
     facts = PROBLEMS[setting.name]
     exact = {name: np.array(facts[name], dtype=float) for name in FORCES}
     motion = Motion(setting.top, setting.start)
-    states = motion.at([0.0, *facts["times"]])
-    fastest = np.abs(states.angular_velocity).max() + 1
+    states, body, top = motion.at([0.0, *facts["times"]]), setting.body, setting.top
+    omega, arm = states.angular_velocity, abs(body.arm)
+    fastest = np.abs(omega).max() + 1
     # the centre of mass, and Euler's equations: rates and torques of a few ulp
-    force = setting.body.pivot_force(motion, states)
-    weight = np.array([0.0, 0.0, setting.body.gravity])
-    size = setting.body.mass * (setting.body.gravity + abs(setting.body.arm) * fastest**2)
-    assert force == pytest.approx(exact["pivot_forces"], abs=8 * 2.0**-52 * size)
-    acceleration = force / setting.body.mass - weight
-    found = exact["accelerations"]
-    assert acceleration == pytest.approx(found, abs=8 * 2.0**-52 * size / setting.body.mass)
-    energy = setting.top.energy(states)
-    largest = setting.top.Ix * fastest**2 + abs(setting.top.Mgl)
-    assert energy == pytest.approx(exact["energies"], abs=4 * 2.0**-52 * largest)
+    force = body.pivot_force(motion, states)
+    rounding = 8 * EPS * (body.gravity + arm * fastest**2)
+    assert force == pytest.approx(exact["pivot_forces"], abs=rounding * body.mass)
+    acceleration = force / body.mass - [0.0, 0.0, body.gravity]
+    assert acceleration == pytest.approx(exact["accelerations"], abs=rounding)
+    largest = top.Ix * fastest**2 + abs(top.Mgl)
+    assert top.energy(states) == pytest.approx(exact["energies"], abs=4 * EPS * largest)
     # alpha x p is the acceleration of a point without the part of omega x (omega x p)
-    alpha = exact["angular_accelerations"]
     p = np.array([0.0, 0.0, 1.0])
-    local = np.cross(alpha, p) + np.cross(
-        states.angular_velocity, np.cross(states.angular_velocity, p)
-    )
+    local = np.cross(exact["angular_accelerations"], p) + np.cross(omega, np.cross(omega, p))
     ours = point_acceleration(motion, states, p)
-    assert ours == pytest.approx(local, abs=8 * 2.0**-52 * fastest**2)
+    assert ours == pytest.approx(local, abs=8 * EPS * fastest**2)
     # the world frame: an attitude within 10 eps, and products of it with the arm and the rates
     position, velocity, rate = (np.array(facts[name], dtype=float) for name in WORLD)
-    arm = abs(setting.body.arm)
-    assert position == pytest.approx(states.to_world([0, 0, setting.body.arm]), abs=3e-15 * arm)
-    assert rate == pytest.approx(
-        states.to_world(states.angular_velocity), abs=16 * 2.0**-52 * fastest
-    )
+    assert position == pytest.approx(states.to_world([0, 0, body.arm]), abs=3e-15 * arm)
+    assert rate == pytest.approx(states.to_world(omega), abs=16 * EPS * fastest)
     found = np.cross(rate, position)
-    assert velocity == pytest.approx(found, abs=16 * 2.0**-52 * fastest * arm)
+    assert velocity == pytest.approx(found, abs=16 * EPS * fastest * arm)
 
 
 @pytest.mark.parametrize("name", ["cusps", "spherical_pendulum", "upper_pole"])
