@@ -5,7 +5,7 @@ import re
 import pytest
 from documents import ROOT
 
-from workshop.article.answers.impulses import find_impulses, torques_at
+from workshop.article.answers.impulses import find_impulses
 from workshop.article.motions import TOP, cusps
 from workshop.article.nutation import times_of_extreme_rate
 
@@ -34,10 +34,3 @@ def test_the_table_of_the_article_has_the_impulses():
     assert expected[1][-1] in ("+0.000", "-0.000")
     expected[1][-1] = "0"
     assert table == expected
-
-
-def test_going_round_makes_no_torque_at_first_and_at_the_bottom_more_than_gravity():
-    first, bottom = torques_at(MOTION, [0.0, BOTTOM]).T
-    assert first[1] == first[2] == 0
-    assert f"{-bottom[1]:.3f}" == "0.080"
-    assert bottom.sum() < 0 < bottom[0]

@@ -21,22 +21,6 @@ DOMAIN = claim_domain()
 
 
 @contextlib.contextmanager
-def spinning(executor):
-    """Spin in a thread, as another process would."""
-    ending = threading.Event()
-
-    def spin():
-        while not ending.is_set():
-            executor.spin_once(timeout_sec=0.01)
-
-    thread = threading.Thread(target=spin, daemon=True)
-    thread.start()
-    yield
-    ending.set()
-    thread.join()
-
-
-@contextlib.contextmanager
 def bridge_to(name, context):
     user = rclpy.create_node("top_panel", context=context, start_parameter_services=False)
     bridge = Bridge(user, name)
@@ -47,10 +31,15 @@ def bridge_to(name, context):
 
 @pytest.fixture(name="node")
 def _node():
-    """A node in real time, and the bridge to it."""
+    """A node in real time, which a thread spins as another process would, and the bridge to it."""
     running = RunningTop(realtime=True, scene="cusps", real_time_factor=0.1)
-    with spinning(running.executor), bridge_to("/top", running.context) as bridge:
+    ending = threading.Event()
+    thread = threading.Thread(target=running.spin_until, args=(ending.is_set, 1e9), daemon=True)
+    thread.start()
+    with bridge_to("/top", running.context) as bridge:
         yield running, bridge
+    ending.set()
+    thread.join()
     running.close()
 
 

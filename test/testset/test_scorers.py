@@ -192,15 +192,6 @@ def test_the_three_scorers_list_and_refuse_the_same(tmp_path, capsys, cpp, javas
             assert_same(capsys, cpp, javascript, "cusps", path)
 
 
-def test_all_tables_that_say_the_same_are_scored_alike(tmp_path, capsys):
-    path, found = tmp_path / "trajectory.csv", set()
-    for kind in ("good", "bom", "semicolons", "tabs", "spaces", "hash", "quotes"):
-        path.write_text(FILES[kind], encoding="utf-8")
-        found.add(score(capsys, "cusps", path))
-    ((status, out, _),) = found
-    assert (status, out.count("\n")) == (0, 1)
-
-
 @pytest.mark.parametrize("kind", make_mistakes())
 def test_a_mistake_of_convention_is_named(kind, tmp_path, capsys):
     path = tmp_path / "trajectory.csv"
