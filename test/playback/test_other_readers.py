@@ -27,12 +27,6 @@ def chunks(tmp_path_factory):
     return [chunk for chunk in McapReader(path).stream() if not chunk.is_static]
 
 
-def ours(name):
-    data = [data for each, _, data in RUN.messages if each == name]
-    ((found,), _) = decode_messages(STATE_TOPICS[name].format, data)
-    return found
-
-
 @pytest.mark.parametrize("name", list(VECTORS))
 def test_stamped_messages_are_the_same_numbers(name, chunks):
     kind, vectors = VECTORS[name]
@@ -42,22 +36,18 @@ def test_stamped_messages_are_the_same_numbers(name, chunks):
     stamps = [each["header"]["stamp"] for each in messages]
     numbers = [[x for part in vectors(each) for x in part.values()] for each in messages]
     order = np.argsort([each["sec"] * 10**9 + each["nanosec"] for each in stamps])
-    assert np.array(numbers)[order].tolist() == ours(name).numbers.tolist()
+    data = [data for each, _, data in RUN.messages if each == name]
+    ((ours,), _) = decode_messages(STATE_TOPICS[name].format, data)
+    assert np.array(numbers)[order].tolist() == ours.numbers.tolist()
 
 
 @pytest.mark.parametrize("part", [1.0, 0.75, 0.5])
 def test_rerun_finds_no_fault_in_a_log_that_is_complete_or_repaired(part, tmp_path):
-    path = cut(tmp_path, part)
+    content = Run(seconds=1.0, described=True).write(tmp_path).read_bytes()
+    (path := tmp_path / "cut.mcap").write_bytes(content[: round(part * len(content))])
     if part < 1:
         assert execute([viewer.PROGRAM, "mcap", "check", path]).returncode == 1
         repair(McapFile(path), path := tmp_path / "repaired.mcap")
     done = execute([viewer.PROGRAM, "mcap", "check", "--full", path])
     assert done.returncode == 0, done.stdout
     assert all(topic(name) in done.stdout for name in LAYOUTS)
-
-
-def cut(folder, part):
-    """Write a log of which only this part of the bytes is there."""
-    content = Run(seconds=1.0, described=True).write(folder).read_bytes()
-    (path := folder / "cut.mcap").write_bytes(content[: round(part * len(content))])
-    return path

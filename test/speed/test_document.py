@@ -3,7 +3,7 @@ from documents import ROOT, find_section
 
 from workshop.load import node_cost, stress
 from workshop.releases import page
-from workshop.speed import derivatives, filters, publish, testset
+from workshop.speed import derivatives, filters, testset
 from workshop.speed.ahead import TABLES
 from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
 from workshop.speed.many import ManyCost
@@ -50,12 +50,3 @@ def test_each_table_of_a_command_stands_in_one_page():
         (table,) = filter(None, (find_section(text, name) for text in texts))
         assert "\n|" in f"\n{table}"
     assert sum(text.count("<!-- figures: ") for text in texts) == len(SECTIONS)
-
-
-def test_sections_are_written_into_the_pages_that_have_them(docs):
-    page = docs / "accuracy_tables.md"
-    text = "# Title\n\n<!-- figures: chapters -->\nold\n<!-- end of figures -->\nend\n"
-    page.write_text(text)
-    publish.publish({"chapters": "new", "summary": "other"}, docs)
-    assert page.read_text() == text.replace("old", "new")
-    assert (docs.parent / "README.md").read_text() == "no section\n"

@@ -52,13 +52,11 @@ def environment(domain, settings):
     return {name: value for name, value in usual if name not in SETTINGS} | settings
 
 
-@contextlib.contextmanager
 def running(host, domain, settings, *words):
     """Run a program on a host; a line that is written to it is answered by a line."""
     pipes = {"stdin": subprocess.PIPE, "stderr": None}
-    words = host.words(*words)
-    with programs.running(words, domain, env=environment(domain, settings), **pipes) as process:
-        yield process
+    variables = environment(domain, settings)
+    return programs.running(host.words(*words), domain, env=variables, **pipes)
 
 
 def top(host, domain, settings):

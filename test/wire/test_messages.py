@@ -85,17 +85,6 @@ def test_a_transform_is_a_sequence_of_one_transform_stamped():
     assert packed[-56:] == serialize_message(inner)[-56:]
 
 
-def test_messages_of_several_frames_are_read_each_in_its_layout():
-    one, two = messages.VECTOR.layout("world"), messages.VECTOR.layout("a longer name")
-    packed = [one.encode(1, [1.0, 2.0, 3.0]), two.encode(2, [4.0, 5.0, 6.0])]
-    packed.append(one.encode(3, [7.0] * 3))
-    found, refused = messages.decode_messages(messages.VECTOR, packed)
-    assert not refused
-    by_name = {each.names[0]: each for each in found}
-    assert by_name["world"].indices.tolist() == [0, 2]
-    assert by_name["a longer name"].numbers.tolist() == [[4.0, 5.0, 6.0]]
-
-
 @pytest.mark.parametrize(
     "damaged",
     [b"", b"\0", b"\0\1\0\0", b"\1\0\0\0" * 20, b"\0\0\0\0" * 20, b"\0\1\0\0" + b"\xff" * 60],

@@ -9,13 +9,9 @@ from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.torques import ARROWS, LENGTH, Torques
 
 
-def read(start, folder):
-    (batch,) = Run(start=start, seconds=0.5, hurried=False).open(folder).batches()
-    return Torques.of(batch.columns)
-
-
 def test_on_cusps_dL_in_the_body_is_the_derivative_of_its_components(tmp_path):
-    stamps, torques = read(CUSPS, tmp_path)
+    (batch,) = Run(start=CUSPS, seconds=0.5, hurried=False).open(tmp_path).batches()
+    stamps, torques = Torques.of(batch.columns)
     times, step, motion = (stamps - stamps[0]) * 1e-9, 1e-5, Motion(ARTICLE, CUSPS)
     L = [ARTICLE.body_angular_momentum(motion.at(times + h)) for h in (-step, step)]
     found = motion.at(times).to_world((L[1] - L[0]) / (2 * step))
