@@ -76,14 +76,6 @@ def _untraced(request):
 
 
 @pytest.fixture
-def docs(tmp_path):
-    """An empty folder of documents, next to a README."""
-    (tmp_path / "README.md").write_text("no section\n")
-    (tmp_path / "docs").mkdir()
-    return tmp_path / "docs"
-
-
-@pytest.fixture
 def signals_as_before():
     """Restore the handlers of signals that a program replaces."""
     before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}

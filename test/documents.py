@@ -49,7 +49,7 @@ def console(page: Path, name: str) -> tuple[list[str], str]:
     return typed, "".join(f"{line}\n" for line in lines if not line.startswith("$ "))
 
 
-def find_broken_links(page: Path) -> Iterator[str]:
+def broken_links(page: Path) -> Iterator[str]:
     """Yield the links and paths of a page that lead to no file or heading."""
     text = page.read_text(encoding="utf-8")
     for link, anchor in LINK.findall(text):
@@ -79,13 +79,13 @@ def names(cell: str) -> list[str]:
     return re.findall(r"`([^`]+)`", cell)
 
 
-def same_output(code: str, printed: str, shown: str) -> bool:
-    """Compare an output with that of a document: letter for letter, but for driven motions."""
-    return same(printed, shown) if DRIVEN.search(code) else printed.split() == shown.split()
+def same(printed: str, shown: str, code: str | None = None) -> bool:
+    """Compare an output with that of a document: equal words, and numbers to nine digits.
 
-
-def same(printed: str, shown: str) -> bool:
-    """Compare an output with that of a document: equal words, and numbers to nine digits."""
+    What code prints is compared letter for letter, but for driven motions.
+    """
+    if code and not DRIVEN.search(code):
+        return printed.split() == shown.split()
     if NUMBER.sub("#", printed).split() != NUMBER.sub("#", shown).split():
         return False
     pairs = zip(NUMBER.findall(printed), NUMBER.findall(shown), strict=True)

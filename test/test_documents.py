@@ -11,18 +11,7 @@ from pathlib import Path
 import pytest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
-from documents import (
-    PAGES,
-    ROOT,
-    blocks,
-    commands,
-    console,
-    find_broken_links,
-    names,
-    rows,
-    same,
-    same_output,
-)
+from documents import PAGES, ROOT, blocks, broken_links, commands, console, names, rows, same
 from geometry_msgs.msg import WrenchStamped
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from log_files import Run
@@ -66,7 +55,7 @@ COMMANDS = [
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_links_and_paths_lead_to_files_and_headings(page):
-    assert [*find_broken_links(page)] == []
+    assert [*broken_links(page)] == []
 
 
 @pytest.mark.parametrize(
@@ -77,7 +66,7 @@ def test_the_python_of_a_page_prints_what_the_page_shows(page):
     for code, output in blocks(page, "python"):
         with contextlib.redirect_stdout(io.StringIO()) as printed:
             exec(code, variables)
-        assert same_output(code, printed.getvalue(), output), printed.getvalue()
+        assert same(printed.getvalue(), output, code), printed.getvalue()
 
 
 @pytest.fixture

@@ -66,12 +66,9 @@ def encode(kind, estimates):
         next((places[name] for name in names if name in places), None)
         for names in (("orientation", "rotation"), ("angular_velocity", "angular"))
     )
-    messages = []
-    for k, stamp in enumerate(estimates.stamps.tolist()):
-        numbers = [0.0] * form.width
-        w, x, y, z = estimates.orientations[k].tolist()
-        numbers[q] = [x, y, z, w]
-        if rates is not None:
-            numbers[rates] = estimates.angular_velocities[k].tolist()
-        messages.append((stamp, layout.encode(stamp, numbers)))
-    return kind, messages
+    numbers = np.zeros((len(estimates), form.width))
+    numbers[:, q] = estimates.orientations[:, [1, 2, 3, 0]]
+    if rates is not None:
+        numbers[:, rates] = estimates.angular_velocities
+    data = layout.encode_many(estimates.stamps, numbers)
+    return kind, [*zip(estimates.stamps.tolist(), data, strict=True)]

@@ -19,12 +19,6 @@ NOISE = 1e-3  # rad
 FASTEST = 140.0  # rad/s, about: the angular velocity of this scene
 
 
-def jittered(made, jitter):
-    """Estimates whose true times differ from their stamps by noise (s)."""
-    times = STAMPS + np.rint(np.random.default_rng(5).normal(0, jitter * SECOND, len(STAMPS)))
-    return replace(made.make(TRUTH, times.astype(np.int64)), stamps=STAMPS)
-
-
 @pytest.mark.parametrize("made", [Made(noise=NOISE), Made(TILT, noise=NOISE)])
 @pytest.mark.parametrize(("delay", "rate"), [(1e-6, 0.0), (0.0, 1e-6), (-40e-6, 25e-6)])
 def test_a_delay_and_a_rate_are_found_within_five_deviations(made, delay, rate):
@@ -43,7 +37,10 @@ def test_a_delay_and_a_rate_are_found_within_five_deviations(made, delay, rate):
 
 def test_jitter_is_told_from_noise_and_from_a_late_clock_and_noise_is_not_jitter():
     made = Made(delay=-40e-6, clock=1e-5, noise=NOISE)
-    clock = measure_clock(jittered(made, 10e-6), TRUTH, "file")
+    # the true times differ from the stamps by noise
+    times = STAMPS + np.rint(np.random.default_rng(5).normal(0, 10e-6 * SECOND, len(STAMPS)))
+    estimates = replace(made.make(TRUTH, times.astype(np.int64)), stamps=STAMPS)
+    clock = measure_clock(estimates, TRUTH, "file")
     assert clock.kind == "jitter"
     # A variance from n estimates has a deviation of sqrt(2 / n), at most sqrt(3) times that here.
     assert abs(clock.jitter - 10) < 10 * 5 * np.sqrt(1.5 / len(STAMPS))

@@ -80,10 +80,9 @@ def draw_own(random: Random) -> tuple[Made, tuple[str, str, tuple[str, ...]]]:
 
 def scale_tilt(random: Random, motion: Motion, stamps: Stamps) -> Real:
     """A scale of the tilt that is wrong by 2 to 4 %."""
-    angles = motion.at(stamps / SECOND).euler_angles
+    phi, theta, psi = motion.at(stamps / SECOND).euler_angles
     factor = 1 + random.choice((-1, 1)) * random.uniform(0.02, 0.04)
-    turns = turn_z(angles.phi), np.outer(angles.theta * factor, [1.0, 0, 0]), turn_z(angles.psi)
-    return compose(compose(turns[0], wxyz(Rotation.from_rotvec(turns[1]))), turns[2])
+    return wxyz(Rotation.from_euler("ZXZ", np.stack((phi, theta * factor, psi), axis=1)))
 
 
 def change_top(**factors: float) -> Change:

@@ -16,10 +16,12 @@ from workshop.load.listener import Traffic
 
 
 @pytest.mark.long
-def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, docs):
+def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, tmp_path):
     monkeypatch.setattr(node_cost, "COST_RATES", (200.0,))
     monkeypatch.setattr(node_cost, "RATES", (500.0,))
     monkeypatch.setattr(node_cost, "KICKS", 10)
+    (tmp_path / "README.md").touch()
+    (docs := tmp_path / "docs").mkdir()
     page = docs / "reliability.md"
     page.write_text("<!-- figures: node cost --><!-- end of figures -->")
     kept, write = [], node_cost.format_sections

@@ -40,18 +40,14 @@ def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
     assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 500  # shaded bodies, not an empty view
 
 
-def find_scene(client):
-    """Return the 3D view among four; none as long as Rerun has not read what it draws there."""
-    return next((each for each in views(client, 4).values() if each.view_class == "3D"), None)
-
-
 def test_rerun_shows_the_turning_top_of_a_log_by_itself(tmp_path):
     path = Run(described=True).write(tmp_path)
     shots = []
     with running_viewer(path) as (client, _):
         for seconds in (0.2, 0.8):
             stamp = BEGIN * 1e-9 + seconds
-            space = until(lambda: find_scene(client))
+            # the 3D view among four, once Rerun has read what it draws there
+            (space,) = until(lambda: [v for v in views(client, 4).values() if v.view_class == "3D"])
             pause_at(client, "message_log_time", timestamp=stamp)
             shots.append(picture(client, space))
             assert not any(each.reports for each in views(client, 4).values())

@@ -7,13 +7,8 @@ import pytest
 from documents import ROOT, find_section
 from PIL import Image
 
+from workshop.speed import benchmarks
 from workshop.speed import measure as report
-from workshop.speed.benchmarks import (
-    LARGEST_DRIVEN_ERROR,
-    LARGEST_ERROR,
-    LARGEST_TAYLOR_ERROR,
-    SMALL,
-)
 from workshop.speed.measure import measure
 from workshop.speed.peers import CLOSED_FORM, TAYLOR, find_peers
 from workshop.speed.plots import DRAWINGS
@@ -34,7 +29,7 @@ def written(tmp_path_factory):
         docs.mkdir()
         for name in ("../README.md", "accuracy.md", "accuracy_tables.md"):
             (docs / name).write_text((DOCS / name).read_text())
-        assert measure(folder, SMALL, "make -C workshop report", docs) == 0
+        assert measure(folder, benchmarks.SMALL, "make -C workshop report", docs) == 0
     return folder, docs
 
 
@@ -52,30 +47,31 @@ def test_our_errors_are_rounding_at_all_times_and_in_all_hard_cases(facts):
     # As angles, twice the distances; promised are 10 eps.
     (growth,) = [each for each in facts["growth"] if each["peer"] == CLOSED_FORM]
     assert growth["times"][-1] == 1e6
-    assert max(growth["errors"]) <= LARGEST_ERROR
+    assert max(growth["errors"]) <= benchmarks.LARGEST_ERROR
     assert len(facts["hard"]) == len(Reference.read().hard)
-    assert max(case["error"] for case in facts["hard"]) <= LARGEST_ERROR
+    assert max(case["error"] for case in facts["hard"]) <= benchmarks.LARGEST_ERROR
 
 
 def test_the_taylor_series_are_as_good_as_promised(facts):
     (curve,) = [each for each in facts["curves"] if each["peer"] == TAYLOR]
     # the largest of 2.5 seconds, as an angle
-    assert curve["points"][0]["error"] <= LARGEST_TAYLOR_ERROR
+    assert curve["points"][0]["error"] <= benchmarks.LARGEST_TAYLOR_ERROR
     assert len(facts["driven"]) == 14  # each ninth of 124
     # the largest is that after 50 s of the article's top, which docs/accuracy.md names
-    assert max(case["errors"][TAYLOR] for case in facts["driven"]) <= LARGEST_DRIVEN_ERROR
+    largest = max(case["errors"][TAYLOR] for case in facts["driven"])
+    assert largest <= benchmarks.LARGEST_DRIVEN_ERROR
 
 
 def test_every_peer_is_the_same_top_and_every_curve_has_points(facts, folder):
     peers, missing = find_peers()
-    chosen = [peer for peer in peers if SMALL.includes(peer, 0)]
+    chosen = [peer for peer in peers if benchmarks.SMALL.includes(peer, 0)]
     frictionless = [peer for peer in chosen if peer.friction != "only"]
     assert set(facts["checks"]) == {peer.name for peer in frictionless}
     scipy = [error for name, error in facts["checks"].items() if name.startswith("SciPy")]
     assert max(scipy) < 1e-9  # the finest tolerance is 1e-13
     assert all(curve["points"] for curve in facts["curves"])
     arrays = [state["peer"] for state in facts["states"]]
-    every = [peer for peer in chosen if SMALL.includes(peer, 1)]
+    every = [peer for peer in chosen if benchmarks.SMALL.includes(peer, 1)]
     assert arrays == [peer.name for peer in every if peer.prepare_arrays]
     environment = json.loads((folder / "report.json").read_text())["environment"]
     assert environment["missing"] == missing
@@ -108,7 +104,7 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
 
     monkeypatch.setattr(report, "list_steps", list_one)
     monkeypatch.setattr(report, "_write", lambda *_: None)
-    assert measure(tmp_path, SMALL, "make -C workshop report") == 1
+    assert measure(tmp_path, benchmarks.SMALL, "make -C workshop report") == 1
     progress, failure = capsys.readouterr().err.splitlines()
     assert progress == "1 of 1: a peer: model"
     assert failure.startswith("workshop: above the limit: a peer: ")

@@ -4,13 +4,7 @@ from operator import attrgetter
 
 import numpy as np
 import pytest
-from geometry_msgs.msg import (
-    QuaternionStamped,
-    TransformStamped,
-    TwistStamped,
-    Vector3Stamped,
-    WrenchStamped,
-)
+from geometry_msgs import msg as geometry
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rclpy.serialization import deserialize_message, serialize_message
@@ -24,15 +18,18 @@ STAMP = st.integers(0, (2**31 - 1) * 10**9 + 999_999_999)
 NAME = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=12)
 
 
+TWIST = {"twist.linear": "xyz", "twist.angular": "xyz"}
+WRENCH = {"wrench.force": "xyz", "wrench.torque": "xyz"}
 # Class and format, and the vectors of which the numbers of a message consist.
 CASES = {
-    "orientation": (QuaternionStamped, messages.QUATERNION, {"quaternion": "xyzw"}),
-    "angular_velocity": (
-        *(TwistStamped, messages.TWIST),
-        {"twist.linear": "xyz", "twist.angular": "xyz"},
+    "orientation": (geometry.QuaternionStamped, messages.QUATERNION, {"quaternion": "xyzw"}),
+    "angular_velocity": (geometry.TwistStamped, messages.TWIST, TWIST),
+    "angular_momentum": (geometry.Vector3Stamped, messages.VECTOR, {"vector": "xyz"}),
+    "torque": (
+        geometry.WrenchStamped,
+        messages.WRENCH,
+        {"wrench.force": "xyz", "wrench.torque": "xyz"},
     ),
-    "angular_momentum": (Vector3Stamped, messages.VECTOR, {"vector": "xyz"}),
-    "torque": (WrenchStamped, messages.WRENCH, {"wrench.force": "xyz", "wrench.torque": "xyz"}),
     "euler_angles": (JointState, messages.JOINT_STATE, {}),
 }
 
@@ -71,7 +68,7 @@ def test_rclpy_reads_what_we_pack_and_we_read_what_rclpy_writes(name, stamp, fra
 
 
 def test_a_transform_is_a_sequence_of_one_transform_stamped():
-    inner = TransformStamped(child_frame_id="top")
+    inner = geometry.TransformStamped(child_frame_id="top")
     inner.header.stamp.sec, inner.header.stamp.nanosec, inner.header.frame_id = 5, 7, "world"
     inner.transform.rotation.x, inner.transform.rotation.w = 0.6, 0.8
     # a sequence is its length and its elements, each aligned from the same origin; 4 bytes more

@@ -13,14 +13,10 @@ from symtop_ros.playback.view.surroundings import RADII, draw_arcs
 ROUNDING = 8 * float(np.finfo(float).eps)
 
 
-def random_angles():
+def test_each_arc_begins_at_one_axis_and_ends_at_the_other():
     rng = np.random.default_rng(3)
     phi, psi = rng.uniform(0, 2 * np.pi, (2, 50))
-    return phi, rng.uniform(0.01, np.pi - 0.01, 50), psi
-
-
-def test_each_arc_begins_at_one_axis_and_ends_at_the_other():
-    phi, theta, psi = random_angles()
+    theta = rng.uniform(0.01, np.pi - 0.01, 50)
     arcs = draw_arcs(phi, theta, psi)
     for k in range(50):
         state = State.from_euler(theta=theta[k], phi=phi[k], psi=psi[k])
