@@ -3,9 +3,12 @@
 import io
 
 import numpy as np
+import pytest
+from browser import running_browser
 from documents import ROOT
 from PIL import Image
 
+from workshop.pictures.documents import draw_traces
 from workshop.pictures.pack import pack_shaded
 
 
@@ -20,6 +23,22 @@ def test_make_draws_all_of_them():
     rule = (ROOT / "workshop/Makefile").read_text().split("\npictures:")[1].split("\n\n")[0]
     assert "$(WORKSHOP) pictures" in rule
     assert "workshop.pictures.page" in rule
+
+
+def test_the_traces_are_what_the_command_draws():
+    assert draw_traces() == (ROOT / "docs/traces.svg").read_text()
+
+
+@pytest.mark.long
+def test_a_picture_of_the_page_has_its_window_and_its_scene(tmp_path):
+    from workshop.pictures.page import PICTURES, draw  # which needs Playwright
+
+    (phone,) = [each for each in PICTURES if each.name == "panel_phone"]
+    with running_browser() as browser:
+        path = draw(browser, phone, tmp_path)
+    with Image.open(path) as picture, Image.open(ROOT / "docs" / path.name) as shown:
+        assert picture.size == shown.size == tuple(phone.window)
+        assert len(picture.convert("RGB").getcolors(1 << 24)) > 50
 
 
 TEAL, BLUE = (2, 148, 108), (10, 70, 180)
