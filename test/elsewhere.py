@@ -7,8 +7,6 @@ with blanks and umlauts in its path that may not be written to, a user who is no
 HOME, rustup without a toolchain, no compiler and no npm.
 """
 
-from __future__ import annotations
-
 import argparse
 import contextlib
 import os

@@ -7,8 +7,6 @@ longest, and that wait for nodes or pages while others compute. Those of real ti
 run alone afterwards.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import re
@@ -151,17 +149,17 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         "nodes": [*fetch("messages/done"), run(*NODES)],
         "without-ros": [*fetch("chromium"), run(*WITHOUT_ROS, options=("-p", "without_ros"))],
         "rest": [*fetch("vulkan", "chromium"), run("test", *ignore(ELSEWHERE))],
-        "judge": [run(*JUDGE)],
-        "physics": [run("test/physics")],
-        "old-processor": [run(*NUMBERS, *ignore(NOT_TWICE), before=old)],
-        "plain": [*fetch("chromium"), run(*PLAIN, *WITH_ROS)],
-        "examples": [run("symtop_ros", options=EXAMPLES)],
         "lint": [
             *fetch("js/done"),
             *(check("ruff", "check"), check("ruff", "format", "--check")),
             *(check("codespell"), check("mypy")),
             *(check_page("style"), check_page("types")),
         ],
+        "judge": [run(*JUDGE)],
+        "physics": [run("test/physics")],
+        "old-processor": [run(*NUMBERS, *ignore(NOT_TWICE), before=old)],
+        "plain": [*fetch("chromium"), run(*PLAIN, *WITH_ROS)],
+        "examples": [run("symtop_ros", options=EXAMPLES)],
         "realtime": [*fetch("chromium"), run("-m", "realtime and not long", *REALTIME)],
     }
 

@@ -9,6 +9,7 @@ import groups
 import pytest
 from documents import ROOT
 from programs import execute
+from trials import choose
 
 from symtop_ros.web.join import write_file
 
@@ -41,9 +42,7 @@ def test_help_lists_every_target_of_a_user_and_of_a_change(tmp_path):
     assert named == list_phony("help", folder=tmp_path) - GROUPS - PARTS
 
 
-@pytest.mark.parametrize(
-    "present", ["python without pip", pytest.param("nothing", marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize("present", choose(("no pip", "nothing"), ("no pip",)))
 def test_an_environment_that_was_not_completed_is_made_again(tmp_path, present):
     if present != "nothing":
         interpreter = tmp_path / ".venv/bin/python"

@@ -4,8 +4,6 @@ Its thread publishes prepared bytes: what delays them is rclpy, which converts m
 lock of the interpreter.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import sys

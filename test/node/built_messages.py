@@ -1,7 +1,5 @@
 """Environments in which messages can be imported that PyPI does not have."""
 
-from __future__ import annotations
-
 import contextlib
 import ctypes
 import importlib.util

@@ -1,7 +1,5 @@
 """Requests that are made to hurt: large, long, deep or many; each is built when it is sent."""
 
-from __future__ import annotations
-
 import importlib
 from array import array
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """A node of the test that listens to a top, in another process or in its own."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping
 from typing import Any, Self

@@ -3,8 +3,6 @@
 Time is simulated unless a test is about real time: it advances while the test spins.
 """
 
-from __future__ import annotations
-
 import json
 import time
 from collections.abc import Callable, Mapping

@@ -1,7 +1,5 @@
 """Requests that are made to hurt stop the samples hardly longer than those of a bare rclpy node."""
 
-from __future__ import annotations
-
 import contextlib
 import sys
 import time

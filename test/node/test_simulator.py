@@ -1,7 +1,5 @@
 """The interface of all simulators, called by a client as one would be written for Gazebo."""
 
-from __future__ import annotations
-
 import importlib
 import os
 import sys

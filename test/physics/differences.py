@@ -1,7 +1,5 @@
 """Derivatives of exact motions by differences of numbers with many digits."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

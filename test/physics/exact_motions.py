@@ -7,8 +7,6 @@ minutes. A new case is a row with inputs and times alone. Inputs are hexadecimal
 exact; states are (w, x, y, z) up to sign and the angular velocity in the body, to 25 digits.
 """
 
-from __future__ import annotations
-
 import json
 import lzma
 from fractions import Fraction

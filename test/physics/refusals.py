@@ -1,7 +1,5 @@
 """The wording of refused arguments, which stands once in the tests too."""
 
-from __future__ import annotations
-
 import math
 import re
 from contextlib import AbstractContextManager

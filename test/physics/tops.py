@@ -1,7 +1,5 @@
 """The article's top, random tops and starts, and the distance of two attitudes."""
 
-from __future__ import annotations
-
 import math
 import signal
 from collections.abc import Iterator

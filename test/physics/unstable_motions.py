@@ -1,7 +1,5 @@
 """Motions next to the unstable vertical and the separatrix, and the error of their derivatives."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

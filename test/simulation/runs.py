@@ -1,7 +1,5 @@
 """A simulation with a clock and a sink of the test: no ROS."""
 
-from __future__ import annotations
-
 import contextlib
 from collections.abc import Iterator
 from typing import Any

@@ -4,8 +4,6 @@ The exact motion starts from the doubles of the last event that changed it, and 
 exact sum of products of nanoseconds and real-time factors. It is computed with 60 digits.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

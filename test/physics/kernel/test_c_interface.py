@@ -88,9 +88,6 @@ def test_a_build_with_fast_math_is_refused_in_words(tmp_path, option):
     assert "symtop must be compiled without fast-math" in failure.value.stderr
 
 
-LONG = pytest.mark.long
-
-
 @needs_compiler
 @pytest.mark.parametrize("name", choose(UNSOUND, ("order",)))
 def test_a_build_that_may_change_sums_answers_nothing(tmp_path, name):
@@ -100,7 +97,7 @@ def test_a_build_that_may_change_sums_answers_nothing(tmp_path, name):
     assert run_sound(tmp_path, kernel, "usual") == {BAD_ARITHMETIC}
 
 
-@LONG
+@pytest.mark.long
 @needs_compiler
 def test_options_of_fast_math_before_those_of_the_kernel_change_no_bit(tmp_path):
     # as setup.py orders them: what CXXFLAGS says, then its own
