@@ -32,7 +32,7 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS and no compiler
 	@$(BIN)/python -c 'from symtop_ros.programs import top_panel; raise SystemExit(top_panel())'
 
-test: $(VENV)/test  ## style, types and all tests (9 minutes with the set-up; 2 GB, once)
+test: $(VENV)/test  ## style, types and all tests (8 minutes with the set-up; 2 GB, once)
 	@$(BIN)/python test/groups.py
 
 # What each group needs; `make test-physics` and the like run one of them.
