@@ -12,7 +12,7 @@ GROUPS := nodes rest judge plain physics old-processor without-ros examples lint
 # A line every ten seconds, for as long as the shell of a recipe runs: pip may be silent for minutes.
 TICK = ( n=0; while sleep 10 > /dev/null && kill -0 $$$$ 2> /dev/null; do n=$$((n + 10)); echo "  ... at work for $$n s"; done ) & \
   tick=$$!; trap 'kill $$tick' EXIT;
-# Only modules that are imported are compiled, then: a tenth of the time and a twentieth of the size.
+# Python compiles a module when it is first imported: 0.1 GB less than with all of them.
 INSTALL = @$(TICK) $(BIN)/python -m pip install --no-compile --editable
 
 HOUSE := $(CURDIR)

@@ -82,7 +82,7 @@ def names(cell: str) -> list[str]:
 def same(printed: str, shown: str, code: str | None = None) -> bool:
     """Compare an output with that of a document: equal words, and numbers to nine digits.
 
-    What code prints is compared letter for letter, but for driven motions.
+    The output of `code` must be equal letter for letter, unless the code has a driven motion.
     """
     if code and not DRIVEN.search(code):
         return printed.split() == shown.split()

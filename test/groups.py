@@ -149,7 +149,7 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         "nodes": [*fetch("messages/done"), run(*NODES)],
         "without-ros": [*fetch("chromium"), run(*WITHOUT_ROS, options=("-p", "without_ros"))],
         "rest": [*fetch("vulkan", "chromium"), run("test", *ignore(ELSEWHERE))],
-        "lint": [
+        "lint": [  # early, because its tools come from a registry that may be slow
             *fetch("js/done"),
             *(check("ruff", "check"), check("ruff", "format", "--check")),
             *(check("codespell"), check("mypy")),

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 UNPACKED = Path(sys.prefix, "chromium")
 NAMES = ("chromium", "chromium-browser", "google-chrome")
-# Software rendering works on machines without a GPU, and gives the same pictures on all others. The
-# page is put together without OpenGL, which takes a tenth of the time where software is the GPU.
+# Software rendering works on machines without a GPU, and gives the same pictures on all others.
+# The layers of a page are joined without OpenGL: that takes a tenth of the time in software.
 OPTIONS = (
     *("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
     *("--ignore-gpu-blocklist", "--disable-dev-shm-usage", "--disable-gpu-rasterization"),

@@ -61,7 +61,7 @@ def _compare_curves(results: Results, curve: Curve) -> Iterator[str]:
 
 def _list_growth(results: Results) -> Iterator[str]:
     for own, each in _pair(results.growth):
-        # Of both the times begin with ten seconds; one may have more of them.
+        # Each has the first of the same times: a slow peer has fewer.
         columns = zip(each.times, each.errors, own.errors, each.seconds, own.seconds, strict=False)
         for t, error, our_error, seconds, our_seconds in columns:
             yield from _compare_errors(f"Error at {t:g} s", each.peer, error, our_error)
