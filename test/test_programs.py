@@ -1,7 +1,7 @@
 import os
 
 import pytest
-from python_runs import run_without
+from python_runs import run_python, run_without
 
 from symtop_ros import programs
 
@@ -51,3 +51,9 @@ def test_top_ctl_uses_udp_unless_the_user_has_chosen(chosen, transports, monkeyp
         monkeypatch.setenv(name, value)
     assert programs.top_ctl() == 0
     assert os.environ[programs.TRANSPORTS] == transports
+
+
+def test_a_program_has_no_threads_of_linear_algebra():
+    code = "import os; from symtop_ros import programs; programs._spare_the_user(); import numpy; "
+    code += "print(len(os.listdir('/proc/self/task')))"
+    assert run_python(code, **{programs.THREADS: ""}).stdout == "1\n"
