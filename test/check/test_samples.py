@@ -65,11 +65,12 @@ def test_an_angle_that_is_a_turn_off_is_the_same_angle_in_a_driven_motion_alone(
     assert deviations_of(run, tmp_path)["euler_angles"].is_rounding == is_driven
 
 
-def test_an_event_that_arrives_after_its_first_samples_still_governs_them(tmp_path):
+@pytest.mark.parametrize("later", [20, 100_000])  # messages; some samples, and all of them
+def test_an_event_that_arrives_after_its_first_samples_still_governs_them(later, tmp_path):
     run = Run()
     k = run.places("events")[1]
     kick = run.messages.pop(k)
-    run.messages.insert(k + 20, kick)  # some samples late, as a recorder of arrivals may log it
+    run.messages.insert(k + later, kick)  # as a recorder of arrivals may log it
     assert all(each.largest == 0.0 for each in deviations_of(run, tmp_path).values())
 
 
