@@ -240,9 +240,10 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
             tab.fill("#field-top\\.Mgl", "0.05")
             tab.press("#field-top\\.Mgl", "Enter")
             until(lambda: running.top.simulation.settings.top.Mgl == 0.05, look)
-            tab.once("dialog", lambda dialog: dialog.dismiss())
+            dismissed = []
+            tab.once("dialog", lambda dialog: dismissed.append(dialog.dismiss()))
             tab.goto(f"{server.url}#theta=1.5")  # a link of another page
-            tab.wait_for_timeout(200)
+            until(lambda: dismissed, look)
             assert start_of(running).theta == pytest.approx(0.5)
             tab.once("dialog", lambda dialog: dialog.accept())
             tab.goto(f"{server.url}#theta=1.25")

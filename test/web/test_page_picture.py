@@ -3,7 +3,23 @@
 import base64
 import re
 
-from web.opened import FEW_FRAMES, read_motion
+from web.opened import FEW_FRAMES, UNDRAWN, read_motion
+
+# When the last two pictures were begun, in ms.
+TIMED = """
+window.drawn = [];
+WebGL2RenderingContext.prototype.clear = () => {
+  window.drawn = [...window.drawn.slice(-1), performance.now()];
+};
+"""
+
+
+def test_a_page_in_a_pause_that_is_left_alone_is_drawn_now_and_then_until_somebody_comes(open_page):
+    opened = open_page(script=UNDRAWN + TIMED)
+    opened.press("Space")
+    opened.until(lambda: opened.tab.evaluate("drawn[1] - drawn[0]") > 400)
+    opened.press("h")
+    opened.until(lambda: opened.tab.evaluate("drawn[1] - drawn[0]") < 200)
 
 
 def test_a_lost_picture_is_said_and_comes_back(open_page):

@@ -29,6 +29,9 @@ const NUTATION = 64; // points of the trace in a nutation: its pieces are not se
 const WATCHED = 5; // s in which the first nutation after a kick is shown, at least
 const FOLLOW = 250; // ms between two texts of a motion that friction or a torque changes
 const CHARTS = 60; // ms between two drawings of the charts: no eye follows numbers faster
+const [AWAKE, REST] = [1000, 500]; // ms; left alone for so long, a page in a pause is drawn so rarely
+const DONE = ["pointerdown", "pointermove", "pointerup", "wheel", "keydown", "keyup", "click"];
+const CHANGED = ["input", "change", "drop", "scroll", "toggle", "resize", "hashchange", "focus"];
 
 export class LocalTop {
   /**
@@ -52,6 +55,7 @@ export class LocalTop {
     this.torqueUntil = 0;
     this.pushUntil = 0; // ms, while a button is held
     this.pushes = 1; // that a button asks for: here more follow while it is held
+    this.stirred = 0; // ms; when something was done last
     this.chartsDue = 0; // ms
     this.textsDue = 0; // ms
     this.toldAt = NaN; // ns; the time of the texts
@@ -65,6 +69,8 @@ export class LocalTop {
     this.draw = () => {};
     /** Called when another motion begins. */
     this.begin = () => {};
+    /** Ends a rest. */
+    this.stir = () => {};
     /** What Reset starts from. */
     this.initial = State.fromEuler(kernel, { theta: 0 });
     /** A run for comparison, from a start to an end. @type {import("./run.js").Kept | null} */
@@ -94,16 +100,31 @@ export class LocalTop {
     this.animate();
   }
 
-  /** Advance and draw with every frame from now on. */
+  /** Advance and draw with every frame from now on; a page in a pause that is left alone rests. */
   animate() {
     let before = NaN; // the stamp of the first frame may be older than the clock of now
+    let timer = 0;
+    const ask = () => {
+      timer = 0;
+      requestAnimationFrame(step);
+    };
     const step = (/** @type {number} */ now) => {
-      requestAnimationFrame(step); // first: an error in this frame does not end the animation
+      // first: an error in this frame does not end the animation
+      if (this.isRunning || now < this.stirred + AWAKE) ask();
+      else timer = window.setTimeout(ask, REST);
       const passed = Math.max(now - before, 0) || 0;
       before = now;
       this.advance(passed, now);
     };
-    requestAnimationFrame(step);
+    this.stir = () => {
+      this.stirred = performance.now();
+      if (!timer) return;
+      clearTimeout(timer);
+      before = NaN; // the time of a rest is none of the motion
+      ask();
+    };
+    for (const name of [...DONE, ...CHANGED]) addEventListener(name, this.stir, { capture: true });
+    ask();
   }
 
   /** @param {number} passed ms @param {number} now ms */

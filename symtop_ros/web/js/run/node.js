@@ -48,7 +48,9 @@ export class NodeTop extends LocalTop {
       this.isGreeted = true;
       this.present();
     }
-    if (events.length) this.tellFacts();
+    if (!events.length) return;
+    this.stir();
+    this.tellFacts();
   }
 
   /**
