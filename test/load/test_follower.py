@@ -13,10 +13,12 @@ def make_sample(tick):
     return serialize_message(message)
 
 
-def make_report(missed, name="/top"):
+def make_report(missed, name="/top", tick=99):
     values = {"name": name, "missed": str(missed), "energy.balance": "-1e-15"}
     pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
-    return DiagnosticArray(status=[DiagnosticStatus(values=pairs)])
+    report = DiagnosticArray(status=[DiagnosticStatus(values=pairs)])
+    report.header.stamp.sec, report.header.stamp.nanosec = 1, tick * 10_000_000
+    return report
 
 
 def test_samples_that_the_node_reports_as_missed_are_not_lost():
@@ -27,6 +29,11 @@ def test_samples_that_the_node_reports_as_missed_are_not_lost():
         follower._receive(make_sample(tick))
     for report in (make_report(missed=5), make_report(missed=9, name="/other")):
         follower._read_diagnostics(report)
-    follower.close()
     assert (follower.samples, follower.missed) == (4, 2)
     assert (follower.lost, follower.balance) == (1, 1e-15)
+    follower._receive(make_sample(20))  # 8 to 19 are of the next report
+    follower._read_diagnostics(make_report(missed=5, tick=20))
+    assert follower.lost == 1
+    follower._read_diagnostics(make_report(missed=5, tick=21))
+    assert follower.lost == 13
+    follower.close()

@@ -99,7 +99,8 @@ class Follower(Subscriber):
 
     def _reset_counts(self) -> None:
         self.samples, self.lost, self.balance = 0, 0, 0.0
-        self._gaps, self._stamp, self._missed_before = 0, 0, self.fact("missed")
+        self._gaps: dict[int, int] = {}  # samples that did not come, by the stamp of the next one
+        self._stamp, self._missed_before = 0, self.fact("missed")
 
     def fact(self, name: str) -> int:
         """Return a count from the diagnostics; 0 before the first of them."""
@@ -112,8 +113,8 @@ class Follower(Subscriber):
 
     def _receive(self, data: bytes) -> None:
         stamp = read_stamp(data)
-        if self._stamp:
-            self._gaps += round((stamp - self._stamp) * 1e-9 * self._rate) - 1
+        if self._stamp and (gap := round((stamp - self._stamp) * 1e-9 * self._rate) - 1):
+            self._gaps[stamp] = gap
         self._stamp = stamp
         self.samples += 1
 
@@ -122,9 +123,11 @@ class Follower(Subscriber):
         if facts["name"] != self.connection.name:  # all nodes of a domain share the topic
             return
         self._facts = facts
-        # Both counts belong to one moment here. Later, gaps that the node reports only with its
-        # next diagnostics would be taken for lost samples.
-        self.lost = max(0, self._gaps - self.missed)
+        # The node counts what it has missed before the stamp of its diagnostics: later gaps are of
+        # the next ones.
+        until = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
+        gaps = sum(count for stamp, count in self._gaps.items() if stamp < until)
+        self.lost = max(0, gaps - self.missed)
         self.balance = max(self.balance, abs(float(self._facts["energy.balance"])))
 
 
