@@ -26,18 +26,7 @@ EXTRAS = {
 
 def top_ctl() -> int:
     """Call the services of a running node; it ends the process."""
-    _use_udp_only()
     return _leave(run("top_ctl", "symtop_ros.client.main"))
-
-
-def _use_udp_only() -> None:
-    """Let Fast DDS leave out shared memory, unless the user has chosen a profile or transports.
-
-    Each call would open the port of shared memory that the call before it has just left. Fast DDS
-    then waits for a third of a second if anybody still listens there.
-    """
-    if not any(name.endswith("_DEFAULT_PROFILES_FILE") for name in os.environ):
-        os.environ[TRANSPORTS] = os.environ.get(TRANSPORTS) or "UDPv4"
 
 
 def _leave(status: int) -> NoReturn:
@@ -59,6 +48,7 @@ def run(name: str, module: str, interruptible: bool = False) -> int:
     """
     _set_signals(signal.SIG_DFL)
     _spare_the_user()
+    _use_udp_only()
     try:
         main = importlib.import_module(module).main
         if interruptible:
@@ -100,6 +90,16 @@ def _spare_the_user() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+
+
+def _use_udp_only() -> None:
+    """Let Fast DDS leave out shared memory, unless the user has chosen a profile or transports.
+
+    Who opens the port of a listener that has just come may wait for a third of a second, and so
+    does then every publisher and every answer of the process (docs/ros.md, Discovery).
+    """
+    if not any(name.endswith("_DEFAULT_PROFILES_FILE") for name in os.environ):
+        os.environ[TRANSPORTS] = os.environ.get(TRANSPORTS) or "UDPv4"
 
 
 def _set_signals(handler: Any) -> None:

@@ -85,6 +85,7 @@ def signals_as_before():
 
 
 @pytest.fixture(autouse=True, scope="session")
-def _local_discovery():
-    """Keep all ROS traffic of the tests on this machine."""
+def _ros_environment():
+    """Keep all ROS traffic of the tests on this machine, and use what the programs use."""
     os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    os.environ.setdefault("FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")

@@ -10,8 +10,8 @@ pytestmark = pytest.mark.usefixtures("signals_as_before")
 
 @pytest.fixture(autouse=True)
 def _environment_as_before(monkeypatch):
-    monkeypatch.setenv(programs.TRANSPORTS, "")
-    monkeypatch.setattr(programs, "_leave", lambda status: status)
+    for name in (programs.TRANSPORTS, programs.THREADS):
+        monkeypatch.setenv(name, "")
 
 
 ROS = "source a ROS 2, or pip install '.[ros]' in the checkout"
@@ -43,13 +43,12 @@ def test_a_program_says_what_is_missing(program, missing, remedy, tmp_path):
         ({"FASTRTPS_DEFAULT_PROFILES_FILE": "mine.xml"}, ""),
     ],
 )
-def test_top_ctl_uses_udp_unless_the_user_has_chosen(chosen, transports, monkeypatch):
-    monkeypatch.setattr(programs, "run", lambda *_: 0)
+def test_programs_use_udp_unless_the_user_has_chosen(chosen, transports, monkeypatch):
     for name in ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE"):
         monkeypatch.delenv(name, raising=False)
     for name, value in chosen.items():
         monkeypatch.setenv(name, value)
-    assert programs.top_ctl() == 0
+    assert programs.run("top_ctl", "a module that is missing") == 1
     assert os.environ[programs.TRANSPORTS] == transports
 
 

@@ -79,11 +79,12 @@ class TopNode(Node):
         super().__init__(DEFAULT_NAME, **options)
         settings = declare_parameters(self)
         self._refuse_own_clock(settings, self.get_parameter(SIM_TIME).value)
+        host = NodeHost(self, settings)
         self.failure: Exception | None = None  # the exception that ended the ticks
         self.session = Session(
             settings,
             SteadyClock() if settings.publish_clock else NodeClock(self),
-            NodeHost(self, settings),
+            host,
             scene=str(self.get_parameter("scene").value),
             environment={
                 "rmw": get_rmw_implementation_identifier(),
@@ -103,10 +104,11 @@ class TopNode(Node):
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
         self.create_timer(1.0, self.session.keep_up)
-        self.get_logger().info(f"states are computed by the kernel, version {kernel_version()}")
+        # By the host, whose warnings may come in a tick: rclpy takes 10 ms for the first of a file.
+        host.inform(f"states are computed by the kernel, version {kernel_version()}")
         priority = settings.scheduling_priority
         if priority and (failure := use_real_time(priority)):
-            self.get_logger().warning(failure)
+            host.warn(failure)
         self._clock_is_missing = False
         self.create_timer(
             CLOCK_WAIT, self._check_clock, clock=Clock(clock_type=ClockType.STEADY_TIME)
