@@ -23,7 +23,10 @@ class Hidden:
 sys.meta_path.insert(0, Hidden())
 """
 # Files that need nothing else, files that cannot be imported, and one that finds no browser.
-SOME = ("test/wire", "test/check", "test/playback/view", "test/web/test_page_sizes.py")
+SOME = (
+    *("test/wire", "test/check", "test/session/test_outputs.py", "test/playback/view"),
+    "test/web/test_page_sizes.py",
+)
 ALL = ("--collect-only", "test")
 
 
