@@ -34,7 +34,7 @@ class Trial:
         self.page = self.open(path)
 
     def open(self, path):
-        return Opened(self.browser, path, script="patches.countFrames();" + UNDRAWN)
+        return Opened(self.browser, "patches.countFrames();" + UNDRAWN).open(path)
 
     def act(self, names):
         """Do one of some acts; return its name. The page goes on, and Python reads its run."""

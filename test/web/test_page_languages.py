@@ -39,7 +39,7 @@ def test_a_fault_of_a_translation_is_found(english, text, fault):
 
 
 # The narrowest window, and German, a third longer than English; the others in the long run.
-@pytest.mark.parametrize("language", choose(LANGUAGES, ("en", "de")))
+@pytest.mark.parametrize("language", choose(LANGUAGES, ("de",)))
 @pytest.mark.parametrize("size", choose((PHONE, (1366, 768), (1920, 1080)), [PHONE]))
 def test_nothing_is_cut_in_any_window(open_page, language, size):
     width, height = size
@@ -108,6 +108,7 @@ def test_a_chosen_language_stays_and_keeps_the_run(open_page, tmp_path):
 
 def test_numbers_have_a_decimal_comma_where_the_language_has_one(open_page):
     page = open_page("#lang=de")
+    page.press("Space")  # else the field shows another tilt at once
     page.enter("theta", "0,625")
     assert page.read_last().euler_angles.theta == pytest.approx(0.625, rel=1e-15)
     page.tab.locator("#field-theta").blur()
