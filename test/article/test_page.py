@@ -12,7 +12,6 @@ from web.opened import UNDRAWN
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.web.join import write_file
-from workshop.article.claims import check_claims
 from workshop.article.figures import FIGURES
 from workshop.pictures.pack import pack_figure
 
@@ -32,7 +31,7 @@ def test_every_claim_belongs_to_a_passage():
     for row in ROWS:
         for low, high in re.findall(r"(\d+)(?:-(\d+))?", row[2]):
             named |= set(range(int(low), int(high or low) + 1))
-    assert named == set(range(1, len(check_claims()) + 1))
+    assert named == set(range(1, 79))  # test_retell.py has their number
 
 
 def test_every_figure_belongs_to_a_passage_and_is_in_the_page():
