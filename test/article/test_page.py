@@ -5,7 +5,6 @@ import re
 from urllib.parse import parse_qsl
 
 import pytest
-from browser import running_browser
 from documents import ROOT, rows
 from shown_pictures import assert_same_picture
 from web.opened import UNDRAWN
@@ -48,16 +47,16 @@ def test_every_passage_has_a_link_to_the_page():
 
 
 @pytest.fixture(scope="module", name="tab")
-def _tab(tmp_path_factory):
+def _tab(tmp_path_factory, browser):
     """The page in a browser, without a network."""
     path = tmp_path_factory.mktemp("page") / "top.html"
     path.write_text(write_file(), encoding="utf-8")
-    with running_browser() as browser:
-        tab = browser.new_page()
-        tab.add_init_script(UNDRAWN)
-        tab.goto(path.as_uri())
-        tab.wait_for_selector("#headline:not(:empty)", state="attached")
-        yield tab
+    tab = browser.new_page()
+    tab.add_init_script(UNDRAWN)
+    tab.goto(path.as_uri())
+    tab.wait_for_selector("#headline:not(:empty)", state="attached")
+    yield tab
+    tab.close()
 
 
 @pytest.mark.parametrize("link", LINKS)

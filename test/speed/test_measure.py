@@ -23,7 +23,7 @@ def written(tmp_path_factory):
     """The folder of a report, and that of the documents into which it is written."""
     folder = tmp_path_factory.mktemp("report")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("workshop.speed.peers.peer.RECORDED", 1024)  # a tenth
+        patch.setattr("workshop.speed.peers.peer.RECORDED", 256)  # a fortieth
         patch.setattr("workshop.speed.benchmarks.SPAN", 2.5)  # a quarter
         docs = tmp_path_factory.mktemp("root") / "docs"
         docs.mkdir()

@@ -8,14 +8,6 @@ from symtop_ros.web.join import write_file
 from workshop import page_coverage
 
 
-@pytest.fixture(scope="session")
-def browser():
-    from browser import running_browser  # it needs Playwright
-
-    with running_browser() as running:
-        yield running
-
-
 @pytest.fixture(scope="module")
 def tab(browser):
     """A tab in which each module can be imported, with a kernel."""
