@@ -13,7 +13,6 @@ from workshop.article.figures import FIGURES
 from workshop.article.recordings import MOTIONS, RATE, SCENES, SPAN
 from workshop.article.retell import retell
 
-
 FEW = [*FIGURES][:3]
 
 

@@ -95,7 +95,7 @@ def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_highe
     opened.tab.select_option("#speed", "1")
     opened.tab.click("#hurry")
     opened.until(lambda: opened.say("pace") == "slow motion")
-    before, motion, time = read_kick(page)
+    before, motion, time = read_kick(opened)
     bracket = opened.tab.locator(".label:visible", has_text="higher")
     opened.wait_for_time(time + motion.nutation_period / 8)
     opened.tab.click("#pause")

@@ -6,16 +6,10 @@ import numpy as np
 import pytest
 from web.opened import find_time, read_motion
 
-from symtop_ros.physics import (
-    Body,
-    ExactTimes,
-    Top,
-    apply_impulse,
-)
+from symtop_ros.physics import Body, ExactTimes, Top, apply_impulse
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
-
 
 SAID = {
     (False, False): "The ",

@@ -58,10 +58,7 @@ def get_motion(event):
 # Scenes in which the last digits decide, and a torque; all in the long tests.
 @pytest.mark.parametrize(
     "scenes",
-    [
-        ("hurry_slow", "vertical_torque"),
-        pytest.param(scene_names(), marks=pytest.mark.long),
-    ],
+    [("hurry_slow", "vertical_torque"), pytest.param(scene_names(), marks=pytest.mark.long)],
     ids=["some", "all"],
 )
 def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, scenes):
