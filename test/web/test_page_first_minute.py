@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from trials import choose
 from web.opened import find_time, read_motion, read_state
+from web.test_page_sizes import is_inside
 
 from symtop_ros.physics import Motion, hurry
 
@@ -82,11 +83,7 @@ def test_question_scene_buttons_and_chart_are_on_the_first_screen_of_a_phone(ope
     page = open_page(known="", viewport={"width": width, "height": height})
     page.tab.wait_for_selector("#theta svg")
     boxes = [page.tab.locator(name).bounding_box() for name in PARTS]
-    for box in boxes:
-        assert box["x"] >= 0
-        assert box["y"] >= 0
-        assert box["x"] + box["width"] <= width
-        assert box["y"] + box["height"] <= height
+    assert all(is_inside(box, size) for box in boxes), boxes
     assert boxes[1]["height"] > 0.35 * height
 
 
