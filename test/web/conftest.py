@@ -31,9 +31,9 @@ def spare():
 
 
 @pytest.fixture
-def open_page(browser, path, spare):
+def open_page(browser, path, spare, request):
     """A function that opens the page, with a fragment, in a browser of some kind."""
-    used = []
+    used, failed = [], request.session.testsfailed
 
     def open_one(fragment="", file=path, script=USUAL, known=KNOWN, locale="en-US", **look):
         # lines are counted when a browser is closed
@@ -45,7 +45,7 @@ def open_page(browser, path, spare):
 
     yield open_one
     for page, free in used:
-        if free is None:
+        if free is None or request.session.testsfailed > failed:  # a key may be pressed
             page.close()
         else:
             page.leave()
