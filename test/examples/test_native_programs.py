@@ -12,6 +12,7 @@ from programs import execute, find_fault
 
 from symtop_ros.physics import Motion
 
+pytestmark = pytest.mark.long  # test_documents.py compiles other programs of the same page
 needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")
 needs_rust = pytest.mark.skipif(bool(find_fault("rustc")), reason=find_fault("rustc"))
 
@@ -36,7 +37,6 @@ def test_an_integrator_in_cpp_is_compared_with_the_library(tmp_path):
     assert all(15 < before / after < 32 for before, after in itertools.pairwise(errors))
 
 
-@pytest.mark.long  # test_documents.py compiles the program in Rust of the same page
 @needs_compiler
 @needs_rust
 def test_a_program_in_rust_prints_the_doubles_of_python(tmp_path):

@@ -10,6 +10,7 @@ from node.listener import Listener
 from node.running_top import RunningTop
 from serving import serving
 from waiting import until
+from web.opened import UNDRAWN
 
 from symtop_ros.panel.bridge import KEPT, SILENCE, Bridge
 from symtop_ros.physics import Motion, State
@@ -222,6 +223,7 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node, brow
     running, bridge = node
     page = write_file(node=bridge.name)
     tab = browser.new_page()
+    tab.add_init_script(UNDRAWN)
     look = partial(tab.wait_for_timeout, 20)
     problems = []
     tab.on("pageerror", lambda error: problems.append(str(error)))
@@ -260,6 +262,7 @@ def test_a_held_button_pushes_the_node_until_it_is_released(node, browser):
     running, bridge = node
     with serving(write_file(node=bridge.name), bridge) as server:
         tab = browser.new_page()
+        tab.add_init_script(UNDRAWN)
         look = partial(tab.wait_for_timeout, 20)
         tab.goto(server.url)
         tab.click("#tab-push")
