@@ -75,6 +75,15 @@ def _untraced(request):
     coverage.start()
 
 
+@pytest.fixture(scope="session")
+def browser():
+    """A browser for all tests."""
+    from browser import running_browser  # it needs Playwright
+
+    with running_browser() as running:
+        yield running
+
+
 @pytest.fixture
 def signals_as_before():
     """Restore the handlers of signals that a program replaces."""

@@ -1,18 +1,12 @@
 """Invalid command lines: status 1 and a line, or status 2 and the usage; no traceback."""
 
 import shlex
+from importlib import import_module
 
 import pytest
 from odd_values import CONTROL, assert_one_sentence
 from programs import run as run_program
 
-from symtop_ros.client import main as client
-from symtop_ros.imu import main as imu
-from symtop_ros.judge import main as judge
-from symtop_ros.live import main as live
-from symtop_ros.models import main as models
-from symtop_ros.panel import main as panel
-from symtop_ros.playback import main as playback
 from workshop import main as workshop_main
 from workshop.load.domains import claim_domain
 
@@ -21,16 +15,12 @@ LONG = "x" * 100_000
 BYTES = "\udcff\udcfe"  # what Python makes of bytes that are no text
 TEXTS = {"CONTROL": CONTROL, "LONG": LONG, "BYTES": BYTES, "NUL": "\0", "NINES": "9" * 5000}
 HEAD = "/**:\n  ros__parameters:\n"
+FOLDERS = {"ctl": "client", "live": "live", "panel": "panel", "replay": "playback"}
+FOLDERS |= {"model": "models", "judge": "judge", "imu": "imu"}
 MAINS = {
-    "top_ctl": client.main,
-    "top_live": live.main,
-    "top_panel": panel.main,
-    "top_replay": playback.main,
-    "workshop": workshop_main.main,
-    "top_model": models.main,
-    "top_judge": judge.main,
-    "top_imu": imu.main,
-}
+    f"top_{name}": import_module(f"symtop_ros.{folder}.main").main
+    for name, folder in FOLDERS.items()
+} | {"workshop": workshop_main.main}
 # Of each program some command lines, with bars between; words in capitals stand for these texts.
 FAILED = {
     "top_ctl": "--ros-args -p bad | --ros-args --remap | --node CONTROL hurry | "

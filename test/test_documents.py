@@ -17,8 +17,9 @@ from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from log_files import Run
 from node.listener import Listener, fill
 from node.running_top import RunningTop
-from programs import PATIENT, execute, find_fault, run, running_node
+from programs import PATIENT, execute, find_fault, running_node
 from simulation.page_runs import make_run
+from test_command_lines import MAINS
 
 import workshop.main
 from symtop_ros.client.connection import Connection
@@ -31,9 +32,7 @@ pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
 ROS_PAGE = ROOT / "docs/ros.md"
 LAUNCH_FILE = ROOT / "launch/top.launch.py"
-# The modules of programs whose options are parsed here; test/MODULE runs them.
-PARSED = {"top_panel": "panel", "top_live": "live"}
-MODULES = {**PARSED, "top_ctl": "client", "top_judge": "judge", "top_replay": "playback"}
+PARSED = ("top_panel", "top_live")  # their options are; tests of their own run them
 # These need a network, a shell, or a ROS 2 with security.
 NOT_RUN = (
     *(["git", "clone"], ["cd"], ["ros2", "security"], ["export"]),
@@ -135,8 +134,10 @@ def folder(tmp_path_factory):
 
 
 @pytest.mark.parametrize(("words", "output"), COMMANDS)
+@pytest.mark.usefixtures("signals_as_before")
 def test_a_command_works(words, output, folder, monkeypatch):
     monkeypatch.chdir(folder)
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
     if words[:3] == ["ros2", "run", "symtop_ros"]:
         words = words[3:]
     program, *rest = words
@@ -151,7 +152,7 @@ def find_runner(program, words):
         return parse
     others = {"make": check_target, "pip": check_extra, "ros2": call_ros2, "top_ctl": call_node}
     others |= {"top_judge": judge, "top_node": start_node, "top_replay": replay}
-    return others.get(program, run_program)
+    return others.get(program, run)
 
 
 def check_target(_, words):
@@ -174,19 +175,19 @@ def check_extra(_, words):
 def parse(program, words):
     """Read the options of a program, but not those of ROS."""
     if program != "top_node":  # which has no options
-        module = importlib.import_module(f"symtop_ros.{MODULES[program]}.main")
+        module = importlib.import_module(MAINS[program].__module__)
         with contextlib.chdir(ROOT):
             module._parser().parse_args(" ".join(words).partition("--ros-args")[0].split())
 
 
-def run_program(program, words):
-    result = run(program, *words, domain=DOMAIN)
-    assert result.returncode == 0, result.stderr
-    return result.stdout
+def run(program, words):
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        assert MAINS[program](words) == 0
+    return printed.getvalue()
 
 
 def call_node(program, words):
-    return run_program(program, [*PATIENT, *words])
+    return run(program, [*PATIENT, *words])
 
 
 def judge(program, words):
@@ -194,7 +195,7 @@ def judge(program, words):
         truth, stamps = truth_and_stamps(200)
         estimates = encode("sensor_msgs/msg/Imu", make_estimates(truth, stamps))
         write_log(Path("run.mcap"), {"/imu/data": estimates})
-    return run_program(program, words)
+    return run(program, words)
 
 
 def start_node(_, words):
@@ -204,7 +205,7 @@ def start_node(_, words):
 def replay(program, words):
     shutil.move(Run(seconds=0.5).write(Path.cwd()), "run.mcap")
     # without an option it would open a window: there is no screen
-    return run_program(program, words if words[1:] else [*words, "--save", "run.rrd"])
+    return run(program, words if words[1:] else [*words, "--save", "run.rrd"])
 
 
 def call_ros2(_, words):

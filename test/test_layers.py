@@ -55,12 +55,9 @@ def imports(folder):
     """
     own, others = set(), set()
     for _, node in nodes(folder):
-        modules = []
-        if isinstance(node, ast.Import):
-            modules = [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            modules = [node.module]
-        for module in modules:
+        if not isinstance(node, ast.Import | ast.ImportFrom):
+            continue
+        for module in [getattr(node, "module", None) or each.name for each in node.names]:
             package, _, rest = module.partition(".")
             if package == "symtop_ros":
                 own.add(rest.partition(".")[0] or "__init__")
@@ -103,8 +100,7 @@ CHANGING = {"Markers", "Tables", "Fit", "StepBudget", "Deviation", "Gaps", "Walk
 def test_records_are_frozen_but_for_those_that_count():
     classes = [
         (node.name, ast.unparse(each))
-        for path in PACKAGE.rglob("*.py")
-        for node in ast.walk(ast.parse(path.read_text()))
+        for _, node in nodes("")
         if isinstance(node, ast.ClassDef)
         for each in node.decorator_list
     ]

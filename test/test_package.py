@@ -112,6 +112,7 @@ def test_colcon_build_installs_what_ros2_run_looks_for(workspace):
         assert program.read_text().startswith("#!/usr/bin/env python3\n")
 
 
+@pytest.mark.long  # as colcon does, and the set-up of the tests
 def test_pip_installs_the_same_tree(sources, tmp_path):
     # --ignore-installed leaves the installed version in place
     options = ["--no-deps", "--ignore-installed", "--quiet", "--prefix", str(tmp_path)]

@@ -23,7 +23,7 @@ def written(tmp_path_factory):
         contextlib.redirect_stdout(io.StringIO()) as printed,
         pytest.MonkeyPatch.context() as patch,
     ):
-        patch.setattr(maps, "POINTS", 60)
+        patch.setattr(maps, "POINTS", 40)
         maps.write_maps(folder)
     return folder, printed.getvalue()
 

@@ -12,6 +12,7 @@ from programs import execute, find_fault
 
 from symtop_ros.physics import Motion
 
+pytestmark = pytest.mark.long  # test_documents.py compiles other programs of the same page
 needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")
 needs_rust = pytest.mark.skipif(bool(find_fault("rustc")), reason=find_fault("rustc"))
 

@@ -6,11 +6,11 @@ from functools import partial
 
 import pytest
 import rclpy
-from browser import running_browser
 from node.listener import Listener
 from node.running_top import RunningTop
 from serving import serving
 from waiting import until
+from web.opened import UNDRAWN
 
 from symtop_ros.panel.bridge import KEPT, SILENCE, Bridge
 from symtop_ros.physics import Motion, State
@@ -219,49 +219,50 @@ def start_of(running):
     return running.top.simulation.timeline.start.euler_angles
 
 
-def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node):
+def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node, browser):
     running, bridge = node
     page = write_file(node=bridge.name)
-    with running_browser() as browser:
-        tab = browser.new_page()
-        look = partial(tab.wait_for_timeout, 20)
-        problems = []
-        tab.on("pageerror", lambda error: problems.append(str(error)))
-        with serving(page, bridge) as server:
-            port = server.server_address[1]
-            tab.goto(server.url)
-            until(lambda: "cusps" in tab.text_content("#headline"), look)
-            assert tab.is_hidden("#timeline")
-            tab.click("#hurry")
-            until(lambda: "without the kick" in tab.text_content("#headline"), look)
-            act = bridge._events[-1]["record"]["act"]
-            assert act == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
-            tab.click("#tab-start")
-            tab.fill("#field-top\\.Mgl", "0.05")
-            tab.press("#field-top\\.Mgl", "Enter")
-            until(lambda: running.top.simulation.settings.top.Mgl == 0.05, look)
-            dismissed = []
-            tab.once("dialog", lambda dialog: dismissed.append(dialog.dismiss()))
-            tab.goto(f"{server.url}#theta=1.5")  # a link of another page
-            until(lambda: dismissed, look)
-            assert start_of(running).theta == pytest.approx(0.5)
-            tab.once("dialog", lambda dialog: dialog.accept())
-            tab.goto(f"{server.url}#theta=1.25")
-            until(lambda: abs(start_of(running).theta - 1.25) < 1e-9, look)
-        until(lambda: "connection is lost" in tab.text_content("#lost"), look)
-        with serving(page, bridge, port):
-            until(lambda: tab.is_hidden("#lost"), look)
-            tab.click("#tab-history")
-            assert "again" not in tab.text_content("#refusal")
-            until(lambda: "71.62°" in tab.text_content("#entries"), look)
-        assert problems == []
+    tab = browser.new_page()
+    tab.add_init_script(UNDRAWN)
+    look = partial(tab.wait_for_timeout, 20)
+    problems = []
+    tab.on("pageerror", lambda error: problems.append(str(error)))
+    with serving(page, bridge) as server:
+        port = server.server_address[1]
+        tab.goto(server.url)
+        until(lambda: "cusps" in tab.text_content("#headline"), look)
+        assert tab.is_hidden("#timeline")
+        tab.click("#hurry")
+        until(lambda: "without the kick" in tab.text_content("#headline"), look)
+        act = bridge._events[-1]["record"]["act"]
+        assert act == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
+        tab.click("#tab-start")
+        tab.fill("#field-top\\.Mgl", "0.05")
+        tab.press("#field-top\\.Mgl", "Enter")
+        until(lambda: running.top.simulation.settings.top.Mgl == 0.05, look)
+        dismissed = []
+        tab.once("dialog", lambda dialog: dismissed.append(dialog.dismiss()))
+        tab.goto(f"{server.url}#theta=1.5")  # a link of another page
+        until(lambda: dismissed, look)
+        assert start_of(running).theta == pytest.approx(0.5)
+        tab.once("dialog", lambda dialog: dialog.accept())
+        tab.goto(f"{server.url}#theta=1.25")
+        until(lambda: abs(start_of(running).theta - 1.25) < 1e-9, look)
+    until(lambda: "connection is lost" in tab.text_content("#lost"), look)
+    with serving(page, bridge, port):
+        until(lambda: tab.is_hidden("#lost"), look)
+        tab.click("#tab-history")
+        assert "again" not in tab.text_content("#refusal")
+        until(lambda: "71.62°" in tab.text_content("#entries"), look)
+    tab.close()
+    assert problems == []
 
 
-def test_a_held_button_pushes_the_node_until_it_is_released(node):
+def test_a_held_button_pushes_the_node_until_it_is_released(node, browser):
     running, bridge = node
-    page = write_file(node=bridge.name)
-    with running_browser() as browser, serving(page, bridge) as server:
+    with serving(write_file(node=bridge.name), bridge) as server:
         tab = browser.new_page()
+        tab.add_init_script(UNDRAWN)
         look = partial(tab.wait_for_timeout, 20)
         tab.goto(server.url)
         tab.click("#tab-push")
@@ -278,3 +279,4 @@ def test_a_held_button_pushes_the_node_until_it_is_released(node):
         *_, pushes, _ = events()  # a page that is held up for long lets go, and pushes anew
         assert (pushes["kind"], pushes["act"]["rate"]) == ("push", 20)
         assert pushes["act"]["number"] == int(bridge._last.values["before.pushes"]) > 0
+        tab.close()

@@ -4,7 +4,6 @@ import io
 
 import numpy as np
 import pytest
-from browser import running_browser
 from documents import ROOT
 from PIL import Image
 
@@ -30,12 +29,11 @@ def test_the_traces_are_what_the_command_draws():
 
 
 @pytest.mark.long
-def test_a_picture_of_the_page_has_its_window_and_its_scene(tmp_path):
+def test_a_picture_of_the_page_has_its_window_and_its_scene(tmp_path, browser):
     from workshop.pictures.page import PICTURES, draw  # which needs Playwright
 
     (phone,) = [each for each in PICTURES if each.name == "panel_phone"]
-    with running_browser() as browser:
-        path = draw(browser, phone, tmp_path)
+    path = draw(browser, phone, tmp_path)
     with Image.open(path) as picture, Image.open(ROOT / "docs" / path.name) as shown:
         assert picture.size == shown.size == tuple(phone.window)
         assert len(picture.convert("RGB").getcolors(1 << 24)) > 50

@@ -5,7 +5,6 @@ import sys
 from urllib.parse import urlsplit
 
 import pytest
-from browser import running_browser
 from log_files import ARTICLE
 from programs import execute
 from waiting import until
@@ -50,21 +49,20 @@ def test_what_is_undefined_for_a_sleeping_top_is_a_dash(top):
 TIMEOUT = 120.0
 
 
-def test_the_page_asks_no_other_host(capsys):
+def test_the_page_asks_no_other_host(capsys, browser):
     process, asked, said = viewer.start(web=True), [], []
     address = re.search(r"open (\S+) in", capsys.readouterr().out)[1]
     try:
-        with running_browser() as browser:
-            tab = browser.new_page()
-            tab.on("response", lambda response: asked.append(urlsplit(response.url).hostname))
-            tab.on("requestfinished", lambda request: asked.append(urlsplit(request.url).hostname))
-            tab.on("console", lambda line: said.append(line.text))
-            url = f"{address}&renderer=webgl"
-            until(lambda: tab.goto(url).status != 503, timeout=TIMEOUT)
-            assert {host for host in asked if host} == {"127.0.0.1"}
-            refused = [text for text in said if "Content Security Policy" in text]
-            assert any("fonts.googleapis.com" in text for text in refused)  # as it tries to
-            tab.close()
+        tab = browser.new_page()
+        tab.on("response", lambda response: asked.append(urlsplit(response.url).hostname))
+        tab.on("requestfinished", lambda request: asked.append(urlsplit(request.url).hostname))
+        tab.on("console", lambda line: said.append(line.text))
+        url = f"{address}&renderer=webgl"
+        until(lambda: tab.goto(url).status != 503, timeout=TIMEOUT)
+        assert {host for host in asked if host} == {"127.0.0.1"}
+        refused = [text for text in said if "Content Security Policy" in text]
+        assert any("fonts.googleapis.com" in text for text in refused)  # as it tries to
+        tab.close()
     finally:
         process.terminate()
         process.wait(timeout=TIMEOUT)

@@ -1,69 +1,40 @@
 """Topics and services of nodes: allowed by the SROS2 policy, and used in the graph."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass, fields
+from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
 from rclpy.node import Node
 
 POLICY = Path(__file__).parents[2] / "config" / "sros2_policy.xml"
-RIGHTS = (
-    ("topics", "publish"),
-    ("topics", "subscribe"),
-    ("services", "reply"),
-    ("services", "request"),
-)
+RIGHTS = {"publish": "topics", "subscribe": "topics", "reply": "services", "request": "services"}
+Use = tuple[str, str]  # a right, and the full name of a topic or service
 
 
-@dataclass(frozen=True)
-class Uses:
-    """Full names of topics and services."""
-
-    publish: frozenset[str] = frozenset()
-    subscribe: frozenset[str] = frozenset()
-    reply: frozenset[str] = frozenset()
-    request: frozenset[str] = frozenset()
-
-    def __or__(self, other: Uses) -> Uses:
-        return Uses(*(getattr(self, f.name) | getattr(other, f.name) for f in fields(self)))
-
-
-def allowed() -> dict[str, Uses]:
+def allowed() -> dict[str, set[Use]]:
     """Topics and services that the policy allows, by enclave."""
     enclaves = ElementTree.parse(POLICY).getroot().iterfind("enclaves/enclave")
-    return {each.attrib["path"]: _allowed(each) for each in enclaves}
+    return {each.attrib["path"]: {*_allowed(each)} for each in enclaves}
 
 
-def used(node: Node, name: str, as_name: str | None = None) -> Uses:
+def used(node: Node, name: str, as_name: str | None = None) -> set[Use]:
     """Topics and services that the graph shows for the node `name`.
 
     Names in its private namespace are returned for the node name `as_name`.
     """
-    looks = (
-        node.get_publisher_names_and_types_by_node,
-        node.get_subscriber_names_and_types_by_node,
-        node.get_service_names_and_types_by_node,
-        node.get_client_names_and_types_by_node,
-    )
-    own = f"/{name}/"
-    return Uses(
-        *(
-            frozenset(each.replace(own, f"/{as_name or name}/") for each, _ in look(name, "/"))
-            for look in looks
-        )
-    )
+    looks = {
+        "publish": node.get_publisher_names_and_types_by_node,
+        "subscribe": node.get_subscriber_names_and_types_by_node,
+        "reply": node.get_service_names_and_types_by_node,
+        "request": node.get_client_names_and_types_by_node,
+    }
+    names = [(right, each) for right, look in looks.items() for each, _ in look(name, "/")]
+    return {(right, each.replace(f"/{name}/", f"/{as_name or name}/")) for right, each in names}
 
 
-def _allowed(enclave: ElementTree.Element) -> Uses:
-    names: dict[str, set[str]] = {right: set() for _, right in RIGHTS}
+def _allowed(enclave: ElementTree.Element) -> Iterator[Use]:
     for profile in enclave.iterfind("profiles/profile"):
-        for kind, right in RIGHTS:
+        own = f"{profile.attrib['ns']}{profile.attrib['node']}"
+        for right, kind in RIGHTS.items():
             for entry in profile.iterfind(f"{kind}[@{right}='ALLOW']/*"):
-                names[right].add(_full(entry.text or "", profile))
-    return Uses(**{right: frozenset(each) for right, each in names.items()})
-
-
-def _full(name: str, profile: ElementTree.Element) -> str:
-    return name.replace("~", f"{profile.attrib['ns']}{profile.attrib['node']}")
+                yield right, (entry.text or "").replace("~", own)

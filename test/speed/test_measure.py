@@ -23,8 +23,9 @@ def written(tmp_path_factory):
     """The folder of a report, and that of the documents into which it is written."""
     folder = tmp_path_factory.mktemp("report")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("workshop.speed.peers.peer.RECORDED", 1024)  # a tenth
-        patch.setattr("workshop.speed.benchmarks.SPAN", 2.5)  # a quarter
+        patch.setattr("workshop.speed.peers.peer.RECORDED", 256)  # a fortieth
+        patch.setattr(benchmarks, "SPAN", 1.0)  # a tenth
+        patch.setattr(benchmarks, "DRIVEN_RUNS", 1)
         docs = tmp_path_factory.mktemp("root") / "docs"
         docs.mkdir()
         for name in ("../README.md", "accuracy.md", "accuracy_tables.md"):
@@ -54,7 +55,7 @@ def test_our_errors_are_rounding_at_all_times_and_in_all_hard_cases(facts):
 
 def test_the_taylor_series_are_as_good_as_promised(facts):
     (curve,) = [each for each in facts["curves"] if each["peer"] == TAYLOR]
-    # the largest of 2.5 seconds, as an angle
+    # the largest of a second, as an angle
     assert curve["points"][0]["error"] <= benchmarks.LARGEST_TAYLOR_ERROR
     assert len(facts["driven"]) == 14  # each ninth of 124
     # the largest is that after 50 s of the article's top, which docs/accuracy.md names

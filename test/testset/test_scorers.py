@@ -6,7 +6,6 @@ from base64 import b64encode
 
 import numpy as np
 import pytest
-from browser import running_browser
 from programs import execute
 
 from symtop_ros.arrays import invert
@@ -123,15 +122,13 @@ def cpp(folder):
 
 
 @pytest.fixture(scope="session")
-def javascript(folder):
+def javascript(folder, request):
     """Run the scorer in JavaScript, by Node or in Chromium."""
     node = shutil.which("node")
     if node:
-        yield lambda *args: run(node, folder / "score.mjs", *args)
-        return
-    with running_browser() as browser:
-        page = browser.new_page()
-        yield lambda *args: run_in_page(page, folder, *args)
+        return lambda *args: run(node, folder / "score.mjs", *args)
+    page = request.getfixturevalue("browser").new_page()
+    return lambda *args: run_in_page(page, folder, *args)
 
 
 def run(*command):

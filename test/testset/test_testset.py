@@ -29,9 +29,8 @@ SUMS = "da68e849981bc090482bc9014ceceaba14ef9cbd80d8100835c604ed3b91f170"
 def test_there_are_seventy_problems_of_six_levels_at_twenty_times():
     assert list(PROBLEMS) == [setting.name for setting in SETTINGS]
     assert len(PROBLEMS) == 70
-    assert {each["level"] for each in PROBLEMS.values()} == {0, 1, 2, 3, 4, 5}
-    for each in PROBLEMS.values():
-        assert len(each["times"]) == len(each["orientations"]) == COUNT
+    assert {each["level"] for each in PROBLEMS.values()} == {*range(6)}
+    assert {len(each["times"]) for each in PROBLEMS.values()} == {COUNT}
 
 
 @pytest.mark.parametrize("setting", SETTINGS[::2], ids=lambda each: each.name)

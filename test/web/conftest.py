@@ -2,17 +2,10 @@
 
 import pytest
 from web.modules import load_kernel, open_tab
-from web.opened import Opened
+from web.opened import KNOWN, USUAL, Opened
 
 from symtop_ros.web.join import write_file
-
-
-@pytest.fixture(scope="session")
-def browser():
-    from browser import running_browser  # it needs Playwright
-
-    with running_browser() as running:
-        yield running
+from workshop import page_coverage
 
 
 @pytest.fixture(scope="module")
@@ -31,18 +24,32 @@ def path(tmp_path_factory):
     return path
 
 
-@pytest.fixture
-def open_page(browser, path):
-    """A function that opens the page, with a fragment and options of the browser's context."""
-    pages = []
+@pytest.fixture(scope="session")
+def spare():
+    """Tabs that nobody uses, by whether their browsers know the page: a new one takes longer."""
+    return {KNOWN: [], "": []}
 
-    def open_one(fragment="", file=path, **options):
-        pages.append(Opened(browser, file, fragment, **options))
-        return pages[-1]
+
+@pytest.fixture
+def open_page(browser, path, spare, request):
+    """A function that opens the page, with a fragment, in a browser of some kind."""
+    used, failed = [], request.session.testsfailed
+
+    def open_one(fragment="", file=path, script=USUAL, known=KNOWN, locale="en-US", **look):
+        # lines are counted when a browser is closed
+        is_usual = (script, locale) == (USUAL, "en-US") and not page_coverage.FOLDER
+        free = spare[known] if is_usual else None
+        page = free.pop() if free else Opened(browser, script, known, locale)
+        used.append((page, free))
+        return page.open(file, fragment, **look)
 
     yield open_one
-    for page in pages:
-        page.close()
+    for page, free in used:
+        if free is None or request.session.testsfailed > failed:  # a key may be pressed
+            page.close()
+        else:
+            page.leave()
+            free.append(page)
 
 
 @pytest.fixture

@@ -33,14 +33,17 @@ Storage.prototype.getItem = function (key) {
 """
 
 
+USUAL = FEW_FRAMES + UNDRAWN
+WINDOW = {"width": 1280, "height": 720}
+MEDIA = {"media": "null", "color_scheme": "light", "reduced_motion": "null"}
+MEDIA |= {"forced_colors": "null"}
+
+
 class Opened:
     """The file in a tab, with what went wrong; of a browser that knows the page, or does not."""
 
-    def __init__(
-        self, browser, path, fragment="", script=FEW_FRAMES + UNDRAWN, known=KNOWN, **options
-    ):
-        options = {"locale": "en-US", **options}  # else that of the machine
-        self.context = browser.new_context(offline=True, accept_downloads=True, **options)
+    def __init__(self, browser, script=USUAL, known=KNOWN, locale="en-US"):
+        self.context = browser.new_context(offline=True, locale=locale)  # else of the machine
         self.context.add_init_script(FUNCTIONS + known + script)
         self.tab = self.context.new_page()
         self.tab.set_default_timeout(TIMEOUT * 1000)
@@ -48,14 +51,34 @@ class Opened:
         self.tab.on("console", self._note)
         self.tab.on("pageerror", lambda error: self.problems.append(str(error)))
         self.tab.on("request", lambda request: self.requests.append(request.url))
+
+    def open(self, path, fragment="", viewport=WINDOW, **media):
+        """Open the file, in a window and for eyes of some kind."""
+        self.tab.set_viewport_size(viewport)
+        self.tab.emulate_media(**{**MEDIA, **media})
         self.tab.goto(path.as_uri() + fragment)
         self.wait_for_page()
+        return self
 
     def close(self):
         """Close the tab; nothing went wrong in it, and it asked for nothing from elsewhere."""
         self.context.close()
+        self.check()
+
+    def check(self):
         assert self.problems == [], self.problems[:5]
         assert all(request.startswith(NO_REQUESTS) for request in self.requests)
+
+    def leave(self):
+        """Leave the page, as before a first visit of the browser; nothing went wrong in it."""
+        for other in self.context.pages[1:]:
+            other.close()
+        self.tab.mouse.move(0, 0)
+        self.tab.goto("about:blank")
+        self.check()
+        self.requests.clear()
+        stored = {"origin": "file://", "storageTypes": "all"}
+        self.context.new_cdp_session(self.tab).send("Storage.clearDataForOrigin", stored)
 
     def _note(self, message):
         """Note what is written to the console, but for what a driver says of its own speed."""

@@ -20,7 +20,6 @@ FIELDS = ("theta", "psi_dot", "phi_dot", "factor", "top.Ix", "top.Mgl", "frictio
 TEXTS = ("0", "1", "pi/3", "-5", "1e-9", "1e20", "-1e99", "1e300", "abc", "")
 SPEEDS = ("1", "0.1", "0.01")
 FRAMES = 2  # that follow an act
-LONGEST = 20.0  # s
 
 
 class Trial:
@@ -34,7 +33,7 @@ class Trial:
         self.page = self.open(path)
 
     def open(self, path):
-        return Opened(self.browser, path, script="patches.countFrames();" + UNDRAWN)
+        return Opened(self.browser, "patches.countFrames();" + UNDRAWN).open(path)
 
     def act(self, names):
         """Do one of some acts; return its name. The page goes on, and Python reads its run."""
@@ -51,10 +50,7 @@ class Trial:
     def wait_for_frames(self):
         read = "window.framesDone"
         wanted = self.page.tab.evaluate(read) + FRAMES
-        deadline = time.monotonic() + LONGEST
-        while self.page.tab.evaluate(read) < wanted:
-            assert time.monotonic() < deadline, "the page has stopped"
-            self.page.tab.wait_for_timeout(20)
+        self.page.until(lambda: self.page.tab.evaluate(read) >= wanted)
 
     # Acts, of which those that are done often stand in `ACTS` more than once
 

@@ -108,7 +108,7 @@ def test_kinds_are_decided_as_in_the_article(tab):
         assert boundaries["upper"] == pytest.approx(expected["through the vertical"][0][0])
 
 
-def test_a_chart_shows_the_quantities_that_are_chosen(opened):
+def test_a_chart_shows_the_quantities_that_are_chosen_and_a_run_kept_for_comparison(opened):
     opened.open_charts("free")
     opened.tab.select_option("#free-x", "time")
     opened.tab.select_option("#free-y", "theta_ddot")
@@ -132,18 +132,9 @@ def test_a_chart_shows_the_quantities_that_are_chosen(opened):
     box = opened.tab.locator("#free svg").bounding_box()
     opened.tab.locator("#free svg").hover(position={"x": 50, "y": box["height"] / 2})
     opened.until(lambda: float(opened.tab.input_value("#free-place")) < 0.2)
-    opened.reload()
-    assert opened.tab.input_value("#free-y") == "theta_ddot"  # the choice is kept
-
-
-def test_a_run_is_kept_for_comparison(opened):
-    opened.open_charts("free")
-    opened.tab.select_option("#free-x", "time")
-    opened.tab.select_option("#free-y", "theta")
-    opened.tab.click("#hurry")
-    opened.wait_for_time(0.05)
     opened.tab.click("#free-keep")
     assert opened.say("free-keep") == "Discard the kept run"
+    opened.press("Space")
     opened.enter("theta", "0.6")
     opened.wait_for_time(0.07)
     read = "e => e.getAttribute('d')"
@@ -152,6 +143,8 @@ def test_a_run_is_kept_for_comparison(opened):
     assert kept != own
     opened.tab.click("#free-keep")
     opened.until(lambda: not opened.tab.locator("#kept").evaluate(read))
+    opened.reload()
+    assert opened.tab.input_value("#free-y") == "theta_ddot"  # the choice is kept
 
 
 def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_pushed(open_page):

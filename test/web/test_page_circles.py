@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from web.opened import FEW_FRAMES, UNDRAWN
+from web.opened import USUAL
 from web.test_page_charts import read_axis
 from web.test_page_numbers import NUMBER, Shown, is_rounded
 
@@ -42,7 +42,7 @@ def read_well(page):
     "scene", ["friction", pytest.param("vertical_torque", marks=pytest.mark.long)]
 )
 def test_circles_and_energy_are_those_of_a_driven_state_after_waiting_and_a_seek(open_page, scene):
-    page = open_page(f"#scene={scene}", script=FEW_FRAMES + UNDRAWN + "patches.keepCircles();")
+    page = open_page(f"#scene={scene}", script=USUAL + "patches.keepCircles();")
     page.open_charts("well")
     page.tab.locator("#well > svg").scroll_into_view_if_needed()
     page.tab.select_option("#speed", "1")

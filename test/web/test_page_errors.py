@@ -1,6 +1,6 @@
 """The page keeps working: errors of a part, refused acts, and a late or early frame."""
 
-from web.opened import FEW_FRAMES, UNDRAWN
+from web.opened import FEW_FRAMES, UNDRAWN, USUAL
 
 
 def test_frames_with_old_stamps_do_not_run_the_time_backwards(open_page):
@@ -30,7 +30,7 @@ def test_a_stored_choice_of_another_version_is_dropped(open_page):
     stored = (
         "localStorage.setItem('symtop.free-x', 'speed'); localStorage.setItem('symtop.unit', '');"
     )
-    opened = open_page(script=stored + FEW_FRAMES + UNDRAWN)
+    opened = open_page(script=stored + USUAL)
     assert opened.tab.input_value("#free-x") == "theta"
     assert opened.tab.input_value("#unit") == "deg"
     opened.wait_for_time(0.02)

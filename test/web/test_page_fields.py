@@ -61,12 +61,7 @@ def test_the_slider_reaches_the_lower_vertical(opened):
     assert opened.read_last().euler_angles.theta == math.pi
 
 
-def test_caps_lock_disables_no_key(opened):
-    opened.tab.keyboard.press("H")
-    assert "higher" in opened.say("headline")
-
-
-def test_keys_that_move_through_the_list_of_scenes_start_none(opened):
+def test_keys_that_move_through_the_list_of_scenes_start_none_but_a_pointer_does(opened):
     events = opened.read_events()
     opened.open_tab("start")
     opened.tab.focus("#scenes")
@@ -81,10 +76,6 @@ def test_keys_that_move_through_the_list_of_scenes_start_none(opened):
     assert opened.say("headline").startswith("The top precesses in loops")
     opened.tab.click("#start-scene")
     assert not opened.say("headline").startswith("The top precesses in loops")
-
-
-def test_a_scene_that_is_picked_with_the_pointer_starts_at_once(opened):
-    opened.open_tab("start")
     opened.tab.dispatch_event("#scenes", "pointerdown")
     opened.tab.select_option("#scenes", "looping")
     assert opened.say("headline").startswith("The top precesses in loops")

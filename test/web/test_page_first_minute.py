@@ -4,11 +4,12 @@ import re
 
 import numpy as np
 import pytest
-from web.opened import FEW_FRAMES, UNDRAWN, find_time, read_motion, read_state
+from trials import choose
+from web.opened import find_time, read_motion, read_state
+from web.test_page_sizes import is_inside
 
 from symtop_ros.physics import Motion, hurry
 
-PHONES = ((390, 844), (360, 640))
 PERIODS = 1.1  # of a nutation, in which all of it is seen
 PARTS = ("#question", "canvas", "#answers", "#theta svg")
 
@@ -76,40 +77,35 @@ def test_a_page_that_prefers_no_motion_moves_when_it_is_answered(open_page):
     page.tab.wait_for_selector("#compared")
 
 
-@pytest.mark.parametrize("size", PHONES)
+@pytest.mark.parametrize("size", choose(((390, 844), (360, 640)), [(360, 640)]))
 def test_question_scene_buttons_and_chart_are_on_the_first_screen_of_a_phone(open_page, size):
     width, height = size
     page = open_page(known="", viewport={"width": width, "height": height})
     page.tab.wait_for_selector("#theta svg")
     boxes = [page.tab.locator(name).bounding_box() for name in PARTS]
-    for box in boxes:
-        assert box["x"] >= 0
-        assert box["y"] >= 0
-        assert box["x"] + box["width"] <= width
-        assert box["y"] + box["height"] <= height
+    assert all(is_inside(box, size) for box in boxes), boxes
     assert boxes[1]["height"] > 0.35 * height
 
 
 @pytest.mark.wording
-def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_higher(open_page):
-    page = open_page(script=FEW_FRAMES + UNDRAWN)
-    page.tab.select_option("#speed", "1")
-    page.tab.click("#hurry")
-    page.until(lambda: page.say("pace") == "slow motion")
-    before, motion, time = read_kick(page)
-    bracket = page.tab.locator(".label:visible", has_text="higher")
-    page.wait_for_time(time + motion.nutation_period / 8)
-    page.tab.click("#pause")
-    page.wait_for_frames(3)
-    now = float(page.tab.get_attribute("body", "data-theta"))
+def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_higher(opened):
+    opened.tab.select_option("#speed", "1")
+    opened.tab.click("#hurry")
+    opened.until(lambda: opened.say("pace") == "slow motion")
+    before, motion, time = read_kick(opened)
+    bracket = opened.tab.locator(".label:visible", has_text="higher")
+    opened.wait_for_time(time + motion.nutation_period / 8)
+    opened.tab.click("#pause")
+    opened.wait_for_frames(3)
+    now = float(opened.tab.get_attribute("body", "data-theta"))
     shown = float(re.match(r"[\d.]+", bracket.text_content())[0])
     digits = 10 ** (np.floor(np.log10(shown)) - 1)
     assert shown == pytest.approx(before.turning_angles[0] - now, abs=0.5001 * digits)
-    assert page.tab.locator(".label:visible", has_text="push").count() == 2  # and "not pushed"
-    page.tab.click("#pause")
-    page.wait_for_time(time + PERIODS * motion.nutation_period)
-    page.until(lambda: page.say("pace") == "")  # the speed that was chosen
-    page.until(lambda: bracket.text_content() == "0.063 rad higher")
+    assert opened.tab.locator(".label:visible", has_text="push").count() == 2  # and "not pushed"
+    opened.tab.click("#pause")
+    opened.wait_for_time(time + PERIODS * motion.nutation_period)
+    opened.until(lambda: opened.say("pace") == "")  # the speed that was chosen
+    opened.until(lambda: bracket.text_content() == "0.063 rad higher")
 
 
 def test_a_kick_is_a_step_in_the_chart_of_the_rate_and_a_mark_at_the_slider_of_the_time(opened):

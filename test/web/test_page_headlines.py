@@ -3,27 +3,6 @@
 import pytest
 
 
-def test_the_headline_of_a_driven_motion_says_what_acts(opened):
-    said = {}
-    for name in opened.tab.locator("#scenes option").evaluate_all("all => all.map(e => e.value)"):
-        if name:
-            opened.start_scene(name)
-            event = opened.read_events()[-1]
-            acts = [any(event["friction"]), any(event["torque"])]
-            said[name] = acts
-            words = {
-                (False, False): ("The ",),
-                (True, False): ("Friction acts. Without it, the ",),
-                (False, True): ("A torque acts. Without it, the ",),
-                (True, True): ("Friction and a torque act. Without them, the ",),
-            }[tuple(acts)]
-            assert opened.say("headline").startswith(words)
-            if any(acts):
-                assert opened.say("why").startswith("Without ")
-    assert [True, False] in said.values()
-    assert [False, True] in said.values()
-
-
 def test_a_kick_under_friction_is_judged_apart_from_friction_and_said_to_be_past(opened):
     opened.start_scene("friction")
     opened.press("h")

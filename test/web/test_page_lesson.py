@@ -92,16 +92,6 @@ def test_a_keyboard_does_a_step_on_a_phone(open_page):
     assert page.tab.evaluate("document.documentElement.scrollWidth") <= 390
 
 
-def test_back_is_the_step_before(open_page):
-    page = open_page("#lesson=2")
-    page.tab.fill("#prediction", "it falls")
-    page.tab.click("#step-next")
-    assert page.tab.input_value("#steps").startswith("3.")
-    page.tab.go_back()
-    page.until(lambda: page.tab.input_value("#steps").startswith("2."))
-    assert page.tab.input_value("#prediction") == "it falls"
-
-
 def test_predictions_are_kept_for_the_browser(open_page):
     page = open_page("#lesson=2")
     page.tab.fill("#prediction", "it falls")
@@ -134,9 +124,14 @@ def test_after_a_reset_or_a_reload_the_hurry_of_the_step_works_again(open_page):
 
 
 @pytest.mark.wording
-def test_predictions_are_saved_as_a_text(open_page, tmp_path):
+def test_back_is_the_step_before_and_predictions_are_saved_as_a_text(open_page, tmp_path):
     page = open_page("#lesson=2")
     page.tab.fill("#prediction", "It falls.")
+    page.tab.click("#step-next")
+    assert page.tab.input_value("#steps").startswith("3.")
+    page.tab.go_back()
+    page.until(lambda: page.tab.input_value("#steps").startswith("2."))
+    assert page.tab.input_value("#prediction") == "It falls."
     assert page.save("My predictions", tmp_path).read_text() == (
         f"The first question: it rises\n2. {STEPS[1].title}: It falls.\n"
     )

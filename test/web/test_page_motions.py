@@ -6,18 +6,21 @@ import numpy as np
 import pytest
 from web.opened import find_time, read_motion
 
-from symtop_ros.physics import (
-    Body,
-    ExactTimes,
-    Top,
-    apply_impulse,
-)
+from symtop_ros.physics import Body, ExactTimes, Top, apply_impulse
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.settings import Settings
 
+SAID = {
+    (False, False): "The ",
+    (True, False): "Friction acts. Without it, the ",
+    (False, True): "A torque acts. Without it, the ",
+    (True, True): "Friction and a torque act. Without them, the ",
+}
 
-def test_every_scene_starts_with_the_doubles_of_a_node(opened):
+
+def test_every_scene_starts_with_the_doubles_of_a_node_and_says_what_acts(opened):
+    said = set()
     for name in scene_names():
         opened.start_scene(name)
         assert opened.say("refusal") == ""
@@ -27,6 +30,10 @@ def test_every_scene_starts_with_the_doubles_of_a_node(opened):
         assert event["top"] == list(motion.top.moments)
         assert event["friction"] == [motion.friction.axial, motion.friction.transverse]
         assert event["torque"] == list(motion.applied_torque)
+        said.add(acts := (any(event["friction"]), any(event["torque"])))
+        assert opened.say("headline").startswith(SAID[acts])
+        assert not any(acts) or opened.say("why").startswith("Without ")
+    assert said >= {(True, False), (False, True)}
 
 
 def test_somebody_goes_on_from_an_earlier_moment(opened):

@@ -64,7 +64,7 @@ class Shown:
 
 
 @pytest.mark.parametrize(
-    ("seed", "rounds"), [(1, 2), *(pytest.param(n, 70, marks=pytest.mark.long) for n in (2, 3))]
+    ("seed", "rounds"), [(1, 1), *(pytest.param(n, 70, marks=pytest.mark.long) for n in (2, 3))]
 )
 def test_every_number_shown_is_that_of_the_state_drawn(browser, tmp_path, seed, rounds):
     trial = Trial(browser, tmp_path, seed)

@@ -4,7 +4,7 @@ import json
 
 import pytest
 from simulation.page_runs import change, find_refusal, list_hostile_runs
-from web.opened import FEW_FRAMES, UNDRAWN
+from web.opened import USUAL
 
 from symtop_ros.web.join import write_file
 
@@ -73,10 +73,7 @@ def test_a_run_that_cannot_be_read_ends_no_page_that_remembers_or_holds_it(
     remembered = f"history.replaceState({{run: {json.dumps(run)}}}, '');"
     saved = tmp_path / "saved.html"
     saved.write_text(write_file(run=run))
-    for opened in (
-        open_page(script=remembered + FEW_FRAMES + UNDRAWN),
-        open_page(file=saved),
-    ):
+    for opened in (open_page(script=remembered + USUAL), open_page(file=saved)):
         assert " must " in opened.say("refusal")
         opened.press("h")
         assert [event["kind"] for event in opened.read_events()] == ["start", "kick"]

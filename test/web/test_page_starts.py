@@ -5,7 +5,7 @@ import random
 import pytest
 from simulation.page_runs import change
 from web.odd_tops import draw_start, write_address
-from web.opened import FEW_FRAMES, UNDRAWN
+from web.opened import UNDRAWN
 
 from symtop_ros.simulation.presets import scene_names
 
@@ -58,15 +58,12 @@ def get_motion(event):
 # Scenes in which the last digits decide, and a torque; all in the long tests.
 @pytest.mark.parametrize(
     "scenes",
-    [
-        ("hurry_slow", "vertical_torque"),
-        pytest.param(scene_names(), marks=pytest.mark.long),
-    ],
+    [("hurry_slow", "vertical_torque"), pytest.param(scene_names(), marks=pytest.mark.long)],
     ids=["some", "all"],
 )
 def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, scenes):
     runs = [f"scene={name}" for name in scenes]
-    other = open_page(script=FEW_FRAMES + UNDRAWN)
+    other = open_page()
     for page in (opened, other):  # the headline of a driven motion follows it
         page.press("Space")
     for fragment in (*runs, write_address(draw_start(random.Random(4)))[1:]):

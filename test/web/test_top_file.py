@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+from web.opened import USUAL
 
 from symtop_ros.physics import Motion, State, Top
 
 
 def test_a_frame_of_another_site_shows_the_top_and_says_that_it_may_not_save(browser, path):
     tab = browser.new_context(offline=True).new_page()
+    tab.add_init_script(USUAL)
     tab.set_content("<iframe sandbox='allow-scripts' style='width: 900px; height: 700px'></iframe>")
     tab.evaluate("(page) => { document.querySelector('iframe').srcdoc = page; }", path.read_text())
     frame = tab.frame_locator("iframe")
