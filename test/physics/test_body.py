@@ -1,4 +1,4 @@
-"""The body behind a top, accelerations of its points and the force of the pivot."""
+"""Accelerations of a body and of its points, the force of the pivot, and the body of a top."""
 
 import math
 
@@ -6,11 +6,16 @@ import numpy as np
 import pytest
 from drawn import Numbers, normalize
 from mpmath import mp, mpf
-from physics.tops import ARTICLE, CUSPS, EPS, Case, follow_exactly, turn
+from physics.tops import ARTICLE, CUSPS, DISC, EPS, Case, follow_exactly, random_states, turn
 
-from symtop_ros.physics import Body, Friction, Motion, State, Top, point_acceleration
-from symtop_ros.physics.dynamics import STANDARD_GRAVITY
+from symtop_ros.physics import Body, Friction, Motion, State, Top
+from symtop_ros.physics.dynamics import (
+    STANDARD_GRAVITY,
+    angular_acceleration,
+    point_acceleration,
+)
 from symtop_ros.physics.kernel import door
+from symtop_ros.physics.precession import theta_acceleration, theta_torque
 from symtop_ros.physics.reference import ClosedForm
 from workshop.testset.exact import DIGITS
 
@@ -142,3 +147,29 @@ def find_disc(moments):
 def test_no_disc_moves_as_a_top_without_weight_does_or_as_a_disc_in_its_pivot():
     for moments in ((1.0, 0.5, 0.0), (1.0, 2.0, 0.5), (0.25, 0.5, 0.0)):
         assert np.isnan(find_disc(moments)).all()
+
+
+@pytest.mark.parametrize("place", [(0.3, -0.2, 0.7), (0.5, 0.4, 0.0)])
+def test_points_of_the_body_are_accelerated_by_it(place):
+    states = random_states(500)
+    motion = Motion(ARTICLE, CUSPS, Friction(1e-6, 2e-6), (1e-4, 0.0, -1e-4))
+    alpha = states.to_body(angular_acceleration(motion, states))
+    omega = states.angular_velocity
+    expected = np.cross(alpha, place) + np.cross(omega, np.cross(omega, place))
+    error = np.abs(point_acceleration(motion, states, place) - expected).max(axis=-1)
+    size = np.linalg.norm(alpha, axis=-1) + (omega**2).sum(axis=-1)
+    assert (error / size).max() < 1e-15  # some roundings of its two parts; 6e-16 in this sample
+
+
+@pytest.mark.parametrize("top", [ARTICLE, DISC, Top(2.0, 2.0, 7.0)])
+def test_theta_acceleration_is_the_articles(top):
+    (Ix, Iz, Mgl), states = top.moments, random_states(500)
+    theta, rates = states.euler_angles.theta, states.euler_rates
+    expected = (Ix - Iz) * rates.phi**2 * np.cos(theta) - Iz * rates.phi * rates.psi + Mgl
+    found = theta_acceleration(top, theta, rates.phi, rates.psi)
+    terms = (abs(rates.phi) + abs(rates.psi)) ** 2 + abs(Mgl) / Ix
+    off = found - np.sin(theta) / Ix * expected
+    assert (np.abs(off) <= 16 * EPS * terms).all()  # sums of three products
+    # without sin(theta)/Ix, which the product takes back to a few roundings
+    torque = theta_torque(top, theta, rates.phi, rates.psi)
+    assert found == pytest.approx(np.sin(theta) / Ix * torque, rel=4 * EPS)

@@ -5,7 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
-from physics.refusals import NOT_TOO_LATE, refused
+from physics.refusals import refused
 from physics.tops import ARTICLE, CUSPS, random_case
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, Motions, State, Top
@@ -127,12 +127,6 @@ def test_each_motion_of_many_has_its_own_engine_and_one_motion_alone_can_be_reac
     motions = Motions(tops, CUSPS, Friction([0.0, 0.0, 0.1]))
     assert motions.engine.tolist() == ["closed form", "free", "taylor"]
     assert not hasattr(motions, "reach")
-
-
-def test_a_time_too_far_for_one_of_many_is_refused():
-    tops = Top(0.000228, 0.0000572, [0.068, 0.07])
-    with refused("t", NOT_TOO_LATE):
-        Motions(tops, CUSPS).at([0.1, 1e17])
 
 
 def test_one_top_compares_and_hashes_by_its_numbers():

@@ -11,6 +11,7 @@ from physics.refusals import (
     FINITE_NUMBER,
     HOLD,
     NOT_TOO_FAST,
+    NOT_TOO_LATE,
     NUMBER,
     TILTED,
     VECTOR,
@@ -41,6 +42,7 @@ from symtop_ros.physics import (
     theta_acceleration,
     theta_torque,
 )
+from symtop_ros.physics.reference import exact_state
 
 START = State.from_euler(theta=0.5, phi=0.3, psi=1.2, theta_dot=2.0, phi_dot=6.5, psi_dot=200.0)
 MOTION, POTENTIAL = Motion(ARTICLE, CUSPS), EffectivePotential.of(ARTICLE, CUSPS)
@@ -58,9 +60,16 @@ UNIT, REST, NAN, INF = (1, 0, 0, 0), (0, 0, 0), math.nan, math.inf
 UPRIGHT, HANGING = State(UNIT, (0, 0, 200.0)), State((0, 1, 0, 0), (0, 0, 200.0))
 BOTH, TILTED_BY = State([UNIT, (0, 1, 0, 0)], [REST] * 2), partial(State.from_euler, theta=0.5)
 RESOLVED = "a time at which double precision resolves the derivatives"
+TOO_LATE = 1e17, -1e20, [1.0, 1e17], ExactTimes(2**63 - 1, 1e40)
 THROWN_UP, UNSTABLE = State([0.5] * 4, (-2, 0, 0)), State(UNIT, (0, 0, 30))
 OF_RATES = theta_torque, theta_acceleration, precessing_frame_torques
 PUSHED = partial(Motion, ARTICLE, CUSPS)
+RISING = Motion(Top(1, 1e-21, 0.0), CUSPS, torque=(1, 1, 1))  # turns too fast for all digits
+DRAG = Friction(2e-6, 1e-5)
+TOO_FINE = [
+    ExactTimes(np.array([10**8, 2 * 10**8]), elapsed=each)
+    for each in (sum(Fraction(1, 2**n) for n in range(0, 400, 80)), Fraction(1, 2**400))
+]
 RATE_KICKS = hurry, precession_rate, partial(set_precession_rate, phi_dot=1.0)
 NO_NUMBERS = "a", None, [1.0, NAN], True
 NO_TIMES = "1", None, True, 1j, np.timedelta64(100, "ms"), 10**400
@@ -141,7 +150,11 @@ MOTIONS = [
     (partial(PUSHED(torque=(0.0, 0.0, 1e300)).at, 1.0), "t", NOT_TOO_FAST, "1"),
     (partial(PUSHED(torque=(0.0, 0.0, 1e308)).at, 1.0), "t", NOT_TOO_FAST, "1"),
     (partial(MOTION.jacobian, NAN), "t", FINITE_ARRAY),
-    (partial(PUSHED(Friction(2e-6, 1e-5)).jacobian, 1e5), "t", "at most "),
+    *((partial(MOTION.at, t), "t", NOT_TOO_LATE) for t in TOO_LATE),
+    (partial(MANY.at, [0.1, 1e17]), "t", NOT_TOO_LATE),
+    *((partial(PUSHED(DRAG).at, each), "elapsed", "a sum of four doubles") for each in TOO_FINE),
+    (partial(RISING.at, [1e-3, 1.0]), "t", NOT_TOO_FAST),
+    (partial(PUSHED(DRAG).jacobian, 1e5), "t", "at most "),
     (partial(Motion(Top(1.0, 0.5, 2.0), THROWN_UP).jacobian, 1e9), "t", RESOLVED),
     (partial(Motion(ARTICLE, UNSTABLE).jacobian, 1e5), "t", RESOLVED),
     *((partial(balance, MOTION, 2.0, wrong), "longest", "> 0 s") for wrong in (0.0, -1.0)),
@@ -187,6 +200,9 @@ TIMES = [
     (partial(ExactTimes, 0, -1.0), "factor", "1e-100 to 1e+100", "-1"),
     (partial(ExactTimes, 0, NAN), "factor", FINITE_NUMBER),
     (partial(ExactTimes, 0, "1"), "factor", NUMBER),
+    (partial(exact_state, ARTICLE, CUSPS, NAN), "t", "a finite number", "nan s"),
+    (partial(exact_state, ARTICLE, CUSPS, 1.0, 0), "digits", "1 or more", "0"),
+    (partial(exact_state, MANY.top, CUSPS, 1.0), "top and start", "those of one motion"),
 ]
 
 

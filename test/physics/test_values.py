@@ -1,4 +1,4 @@
-"""Arguments of all types: numbers pass, everything else is refused on one short line."""
+"""Arguments of all types: numbers and exact times pass, the rest is refused on one short line."""
 
 import math
 from fractions import Fraction
@@ -25,6 +25,9 @@ TWO = 2, 2.0, np.float32(2), np.int8(2), np.array(2.0), np.array(2), Fraction(4,
 MASKED = np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0])
 NO_NUMBERS = [1, 2, "3"], [1j, 2, 3], [True, False, True], [1, None, 3], [[1], [2, 3]]
 NOT_FINITE = [1, 2, math.nan], [1, 2, 10**400]
+YEAR = 365 * 86_400 * 10**9  # ns
+FACTORS = [1.0, 1e-3, 0.1, 1 / 3, 7.0, 100.0]
+ELAPSED = Fraction(987_654_321_987_654_321, 2**40)
 WITH_UNITS = np.array([1, 2, 3], dtype="timedelta64[ms]")
 
 
@@ -105,3 +108,22 @@ def test_nothing_underflows_into_an_error():
         theta_acceleration(ARTICLE, [1e-300, 1e-170], [1e-300, 3.0], 1e-200)
         hurry(State.from_euler(theta=[1e-90, 1.0], phi_dot=1e-200), [1e-300, 1.0])
         apply_impulse(ARTICLE, states, (1e-300, 0, 1e-320))
+
+
+@pytest.mark.parametrize("factor", FACTORS)
+@pytest.mark.parametrize("elapsed", [Fraction(0), ELAPSED])
+def test_seconds_are_the_nearest_doubles(factor, elapsed):
+    stamps = np.array([0, 1, -5, YEAR + 1, 2**63 - 1])
+    times = ExactTimes(stamps, factor, elapsed)
+    for stamp, seconds in zip(stamps.tolist(), times.seconds.tolist(), strict=True):
+        exact = (elapsed + Fraction(factor) * stamp) / 10**9
+        assert seconds == float(exact)
+        assert ExactTimes(stamp, factor, elapsed).seconds == seconds
+        assert times.advance(stamp) == exact * 10**9
+
+
+def test_shapes_follow_those_of_the_nanoseconds():
+    motion = Motion(Top(1.0, 0.5, 0.0), CUSPS)
+    assert motion.at(ExactTimes(1)).orientation.shape == (4,)
+    assert motion.at(ExactTimes(np.array([], dtype=np.int64))).orientation.shape == (0, 4)
+    assert motion.at(ExactTimes(np.array([1, 2], dtype=np.uint32))).orientation.shape == (2, 4)

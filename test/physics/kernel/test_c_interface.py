@@ -50,14 +50,10 @@ def compare(command, samples, expected):
 
 
 @needs_compiler
-def test_a_program_in_c_has_the_bits_of_python(tmp_path, kernel):
-    compare([build("print_motions.c", tmp_path, kernel)], *list_many())
-
-
-@needs_compiler
-def test_a_program_that_uses_the_kernel_needs_no_python(tmp_path, kernel):
-    ldd = "ldd", build("print_motions.c", tmp_path, kernel)
-    libraries = subprocess.check_output(ldd)
+def test_a_program_in_c_has_the_bits_of_python_and_needs_none(tmp_path, kernel):
+    program = build("print_motions.c", tmp_path, kernel)
+    compare([program], *list_many())
+    libraries = subprocess.check_output(["ldd", program])
     assert b"libc.so" in libraries
     assert b"python" not in libraries
 
@@ -65,9 +61,9 @@ def test_a_program_that_uses_the_kernel_needs_no_python(tmp_path, kernel):
 @needs_compiler
 def test_whatever_is_passed_is_refused_or_answered(tmp_path, kernel):
     program = build("hostile.c", tmp_path, kernel)
-    output = subprocess.check_output([program, "1", "3000"], text=True, timeout=100)
-    made = int(re.fullmatch(r"(\d+) of 3000 motions made\n", output)[1])
-    assert 300 < made < 2700  # many of both kinds
+    output = subprocess.check_output([program, "1", "1000"], text=True, timeout=100)
+    made = int(re.fullmatch(r"(\d+) of 1000 motions made\n", output)[1])
+    assert 100 < made < 900  # many of both kinds
 
 
 UNSOUND = {  # what the kernel's promises cannot bear, and a compiler may be asked for
@@ -89,9 +85,10 @@ def test_a_build_with_fast_math_is_refused_in_words(tmp_path, option):
 
 
 @needs_compiler
+@pytest.mark.parametrize("level", choose(("-O0", "-O2"), ("-O0",)))
 @pytest.mark.parametrize("name", choose(UNSOUND, ("order",)))
-def test_a_build_that_may_change_sums_answers_nothing(tmp_path, name):
-    kernel = compile_kernel(tmp_path, *UNSOUND[name])
+def test_a_build_that_may_change_sums_answers_nothing(tmp_path, name, level):
+    kernel = compile_kernel(tmp_path, level, *UNSOUND[name])
     if name == "fused" and "fma" not in Path("/proc/cpuinfo").read_text():
         pytest.skip("this processor has no fused operations")
     assert run_sound(tmp_path, kernel, "usual") == {BAD_ARITHMETIC}

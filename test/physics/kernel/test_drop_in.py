@@ -12,6 +12,7 @@ import pytest
 from physics.kernel.motions import list_many
 from physics.kernel.test_c_interface import KERNEL, ROOT, build, compare, needs_compiler
 from programs import execute
+from trials import choose
 
 from symtop_ros import __version__
 
@@ -103,10 +104,11 @@ def test_source_and_example_compile_without_a_warning_and_the_example_says_what_
 
 
 @needs_compiler
-def test_the_first_commands_of_its_readme_print_what_it_shows(drop_in, tmp_path):
+@pytest.mark.parametrize("level", choose(("-O0", "-O2"), ("-O0",)))
+def test_the_first_commands_of_its_readme_print_what_it_shows(drop_in, tmp_path, level):
     folder = shutil.copytree(drop_in, tmp_path / "tree")
     script, shown = read_console(folder, 0)
-    assert run_script(script, folder) == shown
+    assert run_script(script.replace("-O2", level), folder) == shown
     assert len(shown) == 2
 
 

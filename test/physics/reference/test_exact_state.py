@@ -9,8 +9,8 @@ from physics.tops import ARTICLE, CUSPS
 from python_runs import run_python
 
 from symtop_ros.physics import Friction, State, Top, reference
-from symtop_ros.physics.reference import ClosedForm, Inputs, exact_state
-from workshop.testset.exact import distance
+from symtop_ros.physics.reference import ClosedForm, Inputs, Series, exact_state
+from workshop.testset.exact import ReturningSeries, distance
 
 pytestmark = pytest.mark.untraced
 SOURCES = sorted(Path(reference.__file__).parent.glob("*.py"))
@@ -58,30 +58,12 @@ def test_friction_alone_slows_the_spin_exponentially():
         assert_same(found, (mp.cos(half), 0, 0, mp.sin(half)), (0, 0, 4 * left), 40)
 
 
-def test_a_friction_that_is_too_weak_to_be_felt_gives_the_closed_form():
-    free = exact_state(ARTICLE, CUSPS, 0.3, 30)
-    assert_same(exact_state(ARTICLE, CUSPS, 0.3, 30, Friction(0.0, 1e-60)), *free, 30)
-
-
 def test_a_spin_of_which_friction_leaves_less_than_a_digit_is_found_without_more_digits_of_it():
     start = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 4.0))
     found = exact_state(Top(1.0, 0.5, 0.0), start, 6.0, 20, friction=Friction(axial=10.0))
     with mp.workdps(40):
         assert abs(found.orientation[0] - mp.cos(mpf("0.1"))) < mpf(10) ** -20
         assert abs(found.angular_velocity[2] - 4 * mp.exp(-120)) < mpf(10) ** -35
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"t": float("nan")}, "t must be a finite number, got nan s"),
-        ({"digits": 0}, "digits must be 1 or more, got 0"),
-        ({"top": Top([1.0, 2.0], 0.5, 1.0)}, "top and start must be those of one motion"),
-    ],
-)
-def test_what_has_no_state_is_refused(changes, message):
-    with pytest.raises(ValueError, match=message):
-        exact_state(**({"top": ARTICLE, "start": CUSPS, "t": 1.0} | changes))
 
 
 def test_the_mean_rates_are_those_of_a_nutation():
@@ -111,3 +93,24 @@ def test_it_imports_nothing_of_the_kernel_and_nothing_imports_it():
     assert all(name.startswith("symtop_ros.physics.reference.") for name in ours)
     done = run_python("import sys, symtop_ros.physics; assert 'mpmath' not in sys.modules")
     assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("periods", [1.4, -3.7, 1e9 + 0.2])
+def test_one_period_serves_for_all_times(periods):
+    inputs = Inputs.of(ARTICLE, CUSPS)
+    exact = ClosedForm(inputs, 60)
+    t = periods * float(exact.period)
+    with mp.workdps(60):
+        found = ReturningSeries(inputs, 50, exact.period).at(t)
+        assert distance(found.orientation, exact.at(t).orientation) < mpf(10) ** -38
+
+
+def test_a_period_after_which_the_height_does_not_return_is_refused():
+    with pytest.raises(ValueError, match=r"the height must return after 0\.15 s"):
+        ReturningSeries(Inputs.of(ARTICLE, CUSPS), 30, 0.15).at(1.0)
+
+
+def test_times_before_the_start_are_integrated_back():
+    inputs = Inputs.of(ARTICLE, CUSPS)
+    exact = ClosedForm(inputs, 60).at(-0.3)
+    assert distance(Series(inputs, 40).at(-0.3).orientation, exact.orientation) < 1e-15

@@ -278,7 +278,7 @@ def state_next_to_the_vertical(rng):
     )
 
 
-@pytest.mark.parametrize("seed", seeds(10, 50))
+@pytest.mark.parametrize("seed", seeds(3, 50))
 def test_the_rule_next_to_the_vertical_is_that_of_sixty_digits(seed):
     rng = Numbers(seed)
     for _ in range(1000):
