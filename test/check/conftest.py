@@ -8,3 +8,11 @@ def path(tmp_path_factory):
     from check.run_log import write_log  # it needs mcap
 
     return write_log(tmp_path_factory.mktemp("run"))
+
+
+@pytest.fixture
+def memory(path):
+    """Its messages, which a test may change."""
+    from check.run_log import Memory
+
+    return Memory.read(path)

@@ -3,20 +3,14 @@
 from dataclasses import replace
 
 import pytest
-from check.run_log import Memory
 from log_files import Run
 
-from symtop_ros.check.course import Course, _list_jumps, _list_times_without_tf
+from symtop_ros.check.course import Course, _list_jumps
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback import main as module
 from symtop_ros.simulation.events import MAX_STAMP
 from symtop_ros.wire.diagnostics import decode_statuses, encode_statuses
-
-
-@pytest.fixture
-def memory(path):
-    return Memory.read(path)
 
 
 def missing_in(memory):
@@ -112,16 +106,14 @@ def set_missed(data, count):
     return encode_statuses(statuses[0].stamp, "world", statuses)
 
 
-def tell(memory, name, *told):
-    """Events of one name: the stamp and one value of each."""
-    first = next(TopLog(memory).events())
-    return [replace(first, name=name, stamp=at, values={"format": "3", **of}) for at, of in told]
+KINDS = (1, "ended"), (3, "begun"), (13, "ended")
 
 
 def test_pauses_of_a_recording_have_no_samples(memory):
-    """Random sessions have jumps and steps."""
-    kinds = ((1, "ended"), (3, "begun"), (13, "ended"))
-    events = tell(memory, "record", *((at, {"outcome.kind": kind}) for at, kind in kinds))
+    """Random sessions have jumps, steps and times without /tf."""
+    first = replace(next(TopLog(memory).events()), name="record")
+    told = ((at, {"format": "3", "outcome.kind": kind}) for at, kind in KINDS)
+    events = [replace(first, stamp=at, values=values) for at, values in told]
     assert list(_list_jumps(events)) == [(1, 3)]
 
 
@@ -131,13 +123,6 @@ def test_events_that_are_missing_are_named_by_their_numbers_also_by_hostile_ones
     one, many = Course([first, *later]).list_missing()
     assert one.startswith("event 2 is missing, between ")
     assert many.startswith("events 4 to 999999999999 are missing, between ")
-
-
-def test_tf_has_no_samples_while_it_is_switched_off(memory):
-    told = ((1, "false"), (2, None), (3, "true"), (4, "false"))
-    switches = ((at, {"request.publish_tf": text} if text else {}) for at, text in told)
-    events = tell(memory, "parameters", *switches)
-    assert [*_list_times_without_tf(events)] == [(1, 3), (4, MAX_STAMP)]
 
 
 def test_two_files_of_one_run_share_an_event_and_lose_nothing(tmp_path):

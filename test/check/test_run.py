@@ -5,7 +5,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from check.run_log import Memory
 from trials import choose
 
 from symtop_ros.check.run import check_run
@@ -14,11 +13,6 @@ from symtop_ros.playback.main import _check, main
 from symtop_ros.simulation.events import decode_events
 from symtop_ros.simulation.topics import SAMPLE_TOPICS
 from symtop_ros.wire.diagnostics import decode_statuses, encode_statuses
-
-
-@pytest.fixture
-def memory(path):
-    return Memory.read(path)
 
 
 def without_events(memory, *numbers):

@@ -4,7 +4,6 @@ import random
 from dataclasses import replace
 
 import pytest
-from check.run_log import Memory
 from trials import seeds
 
 from symtop_ros import __version__
@@ -14,17 +13,6 @@ from symtop_ros.wire.diagnostics import decode_statuses
 from symtop_ros.wire.layout import Reader
 
 STATUS = "top: motion"
-
-
-@pytest.fixture(scope="module")
-def memory(path):
-    return Memory.read(path)
-
-
-@pytest.fixture
-def changed(memory):
-    """The messages, of which those of one test can be changed."""
-    return replace(memory, messages=list(memory.messages))
 
 
 def mismatches(memory):
@@ -53,60 +41,60 @@ def test_a_run_with_all_events_agrees(memory):
 
 
 @pytest.mark.parametrize("seed", seeds(1, 5))
-def test_an_altered_digit_of_a_description_is_found(changed, seed):
+def test_an_altered_digit_of_a_description_is_found(memory, seed):
     rng = random.Random(seed)
-    for place in changed.places("/robot_description"):
-        data = changed.messages[place].data
+    for place in memory.places("/robot_description"):
+        data = memory.messages[place].data
         digits = [k for k in range(4, len(data)) if chr(data[k]).isdigit()]
         for k in rng.sample(digits, 10):
-            (found,) = alter(rng, changed, place, k)
+            (found,) = alter(rng, memory, place, k)
             assert (found.topic, found.field) == ("/robot_description", "text")
 
 
-def test_an_altered_number_of_a_fixed_frame_is_found(changed):
-    for place in changed.places("/tf_static"):
-        data = changed.messages[place].data
-        assert swap(changed, place, data[:-1] + bytes([data[-1] ^ 1]))
+def test_an_altered_number_of_a_fixed_frame_is_found(memory):
+    for place in memory.places("/tf_static"):
+        data = memory.messages[place].data
+        assert swap(memory, place, data[:-1] + bytes([data[-1] ^ 1]))
 
 
 @pytest.mark.parametrize("seed", seeds(1, 5))
-def test_an_altered_digit_of_diagnostics_of_the_motion_is_found(changed, seed):
+def test_an_altered_digit_of_diagnostics_of_the_motion_is_found(memory, seed):
     rng = random.Random(seed)
-    for place in changed.places("/diagnostics"):
-        data = changed.messages[place].data
+    for place in memory.places("/diagnostics"):
+        data = memory.messages[place].data
         status = next(each for each in decode_statuses(data) if each.name == STATUS)
         texts = [text for text in status.values.values() if any(map(str.isdigit, text))]
         text = rng.choice(texts)
         k = data.index(text.encode())  # the first with this text: its value or an equal one
         k += rng.choice([number for number, letter in enumerate(text) if letter.isdigit()])
-        assert alter(rng, changed, place, k), text
+        assert alter(rng, memory, place, k), text
 
 
-def test_what_is_left_of_a_balance_is_rounding_and_not_judged(changed):
-    place = changed.places("/diagnostics")[-1]
-    data = changed.messages[place].data
+def test_what_is_left_of_a_balance_is_rounding_and_not_judged(memory):
+    place = memory.places("/diagnostics")[-1]
+    data = memory.messages[place].data
     (status,) = (each for each in decode_statuses(data) if each.name == "top: balance")
     text = status.values["angular_momentum.balance"]
-    assert swap(changed, place, data.replace(text.encode(), text.encode()[::-1])) == []
+    assert swap(memory, place, data.replace(text.encode(), text.encode()[::-1])) == []
 
 
-def test_a_message_that_cannot_be_read_is_named(changed):
-    (place, *_) = changed.places("/diagnostics")
-    (found,) = swap(changed, place, changed.messages[place].data[:-2])
+def test_a_message_that_cannot_be_read_is_named(memory):
+    (place, *_) = memory.places("/diagnostics")
+    (found,) = swap(memory, place, memory.messages[place].data[:-2])
     assert (found.topic, found.field, found.expected) == ("/diagnostics", "message", "readable")
 
 
-def test_descriptions_of_a_run_of_another_version_are_not_judged(changed):
-    (place, *_) = changed.places("/robot_description")
-    text = Reader(changed.messages[place].data).string()
-    other = changed.messages[place].data.replace(b"robot", b"tobor", 1)
+def test_descriptions_of_a_run_of_another_version_are_not_judged(memory):
+    (place, *_) = memory.places("/robot_description")
+    text = Reader(memory.messages[place].data).string()
+    other = memory.messages[place].data.replace(b"robot", b"tobor", 1)
     assert "robot" in text
-    assert swap(changed, place, other)
+    assert swap(memory, place, other)
     version = b"0" * len(__version__)
-    for place_of_event in changed.places("/top/events"):
-        event = changed.messages[place_of_event]
+    for place_of_event in memory.places("/top/events"):
+        event = memory.messages[place_of_event]
         assert __version__.encode() in event.data
-        changed.messages[place_of_event] = replace(
+        memory.messages[place_of_event] = replace(
             event, data=event.data.replace(__version__.encode(), version)
         )
-    assert swap(changed, place, other) == []
+    assert swap(memory, place, other) == []

@@ -1,11 +1,115 @@
-"""Estimates from each message type."""
+"""Estimates from tables of text, and from each message type."""
 
+import re
+
+import numpy as np
 import pytest
 from judge.cases import SOME, encode
 
 from symtop_ros.judge.estimates import FORMATS, decode_estimates
+from symtop_ros.judge.main import main
+from symtop_ros.judge.tables import read_table
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.messages import TRANSFORM
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z.* header nothing"),
+        ("t,w,x,y\n", "got the header t,w,x,y"),
+        ("t,w,x,y,z\n0,1,0,0,none\n", "line 2 of .* must consist of numbers"),
+        ("t,w,x,y,z\n0,1,0,0\n", "line 2 of .* must have all columns, got 0,1,0,0"),
+        ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a table|must consist of numbers"),
+        ("stamp,w,x,y,z\n0.5,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+        ("t,w,x,y,z\n1_0,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+        ("stamp,w,x,y,z\n1_0,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+        ("t,w,x,y,z\n0,1_0,0,0,0\n", "line 2 of .* must consist of numbers"),
+        (" ".join("1" * 12) + "\n", "must have times, got poses of KITTI"),
+    ],
+)
+def test_a_damaged_csv_file_is_one_line(tmp_path, text, reason):
+    path = tmp_path / "bad.csv"
+    path.write_text(text)
+    with pytest.raises(RefusedError, match=reason):
+        read_table(path)
+
+
+def write_rows(estimates, separator=",", order=range(4), middle=(), header=(), seconds=True):
+    """A table of estimates: times, further numbers, and the components of states in an order."""
+    rows = [separator.join(header)] if header else []
+    numbers = np.hstack((estimates.orientations, estimates.angular_velocities))[:, order].tolist()
+    for stamp, each in zip(estimates.stamps.tolist(), numbers, strict=True):
+        time = f"{stamp // 10**9}.{stamp % 10**9:09d}" if seconds else str(stamp)
+        rows.append(separator.join([time, *middle, *map(repr, each)]))
+    return "\n".join(rows) + "\n"
+
+
+NAMES = ("t", "w", "x", "y", "z")
+EUROC = ("#timestamp", *("p_RS_R_x [m]", "p_RS_R_y [m]", "p_RS_R_z [m]"), *("q_RS_w []",) * 4)
+RATES = ("wx", "wy", "wz")
+FORMS = {
+    "seconds.csv": {"order": range(7), "header": (*NAMES, *RATES)},
+    "stamps.csv": {"order": range(7), "header": ("stamp", *NAMES[1:], *RATES), "seconds": False},
+    "semicolons.csv": {"separator": ";", "header": NAMES},
+    "tabs.csv": {"separator": "\t", "header": NAMES},
+    "spaces.txt": {"separator": "  ", "header": NAMES},
+    "hash.txt": {"separator": " ", "header": ("#", *NAMES)},
+    "tum.tum": {"separator": " ", "order": (1, 2, 3, 0), "middle": "000"},
+    "tum.txt": {
+        "separator": " ",
+        "order": (1, 2, 3, 0),
+        "middle": "000",
+        "header": ("#", "timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"),
+    },
+    "euroc.csv": {"middle": "000", "header": EUROC, "seconds": False},
+    "euroc_bare.csv": {"middle": "000", "seconds": False},
+}
+
+
+@pytest.mark.parametrize("name", FORMS)
+def test_tables_of_all_forms_are_read(tmp_path, name):
+    path = tmp_path / name
+    path.write_text(write_rows(SOME, **FORMS[name]))
+    found = read_table(path)
+    assert found.stamps.tolist() == SOME.stamps.tolist()
+    assert (found.orientations == SOME.orientations).all()
+    if "wx" in FORMS[name].get("header", ()):
+        assert (found.angular_velocities == SOME.angular_velocities).all()
+    else:
+        assert found.angular_velocities is None
+    assert found.notes == ()
+
+
+def test_what_is_no_attitude_is_left_out(tmp_path):
+    path = tmp_path / "odd.csv"
+    path.write_text("t,w,x,y,z\n0,0,0,0,0\n1,nan,0,0,0\n-1,1,0,0,0\n1e30,1,0,0,0\n2,3,0,0,0\n")
+    found = read_table(path)
+    # a time before the run has an attitude as well
+    assert found.stamps.tolist() == [-1_000_000_000, 2_000_000_000]
+    assert found.orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]] * 2
+    assert found.left_out == 3
+
+
+@pytest.mark.parametrize(
+    ("rows", "note"),
+    [
+        ("0,1,0,0,0\n1,nan,0,0,0\n", r"1 .* line 3"),
+        ("0,1,0,0,0\n2,1,0,0,0\n2,1,0,0,0\n", r"1 .* 2 s"),
+        ("1700000000.12,1,0,0,0\n", "epoch seconds"),
+    ],
+)
+def test_what_is_odd_is_named_in_a_line(tmp_path, rows, note):
+    path = tmp_path / "odd.csv"
+    path.write_text(f"t,w,x,y,z\n{rows}")
+    (found,) = read_table(path).notes
+    assert re.search(note, found)
+
+
+def test_estimates_of_a_clock_that_stands_still_are_judged(tmp_path):
+    path = tmp_path / "estimates.csv"
+    path.write_text("stamp,w,x,y,z\n" + "0,1,0,0,0\n" * 12)
+    assert main(["--scene", "cusps", "--estimates", str(path)]) == 0
 
 
 @pytest.mark.parametrize("kind", sorted(FORMATS))

@@ -1,7 +1,7 @@
 """A trial of the judge: it names the causes that are its own, and never one that is not there."""
 
 import pytest
-from judge.trial import FOREIGN, draw_file
+from judge.trial import draw_file
 from trials import choose
 
 from symtop_ros.judge.causes import CHANGES, LEVELS
@@ -9,8 +9,8 @@ from symtop_ros.judge.fit import PARAMETERS
 from symtop_ros.judge.search import find_causes
 
 LONG = 60  # files of each half
-SHORT = range(3)  # of them those that are tried by every run of the tests
-OWN = (0, 1, 3, 4, 7, 8, 12, 13, 34)  # with every change, level and parameter
+SHORT = range(2)  # of them those that are tried by every run of the tests
+OWN = (4, 8, 13, 29, 34, 40, 41)  # with every change, level and parameter
 
 
 @pytest.mark.parametrize("number", choose(range(LONG), SHORT))
@@ -44,4 +44,3 @@ def test_the_trial_has_every_cause():
     assert set(changes) == {*CHANGES} - {"frame"}  # test_truth.py has it
     assert set(levels) == set(LEVELS)
     assert set(parameters) == {(), *((name,) for name in PARAMETERS)}
-    assert {draw_file(k, own=False).name for k in range(LONG)} == set(FOREIGN)
