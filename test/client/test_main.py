@@ -1,16 +1,23 @@
-"""top_ctl as a user types it, against a real top_node in another process."""
+"""top_ctl as a user types it, also in a real terminal, against a top_node in another process."""
 
 import json
 import os
+import pty
+import select
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
+import rclpy
 from node.listener import Listener
 from programs import PATIENT, command, environment, run, running_node
-from waiting import until
+from std_srvs.srv import Trigger
+from waiting import TIMEOUT
 
+from symtop_ros.client.connection import Connection, UnreachableError
+from symtop_ros.client.main import parse_values
 from symtop_ros.programs import BROKEN_PIPE
 from workshop.load.domains import claim_domain
 
@@ -49,13 +56,14 @@ def test_start_kick_and_state_work_together():
 
 
 def test_two_nodes_of_one_name_are_named_next_to_the_answer():
-    with running_node(DOMAIN, "scene:=hurry_slow"):
-        result = until(lambda: (answer := ctl("state")).stderr and answer)
-        assert result.returncode == 0
-        assert result.stderr.startswith("top_ctl: 2 nodes have the name /top")
-    with Listener(DOMAIN) as listener:  # until the second one is gone
+    with Listener(DOMAIN) as listener:
         names = listener.node.get_fully_qualified_node_names
+        with running_node(DOMAIN, "scene:=hurry_slow"):
+            listener.spin_until(lambda: names().count("/top") == 2)
+            result = ctl("state")
         listener.spin_until(lambda: names().count("/top") == 1)
+    assert result.returncode == 0
+    assert result.stderr.startswith("top_ctl: 2 nodes have the name /top")
 
 
 def test_a_refusal_is_one_line_and_status_1():
@@ -97,3 +105,118 @@ def test_if_nobody_reads_the_output_it_ends_in_silence_as_by_sigpipe(verb, unbuf
         words, pipes = command("top_ctl", verb), {"stdout": closed, "stderr": subprocess.PIPE}
         result = subprocess.run(words, env=settings, check=False, **pipes)
     assert (result.returncode, result.stderr) == (BROKEN_PIPE, b"")
+
+
+class Terminal:
+    """A program in a separate terminal."""
+
+    def __init__(self, *words):
+        self._descriptor, inner = pty.openpty()
+        self.process = subprocess.Popen(
+            command("top_ctl", *PATIENT, *words),
+            stdin=inner,
+            stdout=inner,
+            stderr=inner,
+            env=environment(DOMAIN),
+            start_new_session=True,
+        )
+        os.close(inner)
+        self.seen = ""
+
+    def press(self, keys):
+        os.write(self._descriptor, keys.encode())
+
+    def wait_for(self, text):
+        """Read until a text appears after what was read before; return what was read."""
+        read, deadline = "", time.monotonic() + TIMEOUT
+        while text not in read:
+            assert time.monotonic() < deadline, f"no {text!r} in {read!r}"
+            if select.select([self._descriptor], [], [], 0.1)[0]:
+                read += os.read(self._descriptor, 4096).decode()
+        self.seen += read
+        return read
+
+    def end(self):
+        status = self.process.wait(timeout=TIMEOUT)
+        os.close(self._descriptor)
+        return status
+
+
+@pytest.mark.wording
+def test_each_key_sends_its_request():
+    terminal = Terminal("keys")
+    terminal.wait_for("quit")
+    for key, answer in (
+        ("h", "h: Precession 6.50 -> 9.10 rad/s. The top rises"),
+        ("d", "d: Precession"),
+        (" ", "space: paused at"),
+        ("r", "r: "),
+        ("\x1b[A", "up: "),
+        ("\x1b[C", "right: Precession 6.50 -> 7.50 rad/s"),
+        ("\x1b[D", "left: Precession 7.50 -> 6.50 rad/s"),
+        ("\x1b[B", "down: "),
+        (" ", "space: resumed at"),
+    ):
+        terminal.press(key)
+        assert "refused" not in terminal.wait_for(answer)
+    terminal.press("xq")
+    assert terminal.end() == 0
+
+
+@pytest.mark.parametrize(("words", "shown"), [(("keys",), "quit"), (("watch",), "theta")])
+def test_ctrl_c_ends_it_silently(words, shown):
+    terminal = Terminal(*words)
+    terminal.wait_for(shown)
+    os.killpg(terminal.process.pid, signal.SIGINT)
+    assert terminal.end() == 0
+    assert "interrupted" not in terminal.seen
+
+
+def test_without_a_terminal_it_is_refused_in_one_line():
+    result = run("top_ctl", "keys", domain=DOMAIN)
+    assert result.returncode == 1
+    assert "standard input must be a terminal for keys, got a file or a pipe" in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+def test_a_service_that_does_not_answer_is_reported_after_the_time_out():
+    with Listener(DOMAIN, "user") as user:
+        silent = rclpy.create_node("silent", context=user.context)  # it is never spun
+        silent.create_service(Trigger, "~/reset", lambda _, response: response)
+        with pytest.raises(UnreachableError, match=r"/silent/reset did not answer within 1 s"):
+            Connection(user.node, "/silent", timeout=1.0).request("reset")
+
+
+def test_a_harmless_question_is_answered_before_the_first_request_to_a_service():
+    asked = []
+
+    def note(name):
+        return lambda _, response: asked.append(name) or response
+
+    with Listener(DOMAIN, "user") as user:
+        top = rclpy.create_node("top", context=user.context)
+        for name in ("get_state", "reset"):
+            top.create_service(Trigger, f"~/{name}", note(name))
+        connection = Connection(user.node, timeout=60.0)
+        connection._executor.add_node(top)
+        for _ in range(2):
+            connection.request("reset")
+        connection.close()
+    assert asked == ["get_state", "reset", "reset"]
+
+
+def test_words_become_numbers_lists_and_text():
+    assert parse_values(["a=9", "b=-1e-3", "c=0,0,1e-4", "d=[1, 2]", "e=slow", "f=9_1"]) == {
+        "a": 9.0,
+        "b": -1e-3,
+        "c": [0.0, 0.0, 1e-4],
+        "d": [1.0, 2.0],
+        "e": "slow",
+        "f": "9_1",
+    }
+
+
+def test_it_is_imported_where_there_are_no_terminals():
+    """As on Windows: only `top_ctl keys` needs them."""
+    code = "import sys; sys.modules.update(termios=None, tty=None); import symtop_ros.client.main"
+    subprocess.run([sys.executable, "-c", code], check=True)

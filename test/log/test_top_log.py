@@ -109,7 +109,7 @@ def test_messages_that_cannot_be_decoded_are_reported_and_the_others_used(tmp_pa
 
 
 def test_samples_of_one_stamp_are_never_parted(tmp_path):
-    run = Run(seconds=12.0, rate=1000.0)
+    run = Run(seconds=6.0, rate=1000.0)
     log = run.open(tmp_path)
     for batch in log.batches():
         stamps = [columns.stamps.tolist() for columns in batch.columns.values()]

@@ -13,12 +13,14 @@ from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.listener import Listener
 from node.running_top import LATCHED, torque_of
 from programs import command, environment, set_parameters
+from trials import choose, trials
 from waiting import until
 
 from symtop_ros.log.reader import McapFile
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
+SIGNALS = signal.SIGTERM, signal.SIGINT, signal.SIGHUP
 
 
 @pytest.mark.parametrize("limits", [{"max_duration": 0.5}, {"max_size": 50_000}], ids=str)
@@ -50,7 +52,7 @@ def started(folder, rate=1000.0):
 
 
 @pytest.mark.realtime
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("number", choose(SIGNALS, SIGNALS[:1]))
 def test_a_signal_ends_the_node_in_silence_and_its_log_as_it_should(number, tmp_path):
     node, path = started(tmp_path)
     with Listener(DOMAIN) as listener:
@@ -83,7 +85,7 @@ def test_a_log_holds_applied_torques_as_they_were_received(start_top, tmp_path):
 
 
 @pytest.mark.realtime
-@pytest.mark.parametrize("attempts", [3, pytest.param(10, marks=pytest.mark.long)])
+@pytest.mark.parametrize("attempts", trials(1, 10))
 def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attempts):
     rng = random.Random(3)
     for attempt in range(attempts):

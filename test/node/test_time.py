@@ -8,8 +8,9 @@ from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact, stamps_of
 from geometry_msgs.msg import QuaternionStamped
-from node.running_top import LATCHED, events_named, segment_of, stamp_of
+from node.running_top import LATCHED, events_named, segment_of, stamp_of, status_of
 from rosgraph_msgs.msg import Clock
+from trials import choose
 
 from symtop_ros.node import top_node
 
@@ -95,10 +96,11 @@ def test_simulated_time_without_a_clock_is_warned_of_once(start_top, monkeypatch
 
 
 @pytest.mark.realtime
-@pytest.mark.parametrize(("factor", "rate"), [(0.1, 1000.0), (1.0, 200.0), (5.0, 40.0)])
+@pytest.mark.parametrize("pace", choose(((0.1, 1000.0), (1.0, 200.0), (5.0, 40.0)), ((5.0, 40.0),)))
 def test_a_published_clock_is_the_time_of_the_motion_and_its_log_is_exact(
-    factor, rate, start_top, tmp_path
+    pace, start_top, tmp_path
 ):
+    factor, rate = pace
     run = start_top(
         realtime=True,
         publish_clock=True,
@@ -135,3 +137,19 @@ def test_a_published_clock_is_the_time_of_the_motion_and_its_log_is_exact(
     path = run.end_log()
     assert assert_exact(path) > 20
     assert stamps_of(path, "/clock")
+
+
+@pytest.mark.realtime
+def test_a_second_publisher_of_the_clock_is_reported_until_it_is_gone(start_top):
+    run = start_top(realtime=True, publish_clock=True)
+    heard = run.collect(DiagnosticArray, "/diagnostics")
+    other = run.user.create_publisher(Clock, "/clock", 10)
+
+    def clocks():
+        return [status_of(each, "top: clock") for each in heard]
+
+    run.spin_until(lambda: clocks() and clocks()[-1].level == b"\1")
+    assert {each.key: each.value for each in clocks()[-1].values} == {"publishers": "2"}
+    run.user.destroy_publisher(other)
+    heard.clear()
+    run.spin_until(lambda: clocks() and clocks()[-1].level == b"\0")

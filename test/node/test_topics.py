@@ -1,15 +1,18 @@
 """Every topic against the library, evaluated again at the stamp of each message."""
 
+import importlib
 import sys
 from xml.etree import ElementTree
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
+from node.built_messages import importing
 from node.running_top import LATCHED, facts, segment_of, stamp_of, vector
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
+from symtop_ros.log.writer import load_definitions
 from symtop_ros.physics import Body
 
 pytestmark = pytest.mark.untraced
@@ -98,3 +101,23 @@ def test_without_their_package_markers_are_only_logged(start_top, monkeypatch, c
     run.spin_until(lambda: run.top.simulation.ticker._next > 10)
     line = "visualization_msgs is not installed: ~/markers is only logged"
     assert capfd.readouterr().err.count(line) == 1
+
+
+def test_tf_has_the_quaternion_of_the_topic_and_the_type_of_the_log(start_top):
+    with importing("tf2_msgs"):  # which PyPI does not have
+        run = start_top(arguments=["--ros-args", "-r", "__ns:=/a"])
+        heard = run.collect(importlib.import_module("tf2_msgs.msg").TFMessage, "/tf")
+        samples = run.collect(QuaternionStamped, "/a/top/orientation")
+        run.spin_until(lambda: len(heard) > 50)
+    by_stamp = {stamp_of(each): each.quaternion for each in samples}
+    transforms = [each for message in heard for each in message.transforms]
+    found = [each for each in transforms if stamp_of(each) in by_stamp]
+    assert len(found) > 40
+    for each in found:
+        moved = each.transform.translation
+        assert (each.header.frame_id, each.child_frame_id) == ("world", "a/top")
+        assert (moved.x, moved.y, moved.z) == (0.0, 0.0, 0.0)
+        assert each.transform.rotation == by_stamp[stamp_of(each)]  # bit for bit
+    (publisher,) = run.top.get_publishers_info_by_topic("/tf")
+    definition = load_definitions()["tf2_msgs/msg/TFMessage"]
+    assert str(publisher.topic_type_hash) == definition["hash"]

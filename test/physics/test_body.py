@@ -11,7 +11,6 @@ from physics.tops import ARTICLE, CUSPS, DISC, EPS, Case, follow_exactly, random
 from symtop_ros.physics import Body, Friction, Motion, State, Top
 from symtop_ros.physics.dynamics import (
     STANDARD_GRAVITY,
-    angular_acceleration,
     point_acceleration,
 )
 from symtop_ros.physics.kernel import door
@@ -147,18 +146,6 @@ def find_disc(moments):
 def test_no_disc_moves_as_a_top_without_weight_does_or_as_a_disc_in_its_pivot():
     for moments in ((1.0, 0.5, 0.0), (1.0, 2.0, 0.5), (0.25, 0.5, 0.0)):
         assert np.isnan(find_disc(moments)).all()
-
-
-@pytest.mark.parametrize("place", [(0.3, -0.2, 0.7), (0.5, 0.4, 0.0)])
-def test_points_of_the_body_are_accelerated_by_it(place):
-    states = random_states(500)
-    motion = Motion(ARTICLE, CUSPS, Friction(1e-6, 2e-6), (1e-4, 0.0, -1e-4))
-    alpha = states.to_body(angular_acceleration(motion, states))
-    omega = states.angular_velocity
-    expected = np.cross(alpha, place) + np.cross(omega, np.cross(omega, place))
-    error = np.abs(point_acceleration(motion, states, place) - expected).max(axis=-1)
-    size = np.linalg.norm(alpha, axis=-1) + (omega**2).sum(axis=-1)
-    assert (error / size).max() < 1e-15  # some roundings of its two parts; 6e-16 in this sample
 
 
 @pytest.mark.parametrize("top", [ARTICLE, DISC, Top(2.0, 2.0, 7.0)])

@@ -6,7 +6,6 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, EPS
 
 from symtop_ros.physics import (
-    Motion,
     State,
     Top,
     apply_impulse,
@@ -118,16 +117,6 @@ def test_merging_roots_are_those_of_the_exact_quadratic(steps, theta):
         assert len(found) == (2 if discriminant >= 0 else 0)
         for sign, rate in zip((-1, 1), found, strict=False):
             assert rate == float((half + sign * mp.sqrt(discriminant)) / a)
-
-
-@pytest.mark.parametrize("which", [0, 1])
-def test_a_start_on_a_root_keeps_its_tilt(which):
-    rate = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[which]
-    motion = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0, phi_dot=rate))
-    assert motion.kind == "regular"
-    theta = motion.at([0.01 * k for k in range(10_000)]).euler_angles.theta
-    assert abs(theta - 0.5).max() <= 16 * EPS
-    assert motion.mean_precession_rate == pytest.approx(rate, rel=16 * 261 / rate * EPS)  # of omega
 
 
 def test_a_tilt_may_be_of_many_turns():

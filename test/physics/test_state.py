@@ -137,15 +137,6 @@ def test_a_table_has_a_column_for_each_quantity_of_many_states():
         states[0].table(0.0)
 
 
-def test_what_follows_from_a_state_is_what_the_formulae_say():
-    top = Top(Ix=2.0, Iz=1.0, Mgl=3.0)
-    state = State.from_euler(theta=math.pi / 2, phi=0.0, phi_dot=4.0, psi_dot=5.0)
-    # a few roundings of numbers of this size, cos(pi/2) = 6e-17 included
-    assert top.energy(state) == pytest.approx(2.0 * 16 / 2 + 25 / 2, rel=1e-15)
-    assert top.axial_momentum(state) == pytest.approx(5.0, rel=1e-15)
-    assert top.vertical_momentum(state) == pytest.approx(8.0, rel=1e-15)
-
-
 def test_only_an_upright_weight_needs_spin_to_sleep():
     assert Top(1.0, 0.5, 4.0).critical_spin == 8.0
     assert Top(1.0, 0.5, -4.0).critical_spin == 0.0

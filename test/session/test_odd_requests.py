@@ -58,7 +58,7 @@ VECTORS = st.lists(SIZES, min_size=3, max_size=3)
 TORQUES = st.fixed_dictionaries({}, optional={**FRICTION, "steady_torque": VECTORS})
 
 
-@pytest.mark.parametrize("examples", trials(150, 400))
+@pytest.mark.parametrize("examples", trials(100, 400))
 def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
     @deterministic(examples)
     @given(TOPS, TORQUES, STARTS, KICKS, st.sampled_from([0.0, 1e-3, 1.0, 1e9]))

@@ -1,13 +1,13 @@
-"""The compute budget, with a clock that advances when it is read."""
+"""The compute budget, with a clock that advances when it is read, and the end of a motion."""
 
 import pytest
+from simulation.runs import SECOND, Run
 
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.simulation.budget import STEPS_AT_ONCE, ComputeBudget
 from symtop_ros.simulation.segment import Segment
 
 TOP, START = Top(1e-3, 1e-3, 1.0), State.from_euler(theta=1.0, psi_dot=1e4)
-SECOND = 1_000_000_000
 
 
 def fast():
@@ -87,3 +87,20 @@ def test_a_state_that_is_asked_for_in_between_does_not_make_the_factor_negative(
     while not budget.prepare(segment, SECOND) and not budget.shortfall:
         motion.at(0.0)  # moves the integration back to its start
     assert budget.shortfall.factor > 0
+
+
+def test_another_pace_is_that_of_the_motion_that_follows():
+    simulation = Run("cusps").simulation
+    change = simulation.timeline.set_pace(simulation.stamp, 1.0, 0.25)
+    assert (simulation.segment.factor, change.following.segment.factor) == (1.0, 0.25)
+
+
+def test_a_motion_that_comes_to_its_last_state_is_stopped_there():
+    motion = Motion(Top(1e-3, 1e-3, 1.0), State.from_euler(theta=1.0, psi_dot=1e12))
+    segment, budget = Segment.begin(motion, 0, 1.0), ComputeBudget(0)
+    last = int(segment.last_stamp)
+    assert 0 < last * 1e-9 < motion.farthest_time
+    assert budget.prepare(segment, last)
+    assert not budget.prepare(segment, last + SECOND)
+    assert segment.state_at(last) == motion.at(segment.times_at(last))
+    assert budget.end == segment.time_at(last)

@@ -23,7 +23,7 @@ pytestmark = pytest.mark.untraced
 # of sines and exponentials.
 BOUND = 4.0
 YEAR = 365 * 86_400 * SECOND
-FACTORS = choose((1.0, 1 / 3, 0.1, 7.0, 1e-3), (1.0, 1 / 3))
+FACTORS = choose((1.0, 1 / 3, 0.1, 7.0, 1e-3), (1 / 3,))
 SCENES = (
     *("cusps", "looping", "unidirectional", "regular_precession", "fast_precession"),
     *("hurry_slow", "hurry_fast", "perry_fails", "sleeping", "sleeping_unstable"),
@@ -139,7 +139,7 @@ def test_samples_of_a_minute_and_after_a_year(scene, factor):
 @pytest.mark.parametrize(
     "scene", choose(("cusps", "free", "looping", "through_the_pole"), ["cusps"])
 )
-@pytest.mark.parametrize("count", trials(200, 1000))
+@pytest.mark.parametrize("count", trials(100, 1000))
 def test_samples_after_many_pauses_steps_and_changes(scene, count):
     run, chance = start(scene, publish_rate=30.0), Numbers(1)
     for _ in range(count):

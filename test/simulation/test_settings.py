@@ -3,10 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from odd_values import VALUES, assert_one_sentence, deterministic
-from trials import trials
+from odd_values import assert_one_sentence
 
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.validation import MAX_SENTENCE, RefusedError, one_line
@@ -109,16 +106,6 @@ def test_values_next_to_those_that_do_not_fit_are_granted():
         {"world_frame": "w" * 200, "top.Iz": 2 * 2.28e-4},
     ):
         assert refusal(values) == ""
-
-
-@pytest.mark.parametrize("examples", trials(300, 1000))
-def test_parameters_of_any_value_are_taken_or_refused_in_one_sentence(examples):
-    @deterministic(examples)
-    @given(st.dictionaries(st.sampled_from(list(PARAMETERS)), VALUES, max_size=4))
-    def check(changes):
-        refusal(changes)
-
-    check()
 
 
 def test_lines_become_one_and_control_characters_are_escaped():

@@ -130,27 +130,19 @@ def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_sec
     assert "0.1 s (100 missed)" in run.sink.warnings[0]
 
 
-def test_a_torque_acts_until_its_time_out_to_the_nanosecond():
+@pytest.mark.parametrize("times", [1, 8])
+def test_a_torque_acts_until_its_time_out_and_when_repeated_on_without_further_events(times):
     run = Run()
     run.advance(0.1)
-    run.push((0.0, 0.0, 2e-4))
-    run.advance(0.3)
-    begin, end = [event for event in run.sink.events if event.name == "torque"]
-    torques = [event.values["applied_torque"] for event in (begin, end)]
-    assert torques == ["0.0 0.0 0.0002", "0.0 0.0 0.0"]
-    assert end.stamp - begin.stamp == 100 * MS
-    run.assert_recomputed()
-
-
-def test_a_torque_that_is_repeated_acts_on_without_further_events():
-    run = Run()
-    run.advance(0.1)
-    for _ in range(8):
+    for _ in range(times):
         run.push((0.0, 0.0, 2e-4))
         run.advance(0.05)
     run.advance(0.2)
     begin, end = [event for event in run.sink.events if event.name == "torque"]
-    assert end.stamp - begin.stamp == (7 * 50 + 100) * MS
+    torques = [event.values["applied_torque"] for event in (begin, end)]
+    assert torques == ["0.0 0.0 0.0002", "0.0 0.0 0.0"]
+    assert end.stamp - begin.stamp == ((times - 1) * 50 + 100) * MS
+    run.assert_recomputed()
 
 
 def fail():
