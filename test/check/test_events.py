@@ -1,4 +1,4 @@
-"""Each event of a log is the one that follows from the event before it, to the last letter."""
+"""Each event follows from the one before it, to the last letter, and texts from the events."""
 
 import random
 from dataclasses import replace
@@ -6,9 +6,18 @@ from dataclasses import replace
 import pytest
 from trials import seeds
 
-from symtop_ros.check.events import NOTHING, Mismatch, find_mismatches, is_of_this_version
+from symtop_ros import __version__
+from symtop_ros.check.events import (
+    NOTHING,
+    Mismatch,
+    find_mismatches,
+    find_wrong_texts,
+    is_of_this_version,
+)
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.wire.diagnostics import decode_statuses
+from symtop_ros.wire.layout import Reader
 
 # Not said elsewhere in a log: the scene's name, the paths of logs, the frame of /tf, whether
 # another version wrote it, and why a torque changed. `GIVEN` is of the first event.
@@ -114,3 +123,88 @@ def test_events_of_another_version_are_not_judged(events):
     wrong = replace(events[0], verdict="?")
     assert found([], wrong)
     assert not found([], replace(wrong, values={**wrong.values, "version": "0.0"}))
+
+
+def mismatches(memory):
+    log = TopLog(memory)
+    return list(find_wrong_texts(log, list(log.events())))
+
+
+def swap(memory, place, data):
+    memory.messages[place].data, old = data, memory.messages[place].data
+    found = mismatches(memory)
+    memory.messages[place].data = old
+    return found
+
+
+def alter_digit(rng, memory, place, k):
+    """The mismatches if another digit stands at a place of a message."""
+    data = memory.messages[place].data
+    digit = rng.choice([each for each in b"0123456789" if each != data[k]])
+    return swap(memory, place, data[:k] + bytes([digit]) + data[k + 1 :])
+
+
+def test_a_run_with_all_events_agrees(memory):
+    for topic in ("/robot_description", "/tf_static", "/diagnostics"):
+        assert memory.places(topic), topic
+    assert mismatches(memory) == []
+
+
+@pytest.mark.parametrize("seed", seeds(1, 5))
+def test_an_altered_digit_of_a_description_is_found(memory, seed):
+    rng = random.Random(seed)
+    for place in memory.places("/robot_description"):
+        data = memory.messages[place].data
+        digits = [k for k in range(4, len(data)) if chr(data[k]).isdigit()]
+        for k in rng.sample(digits, 10):
+            (found,) = alter_digit(rng, memory, place, k)
+            assert (found.topic, found.field) == ("/robot_description", "text")
+
+
+def test_an_altered_number_of_a_fixed_frame_is_found(memory):
+    for place in memory.places("/tf_static"):
+        data = memory.messages[place].data
+        assert swap(memory, place, data[:-1] + bytes([data[-1] ^ 1]))
+
+
+@pytest.mark.parametrize("seed", seeds(1, 5))
+def test_an_altered_digit_of_diagnostics_of_the_motion_is_found(memory, seed):
+    rng = random.Random(seed)
+    for place in memory.places("/diagnostics"):
+        data = memory.messages[place].data
+        status = next(each for each in decode_statuses(data) if each.name == "top: motion")
+        texts = [text for text in status.values.values() if any(map(str.isdigit, text))]
+        text = rng.choice(texts)
+        k = data.index(text.encode())  # the first with this text: its value or an equal one
+        k += rng.choice([number for number, letter in enumerate(text) if letter.isdigit()])
+        assert alter_digit(rng, memory, place, k), text
+
+
+def test_what_is_left_of_a_balance_is_rounding_and_not_judged(memory):
+    place = memory.places("/diagnostics")[-1]
+    data = memory.messages[place].data
+    (status,) = (each for each in decode_statuses(data) if each.name == "top: balance")
+    text = status.values["angular_momentum.balance"]
+    assert swap(memory, place, data.replace(text.encode(), text.encode()[::-1])) == []
+
+
+def test_a_message_that_cannot_be_read_is_named(memory):
+    (place, *_) = memory.places("/diagnostics")
+    (found,) = swap(memory, place, memory.messages[place].data[:-2])
+    assert (found.topic, found.field, found.expected) == ("/diagnostics", "message", "readable")
+
+
+def test_descriptions_of_a_run_of_another_version_are_not_judged(memory):
+    (place, *_) = memory.places("/robot_description")
+    text = Reader(memory.messages[place].data).string()
+    other = memory.messages[place].data.replace(b"robot", b"tobor", 1)
+    assert "robot" in text
+    assert swap(memory, place, other)
+    version = b"0" * len(__version__)
+    for place_of_event in memory.places("/top/events"):
+        event = memory.messages[place_of_event]
+        assert __version__.encode() in event.data
+        memory.messages[place_of_event] = replace(
+            event, data=event.data.replace(__version__.encode(), version)
+        )
+    assert swap(memory, place, other) == []

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from judge.cases import SECOND, make_estimates
-from judge.made import TILT, Made, heading
+from judge.cases import SECOND, TILT, Made, heading, make_estimates
 from trials import seeds
 
 from symtop_ros.arrays import rotate

@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from judge.cases import SECOND
-from judge.made import TILT, Made
+from judge.cases import SECOND, TILT, Made
 
 from symtop_ros.judge.clock import measure_clock
 from symtop_ros.judge.main import main

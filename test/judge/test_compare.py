@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from judge.cases import SECOND, make_estimates, make_events, truth_and_stamps
-from judge.made import Made
+from judge.cases import SECOND, Made, make_estimates, make_events, truth_and_stamps
 from physics.tops import ARTICLE, EPS
 from scipy.spatial.transform import Rotation
 from trials import seeds

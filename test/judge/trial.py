@@ -10,8 +10,7 @@ from random import Random
 from typing import Any
 
 import numpy as np
-from judge.cases import NONE, SECOND
-from judge.made import FRD, NED, WRONG, Made, turn_z, wxyz
+from judge.cases import FRD, NED, NONE, SECOND, WRONG, Made, turn_z, wxyz
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real, Stamps, compose

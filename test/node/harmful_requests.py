@@ -70,32 +70,33 @@ FILTERS = {
 def list_requests() -> dict[str, Build]:
     """Return all requests by their names."""
     names = [f"top.{k}" for k in range(MANY)]
-    few = ListParameters.Request(prefixes=names[:1000])
     return {
         **{
             f"{service}, {hard}": partial(_set, service, partial(build, name))
             for service, name in NAMED.items()
             for hard, build in PARAMETERS.items()
         },
-        **{name: partial(_get, kind, name, names) for name, kind in ASKED.items()},
+        **{name: partial(_ask, kind, name, names=names) for name, kind in ASKED.items()},
         **{f"filter, {name}": partial(_filter, filter=text) for name, text in FILTERS.items()},
         "filter, tags": lambda: _filter(tags=_standard("TagsFilter")(tags=["a"] * MANY)),
         "filter, categories": lambda: _filter(categories=[_standard("EntityCategory")()] * MANY),
-        "entity of a long name": _get_entity,
+        "entity of a long name": lambda: _ask(
+            _standard("GetEntityState", "srv"), "get_entity_state", entity="t" * 10 * MILLION
+        ),
         "frame of a long name": _set_entity,
-        "list_parameters": lambda: (ListParameters, "list_parameters", few),
-        "begin to record": lambda: (SetBool, "record", SetBool.Request(data=True)),
-        "state": lambda: (Trigger, "get_state", Trigger.Request()),
+        "list_parameters": partial(_ask, ListParameters, "list_parameters", prefixes=names[:1000]),
+        "begin to record": partial(_ask, SetBool, "record", data=True),
+        "state": partial(_ask, Trigger, "get_state"),
     }
+
+
+def _ask(kind: Any, service: str, **fields: Any) -> tuple[Any, str, Any]:
+    return kind, service, kind.Request(**fields)
 
 
 def _set(service: str, build: Callable[[], list[Parameter]]) -> tuple[Any, str, Any]:
     kind = SetParameters if service == "set_parameters" else SetParametersAtomically
-    return kind, service, kind.Request(parameters=build())
-
-
-def _get(kind: Any, service: str, names: list[str]) -> tuple[Any, str, Any]:
-    return kind, service, kind.Request(names=names)
+    return _ask(kind, service, parameters=build())
 
 
 def _standard(name: str, package: str = "msg") -> Any:
@@ -104,17 +105,12 @@ def _standard(name: str, package: str = "msg") -> Any:
 
 
 def _filter(**fields: Any) -> tuple[Any, str, Any]:
-    kind, filters = _standard("GetEntities", "srv"), _standard("EntityFilters")(**fields)
-    return kind, "get_entities", kind.Request(filters=filters)
-
-
-def _get_entity() -> tuple[Any, str, Any]:
-    kind = _standard("GetEntityState", "srv")
-    return kind, "get_entity_state", kind.Request(entity="t" * 10 * MILLION)
+    filters = _standard("EntityFilters")(**fields)
+    return _ask(_standard("GetEntities", "srv"), "get_entities", filters=filters)
 
 
 def _set_entity() -> tuple[Any, str, Any]:
     kind = _standard("SetEntityState", "srv")
-    request = kind.Request(entity="top", set_pose=True)
-    request.state.header.frame_id = "w" * 10 * MILLION
-    return kind, "set_entity_state", request
+    asked = _ask(kind, "set_entity_state", entity="top", set_pose=True)
+    asked[-1].state.header.frame_id = "w" * 10 * MILLION
+    return asked
