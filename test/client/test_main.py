@@ -14,7 +14,7 @@ import rclpy
 from node.listener import Listener
 from programs import PATIENT, command, environment, run, running_node
 from std_srvs.srv import Trigger
-from waiting import TIMEOUT
+from waiting import TIMEOUT, until
 
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.client.main import parse_values
@@ -36,7 +36,7 @@ def node():
 
 @pytest.mark.wording
 def test_hurry_prints_the_verdict():
-    assert ctl("reset").returncode == 0
+    assert ctl("start").returncode == 0
     result = ctl("hurry")
     assert result.returncode == 0
     assert "Precession 6.50 -> 9.10 rad/s. The top rises" in result.stdout
@@ -60,7 +60,7 @@ def test_two_nodes_of_one_name_are_named_next_to_the_answer():
         names = listener.node.get_fully_qualified_node_names
         with running_node(DOMAIN, "scene:=hurry_slow"):
             listener.spin_until(lambda: names().count("/top") == 2)
-            result = ctl("state")
+            result = until(lambda: (answer := ctl("state")).stderr and answer)
         listener.spin_until(lambda: names().count("/top") == 1)
     assert result.returncode == 0
     assert result.stderr.startswith("top_ctl: 2 nodes have the name /top")
@@ -144,6 +144,7 @@ class Terminal:
 
 @pytest.mark.wording
 def test_each_key_sends_its_request():
+    assert ctl("start").returncode == 0
     terminal = Terminal("keys")
     terminal.wait_for("quit")
     for key, answer in (

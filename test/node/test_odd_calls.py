@@ -190,13 +190,14 @@ NO_NUMBER = "applied_torque must be 3 numbers from -1e+30 to 1e+30 (N m, world f
         (BY_FORCE, "applied_torque force must be 0 (only the torque acts), got (1.0, 0.0, 0.0)"),
     ],
 )
-def test_a_bad_torque_is_reported_and_the_next_one_acts(run, capfd, message, sentence):
+def test_a_bad_torque_is_reported_and_the_next_one_acts(start_top, capfd, message, sentence):
+    run = start_top()
+    hand = run.publisher(WrenchStamped, "/top/applied_torque")
     for each in (message, torque_of(z=2e-4, frame="world")):
-        run.hand.publish(each)
+        hand.publish(each)
     run.spin_until(lambda: any(run.top.simulation.segment.motion.applied_torque))
     assert tuple(run.top.simulation.segment.motion.applied_torque) == (0.0, 0.0, 2e-4)
     assert sentence in capfd.readouterr().err
-    run.restore()
 
 
 def test_requests_before_a_motion_is_slowed_down_are_answered(start_top):

@@ -71,6 +71,13 @@ TOO_FINE = [
     for each in (sum(Fraction(1, 2**n) for n in range(0, 400, 80)), Fraction(1, 2**400))
 ]
 RATE_KICKS = hurry, precession_rate, partial(set_precession_rate, phi_dot=1.0)
+NO_TURNS = [1.0, 1.0, -1.0], [2.0, 2.0, 2.0]
+ODD, NO_RATES = (NAN, INF, -INF), (1e200, NAN, [1.0, INF])
+OF_ONE_TOP = (
+    partial(MANY.top.sleeping_is_stable, CUSPS),
+    partial(EffectivePotential.of, MANY.top, CUSPS),
+    partial(Body.of, MANY.top),
+)
 NO_NUMBERS = "a", None, [1.0, NAN], True
 NO_TIMES = "1", None, True, 1j, np.timedelta64(100, "ms"), 10**400
 NO_HOLDS = None, "breath", "", 1
@@ -78,10 +85,11 @@ NO_STAMPS = 1.0, "1", True, None, 2**63, -(2**63), [0.5], [[1]], np.timedelta64(
 NO_ELAPSED = 0.5, "1", True, Fraction(1, 3), None
 
 TOPS = [
-    (partial(Top, 0.0, 1.0, 1.0), "Ix", "> 0 kg m^2", "0"),
-    (partial(Top, -1.0, 1.0, 1.0), "Ix", "> 0 kg m^2", "-1"),
-    (partial(Top, 1.0, 0.0, 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg m^2", "0"),
-    (partial(Top, 1.0, 2.1, 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg m^2", "2.1"),
+    *((partial(Top, x, 1.0, 1.0), "Ix", "> 0 kg m^2", f"{x:g}") for x in (0.0, -1.0)),
+    *(
+        (partial(Top, 1.0, x, 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg m^2", f"{x:g}")
+        for x in (0.0, 2.1)
+    ),
     (partial(Top, 1.0, 1.0, NAN), "Mgl", f"{FINITE_NUMBER} (J)", "nan"),
     (partial(Top, 10**400, 1.0, 1.0), "Ix", f"{FINITE_NUMBER} (kg m^2)", "inf"),
     (partial(Top, 1.0, "1", 1.0), "Iz", f"{NUMBER} (kg m^2)", "'1'"),
@@ -99,15 +107,13 @@ TOPS = [
         "top and state",
         "one of each for each other",
     ),
-    (partial(MANY.top.sleeping_is_stable, CUSPS), "top", "one top", "tops of shape (2,)"),
-    (partial(EffectivePotential.of, MANY.top, CUSPS), "top", "one top", "tops of shape (2,)"),
+    *((call, "top", "one top", "tops of shape (2,)") for call in OF_ONE_TOP),
     (partial(Friction, -1), "friction.axial", ">= 0 N m s", "-1"),
     (partial(Friction, 0.0, NAN), "friction.transverse", f"{FINITE_NUMBER} (N m s)", "nan"),
     (partial(Friction, "1"), "friction.axial", f"{NUMBER} (N m s)", "'1'"),
     (partial(Friction, 0.0, True), "friction.transverse", f"{NUMBER} (N m s)", "True"),
 ]
 BODIES = [
-    (partial(Body.of, MANY.top), "top", "one top", "tops of shape (2,)"),
     (partial(Body.of, Top(1.0, 2.0, -0.5)), "Iz", "< 2 Ix = 2 kg m^2 for a body with Mgl = -0.5"),
     (partial(Body.of, ARTICLE, 0.0), "gravity", "> 0 m/s^2", "0"),
     (partial(Body.of, ARTICLE, NAN), "gravity", FINITE_NUMBER),
@@ -133,8 +139,7 @@ STATES = [
     *((partial(TILTED_BY, **{n: NAN}), n, FINITE_NUMBER, "nan") for n in EULER[1:]),
     (partial(State.from_euler, theta=NAN), "theta", FINITE_NUMBER, "nan"),
     (partial(State.from_euler, theta=[0.4, 0.5], phi=[1, 2, 3]), "phi and theta", FIT),
-    (partial(State.from_matrix, np.diag([1.0, 1.0, -1.0]), REST), "matrix", ROTATION),
-    (partial(State.from_matrix, 2 * np.eye(3), REST), "matrix", ROTATION),
+    *((partial(State.from_matrix, np.diag(x), REST), "matrix", ROTATION) for x in NO_TURNS),
     (partial(State.from_matrix, (1.0, 0.0, 0.0), REST), "matrix", "of shape (..., 3, 3)"),
 ]
 MOTIONS = [
@@ -147,8 +152,7 @@ MOTIONS = [
     *((partial(MOTION.at, t), "t", f"{FINITE_ARRAY} (s)", repr(t)[:40]) for t in NO_TIMES),
     *((partial(MOTION.reach, t, 10), "t", "number") for t in (NAN, INF, "1")),
     (partial(MOTION.reach, 1.0, NAN), "steps", ">= 0", "nan"),
-    (partial(PUSHED(torque=(0.0, 0.0, 1e300)).at, 1.0), "t", NOT_TOO_FAST, "1"),
-    (partial(PUSHED(torque=(0.0, 0.0, 1e308)).at, 1.0), "t", NOT_TOO_FAST, "1"),
+    *((partial(PUSHED(torque=(0, 0, x)).at, 1.0), "t", NOT_TOO_FAST, "1") for x in (1e300, 1e308)),
     (partial(MOTION.jacobian, NAN), "t", FINITE_ARRAY),
     *((partial(MOTION.at, t), "t", NOT_TOO_LATE) for t in TOO_LATE),
     (partial(MANY.at, [0.1, 1e17]), "t", NOT_TOO_LATE),
@@ -169,8 +173,7 @@ KICKS = [
     (partial(apply_impulse, ARTICLE, CUSPS, (1e305, 0.0, 0.0)), "impulse", SMALL, "1e+305"),
     (partial(push_axle, ARTICLE, START, 1e305), "impulse", SMALL, "1e+305"),
     (partial(push_axle, ARTICLE, UPRIGHT, 1.0), "axis", TILTED, "theta = "),
-    *((partial(kick, UPRIGHT), "axis", TILTED, "theta = ") for kick in RATE_KICKS),
-    *((partial(kick, HANGING), "axis", TILTED, "theta = ") for kick in RATE_KICKS),
+    *((partial(f, x), "axis", TILTED, "theta = ") for f in RATE_KICKS for x in (UPRIGHT, HANGING)),
     (partial(hurry, BOTH[::-1]), "axis", TILTED, "theta = 3.14159 rad"),
     (partial(hurry, MANY.at(0.0), (1, 2, 3)), "state and kick", FIT, "(2,) and (3,)"),
     *((partial(hurry, START, hold=each), "hold", HOLD) for each in NO_HOLDS),
@@ -179,25 +182,18 @@ KICKS = [
     *((partial(compare_hurried, ARTICLE, 1, 6, 90, 2, each), "hold", HOLD) for each in NO_HOLDS),
     *((partial(kick_verdict, MOTION, START, each), "hold", HOLD) for each in NO_HOLDS[1:]),
     (partial(kick_verdict, MANY, CUSPS, "spin_rate"), "motion", *ONE_MOTION),
-    (partial(perrys_rule, ARTICLE, START, NAN), "factor", FINITE_NUMBER, "nan"),
-    (partial(perrys_rule, ARTICLE, START, INF), "factor", FINITE_NUMBER, "inf"),
-    (partial(perrys_rule, ARTICLE, START, -INF), "factor", FINITE_NUMBER, "-inf"),
+    *((partial(perrys_rule, ARTICLE, START, x), "factor", FINITE_NUMBER, str(x)) for x in ODD),
     (partial(perrys_rule, ARTICLE, START, 1e200), "factor", "phi' stays within 1e+100", "1e+200"),
-    *((partial(each, ARTICLE, 0.5, 1e200, 200.0), "phi_dot", "") for each in OF_RATES),
-    *((partial(each, ARTICLE, 0.5, NAN, 200.0), "phi_dot", "") for each in OF_RATES),
-    *((partial(each, ARTICLE, 0.5, [1.0, INF], 200.0), "phi_dot", "") for each in OF_RATES),
+    *((partial(f, ARTICLE, 0.5, x, 200.0), "phi_dot", "") for f in OF_RATES for x in NO_RATES),
     (partial(compare_hurried, ARTICLE, 0.5, 1e200, 1.0), "phi_dot", "at most 1e+100", "1e+200"),
     (partial(perrys_rule, MANY.top, CUSPS, (1, 2, 3)), "top, state and factor", FIT),
-    (partial(regular_precession_rates, ARTICLE, NAN, 200.0), "theta", FINITE_NUMBER, "nan"),
-    (partial(regular_precession_rates, ARTICLE, INF, 200.0), "theta", FINITE_NUMBER, "inf"),
-    (partial(regular_precession_rates, ARTICLE, 0.5, NAN), "psi_dot", FINITE_NUMBER, "nan"),
-    (partial(regular_precession_rates, ARTICLE, 0.5, INF), "psi_dot", FINITE_NUMBER, "inf"),
+    *((partial(regular_precession_rates, ARTICLE, x, 1), "theta", FINITE_NUMBER) for x in ODD),
+    *((partial(regular_precession_rates, ARTICLE, 0.5, x), "psi_dot", FINITE_NUMBER) for x in ODD),
 ]
 TIMES = [
     *((partial(ExactTimes, wrong), "nanoseconds", STAMP) for wrong in NO_STAMPS),
     *((partial(ExactTimes, 0, 1.0, each), "elapsed", ELAPSED) for each in NO_ELAPSED),
-    (partial(ExactTimes, 0, 0.0), "factor", "1e-100 to 1e+100", "0"),
-    (partial(ExactTimes, 0, -1.0), "factor", "1e-100 to 1e+100", "-1"),
+    *((partial(ExactTimes, 0, x), "factor", "1e-100 to 1e+100", f"{x:g}") for x in (0.0, -1.0)),
     (partial(ExactTimes, 0, NAN), "factor", FINITE_NUMBER),
     (partial(ExactTimes, 0, "1"), "factor", NUMBER),
     (partial(exact_state, ARTICLE, CUSPS, NAN), "t", "a finite number", "nan s"),

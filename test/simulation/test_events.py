@@ -72,19 +72,25 @@ def test_every_number_of_a_motion_and_of_its_sensor_comes_back_from_its_event():
             assert np.array_equal(*values), (name, number)
 
 
-def test_an_event_without_a_valid_top_is_refused():
-    event = event_of(Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 1.0))
-    for bad in ("", "1 2", "a b c", "-1.0 1.0 1.0"):
-        with pytest.raises(ValueError, match=r"\S"):
-            replace(event, values={**event.values, "top": bad}).segment()
+FACTOR = r"real_time_factor must be 1e-300 to 1e\+06, got"
 
 
-@pytest.mark.parametrize("factor", ["1e-301", "1000001.0"])
-def test_an_event_with_a_factor_beyond_every_run_is_refused(factor):
-    event = event_of(Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 1.0))
-    values = {**event.values, "motion.real_time_factor": factor}
-    with pytest.raises(ValueError, match=r"real_time_factor must be 1e-300 to 1e\+06, got"):
-        replace(event, values=values).segment()
+@pytest.mark.parametrize(
+    ("values", "reason"),
+    [
+        *(({"top": text}, r"\S") for text in ("", "1 2", "a b c", "-1.0 1.0 1.0")),
+        *(({"motion.real_time_factor": text}, FACTOR) for text in ("1e-301", "1000001.0")),
+        *(({"gravity": text}, "must") for text in ("-1", "nan")),
+        ({"imu.mount": "0 0 0 0 0 0 1", "imu.noise": "0 0 0 0 0"}, "unpack|values"),
+        ({"imu.mount": "0 0 0", "imu.noise": "0 0 0 0 1"}, "unpack|values"),
+        ({"imu.mount": "0 0 0 0 0 0 9", "imu.seed": "0", "imu.begin": "0"}, "must"),
+    ],
+)
+def test_a_damaged_event_is_refused(values, reason):
+    event = event_of(Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 1.0, Rig(9.81)))
+    given = {"gravity": "9.81", "imu.noise": "0 0 0 0 1", **values}
+    with pytest.raises(ValueError, match=reason):
+        replace(event, values={**event.values, **given}).segment()
 
 
 @pytest.fixture(scope="module", name="run")

@@ -11,7 +11,6 @@ from simulation.runs import SECOND, Run
 
 from symtop_ros.physics import Body, Motion, State, Top, point_acceleration
 from symtop_ros.session.outputs import list_fixed_frames
-from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor.imu import (
     EARTH,
@@ -157,22 +156,6 @@ def test_noise_of_the_magnetometer_has_its_own_seed_and_a_random_walk():
     numbers = measured("magnetic_field", segment_of(walking))
     walks = 1e-8 * random_walks(12, [15, 16, 17], STAMPS)
     assert numbers[:, :3] - exact == pytest.approx(walks.T, abs=4 * EPS * 5e-5)
-
-
-@pytest.mark.parametrize(
-    "values",
-    [
-        {"gravity": "-1"},
-        {"gravity": "nan"},
-        {"gravity": "9.81", "imu.mount": "0 0 0 0 0 0 1", "imu.noise": "0 0 0 0 0"},
-        {"gravity": "9.81", "imu.mount": "0 0 0", "imu.noise": "0 0 0 0 1"},
-        {"imu.mount": "0 0 0 0 0 0 9", "imu.noise": "0 0 0 0 1", "imu.seed": "0", "imu.begin": "0"},
-    ],
-)
-def test_a_damaged_event_is_refused(values):
-    event = Event.of(0, "start", None, {}, MOTION.start, segment_of())
-    with pytest.raises(ValueError, match=r"must|unpack|values"):
-        replace(event, values={**event.values, **values}).segment()
 
 
 def test_the_simulation_equips_its_motions_and_tells_of_its_frames():

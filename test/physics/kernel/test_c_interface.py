@@ -20,6 +20,7 @@ SANITIZERS = ["-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 AARCH64 = ROOT / ".venv/aarch64/usr"
 
 needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")
+pytestmark = needs_compiler
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +50,6 @@ def compare(command, samples, expected):
     assert normalize(np.frombuffer(done.stdout)) == expected
 
 
-@needs_compiler
 def test_a_program_in_c_has_the_bits_of_python_and_needs_none(tmp_path, kernel):
     program = build("print_motions.c", tmp_path, kernel)
     compare([program], *list_many())
@@ -58,7 +58,6 @@ def test_a_program_in_c_has_the_bits_of_python_and_needs_none(tmp_path, kernel):
     assert b"python" not in libraries
 
 
-@needs_compiler
 def test_whatever_is_passed_is_refused_or_answered(tmp_path, kernel):
     program = build("hostile.c", tmp_path, kernel)
     output = subprocess.check_output([program, "1", "1000"], text=True, timeout=100)
@@ -76,7 +75,6 @@ UNSOUND = {  # what the kernel's promises cannot bear, and a compiler may be ask
 BAD_ARITHMETIC = 12
 
 
-@needs_compiler
 @pytest.mark.parametrize("option", ["-ffast-math", "-Ofast"])
 def test_a_build_with_fast_math_is_refused_in_words(tmp_path, option):
     with pytest.raises(subprocess.CalledProcessError) as failure:
@@ -84,7 +82,6 @@ def test_a_build_with_fast_math_is_refused_in_words(tmp_path, option):
     assert "symtop must be compiled without fast-math" in failure.value.stderr
 
 
-@needs_compiler
 @pytest.mark.parametrize("level", choose(("-O0", "-O2"), ("-O0",)))
 @pytest.mark.parametrize("name", choose(UNSOUND, ("order",)))
 def test_a_build_that_may_change_sums_answers_nothing(tmp_path, name, level):
@@ -95,14 +92,12 @@ def test_a_build_that_may_change_sums_answers_nothing(tmp_path, name, level):
 
 
 @pytest.mark.long
-@needs_compiler
 def test_options_of_fast_math_before_those_of_the_kernel_change_no_bit(tmp_path):
     # as setup.py orders them: what CXXFLAGS says, then its own
     kernel = compile_kernel(tmp_path, "-ffast-math", "-fno-fast-math", "-ffp-contract=off")
     compare([build("print_motions.c", tmp_path, kernel)], *list_many())
 
 
-@needs_compiler
 @pytest.mark.parametrize(
     "state", ["usual", "upward", "downward", "towards zero", "flushed", "zeros"]
 )
@@ -119,7 +114,6 @@ def run_sound(folder, kernel, state):
     return set(map(int, printed.split()))
 
 
-@needs_compiler
 @pytest.mark.parametrize(
     "processor", choose(("x86-64-v4", "skylake-avx512", "native"), ("x86-64-v4",))
 )
@@ -130,7 +124,6 @@ def test_the_kernel_compiles_for_one_kind_of_processor(tmp_path, processor):
 
 
 @pytest.mark.long
-@needs_compiler
 def test_sanitizers_find_nothing_in_fifty_thousand_hostile_calls_or_in_ordinary_motions(tmp_path):
     kernel = compile_kernel(tmp_path, *SANITIZERS)
     # 10 000 motions of which a third are made, with nine calls each and more
@@ -146,13 +139,11 @@ def share(folder, kernel, *options):
     return done.returncode, done.stderr
 
 
-@needs_compiler
 def test_threads_that_share_motions_get_the_same_bits(tmp_path, kernel):
     assert share(tmp_path, kernel) == (0, "")
 
 
 @pytest.mark.long
-@needs_compiler
 def test_threads_that_share_motions_do_not_race(tmp_path):
     watched = "-g", "-fsanitize=thread"
     assert share(tmp_path, compile_kernel(tmp_path, *watched), *watched) == (0, "")
