@@ -15,4 +15,4 @@ def memory(path):
     """Its messages, which a test may change."""
     from check.run_log import Memory
 
-    return Memory.read(path)
+    return Memory(path)

@@ -1,8 +1,5 @@
 """A log of a session with every kind of event, and its messages in memory."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from session.test_outputs import Program, advance, start
@@ -54,25 +51,17 @@ def write_log(folder: Path, **changes: object) -> Path:
     return path
 
 
-@dataclass
 class Memory:
     """A `MessageSource` of which the messages can be changed."""
 
-    path: Path
-    schemas: dict = field(default_factory=dict)
-    channels: dict = field(default_factory=dict)
-    metadata: dict = field(default_factory=dict)
-    problems: list = field(default_factory=list)
-    messages: list = field(default_factory=list)
     size = offset = 0
 
-    @classmethod
-    def read(cls, path: Path) -> Memory:
-        """Read a log."""
+    def __init__(self, path: Path) -> None:
         file = McapFile(path)
-        messages = [message for chunk in file.chunks() for message in chunk]
+        self.path, self.problems = path, file.problems
+        self.messages = [message for chunk in file.chunks() for message in chunk]
+        self.schemas, self.channels, self.metadata = file.schemas, file.channels, file.metadata
         assert not file.problems
-        return cls(path, file.schemas, file.channels, file.metadata, messages=messages)
 
     def chunks(self):
         """Yield the messages."""

@@ -7,7 +7,7 @@ import pytest
 from log_files import Run
 from trials import choose
 
-from symtop_ros.check.course import Course, _list_jumps
+from symtop_ros.check.course import Course, _list_jumps, _list_times_without_tf
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback.main import _check, main
@@ -163,7 +163,7 @@ KINDS = (1, "ended"), (3, "begun"), (13, "ended")
 
 
 def test_pauses_of_a_recording_have_no_samples(memory):
-    """Random sessions have jumps, steps and times without /tf."""
+    """Random sessions have jumps and steps."""
     first = replace(next(TopLog(memory).events()), name="record")
     told = ((at, {"format": "3", "outcome.kind": kind}) for at, kind in KINDS)
     events = [replace(first, stamp=at, values=values) for at, values in told]
@@ -176,6 +176,14 @@ def test_events_that_are_missing_are_named_by_their_numbers_also_by_hostile_ones
     one, many = Course([first, *later]).list_missing()
     assert one.startswith("event 2 is missing, between ")
     assert many.startswith("events 4 to 999999999999 are missing, between ")
+
+
+def test_tf_has_no_samples_while_it_is_switched_off(memory):
+    first = replace(next(TopLog(memory).events()), name="parameters")
+    switch, form = "request.publish_tf", {"format": "3"}
+    told = ((1, {switch: "false"}), (2, {}), (3, {switch: "true"}), (4, {switch: "false"}))
+    events = [replace(first, stamp=at, values={**form, **values}) for at, values in told]
+    assert [*_list_times_without_tf(events)] == [(1, 3), (4, MAX_STAMP)]
 
 
 def test_two_files_of_one_run_share_an_event_and_lose_nothing(tmp_path):

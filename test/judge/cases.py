@@ -51,6 +51,16 @@ def truth_and_stamps(count=3000, seed=1):
 SOME = make_estimates(*truth_and_stamps(50))
 
 
+def write_rows(estimates, separator=",", order=range(4), middle=(), header=(), seconds=True):
+    """A table of estimates: times, further numbers, and the components of states in an order."""
+    rows = [separator.join(header)] if header else []
+    numbers = np.hstack((estimates.orientations, estimates.angular_velocities))[:, order].tolist()
+    for stamp, each in zip(estimates.stamps.tolist(), numbers, strict=True):
+        time = f"{stamp // 10**9}.{stamp % 10**9:09d}" if seconds else str(stamp)
+        rows.append(separator.join([time, *middle, *map(repr, each)]))
+    return "\n".join(rows) + "\n"
+
+
 def write_log(path, topics):
     """Write a log with the events and, for each topic, its type and its messages (stamp, bytes)."""
     from log_files import write_mcap  # it needs mcap

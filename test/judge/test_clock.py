@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from judge.cases import SECOND, TILT, Made
+from judge.cases import SECOND, TILT, Made, write_rows
 
 from symtop_ros.judge.clock import measure_clock
 from symtop_ros.judge.main import main
@@ -77,8 +77,7 @@ def test_what_a_motion_does_not_show_is_refused(scene, stamps, model):
 def test_the_command_prints_a_sentence_or_json(tmp_path, capsys):
     found = Made(delay=2e-3).make(TRUTH, STAMPS)
     path = tmp_path / "estimates.csv"
-    rows = np.column_stack((STAMPS.astype(str), found.orientations.astype(str)))
-    path.write_text("stamp,w,x,y,z\n" + "\n".join(",".join(row) for row in rows) + "\n")
+    path.write_text(write_rows(found, header=("t", "w", "x", "y", "z")))
     assert main(["--clock", str(path), "--scene", "cusps"]) == 0
     text = capsys.readouterr().out
     assert "the stamps of 2000 estimates are late by 2000 " in text

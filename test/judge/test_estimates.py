@@ -2,9 +2,8 @@
 
 import re
 
-import numpy as np
 import pytest
-from judge.cases import SOME, encode
+from judge.cases import SOME, encode, write_rows
 
 from symtop_ros.judge.estimates import FORMATS, decode_estimates
 from symtop_ros.judge.main import main
@@ -33,16 +32,6 @@ def test_a_damaged_csv_file_is_one_line(tmp_path, text, reason):
     path.write_text(text)
     with pytest.raises(RefusedError, match=reason):
         read_table(path)
-
-
-def write_rows(estimates, separator=",", order=range(4), middle=(), header=(), seconds=True):
-    """A table of estimates: times, further numbers, and the components of states in an order."""
-    rows = [separator.join(header)] if header else []
-    numbers = np.hstack((estimates.orientations, estimates.angular_velocities))[:, order].tolist()
-    for stamp, each in zip(estimates.stamps.tolist(), numbers, strict=True):
-        time = f"{stamp // 10**9}.{stamp % 10**9:09d}" if seconds else str(stamp)
-        rows.append(separator.join([time, *middle, *map(repr, each)]))
-    return "\n".join(rows) + "\n"
 
 
 NAMES = ("t", "w", "x", "y", "z")

@@ -6,14 +6,16 @@ import os
 
 import numpy as np
 import pytest
-from judge.cases import encode, make_estimates, truth_and_stamps, write_log
+from judge.cases import encode, make_estimates, truth_and_stamps, write_log, write_rows
 from scipy.spatial.transform import Rotation
 from testset.test_scorers import make_table, write
 
+from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.main import main
 from symtop_ros.judge.truth import scene_truth
 
 IMU = "sensor_msgs/msg/Imu"
+HEADER = "stamp", "w", "x", "y", "z"
 
 
 @pytest.fixture(scope="module")
@@ -26,16 +28,6 @@ def log(tmp_path_factory):
         "/text": ("std_msgs/msg/String", [(5, b"\0\1\0\0\1\0\0\0\0")]),
     }
     return write_log(tmp_path_factory.mktemp("judge") / "run.mcap", topics)
-
-
-def write_csv(path, truth=None, stamps=range(0, 10**9, 10**7)):
-    """Write the exact attitudes of a run; by default of the scene cusps."""
-    stamps = np.array(stamps)
-    q, _, _ = (truth or scene_truth("cusps")).states_at(stamps)
-    rows = zip(stamps.tolist(), q.tolist(), strict=True)
-    lines = ["stamp,w,x,y,z", *(f"{s},{','.join(map(repr, x))}" for s, x in rows), ""]
-    path.write_text("\n".join(lines))
-    return path
 
 
 @pytest.mark.wording
@@ -61,8 +53,9 @@ def test_the_delay_and_the_offset_are_found_written_and_can_be_removed(log, caps
 
 
 def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
-    path = tmp_path / "mine.csv"
-    write_csv(path, *truth_and_stamps(20))
+    path, (truth, stamps) = tmp_path / "mine.csv", truth_and_stamps(20)
+    exact = Estimates.of(stamps, *truth.states_at(stamps)[:2])
+    path.write_text(write_rows(exact, header=HEADER, seconds=False))
     assert main([str(log), "--estimates", str(path), "--max-error", "1e-15"]) == 0
     assert main([str(log), "--estimates", str(log), "--topic", "/imu/data"]) == 0
 
@@ -113,7 +106,9 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
 
 
 def test_a_csv_file_is_judged_against_a_scene_as_json(tmp_path, capsys):
-    path = write_csv(tmp_path / "mine.csv")
+    path, stamps = tmp_path / "mine.csv", np.arange(0, 10**9, 10**7)
+    exact = Estimates.of(stamps, *scene_truth("cusps").states_at(stamps)[:2])
+    path.write_text(write_rows(exact, header=HEADER, seconds=False))
     assert main(["--scene", "cusps", "--estimates", str(path), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert facts["attitude"]["p100"] == 0.0

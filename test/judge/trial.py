@@ -10,7 +10,7 @@ from random import Random
 from typing import Any
 
 import numpy as np
-from judge.cases import FRD, NED, NONE, SECOND, WRONG, Made, turn_z, wxyz
+from judge.cases import FRD, NED, NONE, SECOND, WRONG, Made, heading, turn_z, wxyz
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.arrays import Real, Stamps, compose
@@ -41,9 +41,12 @@ class File:
     made: Made = NOTHING
 
 
-def draw_rotation(random: Random, low: float = 0.05, high: float = 2.0) -> Rotation:
-    axis = np.array([random.gauss(0, 1) for _ in range(3)])
-    angle = random.uniform(low, high)
+def draw_vector(random: Random) -> Real:
+    return np.array([random.gauss(0, 1) for _ in range(3)])
+
+
+def draw_rotation(random: Random) -> Rotation:
+    axis, angle = draw_vector(random), random.uniform(0.05, 2.0)
     return Rotation.from_rotvec(angle * axis / np.linalg.norm(axis))
 
 
@@ -65,11 +68,9 @@ def draw_own(random: Random) -> tuple[Made, tuple[str, str, tuple[str, ...]]]:
         level = "none"
     if change == "conjugate_order" and level in ("body", "both"):
         level = "none"
-    world = {
-        "heading": Rotation.from_rotvec([0.0, 0.0, random.uniform(0.05, 2.5)]),
-        "world": draw_rotation(random),
-        "both": draw_rotation(random),
-    }.get(level, NONE)
+    turns = {"heading": heading(random.uniform(0.05, 2.5))}
+    turns |= {name: draw_rotation(random) for name in ("world", "both")}
+    world = turns.get(level, NONE)
     body = draw_rotation(random) if level in ("body", "both") else NONE
     world, body = (NED if "ned" in change else world), (FRD if "frd" in change else body)
     wrong = change if change in WRONG else ""
@@ -106,16 +107,18 @@ def start_elsewhere(random: Random, motion: Motion, stamps: Stamps) -> Real:
     """An angular velocity at the start that is wrong."""
     q, omega = motion.start.parts
     size = 0.01 * float(np.linalg.norm(omega)) + 0.05
-    wrong = omega + size * np.array([random.gauss(0, 1) for _ in range(3)])
-    return Motion(motion.top, State(q, wrong)).at(stamps / SECOND).orientation
+    return (
+        Motion(motion.top, State(q, omega + size * draw_vector(random)))
+        .at(stamps / SECOND)
+        .orientation
+    )
 
 
 def turn_by(shape: Callable[[Any, Real], Real]) -> Change:
     """An error about an axis of the world or of the body that changes with time."""
 
     def change(random: Random, motion: Motion, stamps: Stamps) -> Real:
-        axis = np.array([random.gauss(0, 1) for _ in range(3)])
-        seconds = (stamps - stamps[0]) / SECOND
+        axis, seconds = draw_vector(random), (stamps - stamps[0]) / SECOND
         angles = random.uniform(0.05, 0.5) * shape(random, seconds)
         turn = wxyz(Rotation.from_rotvec(np.outer(angles, axis / np.linalg.norm(axis))))
         q = motion.at(stamps / SECOND).orientation

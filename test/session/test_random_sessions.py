@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from drawn import Numbers
 from session.test_outputs import Program, advance, start
+from simulation.page_runs import to_json
 from trials import seeds
 
 from symtop_ros.check.run import check_run
@@ -118,10 +119,6 @@ def check(path):
     assert all(each.differing == 0 for each in found.deviations.values())
     assert (found.missing, found.damage) == ([], [])
     return list(log.events())
-
-
-def to_json(events):
-    return json.loads(json.dumps([event.to_json() for event in events]))
 
 
 def list_exact(event):

@@ -32,7 +32,7 @@ def make_run():
 
 
 def to_json(events):
-    return [event.to_json() for event in events]
+    return json.loads(json.dumps([event.to_json() for event in events]))
 
 
 def change(place, **values):

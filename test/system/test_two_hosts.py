@@ -47,29 +47,16 @@ def hosts():
         yield joined
 
 
-def environment(domain, settings):
-    usual = programs.environment(domain).items()
-    return {name: value for name, value in usual if name not in SETTINGS} | settings
-
-
 def running(host, domain, settings, *words):
     """Run a program on a host; a line that is written to it is answered by a line."""
+    usual = programs.environment(domain).items()
+    variables = {name: value for name, value in usual if name not in SETTINGS} | settings
     pipes = {"stdin": subprocess.PIPE, "stderr": None}
-    variables = environment(domain, settings)
     return programs.running(host.words(*words), domain, env=variables, **pipes)
 
 
 def top(host, domain, settings):
     return running(host, domain, settings, *command("top_node", *set_parameters()))
-
-
-def witness(host, domain, settings):
-    return running(host, domain, settings, *bound([sys.executable, str(WITNESS)]))
-
-
-def top_ctl(host, domain, settings, *words, timeout=TIMEOUT):
-    words = command("top_ctl", "--timeout", str(timeout), *words)
-    return running(host, domain, settings, *words)
 
 
 def ask(process, word):
@@ -94,15 +81,16 @@ def test_the_top_is_found_from_another_host_where_the_settings_say_so(hosts):
         for domain, (of_top, of_user, is_found) in enumerate(DISCOVERIES):
             stack.enter_context(top(here, domain, of_top))
             # six seconds are two announcements; what is to be found may take longer under load
-            user = top_ctl(there, domain, of_user, "state", timeout=TIMEOUT if is_found else 6.0)
-            asking.append(stack.enter_context(user))
+            words = command("top_ctl", "--timeout", TIMEOUT if is_found else 6.0, "state")
+            asking.append(stack.enter_context(running(there, domain, of_user, *words)))
         found = [process.wait(timeout=3 * TIMEOUT) == 0 for process in asking]
     assert found == [expected for *_, expected in DISCOVERIES]
 
 
 def test_on_a_link_that_loses_delays_and_reorders_no_message_is_missing(hosts):
     here, there, cable = hosts
-    with top(here, 10, LOSSY), witness(there, 10, LOSSY) as user:
+    witness = bound([sys.executable, str(WITNESS)])
+    with top(here, 10, LOSSY), running(there, 10, LOSSY, *witness) as user:
         ask(user, "kick")
         report_of(user, lambda report: len(report["samples"]) == 5)
         cable.weather = BAD

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from physics.kernel.motions import encode, expect, list_many, list_samples, normalize
+from programs import execute
 from trials import choose
 
 FOLDER = Path(__file__).parent
@@ -132,21 +133,12 @@ def test_sanitizers_find_nothing_in_fifty_thousand_hostile_calls_or_in_ordinary_
     compare([build("print_motions.c", tmp_path, kernel, *SANITIZERS)], *list_many())
 
 
-def share(folder, kernel, *options):
-    """What threads report that share motions, with the status of their program."""
-    program = build("shared.c", folder, kernel, "-pthread", *options)
-    done = subprocess.run([program], capture_output=True, text=True, check=False, timeout=600)
-    return done.returncode, done.stderr
-
-
-def test_threads_that_share_motions_get_the_same_bits(tmp_path, kernel):
-    assert share(tmp_path, kernel) == (0, "")
-
-
-@pytest.mark.long
-def test_threads_that_share_motions_do_not_race(tmp_path):
-    watched = "-g", "-fsanitize=thread"
-    assert share(tmp_path, compile_kernel(tmp_path, *watched), *watched) == (0, "")
+@pytest.mark.parametrize("options", choose(((), ("-g", "-fsanitize=thread")), ((),)))
+def test_threads_that_share_motions_get_the_same_bits_and_do_not_race(tmp_path, kernel, options):
+    watched = compile_kernel(tmp_path, *options) if options else kernel
+    program = build("shared.c", tmp_path, watched, "-pthread", *options)
+    done = execute([program], timeout=600)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 @pytest.mark.long

@@ -31,17 +31,13 @@ STATUSES = (
 )
 
 
-def write(folder):
-    """Write the files as `make -C workshop drop-in` does; return their folder."""
-    command = [sys.executable, "-m", "workshop.drop_in.write", folder]
-    printed = execute(command, cwd=ROOT, check=True, timeout=60).stdout
-    return Path(re.fullmatch(r"wrote (.*)\n", printed)[1])
-
-
 @pytest.fixture(scope="module")
 def drop_in(tmp_path_factory):
-    """The files, written once."""
-    return write(tmp_path_factory.mktemp("dist"))
+    """The folder of the files, written once as `make -C workshop drop-in` does."""
+    folder = tmp_path_factory.mktemp("dist")
+    command = [sys.executable, "-m", "workshop.drop_in.write", folder]
+    printed = execute(command, cwd=ROOT, check=True).stdout
+    return Path(re.fullmatch(r"wrote (.*)\n", printed)[1])
 
 
 def read_console(folder, number):

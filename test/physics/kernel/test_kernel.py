@@ -14,9 +14,8 @@ STORED = read_motions()[:200]
 BITS = "902cf70d3c4c"
 
 
-def list_times(t):
-    """Times of all sizes about t, of both signs, with the start and the first instants."""
-    return np.array([0.0, 1e-9 * t, -1e-5 * t, 1e-3 * t, -0.3 * t, t, 7.0 * t])
+# Times of all sizes and both signs, with the start and the first instants, as parts of one.
+PARTS = [*np.linspace(-1, 3, 23).tolist(), 0.0, 1e-9, -1e-5, 1e-3, -0.3, 7.0]
 
 
 def test_the_bits_are_those_of_every_other_machine():
@@ -29,8 +28,7 @@ def test_the_bits_are_those_of_every_other_machine():
 
 @pytest.mark.parametrize("stored", STORED[::8], ids=[each.family for each in STORED[::8]])
 def test_an_instant_has_the_same_bits_alone_and_among_others(stored):
-    motion, t = stored.motion, stored.times[0]
-    times = np.concatenate([t * np.linspace(-1, 3, 23), list_times(t)])
+    motion, times = stored.motion, stored.times[0] * np.array(PARTS)
     together = motion.at(times)
     for n, t in enumerate(times):
         for one, other in zip(together[n].parts, motion.at(float(t)).parts, strict=True):

@@ -26,15 +26,9 @@ def page():
         tab.add_script_tag(content=KERNEL, type="module")
         tab.wait_for_function("Boolean(window.binding)")
         tab.add_script_tag(content=SCRIPT)
+        load = "async (module) => { window.kernel = await binding.Kernel.load(decode(module)); }"
+        tab.evaluate(load, to_text(MODULE.read_bytes()))
         yield tab
-
-
-def load(page):
-    """Have the page keep a kernel."""
-    page.evaluate(
-        "async (module) => { window.kernel = await binding.Kernel.load(decode(module)); }",
-        to_text(MODULE.read_bytes()),
-    )
 
 
 def to_text(data):
@@ -67,7 +61,6 @@ def test_two_thousand_motions_have_the_bits_of_python(page):
 
 
 def test_a_start_that_is_refused_says_why(page):
-    load(page)
     say = """(start) => { try { kernel.motion(start); return ""; } catch (error) {
         return `${error.name}: ${error.message}`; } }"""
     start = {"Ix": 1, "Iz": 3, "Mgl": 1, "orientation": [1, 0, 0, 0], "angular_velocity": [0, 0, 1]}
@@ -79,7 +72,6 @@ def test_a_start_that_is_refused_says_why(page):
 
 
 def test_an_integration_goes_on_where_it_was_left(page):
-    load(page)
     reached = page.evaluate("""() => {
         const top = {Ix: 0.000228, Iz: 0.0000572, Mgl: 0.068};
         const start = {orientation: [0.8, 0.6, 0, 0], angular_velocity: [0, 0, 200]};
