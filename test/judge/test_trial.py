@@ -1,12 +1,218 @@
-"""A trial of the judge: it names the causes that are its own, and never one that is not there."""
+"""A trial of the judge: it names the causes that are its own, and never one that is not there.
 
+Files of estimates are drawn by numbers. Half of the causes are the judge's own: a mistake of
+convention, one level of rotations, one parameter. The others are not to be named.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from random import Random
+from typing import Any
+
+import numpy as np
 import pytest
-from judge.trial import draw_file
+from judge.cases import FRD, NED, NONE, SECOND, WRONG, Made, heading, turn_z, wxyz
+from scipy.spatial.transform import Rotation
 from trials import choose
 
+from symtop_ros.arrays import Real, Stamps, compose
 from symtop_ros.judge.causes import CHANGES, LEVELS
+from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import PARAMETERS
 from symtop_ros.judge.search import find_causes
+from symtop_ros.judge.truth import Truth, scene_truth
+from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.simulation.changes.requests import start_motion
+from symtop_ros.simulation.settings import Settings
+
+SCENES = (
+    *("cusps", "looping", "unidirectional", "hurry_slow", "conical_pendulum", "disc"),
+    *("spherical_pendulum", "through_the_pole", "perry_fails", "spin_reversal"),
+)
+NOISES = (0.0, 0.0, 1e-3, 5e-3)  # rad
+NOTHING = Made()
+Change = Callable[[Any, Motion, Stamps], Real]
+
+
+@dataclass(frozen=True)
+class File:
+    """Estimates, and the kinds of causes that may be named; none for a cause that is not known."""
+
+    name: str
+    scene: str
+    truth: Truth
+    estimates: Estimates
+    kinds: tuple[tuple[str, str, tuple[str, ...]], ...]
+    made: Made = NOTHING
+
+
+def draw_vector(random: Random) -> Real:
+    return np.array([random.gauss(0, 1) for _ in range(3)])
+
+
+def draw_rotation(random: Random) -> Rotation:
+    axis, angle = draw_vector(random), random.uniform(0.05, 2.0)
+    return Rotation.from_rotvec(angle * axis / np.linalg.norm(axis))
+
+
+def draw_own(random: Random) -> tuple[Made, tuple[str, str, tuple[str, ...]]]:
+    """Return an error of the judge's own kinds."""
+    name = random.choice(("", "", "delay", "drift", "clock", "spin", "scale"))
+    sign = random.choice((-1, 1))
+    size = {
+        "delay": random.uniform(1e-3, 0.1),
+        "drift": random.uniform(0.01, 0.5),
+        "clock": random.uniform(2e-5, 2e-3),
+        "spin": random.uniform(0.05, 2.0),
+        "scale": random.uniform(1e-3, 1e-2),
+    }
+    values: dict[str, Any] = {name: sign * size[name]} if name else {}
+    level = random.choice(("none", "none", "heading", "world", "body", "both"))
+    change = random.choice(("", "", *WRONG, "ned", "frd", "ned_frd"))
+    if "ned" in change or "frd" in change:
+        level = "none"
+    if change == "conjugate_order" and level in ("body", "both"):
+        level = "none"
+    turns = {"heading": heading(random.uniform(0.05, 2.5))}
+    turns |= {name: draw_rotation(random) for name in ("world", "both")}
+    world = turns.get(level, NONE)
+    body = draw_rotation(random) if level in ("body", "both") else NONE
+    world, body = (NED if "ned" in change else world), (FRD if "frd" in change else body)
+    wrong = change if change in WRONG else ""
+    made = Made(world, body, change=wrong, noise=random.choice(NOISES), **values)
+    return made, (change, level, (name,) if name else ())
+
+
+def scale_tilt(random: Random, motion: Motion, stamps: Stamps) -> Real:
+    """A scale of the tilt that is wrong by 2 to 4 %."""
+    phi, theta, psi = motion.at(stamps / SECOND).euler_angles
+    factor = 1 + random.choice((-1, 1)) * random.uniform(0.02, 0.04)
+    return wxyz(Rotation.from_euler("ZXZ", np.stack((phi, theta * factor, psi), axis=1)))
+
+
+def change_top(**factors: float) -> Change:
+    """A model of the top whose constants are wrong."""
+
+    def change(random: Random, motion: Motion, stamps: Stamps) -> Real:
+        top = motion.top
+        size = random.choice((-1, 1)) * random.uniform(0.01, 0.03)
+        values = {name: getattr(top, name) for name in ("Ix", "Iz", "Mgl")}
+        values |= {name: values[name] * (1 + size * part) for name, part in factors.items()}
+        return Motion(Top(**values), motion.start).at(stamps / SECOND).orientation
+
+    return change
+
+
+def add_friction(random: Random, motion: Motion, stamps: Stamps) -> Real:
+    friction = Friction(motion.top.Iz * random.uniform(0.005, 0.02), 0.0)
+    return Motion(motion.top, motion.start, friction).at(stamps / SECOND).orientation
+
+
+def start_elsewhere(random: Random, motion: Motion, stamps: Stamps) -> Real:
+    """An angular velocity at the start that is wrong."""
+    q, omega = motion.start.parts
+    size = 0.01 * float(np.linalg.norm(omega)) + 0.05
+    return (
+        Motion(motion.top, State(q, omega + size * draw_vector(random)))
+        .at(stamps / SECOND)
+        .orientation
+    )
+
+
+def turn_by(shape: Callable[[Any, Real], Real]) -> Change:
+    """An error about an axis of the world or of the body that changes with time."""
+
+    def change(random: Random, motion: Motion, stamps: Stamps) -> Real:
+        axis, seconds = draw_vector(random), (stamps - stamps[0]) / SECOND
+        angles = random.uniform(0.05, 0.5) * shape(random, seconds)
+        turn = wxyz(Rotation.from_rotvec(np.outer(angles, axis / np.linalg.norm(axis))))
+        q = motion.at(stamps / SECOND).orientation
+        return compose(turn, q) if random.random() < 0.5 else compose(q, turn)
+
+    return change
+
+
+def walk(random: Random, seconds: Real) -> Real:
+    steps = np.array([random.gauss(0, 1) for _ in seconds])
+    return np.cumsum(steps) / np.sqrt(len(steps))
+
+
+def delay_by(shape: Callable[[Any, Real], Real]) -> Change:
+    """A delay that is not steady."""
+
+    def change(random: Random, motion: Motion, stamps: Stamps) -> Real:
+        seconds = (stamps - stamps[0]) / SECOND
+        late = random.uniform(2e-3, 2e-2) * shape(random, seconds)
+        return motion.at(np.maximum(stamps / SECOND - late, 0.0)).orientation
+
+    return change
+
+
+def delay_and_drift(random: Random, motion: Motion, stamps: Stamps) -> Real:
+    """Two parameters."""
+    q = motion.at(stamps / SECOND - random.uniform(5e-3, 5e-2)).orientation
+    rate = random.choice((-1, 1)) * random.uniform(0.05, 0.5)
+    return compose(turn_z(rate * (stamps - stamps[0]) / SECOND), q)
+
+
+def smooth(random: Random, motion: Motion, stamps: Stamps) -> Real:
+    """The mean of attitudes of some instants, as of a filter that is slow."""
+    width = random.uniform(0.005, 0.02)
+    late = [motion.at(np.maximum(stamps / SECOND - k * width, 0)).orientation for k in range(3)]
+    signed = [q * np.sign((q * late[0]).sum(axis=1, keepdims=True)) for q in late]
+    mean = sum(signed)
+    return np.asarray(mean / np.linalg.norm(mean, axis=1, keepdims=True))
+
+
+def forget(random: Random, motion: Motion, stamps: Stamps) -> Real:
+    """Any attitudes."""
+    return wxyz(Rotation.random(len(stamps), random_state=random.randrange(2**32)))
+
+
+FOREIGN: dict[str, Change] = {
+    "any attitudes": forget,
+    "scale of the tilt": scale_tilt,
+    "Ix": change_top(Ix=1.0),
+    "Iz": change_top(Iz=1.0),
+    "Mgl": change_top(Mgl=3.0),
+    "Ix and Mgl": change_top(Ix=1.0, Mgl=-1.0),
+    "friction": add_friction,
+    "start": start_elsewhere,
+    "wave": turn_by(lambda random, t: np.sin(random.uniform(0.5, 8.0) * t)),
+    "jump": turn_by(lambda random, t: (t > random.uniform(0.3, 0.7) * t[-1]).astype(float)),
+    "walk": turn_by(walk),
+    "parabola": turn_by(lambda random, t: (t / t[-1]) ** 2),
+    "delay that waves": delay_by(lambda random, t: 1 + np.sin(random.uniform(0.5, 8.0) * t)),
+    "delay that jumps": delay_by(lambda random, t: (t > random.uniform(0.3, 0.7) * t[-1]) * 1.0),
+    "delay and drift": delay_and_drift,
+    "slow filter": smooth,
+}
+
+
+def draw_file(number: int, own: bool) -> File:
+    """Return a file, the same for the same number."""
+    random = Random(1000 + number)
+    scene = random.choice(SCENES)
+    count, first = random.choice((300, 500, 900)), random.uniform(0.6, 2.0)
+    seconds = sorted(random.uniform(first, first + random.uniform(3.0, 8.0)) for _ in range(count))
+    stamps = np.array([round(t * SECOND) for t in seconds])
+    truth = scene_truth(scene)
+    if own:
+        made, kind = draw_own(random)
+        return File(str(made), scene, truth, made.make(truth, stamps, number), (kind,), made)
+    name = sorted(FOREIGN)[number % len(FOREIGN)]
+    motion = start_motion(Settings.from_scene(scene))
+    q = FOREIGN[name](random, motion, stamps)
+    if name == "delay and drift" and motion.kind == "regular":
+        return draw_file(number + len(FOREIGN) * 1000, own)  # the delay is rotations: its own kind
+    if np.abs(np.abs((q * motion.at(stamps / SECOND).orientation).sum(axis=1)) - 1).max() < 1e-4:
+        return draw_file(number + len(FOREIGN) * 1000, own)  # no error of this scene
+    found = Estimates.of(stamps, q)
+    if noise := random.choice(NOISES):
+        vectors = [[random.gauss(0, noise) for _ in range(3)] for _ in stamps]
+        found = replace(found, orientations=compose(q, wxyz(Rotation.from_rotvec(vectors))))
+    return File(name, scene, truth, found, ())
+
 
 LONG = 60  # files of each half
 SHORT = range(2)  # of them those that are tried by every run of the tests
@@ -41,6 +247,6 @@ def test_a_cause_of_its_own_is_named_with_its_size(number):
 def test_the_trial_has_every_cause():
     files = [draw_file(k, own=True).kinds[0] for k in OWN]
     changes, levels, parameters = zip(*files, strict=True)
-    assert set(changes) == {*CHANGES} - {"frame"}  # test_truth.py has it
+    assert set(changes) == {*CHANGES} - {"frame"}  # test_compare.py has it
     assert set(levels) == set(LEVELS)
     assert set(parameters) == {(), *((name,) for name in PARAMETERS)}
