@@ -189,13 +189,18 @@ FOREIGN: dict[str, Change] = {
 }
 
 
-def draw_file(number: int, own: bool) -> File:
-    """Return a file, the same for the same number."""
+def draw_stamps(number: int) -> tuple[Random, str, Stamps]:
+    """Return a scene and stamps, and numbers for the rest; the same for the same number."""
     random = Random(1000 + number)
     scene = random.choice(SCENES)
     count, first = random.choice((300, 500, 900)), random.uniform(0.6, 2.0)
     seconds = sorted(random.uniform(first, first + random.uniform(3.0, 8.0)) for _ in range(count))
-    stamps = np.array([round(t * SECOND) for t in seconds])
+    return random, scene, np.array([round(t * SECOND) for t in seconds])
+
+
+def draw_file(number: int, own: bool) -> File:
+    """Return a file."""
+    random, scene, stamps = draw_stamps(number)
     truth = scene_truth(scene)
     if own:
         made, kind = draw_own(random)
@@ -245,8 +250,8 @@ def test_a_cause_of_its_own_is_named_with_its_size(number):
 
 
 def test_the_trial_has_every_cause():
-    files = [draw_file(k, own=True).kinds[0] for k in OWN]
-    changes, levels, parameters = zip(*files, strict=True)
+    kinds = (draw_own(draw_stamps(number)[0])[1] for number in OWN)
+    changes, levels, parameters = zip(*kinds, strict=True)
     assert set(changes) == {*CHANGES} - {"frame"}  # test_compare.py has it
     assert set(levels) == set(LEVELS)
     assert set(parameters) == {(), *((name,) for name in PARAMETERS)}
