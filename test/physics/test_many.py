@@ -72,22 +72,6 @@ def test_each_property_is_that_of_the_motion_alone(name):
     np.testing.assert_array_equal(found, singles)
 
 
-def test_tops_starts_frictions_and_torques_are_broadcast():
-    tops = Top(0.000228, 0.0000572, [[0.06], [0.07]])
-    frictions = Friction(axial=[1e-6, 2e-6, 0.0])
-    motion = Motions(tops, CUSPS, frictions, torque=np.zeros((1, 1, 3)))
-    assert motion.shape == (2, 3)
-    assert motion.at([0.1, 0.2]).orientation.shape == (2, 3, 2, 4)
-    singles = [
-        Motion(Top(0.000228, 0.0000572, Mgl), CUSPS, Friction(axial))
-        for Mgl in (0.06, 0.07)
-        for axial in (1e-6, 2e-6, 0.0)
-    ]
-    states = motion.at(0.3).orientation.reshape(6, 4)
-    for state, single in zip(states, singles, strict=True):
-        assert state.tolist() == single.at(0.3).orientation.tolist()
-
-
 QUANTITIES = (
     *("energy", "axial_momentum", "vertical_momentum", "angular_momentum", "gravity_torque"),
     "total_torque",

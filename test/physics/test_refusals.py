@@ -102,11 +102,7 @@ TOPS = [
     (partial(Top, 1.0, [1.0, 3.0], 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg m^2"),
     (partial(Top, [1.0, 2.0], [1.0] * 3, 1.0), "Ix and Iz", FIT),
     (partial(Top, 1.0, 1.0, [1.0, NAN]), "Mgl", f"{FINITE_ARRAY} (J)"),
-    (
-        partial(Top(1.0, 1.0, [1.0] * 3).energy, MANY.at(REST)),
-        "top and state",
-        "one of each for each other",
-    ),
+    (partial(Top(1.0, 1.0, REST).energy, MANY.at(REST)), "top and state", "one of each for each"),
     *((call, "top", "one top", "tops of shape (2,)") for call in OF_ONE_TOP),
     (partial(Friction, -1), "friction.axial", ">= 0 N m s", "-1"),
     (partial(Friction, 0.0, NAN), "friction.transverse", f"{FINITE_NUMBER} (N m s)", "nan"),

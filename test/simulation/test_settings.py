@@ -70,6 +70,7 @@ def test_a_vector_has_its_size_of_numbers_and_may_be_text_or_empty(name):
 
 ALONE = "initial.angular_velocity must be set together with initial.orientation, got none"
 UNIT = [0.0, 0.0, 0.0, 1.0]
+FASTEST = {"publish_clock": True, "publish_rate": 1000.0}
 
 
 @pytest.mark.parametrize(
@@ -83,10 +84,7 @@ UNIT = [0.0, 0.0, 0.0, 1.0]
         ({"top_frame": "/top"}, "top_frame must be 'top', without the leading slash, got '/top'"),
         ({"world_frame": " "}, "world_frame must be the name of a frame (1 to 200 printable "),
         ({"world_frame": "w" * 201}, "world_frame must be the name of a frame (1 to 200 printable"),
-        (
-            {"publish_clock": True, "publish_rate": 1000.0, "real_time_factor": 2.001},
-            "publish_rate times real_time_factor must be at most 2000 Hz with publish_clock, got ",
-        ),
+        ({**FASTEST, "real_time_factor": 2.001}, "publish_rate times real_time_factor must be at "),
     ],
 )
 def test_values_that_do_not_fit_are_refused(values, sentence):
@@ -101,7 +99,7 @@ def test_an_exponent_makes_text_a_number_as_in_yaml():
 def test_values_next_to_those_that_do_not_fit_are_granted():
     for values in (
         {"initial.angular_velocity": [0.0, 0.0, 1.0], "initial.orientation": UNIT},
-        {"publish_clock": True, "publish_rate": 1000.0, "real_time_factor": 2.0},
+        {**FASTEST, "real_time_factor": 2.0},
         {"publish_rate": 2000.0, "real_time_factor": 100.0},
         {"world_frame": "w" * 200, "top.Iz": 2 * 2.28e-4},
     ):
