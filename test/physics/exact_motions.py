@@ -10,6 +10,7 @@ exact; states are (w, x, y, z) up to sign and the angular velocity in the body, 
 import json
 import lzma
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -117,6 +118,7 @@ def write(number: Any) -> str:
     return str(mp.nstr(number, DIGITS))
 
 
+@cache
 def read_motions() -> list[ExactMotion]:
     return list(map(ExactMotion, json.loads(lzma.decompress(PATH.read_bytes()))))
 

@@ -181,8 +181,7 @@ def test_an_empty_request_starts_from_the_quaternion_of_the_parameters_and_any_o
 
 
 def test_a_pause_stops_the_motion_and_a_step_advances_it():
-    run = Run()
-    run.advance(0.5)
+    run = Run(seconds=0.5)
     assert run.ask("pause", True) == (True, write("pause", Pause(0.505)))
     assert run.ask("pause", True) == (True, str(Answer("paused")))
     run.advance(1.0)

@@ -64,14 +64,15 @@ class ListSink:
 
 
 class Run:
-    """A simulation of a scene with its requests."""
+    """A simulation of a scene with its requests, after some seconds."""
 
-    def __init__(self, scene: str = "cusps", **changes: Any) -> None:
+    def __init__(self, scene: str = "cusps", seconds: float = 0.0, **changes: Any) -> None:
         self.clock, self.sink = HandClock(), ListSink()
         settings = Settings.from_scene(scene, **changes)
         self.simulation = simulate(settings, self.clock, self.sink, self.sink)
         self.simulation.apply(self.simulation.timeline.announce(self.simulation.stamp, "test"))
         self.requests = Requests(self.simulation, lambda on: "not recording")
+        self.advance(seconds)
 
     def advance(self, seconds: float, step: float = 0.005) -> None:
         """Advance the clock in steps and tick after each."""

@@ -12,16 +12,16 @@ MS = SECOND // 1000
 PERIOD = 5 * MS
 
 
-def start(scene="cusps", **changes):
-    run = Run(scene, publish_clock=True, **changes)
+def start(seconds=0.0, **changes):
+    run = Run(publish_clock=True, **changes)
     run.clock.is_simulated = False
+    run.advance(seconds)
     return run
 
 
 @pytest.mark.parametrize("factor", [0.1, 1.0, 5.0])
 def test_time_stands_still_in_a_pause_and_no_period_is_lost(factor):
-    run = start(real_time_factor=factor, publish_rate=400.0)
-    run.advance(0.3)
+    run = start(real_time_factor=factor, publish_rate=400.0, seconds=0.3)
     assert run.ask("pause", True)[0]
     before, last = len(run.sink.samples), run.sink.samples[-1][0]
     assert before == round(0.3 * factor * 400) + 1
@@ -38,8 +38,7 @@ def test_time_stands_still_in_a_pause_and_no_period_is_lost(factor):
 
 
 def test_a_step_advances_time_by_its_duration_with_one_sample_at_the_end():
-    run = start()
-    run.advance(0.1)
+    run = start(seconds=0.1)
     assert run.ask("pause", True)[0]
     last = run.stamps[-1]
     for duration in (0.001, 0.25, 1e-9):
@@ -55,8 +54,7 @@ def test_a_step_advances_time_by_its_duration_with_one_sample_at_the_end():
 
 
 def test_a_torque_that_ends_in_a_step_acts_until_then():
-    run = start()
-    run.advance(0.1)
+    run = start(seconds=0.1)
     assert run.ask("pause", True)[0]
     run.push((0.0, 0.0, 2e-4))
     assert run.ask("step", {"duration": 0.3})[0]
@@ -73,8 +71,7 @@ def test_a_torque_that_ends_in_a_step_acts_until_then():
 
 
 def test_the_time_waits_for_a_process_that_was_stopped():
-    run = start(publish_rate=1000.0, real_time_factor=2.0)
-    run.advance(0.1)
+    run = start(publish_rate=1000.0, real_time_factor=2.0, seconds=0.1)
     run.clock.now += 3 * SECOND
     run.tick()
     run.advance(0.1)

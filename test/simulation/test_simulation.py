@@ -40,8 +40,7 @@ def test_a_tick_computes_one_topic_of_the_samples_to_come_at_most():
 
 
 def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
-    run = Run()
-    run.advance(0.5)
+    run = Run(seconds=0.5)
     before = run.simulation.state
     run.jump(90 * SECOND)
     run.tick()
@@ -56,8 +55,7 @@ def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
 
 
 def test_a_request_between_a_jump_and_the_next_tick_belongs_to_the_time_after_the_jump():
-    run = Run("hurry_slow")
-    run.advance(0.5)
+    run = Run("hurry_slow", seconds=0.5)
     state = run.simulation.state
     run.jump(90 * SECOND)
     assert run.ask("hurry_precession")[0]
@@ -81,8 +79,7 @@ def test_the_pace_returns_if_half_of_the_share_is_left(used, factor):
 
 
 def test_while_the_clock_jumps_no_sample_gets_a_stamp_of_the_new_time():
-    run = Run()
-    run.advance(0.5)
+    run = Run(seconds=0.5)
     count = len(run.sink.samples)
     run.simulation.begin_jump()
     ticks = threading.Thread(target=run.tick)
@@ -132,8 +129,7 @@ def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_sec
 
 @pytest.mark.parametrize("times", [1, 8])
 def test_a_torque_acts_until_its_time_out_and_when_repeated_on_without_further_events(times):
-    run = Run()
-    run.advance(0.1)
+    run = Run(seconds=0.1)
     for _ in range(times):
         run.push((0.0, 0.0, 2e-4))
         run.advance(0.05)
@@ -170,8 +166,7 @@ def test_an_exception_during_shutdown_is_raised():
 
 
 def test_requests_of_many_threads_are_carried_out_one_at_a_time():
-    run = Run()
-    run.advance(0.1)
+    run = Run(seconds=0.1)
 
     def kick(_):
         return run.ask("kick", {"precession_rate_change": 0.01})[0]
