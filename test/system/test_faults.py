@@ -20,6 +20,7 @@ from node.listener import Listener
 from node.running_top import facts
 from programs import command, running, running_node, set_parameters
 from sensor_msgs.msg import JointState
+from trials import trials
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
@@ -124,9 +125,12 @@ MS = 1_000_000
 
 
 @pytest.mark.realtime
-def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log_is_exact(tmp_path):
+@pytest.mark.parametrize("count", trials(4, 8))
+def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log_is_exact(
+    tmp_path, count
+):
     chance = random.Random(1)
-    stops = [1.0, *(chance.uniform(0.02, 0.3) for _ in range(8))]
+    stops = [1.0, *(chance.uniform(0.02, 0.3) for _ in range(count))]
     folder = f"record.directory:={tmp_path}"
     with running_node(DOMAIN, *RECORDING, folder) as node, Listener(DOMAIN) as listener:
         angles = listener.collect(JointState, "/top/euler_angles", raw=True)
