@@ -8,7 +8,7 @@ UBUNTU := .venv/ubuntu
 KILTED := .venv/kilted
 BIN := $(VENV)/bin
 TOOLS := pytest hypothesis mpmath rosbags coverage
-GROUPS := nodes rest judge plain physics old-processor without-ros examples lint realtime
+GROUPS := page nodes rest judge plain physics old-processor without-ros examples lint realtime
 # A line every ten seconds, for as long as the shell of a recipe runs: pip may be silent for minutes.
 TICK = ( n=0; while sleep 10 > /dev/null && kill -0 $$$$ 2> /dev/null; do n=$$((n + 10)); echo "  ... at work for $$n s"; done ) & \
   tick=$$!; trap 'kill $$tick' EXIT;
@@ -32,17 +32,18 @@ demo: $(VENV)/ros  ## a top on cusps, hurried by its service, and the replay
 panel: $(VENV)/panel  ## the page, top.html, opened in the browser; needs no ROS and no compiler
 	@$(BIN)/python -c 'from symtop_ros.programs import top_panel; raise SystemExit(top_panel())'
 
-test: $(VENV)/test  ## style, types and all tests (8 minutes with the set-up; 2 GB, once)
+test: $(VENV)/test  ## style, types and all tests (6 minutes with the set-up; 2 GB, once)
 	@$(BIN)/python test/groups.py
 
 # What each group needs; `make test-physics` and the like run one of them.
+test-page: $(VENV)/test $(VENV)/chromium
 test-nodes: $(VENV)/test $(VENV)/messages/done
 test-rest: $(VENV)/test $(VENV)/vulkan
 test-judge: $(VENV)/test
 test-plain: $(VENV)/test
 test-physics: $(VENV)/test
 test-old-processor: $(VENV)/test
-test-without-ros: $(VENV)/test $(VENV)/chromium
+test-without-ros: $(VENV)/test
 test-examples: $(VENV)/test
 test-lint: $(VENV)/test $(VENV)/js/done
 test-realtime: $(VENV)/test $(VENV)/chromium

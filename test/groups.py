@@ -2,9 +2,9 @@
 
 python test/groups.py [--coverage] [--keys] [GROUP...]
 
-A failure does not keep other groups from running. Three groups run at a time: first those that take
-longest, and that wait for nodes or pages while others compute. Those of real time measure time, and
-run alone afterwards.
+A failure does not keep other groups from running. Four groups run at a time: first those that take
+longest, and that wait for downloads, nodes or pages while others compute. Those of real time run
+alone afterwards, as they measure it.
 """
 
 import argparse
@@ -29,7 +29,7 @@ from workshop.load.endings import bound
 ROOT = Path(__file__).parents[1]
 BIN = Path(sys.executable).parent
 OUTPUT = Path(sys.prefix, "test-output")
-AT_A_TIME = 3
+AT_A_TIME = 4
 PERIOD = 15.0  # s between two lines of progress
 NODES = ("test/node", "test/system", "test/load", "test/client")
 PLAIN = ("test/speed", "test/releases", "test/wire", "test/models", "test/testset")
@@ -42,13 +42,14 @@ NOT_TWICE = (
     *("test/physics/test_exact_motions.py", "test/physics/test_interrupts.py"),
 )
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
-WITHOUT_ROS = ("test/simulation", "test/session", "test/log", "test/panel", "test/web")
+PAGE = ("test/panel", "test/web")
+WITHOUT_ROS = ("test/simulation", "test/session", "test/log")
 WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_bridge.py")
-ELSEWHERE = (*NODES, "test/physics", *PLAIN, *JUDGE, *WITHOUT_ROS)
+ELSEWHERE = (*NODES, "test/physics", *PLAIN, *JUDGE, *PAGE, *WITHOUT_ROS)
 REALTIME = ("test/node", "test/system", "test/load", "test/web")
 # These read no wording: they pass with every template replaced by its key, but for marked ones.
 KEYS = Path(__file__).with_name("keys")
-READ_NO_WORDING = ("nodes", "rest", "plain", "judge", "physics", "without-ros")
+READ_NO_WORDING = ("nodes", "page", "rest", "plain", "judge", "physics", "without-ros")
 MARKS = "not realtime and not long"
 # All but files that import what is installed only where it is measured, or built by a test.
 EXAMPLES = ("--doctest-modules", "--ignore-glob=*/*_peer.py", "--ignore-glob=*/node/simulator.py")
@@ -146,19 +147,20 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         return pytest(*words, trace=trace, **options)
 
     return {
+        "page": [*fetch("chromium"), run(*PAGE, options=("-p", "without_ros"))],
         "nodes": [*fetch("messages/done"), run(*NODES)],
-        "without-ros": [*fetch("chromium"), run(*WITHOUT_ROS, options=("-p", "without_ros"))],
         "rest": [*fetch("vulkan", "chromium"), run("test", *ignore(ELSEWHERE))],
+        "judge": [run(*JUDGE)],
         "lint": [  # early, because its tools come from a registry that may be slow
             *fetch("js/done"),
             *(check("ruff", "check"), check("ruff", "format", "--check")),
             *(check("codespell"), check("mypy")),
             *(check_page("style"), check_page("types")),
         ],
-        "judge": [run(*JUDGE)],
-        "physics": [run("test/physics")],
-        "old-processor": [run(*NUMBERS, *ignore(NOT_TWICE), before=old)],
         "plain": [*fetch("chromium"), run(*PLAIN, *WITH_ROS)],
+        "physics": [run("test/physics")],
+        "without-ros": [run(*WITHOUT_ROS, options=("-p", "without_ros"))],
+        "old-processor": [run(*NUMBERS, *ignore(NOT_TWICE), before=old)],
         "examples": [run("symtop_ros", options=EXAMPLES)],
         "realtime": [*fetch("chromium"), run("-m", "realtime and not long", *REALTIME)],
     }
@@ -182,8 +184,8 @@ def ignore(paths: Iterable[str]) -> Iterator[str]:
 def run_group(name: str, commands: Sequence[Command]) -> Outcome:
     """Run the commands of a group one after the other; their output goes to one file."""
     outcome, began = Outcome(), time.monotonic()
-    # a user waits for the nodes of these two, and tests that only compute make room for them
-    priority = [] if name in ("nodes", "rest", "realtime") else ["nice", "-n", "19"]
+    # a user waits for pages and nodes, and tests that only compute make room for them
+    priority = [] if name in ("page", "nodes", "rest", "realtime") else ["nice", "-n", "19"]
     path = file_of(name)
     path.write_text("")
     for command in commands:
