@@ -5,7 +5,7 @@ from typing import Any
 
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.physics import Motion, State, Top, balance, kernel_version, perrys_rule
-from symtop_ros.simulation.block import CATCH_UP
+from symtop_ros.simulation.block import GAP
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status, write_text
@@ -68,7 +68,7 @@ def balance_status(segment: Segment, stamp: int) -> Status:
 
 def _pace_status(simulation: Simulation) -> Status:
     asked, kept, ticker = simulation.settings.real_time_factor, simulation.factor, simulation.ticker
-    level = WARN if kept < asked or ticker.missed >= CATCH_UP * ticker.rate else OK
+    level = WARN if kept < asked or ticker.missed >= GAP * ticker.rate else OK
     message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"
     if kept < asked:
         message = (

@@ -5,7 +5,7 @@ real-time factor, stands still in a pause and never goes back, so that rates are
 stamps at every factor. The factor of its segments is 1.
 """
 
-from symtop_ros.simulation.block import CATCH_UP
+from symtop_ros.simulation.block import GAP
 from symtop_ros.simulation.host import Clock, Host, Sink
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
@@ -81,7 +81,7 @@ class OwnTimeSimulation(Simulation):
 
     def publish(self) -> bool:
         """Publish what is due; the time waits for a process that was stopped."""
-        late = self.now - self.stamp - round(CATCH_UP * self._clock.factor * NANOSECONDS)
+        late = self.now - self.stamp - round(GAP * self._clock.factor * NANOSECONDS)
         if late > 0:
             self._clock.set(self.now - late)
         return super().publish()

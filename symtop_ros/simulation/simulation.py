@@ -11,7 +11,7 @@ from functools import partial
 from typing import TypeVar
 
 from symtop_ros.physics import State
-from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
+from symtop_ros.simulation.block import CATCH_UP, GAP, Block, Ticker
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
 from symtop_ros.simulation.changes.follow import Act, Request
 from symtop_ros.simulation.changes.outcomes import Failure, Outcome
@@ -219,7 +219,7 @@ class Simulation:
         """Warn when the samples that were missed since the last warning amount to something."""
         self._unreported += missed
         seconds, last = self._unreported / self.ticker.rate, self._gap_reported
-        if seconds < CATCH_UP or (last is not None and abs(self.now - last) < GAP_PERIOD):
+        if seconds < GAP or (last is not None and abs(self.now - last) < GAP_PERIOD):
             return
         since = "" if last is None else " since the last warning of this kind"
         self.host.warn(
