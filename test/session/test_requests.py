@@ -170,6 +170,13 @@ def test_a_request_that_cannot_be_is_refused_and_the_motion_stays(begun, service
     assert run.simulation.segment is before
 
 
+def test_a_motion_must_have_states_for_a_day_of_the_clock():
+    fast = {"top.Mgl": 2.0**55}  # its farthest time is 2^20 s: 12.1 days
+    assert Run(**fast, real_time_factor=12.0).ask(START, {"theta": 0.5})[0]
+    with pytest.raises(RefusedError, match="for a day at this real-time factor"):
+        Run(**fast, real_time_factor=12.25)
+
+
 def test_an_empty_request_starts_from_the_quaternion_of_the_parameters_and_any_other_from_angles():
     run = Run(initial__orientation=[0.6, 0.0, 0.0, 0.8])
     assert run.ask("set_initial_conditions", {})[0]
