@@ -148,6 +148,14 @@ def test_samples_that_the_node_has_counted_as_missed_are_no_error(memory, counte
     assert judge(memory).missing == ([expected] if counted == 19 else [])
 
 
+def test_in_a_log_that_names_no_rate_the_first_samples_say_the_period(tmp_path):
+    run = Run(hurried=False)
+    lost = run.places("torque")[30:50]
+    run.messages = [each for k, each in enumerate(run.messages) if k not in lost]
+    (found,) = check_run(run.open(tmp_path)).missing
+    assert found.startswith("torque: 20 samples are missing, ")
+
+
 def set_missed(data, count):
     """Diagnostics in which the node has missed so many samples."""
     statuses = [

@@ -273,6 +273,12 @@ def test_two_tops_that_share_tf_are_told_apart_by_the_frames_in_their_events(tmp
         assert columns["tf"][:, 3:].tolist() == columns["orientation"].tolist()
 
 
+def test_without_events_the_transforms_are_those_of_the_frame_of_a_node_as_it_is(tmp_path):
+    one, other = Run(seconds=1.0, rate=50.0, frame="gyro"), Run(seconds=1.0)
+    log = write(tmp_path, {"/a": one.without("events"), "/b": other.without("events")}, "/b")
+    assert len(columns_of(log)["tf"]) == 200
+
+
 def test_transforms_of_another_top_before_the_first_event_are_not_those_of_this_one(tmp_path):
     one, other = Run(seconds=1.0), Run(seconds=1.0, rate=2000.0, frame="gyro")
     one.messages = [each for each in one.messages if each[1] >= one.messages[0][1] + 5 * 10**8]

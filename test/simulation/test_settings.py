@@ -14,6 +14,11 @@ VECTORS = {name: p.condition[0] for name, p in PARAMETERS.items() if p.default =
 WRONG = (None, math.nan, [None], "\x1b[31m", "a\nb", "\udcff", b"\xff", "x" * 1_000_000, object())
 
 
+def test_a_description_ends_with_the_unit():
+    assert PARAMETERS["top.Ix"].description.endswith(" (kg m^2)")
+    assert PARAMETERS["real_time_factor"].description.endswith(" (no unit)")
+
+
 def refusal(values):
     """The sentence of a refusal; empty if the values are granted."""
     try:
