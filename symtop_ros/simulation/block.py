@@ -16,7 +16,7 @@ from symtop_ros.wire.layout import NANOSECONDS
 # encodes the messages of a topic, by its stamps (n,) in ns and its doubles (n, width)
 Encode = Callable[[str, Stamps, Real], list[bytes]]
 # s; ticks that are later are dropped, so that a stopped process sends no long burst. Fast DDS may
-# hold a publisher for 0.33 s when a subscriber comes (docs/ros.md): no sample is lost by that.
+# hold a publisher for 0.33 s when a subscriber comes (docs/ros.md, Discovery).
 CATCH_UP = 0.5
 GAP = 0.1  # s without samples of which users are told, and for which the own time of a run waits
 

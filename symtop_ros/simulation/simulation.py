@@ -20,6 +20,7 @@ from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.host import Clock, Host, Sink
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
+from symtop_ros.simulation.topics import DEPTH
 from symtop_ros.simulation.validation import attempt, one_line
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -166,8 +167,8 @@ class Simulation:
 
     @property
     def _catch_up(self) -> float:
-        """Seconds of samples that are sent late; older ones are dropped."""
-        return JUMP if self._clock.is_simulated else CATCH_UP
+        """Seconds of samples that are sent late, at most what publishers keep; others are dropped."""
+        return JUMP if self._clock.is_simulated else min(CATCH_UP, DEPTH / self.ticker.rate)
 
     def _work_on_block(self) -> bool:
         """Work towards the states of the next stamps; return True when they are reached."""

@@ -21,6 +21,7 @@ from symtop_ros.wire.layout import Layout
 from symtop_ros.wire.messages import Format
 
 DEFAULT_NAME = "top"  # of the node
+DEPTH = 100  # samples of a topic that are kept for a slow subscriber
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +32,7 @@ class Topic:
     # without `~` or `/` at its start is in the namespace of the node
     ros_name: str
     type: str  # message type, such as "std_msgs/msg/String"
-    depth: int = 100  # messages that are kept for a slow (or, if latched, a late) subscriber
+    depth: int = DEPTH  # messages that are kept for a slow (or, if latched, a late) subscriber
     # True if late subscribers get the last messages (durability "transient local")
     latched: bool = False
 

@@ -100,17 +100,27 @@ def test_late_ticks_are_dropped_and_reported_once_and_then_each_minute():
     run.clock.is_simulated = False
     run.tick()
     for _ in range(3):
-        run.clock.now += 700 * MS
+        run.clock.now += 300 * MS
         run.tick()
-    assert run.simulation.ticker.missed == 3 * 199  # 0.5 s of each 0.7 s is caught up
+    assert run.simulation.ticker.missed == 3 * 199  # 100 samples of 300 are caught up
     (first,) = run.sink.warnings
     assert "0.199 s (199 missed)" in first
     for _ in range(2 * 60):
         run.clock.now += 1000 * MS
         run.tick()
     assert len(run.sink.warnings) == 3
-    missed = 2 * 199 + 59 * 499  # 0.5 s of each second is caught up
+    missed = 2 * 199 + 60 * 899  # 100 samples of 1000 are caught up
     assert f"{missed / 1000:.3g} s ({missed} missed)" in run.sink.warnings[1]
+
+
+@pytest.mark.parametrize(("rate", "caught_up"), [(1000.0, 100), (200.0, 100), (100.0, 50)])
+def test_as_many_samples_are_caught_up_as_are_kept_and_half_a_second_at_most(rate, caught_up):
+    run = Run(publish_rate=rate)
+    run.clock.is_simulated = False
+    run.tick()
+    run.clock.now += 1000 * MS
+    run.tick()
+    assert run.simulation.ticker.missed == rate - 1 - caught_up
 
 
 def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_second():
@@ -118,11 +128,11 @@ def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_sec
     run.clock.is_simulated = False
     run.tick()
     for _ in range(99):
-        run.clock.now += 502 * MS
+        run.clock.now += 102 * MS
         run.tick()
     assert run.simulation.ticker.missed == 99
     assert run.sink.warnings == []
-    run.clock.now += 502 * MS
+    run.clock.now += 102 * MS
     run.tick()
     assert "0.1 s (100 missed)" in run.sink.warnings[0]
 

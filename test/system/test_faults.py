@@ -156,7 +156,7 @@ def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log
     # The start's own stamp: that of the first tick, which a slow start may have missed.
     begin = next(TopLog(McapFile(path)).events()).stamp
     until = stamp.sec * 1000 * MS + stamp.nanosec
-    # Of the first stop, of 1 s, half is sent late.
-    assert missed == (until - begin) // MS - sum(each < until for each in stamps) > 400
+    # Of the first stop, of 1 s, 100 samples are sent late.
+    assert missed == (until - begin) // MS - sum(each < until for each in stamps) > 800
     assert abs(stamps[-1] - asked) < 5_000 * MS  # where the clock is
     assert_exact(path)
