@@ -18,7 +18,7 @@ Encode = Callable[[str, Stamps, Real], list[bytes]]
 # s; ticks that are later are dropped, so that a stopped process sends no long burst. Fast DDS may
 # hold a publisher for 0.33 s when a subscriber comes (docs/ros.md, Discovery).
 CATCH_UP = 0.5
-GAP = 0.1  # s without samples of which users are told, and for which the own time of a run waits
+GAP = 0.1  # s without samples that are reported; in a longer gap the own time of a run waits
 
 
 class Block:

@@ -167,7 +167,7 @@ class Simulation:
 
     @property
     def _catch_up(self) -> float:
-        """Seconds of samples that are sent late, at most what publishers keep; none before."""
+        """Seconds of samples that are sent late: no more than publishers keep."""
         return JUMP if self._clock.is_simulated else min(CATCH_UP, DEPTH / self.ticker.rate)
 
     def _work_on_block(self) -> bool:

@@ -36,6 +36,11 @@ def read_stamp(data: bytes) -> int:
     return int(seconds * 1_000_000_000 + nanoseconds)
 
 
+def to_nanoseconds(stamp: Any) -> int:
+    """Return a time of a message in ns."""
+    return int(stamp.sec * 1_000_000_000 + stamp.nanosec)
+
+
 class Subscriber:
     """A node of a load in a domain, with a connection to a top."""
 
@@ -125,7 +130,7 @@ class Follower(Subscriber):
         self._facts = facts
         # The node counts what it has missed before the stamp of its diagnostics: later gaps are of
         # the next ones.
-        until = message.header.stamp.sec * 1_000_000_000 + message.header.stamp.nanosec
+        until = to_nanoseconds(message.header.stamp)
         gaps = sum(count for stamp, count in self._gaps.items() if stamp < until)
         self.lost = max(0, gaps - self.missed)
         self.balance = max(self.balance, abs(float(self._facts["energy.balance"])))

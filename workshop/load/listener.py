@@ -9,7 +9,7 @@ from std_srvs.srv import Trigger
 
 from symtop_ros.arrays import Real
 from workshop.load.bare import LATCHED, TOPICS
-from workshop.load.follower import Subscriber, read_stamp
+from workshop.load.follower import Subscriber, read_stamp, to_nanoseconds
 from workshop.load.processes import cpu_seconds
 
 SETTLING = 1.0  # s
@@ -74,8 +74,7 @@ class Listener(Subscriber):
         asked = time.time()
         answer = self._kick.call_async(Trigger.Request())
         self.wait(lambda: answer.done() and bool(self._events), "answer")
-        stamp = self._events[-1].header.stamp
-        begin = stamp.sec * 1_000_000_000 + stamp.nanosec
+        begin = to_nanoseconds(self._events[-1].header.stamp)
         orientations = self._got["orientation"]
         self.wait(lambda: read_stamp(orientations[-1]) >= begin, "answer")
         first = next(k for k, data in enumerate(orientations) if read_stamp(data) >= begin)
