@@ -37,7 +37,7 @@ class Recorder:
     def __init__(self, settings: RecordSettings) -> None:
         self.settings = settings  # its limits may be changed while a recording runs
         self._channels: list[Topic] = []  # with their full names
-        self._latched: dict[int, bytes] = {}
+        self.latched: dict[int, bytes] = {}  # last messages of latched topics, for later files
         self._queue: deque[Queued] = deque()
         # While one channel is put first: its index, and the messages of all others.
         self._ahead: int | None = None
@@ -64,7 +64,7 @@ class Recorder:
     def start(self, metadata: Mapping[str, str]) -> Path:
         """Begin a recording and return the path of its first file."""
         self.stop()
-        latched = dict(self._latched)
+        latched = dict(self.latched)
         self._file = file = self._open(metadata, latched)
         self.dropped, self.failure = 0, ""
         self._queue.clear()
@@ -83,9 +83,7 @@ class Recorder:
         return LogFile(Path(self.settings.directory), self._channels, metadata, latched)
 
     def add(self, channel: int, stamp: int, data: bytes) -> None:
-        """Queue a message with its stamp (ns); the last latched ones are kept for later files."""
-        if self._channels[channel].latched:
-            self._latched[channel] = data
+        """Queue a message with its stamp (ns), while a recording runs."""
         if not self.running:
             return
         if self._ahead in (None, channel):

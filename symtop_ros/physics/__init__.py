@@ -43,14 +43,8 @@ from symtop_ros.physics.precession import (
     theta_acceleration,
     theta_torque,
 )
-from symtop_ros.physics.rule.kick_effect import (
-    HurryEffect,
-    KickVerdict,
-    Lift,
-    compare_hurried,
-    kick_verdict,
-)
-from symtop_ros.physics.rule.perry import Direction
+from symtop_ros.physics.rule.perry import Direction, KickVerdict, Lift, kick_verdict
+from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
 from symtop_ros.physics.state import Angles, State
 from symtop_ros.physics.times import ExactTimes

@@ -12,8 +12,12 @@ from numpy.typing import ArrayLike
 from symtop_ros.arrays import Real, split, stack
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import validate_one
-from symtop_ros.physics.values import validate_number, validate_positive, validate_vector
+from symtop_ros.physics.values import (
+    validate_number,
+    validate_one,
+    validate_positive,
+    validate_vector,
+)
 
 STANDARD_GRAVITY = 9.81  # m/s^2
 NODES = 24  # of the Gauss-Legendre quadrature: exact to rounding over a stretch of STRETCH radians

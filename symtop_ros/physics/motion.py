@@ -113,6 +113,27 @@ class Motion:
         self.packed_start = pack_start(top, start, friction, self.applied_torque)
         self._kernel = door.KernelMotion(self.packed_start)
 
+    def restart(self, start: State) -> "Motion":
+        """Return the motion of the same top from another state, by the same friction and torque.
+
+        Parameters
+        ----------
+        start : State
+            Its state at t = 0: one, as those of this motion are.
+        """
+        motion = object.__new__(Motion)
+        motion.top, motion.start = self.top, start
+        motion.friction, motion.applied_torque = self.friction, self.applied_torque
+        motion.packed_start = self.pack_with(start)
+        motion._kernel = door.KernelMotion(motion.packed_start)
+        return motion
+
+    def pack_with(self, start: State) -> bytes:
+        """Return the numbers of the motion from another state, as `symtop_start` has them."""
+        return door.replace_state(
+            self.packed_start, start.given_orientation, start.angular_velocity
+        )
+
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integration."""
         return Motion, (self.top, self.start, self.friction, self.applied_torque)
@@ -125,7 +146,7 @@ class Motion:
     @cached_property
     def is_driven(self) -> bool:
         """True if friction or an applied torque acts: there is no closed form, only series."""
-        return bool(self.friction) or any(self.applied_torque)
+        return self.engine == "taylor"
 
     def total_torque(self, state: State) -> Real:
         """Return the torque of gravity, friction and the applied torque about the pivot.
@@ -196,22 +217,23 @@ class Motion:
         >>> round(motion.at(motion.nutation_period).euler_angles.theta, 9)
         0.5
         """
-        times = validate_times(t)
-        if isinstance(times, float):
+        times = t if isinstance(t, ExactTimes) else validate_times(t)
+        if isinstance(times, float) or (isinstance(times, ExactTimes) and not times.shape):
             return self._compute_one(times)
         count = math.prod(times.shape)
         orientation, angular_velocity = np.empty((count, 4)), np.empty((count, 3))
         self.fill(times, orientation, angular_velocity)
         return wrap_states(orientation, angular_velocity, times.shape)
 
-    def _compute_one(self, time: float) -> State:
+    def _compute_one(self, time: float | ExactTimes) -> State:
         numbers = None if self.is_driven else self._kernel.at(time)
         if numbers:
             # Two arrays, not views of one: `base` of a view could be written to.
             return State.wrap(np.array(numbers[:4]), np.array(numbers[4:]))
         # Of a driven motion, in steps between which signals are seen; or a time that is refused.
         orientation, omega = np.empty((1, 4)), np.empty((1, 3))
-        states.fill_states(self._kernel, np.array([time]), orientation, omega)
+        times = time.ravel() if isinstance(time, ExactTimes) else np.array([time])
+        states.fill_states(self._kernel, times, orientation, omega)
         return State.wrap(orientation[0].copy(), omega[0].copy())
 
     def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:

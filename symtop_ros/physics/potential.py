@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics.state import State
-from symtop_ros.physics.top import Top, validate_one
-from symtop_ros.physics.values import ignore_underflow, validate_array
+from symtop_ros.physics.top import Top
+from symtop_ros.physics.values import ignore_underflow, validate_array, validate_one
 
 
 @dataclass(frozen=True, slots=True)

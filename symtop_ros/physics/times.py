@@ -70,7 +70,7 @@ class ExactTimes:
     @property
     def shape(self) -> tuple[int, ...]:
         """() for one time, (n,) for an array."""
-        return np.shape(self.nanoseconds)
+        return () if isinstance(self.nanoseconds, int) else self.nanoseconds.shape
 
     @cached_property
     def seconds(self) -> Any:

@@ -15,6 +15,7 @@ from symtop_ros.physics.values import (
     SMALLEST_MOMENT,
     ignore_underflow,
     refuse,
+    validate_one,
     validate_together,
 )
 
@@ -186,12 +187,6 @@ def _validate_moments(Ix: float, Iz: float, Mgl: float) -> None:
             raise refuse(name, f"{SMALLEST_MOMENT:g} to {LARGEST_MOMENT:g} kg m^2", moment)
     if abs(Mgl) > LARGEST_MOMENT:
         raise refuse("Mgl", f"at most {LARGEST_MOMENT:g} J in size", Mgl)
-
-
-def validate_one(given: Any, name: str = "top") -> None:
-    """Refuse many tops, or many motions, where one is wanted."""
-    if shape := getattr(given, "shape", ()):
-        raise refuse(name, f"one {name}", f"{name}s of shape {shape}")
 
 
 def match(value: Any, state: State) -> Any:

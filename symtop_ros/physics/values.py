@@ -235,6 +235,12 @@ def fit_shapes(names: str, *shapes: tuple[int, ...], listed: str = "") -> tuple[
         raise refuse(names, "of shapes that fit together", text) from None
 
 
+def validate_one(given: Any, name: str = "top") -> None:
+    """Refuse many tops, or many motions, where one is wanted."""
+    if shape := getattr(given, "shape", ()):
+        raise refuse(name, f"one {name}", f"{name}s of shape {shape}")
+
+
 def validate_vector(name: str, value: Any, unit: str) -> Vector:
     """Return three finite numbers as floats.
 

@@ -6,7 +6,7 @@ no vectors themselves: three arrows, and the trace of the axis.
 
 from collections import deque
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from functools import partial
 from math import hypot
@@ -95,15 +95,17 @@ class Output:
 
     def send(self, stamp: int, encode: Callable[[], bytes]) -> None:
         """Publish and log a message with its stamp (ns); it is encoded if it is needed."""
-        to, is_kept = self._publisher, self._latched or self._recorder.running
+        to, recorder = self._publisher, self._recorder
         if to and not (self._latched or (self.enabled and to.has_subscriber)):
             to = None
-        if to or is_kept:
+        if to or self._latched or recorder.running:
             data = encode()
             if to:
                 to.publish(data)
-            if is_kept:
-                self._recorder.add(self.channel, stamp, data)
+            if self._latched:
+                recorder.latched[self.channel] = data
+            if recorder.running:
+                recorder.add(self.channel, stamp, data)
 
 
 class Outputs:
@@ -188,7 +190,8 @@ class Outputs:
 
     def put_events_first(self) -> AbstractContextManager[None]:
         """In the log, put the events sent in this context before its samples."""
-        return self._recorder.put_first(self._events.channel)
+        recorder = self._recorder
+        return recorder.put_first(self._events.channel) if recorder.running else nullcontext()
 
 
 def list_fixed_frames(frame: str, imu: Imu | None, body: Body | None) -> list[Transform]:

@@ -4,7 +4,6 @@ A `StepBudget` limits the steps that are taken for one request or one log. A `Co
 the CPU time of a run, and says how fast the motion can be followed.
 """
 
-import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -72,16 +71,15 @@ class Shortfall(NamedTuple):
 class ComputeBudget:
     """Prepares a motion stretch by stretch and measures the time which that takes."""
 
-    def __init__(self, stamp: int, clock: Callable[[], float] = time.perf_counter) -> None:
+    def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
         self._clock = clock
         self.spent = 0.0  # work so far in s
         # set by the last call if the motion has no further states: its last time in s
         self.end: float | None = None
         self.shortfall: Shortfall | None = None  # set if the last stretch took longer than it lasts
-        self._prepared = stamp  # ns: end of the last stretch
+        self._segment: Segment | None = None  # the last one
+        self._prepared = 0  # ns: end of its last stretch
         self._stretch: tuple[Segment, int] | None = None
-        self._segment: Segment | None = None  # that of the last stamp with a state
-        self._last_stamp = math.inf
         self._progress, self._spent_before = 0.0, 0.0  # s of the motion and of work, of the stretch
 
     def prepare(self, segment: Segment, stamp: int, factor: float = 1.0) -> bool:
@@ -91,12 +89,11 @@ class ComputeBudget:
         """
         self.shortfall = self.end = None
         if not segment.motion.is_driven:
-            self._prepared, self._stretch = stamp, None
-            if segment is not self._segment:
-                self._segment, self._last_stamp = segment, segment.last_stamp
-            if stamp > self._last_stamp:
-                self.end = float(segment.time_at(int(self._last_stamp)))
+            if stamp > segment.last_stamp:
+                self.end = float(segment.time_at(int(segment.last_stamp)))
             return self.end is None
+        if segment is not self._segment:
+            self._segment, self._prepared = segment, segment.stamp
         end = segment.time_at(stamp)
         if self._stretch != (segment, stamp):
             self._stretch = segment, stamp

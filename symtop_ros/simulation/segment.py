@@ -87,7 +87,7 @@ class PushedMotion(Motion):
         yield piece
         for place in range(1, self.pushes.number):
             state = piece.at(ExactTimes(self._begins[place] - self._begins[place - 1]))
-            piece = Motion(self.top, push_axle(self.top, state, self.pushes.impulse))
+            piece = piece.restart(push_axle(self.top, state, self.pushes.impulse))
             yield piece
 
     @cached_property
@@ -108,7 +108,10 @@ class PushedMotion(Motion):
         place = self.count(elapsed) - 1
         return self.pieces[place], self._begins[place]
 
-    def _compute_one(self, time: float) -> State:
+    def _compute_one(self, time: float | ExactTimes) -> State:
+        if isinstance(time, ExactTimes):
+            piece, begin = self.piece_at(time.advance(int(time.nanoseconds)))
+            return piece.at(replace(time, elapsed=time.elapsed - begin))
         piece, begin = self.piece_at(Fraction(time) * NANOSECONDS)
         return piece.at(time - begin / NANOSECONDS)
 
@@ -140,7 +143,7 @@ class PushedMotion(Motion):
         return np.maximum(np.array(found, dtype=np.intp), 0)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Segment:
     """One stretch of a run. Methods return the segment that follows."""
 
@@ -159,7 +162,8 @@ class Segment:
     @property
     def begin_time(self) -> float:
         """Time of the motion (s) at the first stamp."""
-        return float(self.time_at(self.stamp))
+        # Python's quotient of integers is the nearest double.
+        return self.elapsed.numerator / (self.elapsed.denominator * NANOSECONDS)
 
     def times_at(self, stamp: Any) -> Any:
         """Return the exact times of the motion at a stamp (ns) or an array of stamps.
@@ -177,7 +181,7 @@ class Segment:
         """Return the last stamp (ns) up to a time of the motion (s), for the factor 1."""
         return self.stamp + math.floor(to_nanoseconds(time) - self.elapsed)
 
-    @property
+    @cached_property
     def last_stamp(self) -> float:
         """The last stamp (ns) with a state; infinite if there is none."""
         farthest = self.motion.farthest_time

@@ -50,7 +50,7 @@ class Simulation:
         self.ticker = Ticker(settings.publish_rate, self.now)
         self.last = self.now  # stamp of the last sample
         self.timeline = Timeline.begin(settings, self.stamp)
-        self.budget, self._spent = ComputeBudget(self.stamp), 0.0
+        self.budget, self._spent = ComputeBudget(), 0.0
         # stamp of the last warning (ns), and samples that were missed since then
         self._gap_reported: int | None = None
         self._unreported = 0
@@ -244,7 +244,10 @@ class Simulation:
 
     def _prepare(self, stamp: int) -> bool:
         """Work towards a stamp; return True if its state is ready."""
-        ready = self.budget.prepare(self.segment, stamp, self._pace)
+        segment = self.segment
+        if not segment.motion.is_driven and stamp <= segment.last_stamp:
+            return True  # it takes no work
+        ready = self.budget.prepare(segment, stamp, self._pace)
         if self.budget.end is not None:
             self._stop_at(self.budget.end)
         return ready

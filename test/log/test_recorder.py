@@ -56,8 +56,7 @@ def read_whole(path):
 
 def test_a_file_begins_with_the_current_latched_messages(tmp_path):
     recorder = create(tmp_path)
-    recorder.add(0, 1, b"old")
-    recorder.add(0, 2, b"holds")
+    recorder.latched[0] = b"holds"
     path = recorder.start({})
     recorder.add(1, 7, b"first")
     recorder.stop()

@@ -178,13 +178,13 @@ def count_turns(budget, segment, stamp):
     ids=["the closed form", "a pause"],
 )
 def test_what_needs_no_integration_takes_one_call_for_any_time(segment):
-    budget = ComputeBudget(0, Clock(0.001))
+    budget = ComputeBudget(Clock(0.001))
     assert count_turns(budget, segment, 10**6 * SECOND) == 1
     assert budget.shortfall is None
 
 
 def test_a_stretch_that_lasts_longer_than_its_work_is_prepared_in_many_calls():
-    budget = ComputeBudget(0, Clock(0.001))
+    budget = ComputeBudget(Clock(0.001))
     turns = count_turns(budget, Segment.begin(fast(), 0, 1.0), SECOND)
     assert turns > 10
     assert budget.shortfall is None
@@ -193,7 +193,7 @@ def test_a_stretch_that_lasts_longer_than_its_work_is_prepared_in_many_calls():
 
 def test_a_stretch_that_takes_longer_than_it_lasts_gives_a_factor_that_can_be_kept():
     each = 0.1  # s for a turn
-    budget = ComputeBudget(0, Clock(each))
+    budget = ComputeBudget(Clock(each))
     turns = count_turns(budget, Segment.begin(fast(), 0, 1.0), SECOND)
     assert turns == 11  # the first with which it takes more than the second
     reached, factor = budget.shortfall
@@ -203,7 +203,7 @@ def test_a_stretch_that_takes_longer_than_it_lasts_gives_a_factor_that_can_be_ke
 
 
 def test_the_factor_of_a_shortfall_can_be_kept():
-    budget = ComputeBudget(0, Clock(0.1))
+    budget = ComputeBudget(Clock(0.1))
     segment = Segment.begin(fast(), 0, 1.0)
     count_turns(budget, segment, SECOND)
     slower = segment.slow_down(*budget.shortfall, SECOND)
@@ -212,7 +212,7 @@ def test_the_factor_of_a_shortfall_can_be_kept():
 
 
 def test_after_a_long_stop_the_missed_stretch_may_take_as_long_as_it_lasts():
-    budget = ComputeBudget(0, Clock(0.002))  # a tenth of the work that any stretch may take
+    budget = ComputeBudget(Clock(0.002))  # a tenth of the work that any stretch may take
     segment = Segment.begin(fast(), 0, 1.0)
     count_turns(budget, segment, SECOND // 100)
     count_turns(budget, segment, 5 * SECOND)
@@ -220,7 +220,7 @@ def test_after_a_long_stop_the_missed_stretch_may_take_as_long_as_it_lasts():
 
 
 def test_a_state_that_is_asked_for_in_between_does_not_make_the_factor_negative():
-    budget, motion = ComputeBudget(0, Clock(0.1)), fast()
+    budget, motion = ComputeBudget(Clock(0.1)), fast()
     segment = Segment.begin(motion, 0, 1.0)
     while not budget.prepare(segment, SECOND) and not budget.shortfall:
         motion.at(0.0)  # moves the integration back to its start
@@ -235,7 +235,7 @@ def test_another_pace_is_that_of_the_motion_that_follows():
 
 def test_a_motion_that_comes_to_its_last_state_is_stopped_there():
     motion = Motion(Top(1e-3, 1e-3, 1.0), State.from_euler(theta=1.0, psi_dot=1e12))
-    segment, budget = Segment.begin(motion, 0, 1.0), ComputeBudget(0)
+    segment, budget = Segment.begin(motion, 0, 1.0), ComputeBudget()
     last = int(segment.last_stamp)
     assert 0 < last * 1e-9 < motion.farthest_time
     assert budget.prepare(segment, last)

@@ -45,12 +45,13 @@ ENGINES: tuple[Engine, ...] = get_args(Engine)
 OK, NO_MEMORY, BAD_ANGULAR_VELOCITY, TOO_FAR, TOO_FAST, MORE_STEPS = 0, 1, 4, 8, 9, 11
 TOO_STIFF, BAD_ARITHMETIC, BAD_KICK, VERTICAL = 10, 12, 14, 15
 START, STATE = 15, 7  # numbers of `symtop_start`, of an orientation and an angular velocity
+BEFORE_STATE, AFTER_STATE = 8 * 3, 8 * (3 + STATE)  # offsets in `symtop_start`
 
 BLOCK = 256  # elements of a call that takes up to 0.1 ms for each
 
 INT64 = np.dtype(np.int64).char  # "l", or "q" where a long has 32 bits (Windows)
 Numbers = POINTER(c_double)
-State, Pair = c_double * STATE, c_double * 2
+State, Pair, Quaternion, Rates = (c_double * count for count in (STATE, 2, 4, 3))
 
 
 class ClockRecord(Structure):
@@ -301,14 +302,20 @@ class KernelMotion:
         Ix, Iz, *_, axial, transverse, _, _, _ = _unpack_start(self._start)
         return float(max(transverse / Ix, axial / Iz))
 
-    def at(self, t: float) -> tuple[float, ...] | None:
-        """Return quaternion and angular velocity at a time in s; None if it is too far."""
-        state = State(t)
-        status = self._door.read(self._handle, state)
-        if status == OK:
-            return _unpack_state(state)
-        if status == TOO_FAR:
-            return None
+    def at(self, t: float | ExactTimes) -> tuple[float, ...] | None:
+        """Return quaternion and angular velocity at one time (s); None if it is too far."""
+        if isinstance(t, ExactTimes):
+            q, omega, clock = Quaternion(), Rates(), ClockRecord(*t.clock)
+            stamp = int(t.nanoseconds).to_bytes(8, sys.byteorder, signed=True)
+            given = clock, stamp, 1, 0.0
+            status = self._door.states_of_clock(self._handle, *given, q, omega, c_size_t())
+            numbers: tuple[float, ...] = (*q, *omega)
+        else:
+            state = State(t)
+            status = self._door.read(self._handle, state)
+            numbers = _unpack_state(state)
+        if status in (OK, TOO_FAR):
+            return numbers if status == OK else None
         raise refuse_status(status)
 
     def fill(
@@ -361,6 +368,12 @@ class KernelMotion:
         farthest = c_double()
         self._door.find_farthest_time(self._handle, farthest)
         return farthest.value
+
+
+def replace_state(start: bytes, orientation: Real, omega: Real) -> bytes:
+    """Return the 15 numbers of `symtop_start` with another state."""
+    state = read_from(orientation) + read_from(omega)
+    return start[:BEFORE_STATE] + state + start[AFTER_STATE:]
 
 
 def fill_many(starts: Real, times: Real, orientation: Real, omega: Real, left: Any) -> None:

@@ -30,8 +30,11 @@ import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from symtop_ros.physics.kernel.door import AverageRecord, VerdictRecord
-from symtop_ros.physics.kicks import Hold
+from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kicks import HOLDS, Hold, validate_hold
+from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.state import State
+from symtop_ros.physics.values import validate_one
 from symtop_ros.wording import write
 
 # Names in the order in which symtop.h has them.
@@ -45,6 +48,8 @@ RateChange = Literal["hurried", "delayed", "if_hurried", "if_delayed"]
 Silence = Literal["angular_impulse", "no_precession", "unchanged", "reversed", "no_effect"]
 VerticalCase = Literal["undefined", "stable", "unstable"]
 ReasonKind = RateChange | Silence | VerticalCase
+LiftKind = Literal["unchanged", "higher", "lower"]
+Fact = Literal["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 SUBJECTS: tuple[Subject, ...] = get_args(Subject)
 RULES: tuple[Rule | None, ...] = (None, *get_args(Rule))
@@ -54,6 +59,8 @@ REASONS: tuple[ReasonKind, ...] = (
     *get_args(Silence),
     *get_args(VerticalCase),
 )
+LIFTS: tuple[LiftKind, ...] = get_args(LiftKind)
+FACTS: tuple[Fact, ...] = get_args(Fact)  # the bits of `symtop_fact`
 VERTICAL = len(REASONS) - len(get_args(VerticalCase))  # from here on the axis is on the vertical
 
 
@@ -141,7 +148,131 @@ class Average:
     spin_reverses: bool
 
 
-def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
+@dataclass(frozen=True, slots=True)
+class Lift:
+    """Rise of a turning point by a kick: what became higher or lower, and by how much (rad)."""
+
+    kind: LiftKind
+    amount: float
+
+
+@dataclass(frozen=True, slots=True)
+class Contradiction:
+    """Facts after a kick that are contrary to the direction in which theta'' changed."""
+
+    rule: Rule
+    subject: Subject
+    facts: tuple[Fact, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class KickVerdict:
+    """Changes by a kick, and the motion that follows.
+
+    `str` of it is the answer to the kick.
+
+    Attributes
+    ----------
+    axis : {"tilted", "vertical"}
+        "vertical" if phi' was undefined before the kick.
+    hold : {"spin_rate", "spin_momentum"} or None
+        The quantity that the kick held; None for an angular impulse.
+    factor, before, after : float or None
+        phi' in rad/s before the kick and after it, and their ratio; None if undefined.
+    motion : str
+        Kind of the motion after the kick.
+    subject, direction, turning_angles
+        As in `Verdict`, after the kick.
+    driven : bool
+        True under friction or an applied torque. Turning angles are those without them.
+    reason : Reason
+        Perry's rule for the kick.
+    highest, lowest : Lift
+        Rise of the highest and of the lowest point, compared with no kick.
+    contradiction : Contradiction or None
+        Facts that are contrary to the change of theta''; None if there are none.
+    average : Average or None
+        As in `Verdict`; None for a driven motion too.
+    """
+
+    axis: Literal["tilted", "vertical"]
+    hold: Hold | None
+    factor: float | None
+    before: float | None
+    after: float | None
+    motion: door.Kind
+    subject: Subject
+    direction: Direction
+    turning_angles: tuple[float, float]
+    driven: bool
+    reason: Reason
+    highest: Lift
+    lowest: Lift
+    contradiction: Contradiction | None
+    average: Average | None
+
+    def __str__(self) -> str:
+        """Return the change, its consequences and Perry's rule, in sentences."""
+        return write("kick", self)
+
+
+def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdict:
+    """Return what a kick changed: its consequences, and Perry's rule.
+
+    Parameters
+    ----------
+    motion : Motion
+        The motion after the kick; it starts from the kicked state.
+    before : State
+        The state at the instant of the kick, without it.
+    hold : {"spin_rate", "spin_momentum"} or None
+        The quantity that the kick held; None for an angular impulse.
+
+    Raises
+    ------
+    ValueError
+        If `hold` is refused.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import (
+    ...     Motion, State, Top, hurry, kick_verdict, regular_precession_rates
+    ... )
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> slow, _ = regular_precession_rates(top, theta=0.5, psi_dot=200.0)
+    >>> before = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
+    >>> answer = kick_verdict(Motion(top, hurry(before)), before, "spin_rate")
+    >>> print(answer)  # doctest: +NORMALIZE_WHITESPACE
+    Precession 6.50 -> 9.10 rad/s. The top rises: theta will stay between 0.437 and 0.500 rad.
+    Perry's rule holds: hurried, theta'' is -49.7 instead of 0 rad/s^2 (9.10 rad/s lies between the
+    regular rates 6.50 and 69.82 rad/s at this spin rate). Compared with no kick, the highest point
+    is 0.063 rad higher and the lowest point unchanged. On average phi' is 6.41 rad/s, 0.157 turns
+    per nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
+    """
+    validate_one(motion, "motion")
+    held = len(HOLDS) if hold is None else HOLDS.index(validate_hold(hold))
+    found = door.judge_kick(motion.pack_with(before), motion.packed_start, held)
+    reason, (low, high) = read_reason(found, hold), found.turning_angles
+    return KickVerdict(
+        axis="vertical" if reason.before is None else "tilted",
+        hold=hold,
+        factor=None if math.isnan(found.factor) else found.factor,
+        before=reason.before,
+        after=reason.after,
+        motion=door.KINDS[found.motion],
+        subject=SUBJECTS[found.subject],
+        direction=DIRECTIONS[found.direction],
+        turning_angles=(low, high),
+        driven=motion.is_driven,
+        reason=reason,
+        highest=Lift(LIFTS[found.highest.kind], found.highest.amount),
+        lowest=Lift(LIFTS[found.lowest.kind], found.lowest.amount),
+        contradiction=_read_contradiction(found.contrary_facts, reason),
+        average=read_average(found.average),
+    )
+
+
+def read_reason(verdict: door.VerdictRecord, hold: Hold | None) -> Reason:
     """Return the reason from the kernel's record of a verdict.
 
     `hold` is None for an angular impulse: a push along the precession holds the spin momentum, and
@@ -165,7 +296,7 @@ def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
     )
 
 
-def read_average(found: AverageRecord) -> Average | None:
+def read_average(found: door.AverageRecord) -> Average | None:
     """Return mean precession and its approximation; None if the mean is undefined."""
     if not math.isfinite(found.turns):
         return None
@@ -176,3 +307,8 @@ def read_average(found: AverageRecord) -> Average | None:
         found.fast_top_rate,
         bool(found.spin_reverses),
     )
+
+
+def _read_contradiction(bits: int, reason: Reason) -> Contradiction | None:
+    facts = tuple(fact for place, fact in enumerate(FACTS) if bits >> place & 1)
+    return Contradiction(reason.rule, reason.subject, facts) if facts and reason.rule else None

@@ -93,7 +93,7 @@ def plan_kick(
         hold = "spin_momentum" if kind == "axle_impulse" else hold
         after = _change_precession(top, state, kind, request[kind], hold)
     _limit_rates(kind, request, after)
-    return Motion(top, after, motion.friction, motion.applied_torque), hold
+    return motion.restart(after), hold
 
 
 def name_kick(request: Mapping[str, Any]) -> str:

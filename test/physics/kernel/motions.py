@@ -11,8 +11,15 @@ from symtop_ros.physics import ExactTimes, Motion
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.door import KINDS
 from symtop_ros.physics.kicks import FACTOR_OF_RATE
-from symtop_ros.physics.rule.kick_effect import FACTS, LIFTS
-from symtop_ros.physics.rule.perry import DIRECTIONS, PLACES, REASONS, RULES, SUBJECTS
+from symtop_ros.physics.rule.perry import (
+    DIRECTIONS,
+    FACTS,
+    LIFTS,
+    PLACES,
+    REASONS,
+    RULES,
+    SUBJECTS,
+)
 
 MOTIONS = read_motions()
 # But for weights of 1e-100 J, of which short times are refused.
