@@ -44,6 +44,7 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -54,7 +55,7 @@ import math
 
 FOLDER = Path(__file__).parent
 Variant = Literal["radians", "degrees"]
-PLACEHOLDER = re.compile(r" ?\{([\w,]+)(?::(\w+))?\}")
+PLACEHOLDER = re.compile(r"\{([\w,]+)(?::(\w+))?\}")
 FORM = re.compile(r"(\d+)(?:to(\d+))?([fger])(deg)?")
 MOST_DIGITS = 17  # which tell any two doubles apart
 SMALLEST_RATE, LARGEST_RATE = 0.1, 1e5  # rad/s; others are written with three digits
@@ -102,13 +103,13 @@ class _Writer:
         return self._fill(f"{name}.{kind}" if kind else name, record)
 
     def _fill(self, key: str, record: Mapping[str, Any]) -> str:
-        def replace(found: "re.Match[str]") -> str:
-            name, form = found.groups()
+        places, end = _split(key, self.variant)
+        pieces = list[str]()
+        for before, name, form in places:
             value = _pick(name, record) if "," in name else record[name]
             text = self._write_value(name, value, form, record)
-            return f" {text}" if text and found[0].startswith(" ") else text
-
-        return PLACEHOLDER.sub(replace, TEMPLATES.get(f"{key}@{self.variant}", TEMPLATES[key]))
+            pieces += (before if text else before.removesuffix(" "), text)
+        return "".join((*pieces, end))
 
     def _write_value(self, name: str, value: Any, form: str, record: Mapping[str, Any]) -> str:
         match value:
@@ -134,21 +135,27 @@ class _Writer:
         return TEMPLATES.get(f"{form}.join", TEMPLATES["join"]).join(texts)
 
     def _fill_numbers(self, key: str, values: Sequence[float]) -> str:
-        template = TEMPLATES.get(f"{key}@{self.variant}", TEMPLATES[key])
-        places = [(values[int(place)], form) for place, form in PLACEHOLDER.findall(template)]
-        wanted, texts = len({value for value, _ in places}), list[str]()
+        places, end = _split(key, self.variant)
+        numbers = [(values[int(place)], form) for _, place, form in places]
+        wanted, texts = len({value for value, _ in numbers}), list[str]()
         for more in range(MOST_DIGITS):
-            found = [write_number(*each, more) for each in places]
+            found = [write_number(*each, more) for each in numbers]
             if len(set(found)) > len(set(texts)):  # the shortest that tell as many apart
                 texts = found
             if len(set(texts)) == wanted:
                 break
         if len(set(texts)) == 1 and f"{key}.same" in TEMPLATES:
             return self._fill(f"{key}.same", {str(n): value for n, value in enumerate(values)})
-        written = iter(texts)
-        return PLACEHOLDER.sub(
-            lambda found: f"{found[0].partition('{')[0]}{next(written)}", template
-        )
+        pieces = (before + text for (before, _, _), text in zip(places, texts, strict=True))
+        return "".join((*pieces, end))
+
+
+@lru_cache(None)
+def _split(key: str, variant: Variant) -> tuple[list[tuple[str, str, str]], str]:
+    """Return a template's placeholders (the text before each, name, form), and its last text."""
+    *parts, end = PLACEHOLDER.split(TEMPLATES.get(f"{key}@{variant}", TEMPLATES[key]))
+    forms = [form or "" for form in parts[2::3]]
+    return list(zip(parts[::3], parts[1::3], forms, strict=True)), end
 
 
 def _pick(names: str, record: Mapping[str, Any]) -> Any:
@@ -180,8 +187,8 @@ def write_number(value: float, form: str, more: int = 0) -> str:
     >>> write_number(0.5, "3to7f"), write_number(0.5, "3to7f", 2)
     ('0.500', '0.50000')
     """
-    least, most, letter, degrees = FORM.fullmatch(form).groups()  # type: ignore[union-attr]
-    digits = min(int(least) + more, int(most or least))
+    least, most, letter, degrees = _read_form(form)
+    digits = min(least + more, most)
     if degrees:
         value = value * 180 / math.pi
     if letter == "r":
@@ -189,3 +196,10 @@ def write_number(value: float, form: str, more: int = 0) -> str:
         letter, digits = ("f", digits) if plain else ("g", digits + 1)
     text = f"{value:.{digits}{letter}}"
     return text.lstrip("-") if float(text) == 0 else text
+
+
+@lru_cache(None)
+def _read_form(form: str) -> tuple[int, int, str, bool]:
+    """Return least and most digits of a format, its letter, and whether it is in degrees."""
+    least, most, letter, degrees = FORM.fullmatch(form).groups()  # type: ignore[union-attr]
+    return int(least), int(most or least), letter, bool(degrees)
