@@ -66,12 +66,14 @@ def _decode_status(reader: Reader, stamp: int) -> Status:
 
 def write_text(value: Any) -> str:
     """Return a plain value, or a sequence of numbers or words, as text."""
+    if isinstance(value, float):
+        return repr(float(value))  # of NumPy's floats, too
     if isinstance(value, bool):
         return str(value).lower()
-    if isinstance(value, Sequence) and not isinstance(value, str):
-        is_words = bool(value) and isinstance(value[0], str)
-        return " ".join(value if is_words else map(repr, map(float, value)))
-    return repr(float(value)) if isinstance(value, float) else str(value)
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        return str(value)
+    is_words = bool(value) and isinstance(value[0], str)
+    return " ".join(value if is_words else map(repr, map(float, value)))
 
 
 def write_fields(prefix: str, fields: Mapping[str, Any]) -> dict[str, str]:
