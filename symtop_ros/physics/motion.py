@@ -114,25 +114,39 @@ class Motion:
         self._kernel = door.KernelMotion(self.packed_start)
 
     def restart(self, start: State) -> "Motion":
-        """Return the motion of the same top from another state, by the same friction and torque.
+        """Return the motion of the same top from another state, under the same friction and torque.
 
         Parameters
         ----------
         start : State
-            Its state at t = 0: one, as those of this motion are.
+            Its state at t = 0.
+
+        Raises
+        ------
+        ValueError
+            If there are many states.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Friction, Motion, State, Top, hurry
+        >>> start = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
+        >>> motion = Motion(Top(0.000228, 0.0000572, 0.068), start, Friction(axial=1e-6))
+        >>> kicked = motion.restart(hurry(motion.at(1.0)))
+        >>> kicked.top is motion.top, kicked.friction.axial
+        (True, 1e-06)
         """
         motion = object.__new__(Motion)
         motion.top, motion.start = self.top, start
         motion.friction, motion.applied_torque = self.friction, self.applied_torque
-        motion.packed_start = self.pack_with(start)
+        motion.packed_start = self.pack_with("start", start)
         motion._kernel = door.KernelMotion(motion.packed_start)
         return motion
 
-    def pack_with(self, start: State) -> bytes:
+    def pack_with(self, name: str, state: State) -> bytes:
         """Return the numbers of the motion from another state, as `symtop_start` has them."""
-        return door.replace_state(
-            self.packed_start, start.given_orientation, start.angular_velocity
-        )
+        require(state.orientation.ndim == 1, name, "one state", state)
+        given, omega = state.given_orientation, state.angular_velocity
+        return door.replace_state(self.packed_start, given, omega)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integration."""

@@ -23,7 +23,8 @@ def test_shapes_follow_those_of_the_times(shape, friction):
 
 
 @pytest.mark.parametrize(
-    "make", [copy.copy, copy.deepcopy, lambda m: pickle.loads(pickle.dumps(m))]
+    "make",
+    [copy.copy, copy.deepcopy, lambda m: pickle.loads(pickle.dumps(m)), lambda m: m.restart(CUSPS)],
 )
 def test_a_copy_shares_no_integration_and_gives_the_same_states(make):
     motion = Motion(ARTICLE, CUSPS, Friction(axial=2e-6))

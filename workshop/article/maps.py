@@ -31,9 +31,7 @@ RELIEF_POINTS = 250  # along a side of a relief, at most
 # theta' = 0: so the motion cannot become higher at one end and lower at the other.
 OUTCOMES = {"higher": "#4f8fca", "lower": "#d9634c", "as before": "#ffffff"}
 HIGHER, LOWER, SAME = range(len(OUTCOMES))
-SAME_ANGLE = (
-    1e-7  # rad: turning angles that differ by less are equal (kernel/rule/verdict.hpp)
-)
+SAME_ANGLE = 1e-7  # rad: turning angles that differ by less are equal (kernel/rule/verdict.hpp)
 COLOR_LIMIT = 0.3  # rad at which the colours end
 
 

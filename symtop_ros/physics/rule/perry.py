@@ -251,7 +251,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
     """
     validate_one(motion, "motion")
     held = len(HOLDS) if hold is None else HOLDS.index(validate_hold(hold))
-    found = door.judge_kick(motion.pack_with(before), motion.packed_start, held)
+    found = door.judge_kick(motion.pack_with("before", before), motion.packed_start, held)
     reason, (low, high) = read_reason(found, hold), found.turning_angles
     return KickVerdict(
         axis="vertical" if reason.before is None else "tilted",
