@@ -27,11 +27,11 @@ from symtop_ros.check.samples import Deviation, check_log
 from symtop_ros.log.reader import (
     DAMAGE,
     MAGIC,
-    MAX_RECORD,
     MESSAGE_START,
     RECORD_START,
     McapFile,
     Places,
+    fits,
     log_errors,
     open_stream,
     unpack_chunk,
@@ -112,7 +112,7 @@ def find_damage(path: Path) -> list[str]:
         size = path.stat().st_size
         while len(head := file.read(RECORD_START.size)) == RECORD_START.size:
             opcode, length = RECORD_START.unpack(head)
-            if length > min(MAX_RECORD, size - file.tell()):
+            if not fits(length, file, size):
                 break  # `McapFile` reports the gap
             found.take(opcode, head, file.read(length), file.tell())
             if opcode == Opcode.FOOTER:

@@ -182,9 +182,9 @@ class McapFile(MessageSource):
         file.seek(offset)
         while len(head := file.read(RECORD_START.size)) == RECORD_START.size:
             opcode, length = RECORD_START.unpack(head)
-            end = file.tell() + length
-            if end > self.size or length > MAX_RECORD:
+            if not fits(length, file, self.size):
                 return
+            end = file.tell() + length
             if opcode in wanted:
                 yield FileRecord(opcode, file.read(length), end)
             file.seek(end)
@@ -197,7 +197,7 @@ class McapFile(MessageSource):
             opcode, length = RECORD_START.unpack(head) if len(head) == RECORD_START.size else (0, 0)
             if opcode in (Opcode.DATA_END, Opcode.FOOTER):
                 return
-            if not opcode or length > min(MAX_RECORD, self.size - file.tell()):
+            if not opcode or not fits(length, file, self.size):
                 place = bisect_right(self._chunk_offsets, start)
                 following = self._chunk_offsets[place : place + 1]
                 self._report_gap(start, *following)
@@ -327,6 +327,11 @@ def _parse(data: bytes, places: Iterable[Span], parsed: Mapping[int, Parse]) -> 
         if opcode == Opcode.MESSAGE and end - begin < MESSAGE_START.size:
             raise DamageError("not a message")
     return descriptions, _messages(data, places)
+
+
+def fits(length: int, file: BinaryIO, size: int) -> bool:
+    """Return True if the rest of a file of a size may begin with a record of a length, in bytes."""
+    return length <= min(MAX_RECORD, size - file.tell())
 
 
 def _messages(data: bytes, places: Iterable[Span]) -> Iterator[Message]:

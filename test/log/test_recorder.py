@@ -59,7 +59,9 @@ def test_a_file_begins_with_the_current_latched_messages(tmp_path):
     recorder.latched[0] = b"holds"
     path = recorder.start({})
     recorder.add(1, 7, b"first")
+    assert recorder.path == path
     recorder.stop()
+    assert recorder.path is None
     assert contents(path) == [("/latched", 7, b"holds"), ("/plain", 7, b"first")]
 
 
