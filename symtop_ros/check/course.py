@@ -96,7 +96,7 @@ class Course:
         # A log that was sorted by time may have events in another order.
         return [number for number in range(before + 1, after) if number not in self._present]
 
-    def holds(self, number: int, stamps: Stamps, in_order: bool = True) -> Mask:
+    def holds(self, number: int, stamps: Stamps, in_order: bool) -> Mask:
         """Return the mask of the stamps at which an event can hold.
 
         If it is not taken for granted that the events are in order, that is at any later stamp.

@@ -3,13 +3,14 @@
 import json
 import math
 import re
+from dataclasses import replace
 
 import pytest
 from simulation.page_runs import KICK, change, find_refusal, list_hostile_runs, make_run, to_json
 
 from symtop_ros.simulation.changes.follow import Act
 from symtop_ros.simulation.changes.timeline import Timeline
-from symtop_ros.simulation.run_file import RunRecorder, read_run, record_run
+from symtop_ros.simulation.run_file import TABLE, RunRecorder, read_run, record_run
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError
 
@@ -18,7 +19,9 @@ SECOND = 1_000_000_000
 
 def test_a_run_without_an_end_ends_with_its_last_event(tmp_path):
     path = tmp_path / "run.json"
-    path.write_text(json.dumps({"format": 1, "events": to_json(make_run())}))
+    events = to_json(make_run())
+    events[1]["request"] = "x" * TABLE["event"]["request"]["length"]  # the longest text
+    path.write_text(json.dumps({"format": 1, "events": events}))
     assert read_run(path)[1] == 2222222212
 
 
@@ -71,6 +74,8 @@ def test_impulses_and_rates_are_kept_as_they_were_asked_for():
     acts = {"angular_impulse": [0.0, 1e-4, -0.1]}, {"precession_rate_change": 0.1}
     for seconds, act in zip((2, 3), acts, strict=True):
         told.act("kick", seconds * SECOND, act)
+    values = {**told.events[1].values, "request.of a later version": "1", "request.hold": ""}
+    told.events[1] = replace(told.events[1], values=values)
     events, _ = record_run(told.events, 3 * SECOND)
     assert [event.act for event in events] == [{}, *acts]
     assert [event.to_json()["hold"] for event in events[1:]] == [None, "spin_rate"]
