@@ -177,6 +177,15 @@ def test_a_motion_must_have_states_for_a_day_of_the_clock():
         Run(**fast, real_time_factor=12.25)
 
 
+def test_a_step_that_leads_to_the_farthest_time_itself_is_refused():
+    run = Run(**{"top.Mgl": 2.0**55})
+    run.ask("pause", True)
+    segment = run.simulation.segment
+    left = segment.motion.farthest_time - segment.begin_time
+    assert not run.ask("step", {"duration": left})[0]
+    assert run.ask("step", {"duration": left - 1.0})[0]
+
+
 def test_an_empty_request_starts_from_the_quaternion_of_the_parameters_and_any_other_from_angles():
     run = Run(initial__orientation=[0.6, 0.0, 0.0, 0.8])
     assert run.ask("set_initial_conditions", {})[0]
