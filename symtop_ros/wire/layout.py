@@ -150,12 +150,12 @@ class Writer:
     """Encode values into a message, one after the other."""
 
     def __init__(self) -> None:
-        self._data = bytearray(HEADER)
+        self._data = bytearray()  # without the header: numbers are aligned from its end on
 
     @property
     def data(self) -> bytes:
         """Encoded message."""
-        return bytes(self._data)
+        return HEADER + self._data
 
     def integer(self, value: int, code: str = "I") -> None:
         """Append an integer; `code` is its format character of the struct module."""
@@ -170,7 +170,7 @@ class Writer:
     def numbers(self, values: Sequence[float], code: str = "d") -> None:
         """Append numbers; `code` is their format character of the struct module."""
         if values:
-            self._data += bytes(-(len(self._data) - len(HEADER)) % struct.calcsize(f"<{code}"))
+            self._data += bytes(-len(self._data) % struct.calcsize(f"<{code}"))
             self._data += struct.pack(f"<{len(values)}{code}", *values)
 
     def strings(self, texts: Iterable[str]) -> None:
@@ -178,7 +178,7 @@ class Writer:
         data = self._data
         for text in texts:
             encoded = text.encode() + b"\0"
-            data += bytes(-(len(data) - len(HEADER)) % 4) + len(encoded).to_bytes(4, "little")
+            data += bytes(-len(data) % 4) + len(encoded).to_bytes(4, "little")
             data += encoded
 
 

@@ -110,6 +110,9 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
     assert [each.ns for each in arrows] == list(ARROWS)
     assert (len(trace.points), trace.type, trace.header.frame_id) == (31, trace.LINE_STRIP, "world")
     assert {each.type for each in arrows} == {trace.ARROW}
+    for arrow in arrows:  # thin beside the top
+        assert 0 < trace.scale.x < arrow.scale.x < arrow.scale.y < LENGTH / 16
+    assert {each.scale.z for each in last.markers} == {trace.scale.y} == {0.0}
     motion, stamp = start_motion(Settings.from_scene("cusps")), trace.header.stamp
     state = motion.at(ExactTimes(stamp.sec * SECOND + stamp.nanosec))
     vectors = [state.to_world(each) for each in ([0.0, 0.0, 1.0], state.angular_velocity)]

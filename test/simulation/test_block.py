@@ -4,13 +4,14 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 
+import numpy as np
 import pytest
 from log_files import ARTICLE, BEGIN, CUSPS
 from simulation.runs import SECOND, Run
 
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
-from symtop_ros.simulation.budget import STEPS_AT_ONCE, ComputeBudget
+from symtop_ros.simulation.budget import STEPS_AT_ONCE, ComputeBudget, StepBudget
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor.imu import Imu, Magnetometer, Rig
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, SENSOR_TOPICS, STATE_TOPICS, Samples
@@ -225,6 +226,12 @@ def test_a_state_that_is_asked_for_in_between_does_not_make_the_factor_negative(
     while not budget.prepare(segment, SECOND) and not budget.shortfall:
         motion.at(0.0)  # moves the integration back to its start
     assert budget.shortfall.factor > 0
+
+
+@pytest.mark.parametrize(("count", "is_reached"), [(10, False), (100, True)])
+def test_a_log_may_take_steps_for_each_of_its_samples(count, is_reached):
+    stamps = np.array([SECOND * k // count for k in range(1, count + 1)])  # 5100 steps in all
+    assert StepBudget().reach_stamps(Segment.begin(fast(), 0, 1.0), stamps) == is_reached
 
 
 def test_another_pace_is_that_of_the_motion_that_follows():
