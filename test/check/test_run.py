@@ -7,7 +7,7 @@ import pytest
 from log_files import Run
 from trials import choose
 
-from symtop_ros.check.course import Course, _list_jumps, _list_times_without_tf
+from symtop_ros.check.course import Course, _list_jumps, _list_times_without_tf, count_missed
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback.main import _check, main
@@ -146,6 +146,16 @@ def test_samples_that_the_node_has_counted_as_missed_are_no_error(memory, counte
     expected = "orientation: 20 samples are missing, most of them between "
     expected += f"{before - PERIOD} and {after + PERIOD} ns; the node has counted 19 as missed"
     assert judge(memory).missing == ([expected] if counted == 19 else [])
+
+
+@pytest.mark.parametrize(("begin", "missed"), [(0, 27), (1, 20)])
+def test_what_was_missed_before_a_log_that_begins_later_is_not_of_it(memory, begin, missed):
+    memory.metadata.clear()  # an older log, which does not say what was missed at its beginning
+    places = memory.places("/diagnostics")
+    for place, count in zip(places, (7, *[27] * len(places[1:])), strict=True):
+        memory.messages[place].data = set_missed(memory.messages[place].data, count)
+    log = TopLog(memory)
+    assert count_missed(log, list(log.events())[begin:]) == missed
 
 
 def test_in_a_log_that_names_no_rate_the_first_samples_say_the_period(tmp_path):

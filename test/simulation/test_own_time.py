@@ -53,6 +53,15 @@ def test_a_step_advances_time_by_its_duration_with_one_sample_at_the_end():
     run.assert_recomputed()
 
 
+def test_another_factor_is_that_of_the_clock():
+    run = start(seconds=0.1)
+    run.change({"real_time_factor": 2.0})
+    before = run.simulation.now
+    run.advance(0.1)
+    assert run.simulation.now - before == SECOND // 5
+    run.assert_recomputed()
+
+
 def test_a_torque_that_ends_in_a_step_acts_until_then():
     run = start(seconds=0.1)
     assert run.ask("pause", True)[0]
