@@ -24,6 +24,7 @@ def _folder(tmp_path, monkeypatch):
     """A folder for output, in which the groups run."""
     for name in ("OUTPUT", "ROOT"):
         monkeypatch.setattr(groups, name, tmp_path)
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # half of the time of a short run
     return tmp_path
 
 

@@ -9,7 +9,6 @@ import groups
 import pytest
 from documents import ROOT
 from programs import execute
-from trials import choose
 
 from symtop_ros.web.join import write_file
 
@@ -42,7 +41,8 @@ def test_help_lists_every_target_of_a_user_and_of_a_change(tmp_path):
     assert named == list_phony("help", folder=tmp_path) - GROUPS - PARTS
 
 
-@pytest.mark.parametrize("present", choose(("no pip", "nothing"), ("no pip",)))
+@pytest.mark.long  # pip is installed; the next test has an environment without a pip, too
+@pytest.mark.parametrize("present", ["no pip", "nothing"])
 def test_an_environment_that_was_not_completed_is_made_again(tmp_path, present):
     if present != "nothing":
         interpreter = tmp_path / ".venv/bin/python"

@@ -17,15 +17,25 @@ from std_srvs.srv import Trigger
 from waiting import TIMEOUT, until
 
 from symtop_ros.client.connection import Connection, UnreachableError
-from symtop_ros.client.main import parse_values
+from symtop_ros.client.main import main, parse_values
 from symtop_ros.programs import BROKEN_PIPE
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
 
 
-def ctl(*arguments):
-    return run("top_ctl", *PATIENT, *arguments, domain=DOMAIN)
+pytestmark = pytest.mark.usefixtures("signals_as_before")
+
+
+@pytest.fixture
+def ctl(capsys, monkeypatch):
+    """A function that runs a command of top_ctl in this process."""
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
+
+    def call(*words):
+        return subprocess.CompletedProcess(words, main([*PATIENT, *words]), *capsys.readouterr())
+
+    return call
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -35,16 +45,16 @@ def node():
 
 
 @pytest.mark.wording
-def test_hurry_prints_the_verdict():
+def test_hurry_prints_the_verdict(ctl):
     assert ctl("start").returncode == 0
-    result = ctl("hurry")
+    result = run("top_ctl", *PATIENT, "hurry", domain=DOMAIN)
     assert result.returncode == 0
     assert "Precession 6.50 -> 9.10 rad/s. The top rises" in result.stdout
     assert result.stderr == ""
 
 
 @pytest.mark.wording
-def test_start_kick_and_state_work_together():
+def test_start_kick_and_state_work_together(ctl):
     assert ctl("start", "theta=1.0", "psi_dot=150", "precession=slow").returncode == 0
     assert ctl("pause").returncode == 0
     assert "Perry's rule" in ctl("kick", "precession_rate=20").stdout
@@ -54,7 +64,7 @@ def test_start_kick_and_state_work_together():
     assert ctl("resume").returncode == 0
 
 
-def test_two_nodes_of_one_name_are_named_next_to_the_answer():
+def test_two_nodes_of_one_name_are_named_next_to_the_answer(ctl):
     with Listener(DOMAIN) as listener:
         names = listener.node.get_fully_qualified_node_names
         with running_node(DOMAIN, "scene:=hurry_slow"):
@@ -66,14 +76,14 @@ def test_two_nodes_of_one_name_are_named_next_to_the_answer():
     assert result.stderr.startswith("top_ctl: 2 nodes have the name /top")
 
 
-def test_a_refusal_is_one_line_and_status_1():
+def test_a_refusal_is_one_line_and_status_1(ctl):
     result = ctl("kick", "precession_rat=9")
     assert result.returncode == 1
     assert result.stderr.startswith("top_ctl: field name must be one of precession_rate,")
     assert result.stderr.count("\n") == 1
 
 
-def test_watch_shows_the_motion():
+def test_watch_shows_the_motion(ctl):
     result = ctl("watch", "--seconds", "1")
     assert result.returncode == 0
     lines = result.stdout.splitlines()
@@ -143,7 +153,7 @@ class Terminal:
 
 
 @pytest.mark.wording
-def test_each_key_sends_its_request():
+def test_each_key_sends_its_request(ctl):
     assert ctl("start").returncode == 0
     terminal = Terminal("keys")
     terminal.wait_for("quit")
@@ -173,8 +183,8 @@ def test_ctrl_c_ends_it_silently(words, shown):
     assert "interrupted" not in terminal.seen
 
 
-def test_without_a_terminal_it_is_refused_in_one_line():
-    result = run("top_ctl", "keys", domain=DOMAIN)
+def test_without_a_terminal_it_is_refused_in_one_line(ctl):
+    result = ctl("keys")
     assert result.returncode == 1
     assert "standard input must be a terminal for keys, got a file or a pipe" in result.stderr
     assert result.stderr.count("\n") == 1
