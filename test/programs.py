@@ -1,4 +1,4 @@
-"""The installed programs as processes in a given ROS domain."""
+"""The installed programs as processes in a given ROS domain, and lines of Python."""
 
 import contextlib
 import os
@@ -83,3 +83,20 @@ def running_node(
     words = command("top_node", *set_parameters(*parameters), "-r", f"__node:={name}")
     with running(words, domain, stdout=None, stderr=None) as node:
         yield node
+
+
+def run_python(
+    code: str, *arguments: object, cwd: Path | None = None, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """Run some lines of Python to their end, in a separate process."""
+    words = [sys.executable, "-c", code, *arguments]
+    return execute(words, timeout=120, cwd=cwd, env={**os.environ, **environment})
+
+
+def run_without(
+    modules: tuple[str, ...], program: str, *arguments: str, cwd: Path
+) -> subprocess.CompletedProcess[str]:
+    """Run a program as where some modules are not installed."""
+    code = f"import sys; sys.modules.update(dict.fromkeys({modules})); "
+    code += f"from symtop_ros import programs; sys.exit(programs.{program}())"
+    return run_python(code, *arguments, cwd=cwd, PYTHONPATH=str(Path(__file__).parents[1]))

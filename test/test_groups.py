@@ -5,6 +5,7 @@ import sys
 
 import groups
 import pytest
+from documents import ROOT
 from programs import execute
 
 TESTS = """
@@ -65,3 +66,12 @@ def test_each_failed_test_is_named_with_the_command_that_runs_it_alone(monkeypat
     alone = [sys.executable, *again[1:]]
     result = execute(alone, cwd=folder)
     assert "1 failed in" in result.stdout
+
+
+def test_make_test_runs_every_test_of_real_time():
+    marked = [
+        path.relative_to(ROOT)
+        for path in ROOT.glob("test/**/test_*.py")
+        if "pytest.mark.realtime" in path.read_text() and path.name != "test_groups.py"
+    ]
+    assert {"/".join(path.parts[:2]) for path in marked} <= set(groups.REALTIME)

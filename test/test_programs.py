@@ -1,7 +1,7 @@
 import os
 
 import pytest
-from python_runs import run_python, run_without
+from programs import run_python, run_without
 
 from symtop_ros import programs
 

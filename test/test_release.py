@@ -46,3 +46,9 @@ def test_the_changelog_has_the_form_of_catkin():
     )
     files = [ROOT / link.partition("#")[0] for link in LINK.findall(text)]
     assert [file for file in files if not file.exists()] == []
+
+
+def test_every_dependency_of_the_package_is_declared():
+    needed = {name for kind, name in DEPENDENCIES if kind == "exec"}
+    declaration = (ROOT / "QUALITY_DECLARATION.md").read_text()
+    assert needed <= set(re.findall(r"`(.+?)`", declaration))

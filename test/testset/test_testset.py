@@ -9,7 +9,7 @@ import shutil
 import numpy as np
 import pytest
 from physics.tops import EPS
-from python_runs import run_python
+from programs import run_python
 from testset.test_scorers import make_table, write
 
 from symtop_ros.physics import Motion, State, Top, point_acceleration

@@ -1,6 +1,11 @@
-"""The page keeps working: errors of a part, refused acts, and a late or early frame."""
+"""The page keeps working: in a frame, without WebGL, after errors, refused acts and random ones."""
 
+import numpy as np
+import pytest
+from web import random_acts
 from web.opened import FEW_FRAMES, UNDRAWN, USUAL
+
+from symtop_ros.physics import Motion, State, Top
 
 
 def test_frames_with_old_stamps_do_not_run_the_time_backwards(open_page):
@@ -46,3 +51,63 @@ def test_a_spin_beyond_what_can_be_computed_waits_and_says_so(opened):
         opened.press("Space")
         opened.wait_for_time(opened.read_events()[-1]["time"] + 0.01)
         assert opened.say("refusal") == ""
+
+
+HALF_HOUR = 1800.0  # s
+
+
+@pytest.mark.parametrize(
+    ("seed", "seconds", "most"),
+    [(49, HALF_HOUR, 4), pytest.param(1749, HALF_HOUR, 10**9, marks=pytest.mark.long)],
+)
+def test_no_act_stops_the_page_and_python_reads_its_run(browser, seed, seconds, most):
+    acts = random_acts.run(browser, seed, seconds, most)
+    print(f"seed {seed}: {acts.total()} acts: {dict(acts)}")
+    assert acts.total() >= min(most, 1000)
+
+
+def test_a_frame_of_another_site_shows_the_top_and_says_that_it_may_not_save(browser, path):
+    tab = browser.new_context(offline=True).new_page()
+    tab.add_init_script(USUAL)
+    tab.set_content("<iframe sandbox='allow-scripts' style='width: 900px; height: 700px'></iframe>")
+    tab.evaluate("(page) => { document.querySelector('iframe').srcdoc = page; }", path.read_text())
+    frame = tab.frame_locator("iframe")
+    frame.locator("[data-answer=rises]").click()
+    frame.locator("#compared").wait_for()
+    assert "higher" in frame.locator("#headline").text_content()
+    frame.locator("#tab-save").click()
+    frame.locator("#save-run").click()
+    said = frame.locator("#refusal").text_content()
+    assert said.startswith("a frame must allow downloads: if no run.json was saved, open the page")
+    tab.context.close()
+
+
+@pytest.mark.parametrize(
+    ("missing", "said"),
+    [
+        ("HTMLCanvasElement.prototype.getContext = () => null", "has no WebGL 2"),
+        ("WebAssembly.instantiate = () => Promise.reject(new Error('forbidden'))", "forbidden"),
+    ],
+)
+def test_a_browser_that_cannot_show_it_says_so(browser, path, missing, said):
+    tab = browser.new_context(offline=True).new_page()
+    tab.add_init_script(missing)
+    tab.goto(path.as_uri())
+    tab.wait_for_selector("#refusal:not([hidden])")
+    assert said in tab.text_content("#refusal")
+    tab.context.close()
+
+
+def test_scripts_find_the_motions_of_python(opened):
+    top, angular_velocity = {"Ix": 0.000228, "Iz": 0.0000572, "Mgl": 0.068}, [1.0, 2.0, 200.0]
+    start = {**top, "orientation": [0.8, 0.6, 0, 0], "angular_velocity": angular_velocity}
+    found = opened.tab.evaluate(
+        """(start) => {
+            const motion = window.symtop.motion(start);
+            return [motion.at(3.7), motion.kind, motion.turning_angles, motion.nutation_period];
+        }""",
+        start,
+    )
+    motion = Motion(Top(**top), State(start["orientation"], angular_velocity))
+    state = np.concatenate(motion.at(3.7).parts).tolist()
+    assert found == [state, motion.kind, list(motion.turning_angles), motion.nutation_period]

@@ -1,11 +1,17 @@
-"""Runs that the page is given: understood as a whole, or refused by the same words as by Python."""
+"""Runs that the page is given: read as Python wrote them, or refused; its own run is kept."""
 
 import json
+from functools import partial
 
 import pytest
+from drawn import Numbers
+from session.test_random_sessions import move
 from simulation.page_runs import change, find_refusal, list_hostile_runs
+from trials import seeds
 from web.opened import USUAL
 
+from symtop_ros.log.top_log import TopLog, open_run
+from symtop_ros.simulation.run_file import record_run, write_run
 from symtop_ros.web.join import write_file
 
 PUSHES = {"axle_impulse": 1e-5, "rate": 20, "number": 20}
@@ -92,3 +98,53 @@ def test_a_run_that_takes_too_long_to_integrate_is_refused_or_reached_later(open
     late = change(2)
     late["events"].append({**late["events"][2], "time": 4e6})
     assert refuse(opened, [late])[0].startswith("events[3]: a time must be within 100000 steps")
+
+
+def has_read(opened, content):
+    run = opened.read_run()
+    return run["events"] == content["events"] and run["end"] >= content["end"]
+
+
+@pytest.mark.parametrize("first", seeds(1, 25))
+def test_the_page_reads_the_runs_of_sessions_as_python_wrote_them(opened, tmp_path, first):
+    for seed in range(12 * first, 12 * (first + 1)):
+        folder = tmp_path / str(seed)
+        folder.mkdir()
+        path, stamp = move(Numbers(seed), folder)
+        content = write_run(*record_run(TopLog(open_run([path])).events(), stamp))
+        content = json.loads(json.dumps(content))
+        opened.drop(content)
+        opened.until(partial(has_read, opened, content))
+
+
+@pytest.mark.parametrize(
+    "fragment", [pytest.param("", marks=pytest.mark.long), "#theta=0.7&psi_dot=180"]
+)
+def test_a_reload_loses_nothing(open_page, fragment):
+    page = open_page(fragment)
+    page.wait_for_time(0.02)
+    page.tab.click("#hurry")
+    page.tab.select_option("#speed", label="1/20 of real time")
+    page.wait_for_time(0.04)
+    page.tab.click("#pause")
+    run, headline = page.read_run(), page.say("headline")
+    page.reload()
+    assert page.read_run() == run
+    assert page.say("headline") == headline
+    assert page.say("pause") == "Run"
+    assert page.tab.input_value("#speed") == "0.05"
+    page.tab.click("#pause")
+    page.wait_for_time(run["end"])
+    page.reload()
+    assert page.say("pause") == "Pause"  # what ran runs on
+    assert page.read_events() == run["events"]
+
+
+def test_a_sleep_of_the_computer_loses_nothing(open_page):
+    page = open_page()
+    page.tab.click("#hurry")
+    events = page.read_events()
+    before, after = page.tab.evaluate("acts.sleep")
+    assert page.read_events() == events
+    assert before < after < before + 0.05  # s: in each frame at most a tenth of 0.1 s
+    page.wait_for_time(after)

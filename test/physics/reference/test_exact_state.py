@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS
-from python_runs import run_python
+from programs import run_python
 
 from symtop_ros.physics import Friction, State, Top, reference
 from symtop_ros.physics.reference import ClosedForm, Inputs, Series, exact_state
