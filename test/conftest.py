@@ -20,13 +20,9 @@ with contextlib.suppress(ModuleNotFoundError):  # the matrix has no Hypothesis
 
 # What programs write for themselves stays in the environment of Python: the home of the user is
 # unchanged.
-for variable, folder in {
-    "ROS_LOG_DIR": "ros_log",
-    "MPLCONFIGDIR": "matplotlib",
-    "XDG_CONFIG_HOME": "config",
-    "XDG_DATA_HOME": "data",
-    "XDG_CACHE_HOME": "cache",
-}.items():
+PLACES = {"ROS_LOG_DIR": "ros_log", "MPLCONFIGDIR": "matplotlib"}
+PLACES |= {f"XDG_{name.upper()}_HOME": name for name in ("config", "data", "cache")}
+for variable, folder in PLACES.items():
     os.environ[variable] = str(Path(sys.prefix, folder))
 
 # Packages that package.xml does not declare: for most of them rosdep has no key. `colcon test`

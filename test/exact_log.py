@@ -53,11 +53,9 @@ def assert_agrees(log: TopLog, samples: int) -> None:
 def read_messages(path: Path) -> list[tuple[str, int, bytes]]:
     """Topic, log time and bytes of each message, in the order of the file."""
     file = McapFile(path)
-    return [
-        (file.channels[message.channel_id].topic, message.log_time, bytes(message.data))
-        for chunk in file.chunks()
-        for message in chunk
-    ]
+    topics = {number: channel.topic for number, channel in file.channels.items()}
+    messages = (message for chunk in file.chunks() for message in chunk)
+    return [(topics[each.channel_id], each.log_time, bytes(each.data)) for each in messages]
 
 
 def stamps_of(path: Path, topic: str = "/orientation") -> list[int]:

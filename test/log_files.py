@@ -119,12 +119,10 @@ class Run:
         return log.path
 
 
-def write_mcap(
-    path: Path,
-    topics: Iterable[tuple[str, str, Iterable[tuple[int, bytes]]]],
-    encoding: str = "cdr",
-    **options: Any,
-) -> Path:
+Sent = Iterable[tuple[str, str, Iterable[tuple[int, bytes]]]]
+
+
+def write_mcap(path: Path, topics: Sent, encoding: str = "cdr", **options: Any) -> Path:
     """Write a log as another program would: names, types, and messages with their log times."""
     messages = []
     with path.open("wb") as stream:

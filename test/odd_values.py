@@ -27,12 +27,8 @@ VALUES = SCALARS | LISTS | st.none()
 
 def deterministic(examples):
     """Settings with the same examples in each run."""
-    return settings(
-        max_examples=examples,
-        derandomize=True,
-        database=None,
-        suppress_health_check=list(HealthCheck),
-    )
+    checks = list(HealthCheck)
+    return settings(max_examples=examples, derandomize=True, suppress_health_check=checks)
 
 
 def assert_one_sentence(text, longest=700):

@@ -10,6 +10,7 @@ from typing import Any
 
 from workshop.load.endings import bound
 
+Done = subprocess.CompletedProcess[str]
 RESOURCE = Path(__file__).parents[1] / "resource"
 # Options of top_ctl: a node that is starting on a loaded machine may take longer than 5 s.
 PATIENT = "--timeout", "60"
@@ -27,11 +28,9 @@ def environment(domain: int) -> dict[str, str]:
     return {**os.environ, "ROS_DOMAIN_ID": str(domain)}
 
 
-def execute(
-    words: Iterable[object], check: bool = False, timeout: float = 60, **options: Any
-) -> subprocess.CompletedProcess[str]:
+def execute(words: Iterable[object], check: bool = False, timeout: float = 60, **more: Any) -> Done:
     """Run a command to its end; its output is text."""
-    options = {"capture_output": True, "text": True, **options}
+    options = {"capture_output": True, "text": True, **more}
     return subprocess.run([*map(str, words)], check=check, timeout=timeout, **options)
 
 
@@ -48,7 +47,7 @@ def find_fault(program: str) -> str:
     return f"{program} --version: {reason}" if done.returncode else ""
 
 
-def run(name: str, *arguments: str, domain: int) -> subprocess.CompletedProcess[str]:
+def run(name: str, *arguments: str, domain: int) -> Done:
     """Run a program to its end."""
     return execute(command(name, *arguments), env=environment(domain))
 
@@ -76,26 +75,20 @@ def set_parameters(*parameters: str) -> list[str]:
 
 
 @contextlib.contextmanager
-def running_node(
-    domain: int, *parameters: str, name: str = "top"
-) -> Iterator[subprocess.Popen[bytes]]:
+def running_node(domain: int, *parameters: str, name: str = "top") -> Iterator[Any]:
     """Run top_node with parameters such as publish_rate:=1000, and end it."""
     words = command("top_node", *set_parameters(*parameters), "-r", f"__node:={name}")
     with running(words, domain, stdout=None, stderr=None) as node:
         yield node
 
 
-def run_python(
-    code: str, *arguments: object, cwd: Path | None = None, **environment: str
-) -> subprocess.CompletedProcess[str]:
+def run_python(code: str, *arguments: object, cwd: Path | None = None, **variables: str) -> Done:
     """Run some lines of Python to their end, in a separate process."""
     words = [sys.executable, "-c", code, *arguments]
-    return execute(words, timeout=120, cwd=cwd, env={**os.environ, **environment})
+    return execute(words, timeout=120, cwd=cwd, env={**os.environ, **variables})
 
 
-def run_without(
-    modules: tuple[str, ...], program: str, *arguments: str, cwd: Path
-) -> subprocess.CompletedProcess[str]:
+def run_without(modules: tuple[str, ...], program: str, *arguments: str, cwd: Path) -> Done:
     """Run a program as where some modules are not installed."""
     code = f"import sys; sys.modules.update(dict.fromkeys({modules})); "
     code += f"from symtop_ros import programs; sys.exit(programs.{program}())"

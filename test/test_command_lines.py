@@ -80,9 +80,7 @@ def replace(word):
 
 
 @pytest.mark.parametrize("arguments", [*list_lines(FAILED), *list_lines(MISUSED)], ids=shorten)
-def test_what_cannot_be_done_or_is_not_allowed_is_status_1_or_2_and_one_line(
-    arguments, capsys, monkeypatch
-):
+def test_what_cannot_be_done_is_status_1_or_2_and_one_line(arguments, capsys, monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
     name, *words = arguments
     status = MAINS[name](words)

@@ -92,9 +92,7 @@ def write_block(language, source, program):
     ("language", "compiler"),
     [("cpp", "g++ -O2 -std=c++17 -Wall -Wextra"), ("rust", "rustc --edition=2021")],
 )
-def test_a_program_of_the_page_compiles_without_a_warning_and_prints_what_it_shows(
-    language, compiler, testset
-):
+def test_a_program_of_the_page_compiles_and_prints_what_it_shows(language, compiler, testset):
     program, *options = compiler.split()
     output = write_block(language, testset / f"top.{language}", program)
     for words in ([program, *options, f"top.{language}", "-o", "top"], ["./top"]):
@@ -113,9 +111,8 @@ def test_the_commands_of_the_page_give_a_first_score(language, name, program, te
         printed = execute(["sh", "-c", line], check=True).stdout
     # the same numbers up to the last of two digits, which the order of sums may change
     assert printed.startswith("cusps: attitude 3.")
-    found, wanted = (
-        [float(each) for each in re.findall(r"\d\.\de[-+]\d\d", text)] for text in (printed, shown)
-    )
+    texts = (re.findall(r"\d\.\de[-+]\d\d", text) for text in (printed, shown))
+    found, wanted = ([*map(float, each)] for each in texts)
     assert found == pytest.approx(wanted, rel=0.1)
 
 

@@ -42,10 +42,8 @@ def run(monkeypatch, commands, *words):
 
 def test_every_group_runs_and_failures_are_summed_up_at_the_end(monkeypatch, capsys, folder):
     failing, good = script("import sys; print('oh'); sys.exit(3)"), script("print('fine')")
-    commands = {
-        "first": [failing, good],
-        **{name: [good] for name in ("second", "third", "fourth", "realtime")},
-    }
+    others = ("second", "third", "fourth", "realtime")
+    commands = {"first": [failing, good], **{name: [good] for name in others}}
     assert run(monkeypatch, commands) == 1
     lines = capsys.readouterr().out.splitlines()
     assert lines[-1] == "5 passed, 1 failed"
@@ -69,9 +67,8 @@ def test_each_failed_test_is_named_with_the_command_that_runs_it_alone(monkeypat
 
 
 def test_make_test_runs_every_test_of_real_time():
+    paths = [path for path in ROOT.glob("test/**/test_*.py") if path.name != "test_groups.py"]
     marked = [
-        path.relative_to(ROOT)
-        for path in ROOT.glob("test/**/test_*.py")
-        if "pytest.mark.realtime" in path.read_text() and path.name != "test_groups.py"
+        each.relative_to(ROOT) for each in paths if "pytest.mark.realtime" in each.read_text()
     ]
     assert {"/".join(path.parts[:2]) for path in marked} <= set(groups.REALTIME)

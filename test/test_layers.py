@@ -98,11 +98,7 @@ CHANGING = {"Markers", "Tables", "Fit", "StepBudget", "Deviation", "Gaps", "Walk
 
 
 def test_records_are_frozen_but_for_those_that_count():
-    classes = [
-        (node.name, ast.unparse(each))
-        for _, node in nodes("")
-        if isinstance(node, ast.ClassDef)
-        for each in node.decorator_list
-    ]
+    found = [node for _, node in nodes("") if isinstance(node, ast.ClassDef)]
+    classes = [(node.name, ast.unparse(each)) for node in found for each in node.decorator_list]
     records = [each for each in classes if each[1].startswith("dataclass")]
     assert {name for name, decorator in records if "frozen=True" not in decorator} == CHANGING

@@ -107,9 +107,8 @@ def test_a_picture_is_what_the_command_draws(number):
 def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, monkeypatch):
     monkeypatch.setattr("workshop.lesson.pictures.picture_of", lambda step: b"picture")
     write_sheets(tmp_path)
-    worksheet, teacher = (
-        html.unescape((tmp_path / f"{name}.html").read_text()) for name in ("worksheet", "teacher")
-    )
+    paths = (tmp_path / "worksheet.html", tmp_path / "teacher.html")
+    worksheet, teacher = (html.unescape(path.read_text()) for path in paths)
     for step in STEPS:
         given = (step.title, step.predict, step.compute, step.question)
         for text in (*given, step.seen, step.answer, *step.commands):

@@ -165,19 +165,8 @@ def pushed_along():
     return numbers
 
 
-NUMBERS = {
-    1: let_go,
-    3: depths,
-    4: slow_root,
-    5: fast_root,
-    6: three_pushes,
-    7: below_and_above,
-    8: hurry_on,
-    10: observer,
-    11: disc,
-    12: one_fall,
-    13: pushed_along,
-}
+NUMBERS = {1: let_go, 3: depths, 4: slow_root, 5: fast_root, 6: three_pushes, 7: below_and_above}
+NUMBERS |= {8: hurry_on, 10: observer, 11: disc, 12: one_fall, 13: pushed_along}
 
 
 @pytest.mark.parametrize(

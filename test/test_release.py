@@ -12,10 +12,8 @@ CHANGELOG = ROOT / "CHANGELOG.rst"
 DEPENDENCIES = re.findall(r"<(\w+)_depend>([\w-]+)</", MANIFEST)
 # Keys that rosdep has for Ubuntu 24.04 (noble) and 26.04 (resolute), with packages of apt: a key
 # for pip alone keeps bloom from releasing.
-KEYS = {
-    f"python3-{name}"
-    for name in ("numpy", "scipy", "yaml", "pytest", "coverage", "hypothesis", "setuptools")
-}
+NAMES = ("numpy", "scipy", "yaml", "pytest", "coverage", "hypothesis", "setuptools")
+KEYS = {f"python3-{name}" for name in NAMES}
 # Packages of ROS 2 itself, in all its distributions from Jazzy on.
 ROS = {
     *("builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "launch", "launch_ros", "nav_msgs"),

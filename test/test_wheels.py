@@ -25,11 +25,8 @@ LIBRARIES = {
     "macosx_11_0_x86_64": "libsymtop.dylib",
     "win_amd64": "libsymtop.dll",
 }
-pytestmark = [
-    pytest.mark.long,
-    pytest.mark.skipif(not (ZIG / "done").exists(), reason="make .venv/zig/done fetches it"),
-    pytest.mark.untraced,
-]
+skip = pytest.mark.skipif(not (ZIG / "done").exists(), reason="make .venv/zig/done fetches it")
+pytestmark = [pytest.mark.long, skip, pytest.mark.untraced]
 CODE_SIGNATURE = 0x1D  # a load command
 # Prints the digest of the states of the first motions of the table that it is given.
 PROGRAM = """
@@ -86,9 +83,7 @@ def test_a_wheel_for_linux_asks_for_no_newer_c_library(wheels, processor):
 
 
 @pytest.mark.parametrize(("processor", "number"), [("arm64", 0x100000C), ("x86_64", 0x1000007)])
-def test_a_wheel_for_macos_has_a_library_for_its_processor_that_it_may_load(
-    wheels, processor, number
-):
+def test_a_wheel_for_macos_has_a_library_that_its_processor_may_load(wheels, processor, number):
     (kernel,) = wheels[f"macosx_11_0_{processor}"].rglob("libsymtop.dylib")
     content, commands, place = kernel.read_bytes(), [], 32
     magic, found, *_, count = struct.unpack("<5I", content[:20])

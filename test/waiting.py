@@ -7,11 +7,10 @@ from typing import Any
 TIMEOUT = 60.0  # s; ends a test that hangs, and is never waited for
 
 
-def until(
-    condition: Callable[[], Any],
-    wait: Callable[[], Any] = lambda: time.sleep(0.02),
-    timeout: float = TIMEOUT,
-) -> Any:
+Act = Callable[[], Any]
+
+
+def until(condition: Act, wait: Act = lambda: time.sleep(0.02), timeout: float = TIMEOUT) -> Any:
     """Wait until a condition holds, and return what it gives; `wait` is called in between."""
     deadline = time.monotonic() + timeout
     while not (found := condition()):

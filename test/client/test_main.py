@@ -12,7 +12,7 @@ import time
 import pytest
 import rclpy
 from node.listener import Listener
-from programs import PATIENT, command, environment, run, running_node
+from programs import PATIENT, command, environment, run, running, running_node
 from std_srvs.srv import Trigger
 from waiting import TIMEOUT, until
 
@@ -94,10 +94,7 @@ def test_watch_shows_the_motion(ctl):
 def test_the_others_know_at_once_that_it_is_gone():
     """Else they would send to it until its lease ends, 20 s later."""
     words = command("top_ctl", "watch")
-    with (
-        Listener(DOMAIN) as listener,
-        subprocess.Popen(words, stdout=subprocess.DEVNULL, env=environment(DOMAIN)) as watching,
-    ):
+    with Listener(DOMAIN) as listener, running(words, DOMAIN) as watching:
         listener.spin_until(lambda: "top_ctl" in listener.node.get_node_names())
         watching.send_signal(signal.SIGINT)
         assert watching.wait(timeout=60) == 0
@@ -122,14 +119,10 @@ class Terminal:
 
     def __init__(self, *words):
         self._descriptor, inner = pty.openpty()
-        self.process = subprocess.Popen(
-            command("top_ctl", *PATIENT, *words),
-            stdin=inner,
-            stdout=inner,
-            stderr=inner,
-            env=environment(DOMAIN),
-            start_new_session=True,
-        )
+        words = command("top_ctl", *PATIENT, *words)
+        options = {"env": environment(DOMAIN), "start_new_session": True}
+        options |= dict.fromkeys(("stdin", "stdout", "stderr"), inner)
+        self.process = subprocess.Popen(words, **options)
         os.close(inner)
         self.seen = ""
 
@@ -217,14 +210,9 @@ def test_a_harmless_question_is_answered_before_the_first_request_to_a_service()
 
 
 def test_words_become_numbers_lists_and_text():
-    assert parse_values(["a=9", "b=-1e-3", "c=0,0,1e-4", "d=[1, 2]", "e=slow", "f=9_1"]) == {
-        "a": 9.0,
-        "b": -1e-3,
-        "c": [0.0, 0.0, 1e-4],
-        "d": [1.0, 2.0],
-        "e": "slow",
-        "f": "9_1",
-    }
+    words = ["a=9", "b=-1e-3", "c=0,0,1e-4", "d=[1, 2]", "e=slow", "f=9_1"]
+    numbers = {"a": 9.0, "b": -1e-3, "c": [0.0, 0.0, 1e-4], "d": [1.0, 2.0]}
+    assert parse_values(words) == {**numbers, "e": "slow", "f": "9_1"}
 
 
 def test_it_is_imported_where_there_are_no_terminals():

@@ -28,10 +28,8 @@ def arrows(tmp_path_factory):
 def test_an_arrow_is_the_vector_of_its_message_in_its_frame(arrows, topic):
     batch = arrows[f"/top/{topic}"]
     (name,) = [each for each in batch.schema.names if each.startswith("geometry_msgs")]
-    for message, vector, frame in zip(
-        *(batch[each].to_pylist() for each in (name, "Arrows3D:vectors", "CoordinateFrame:frame")),
-        strict=True,
-    ):
+    columns = (name, "Arrows3D:vectors", "CoordinateFrame:frame")
+    for message, vector, frame in zip(*(batch[c].to_pylist() for c in columns), strict=True):
         inner = message[0]
         for field in FIELDS.get(topic, ["wrench", "torque"]):
             inner = inner[field]

@@ -55,9 +55,8 @@ class RunningTop(Listener):
             parameters = {"use_sim_time": True, **parameters}
         overrides = [Parameter(k.replace("__", "."), value=v) for k, v in parameters.items()]
         try:
-            self.top = TopNode(
-                context=self.context, cli_args=arguments, parameter_overrides=overrides
-            )
+            named = {"cli_args": arguments, "parameter_overrides": overrides}
+            self.top = TopNode(context=self.context, **named)
         except Exception:
             rclpy.try_shutdown(context=self.context)
             release_domain(self.domain)
@@ -110,16 +109,14 @@ class RunningTop(Listener):
 
     def match(self, publisher: Any) -> None:
         """Wait until publisher and top know each other: an earlier message would be lost."""
-        self.spin_until(
-            lambda: (
-                publisher.get_subscription_count()
-                and any(
-                    each.get_publisher_count()
-                    for each in self.top.subscriptions
-                    if each.topic_name == publisher.topic_name
-                )
-            )
-        )
+
+        def is_matched() -> bool:
+            name = publisher.topic_name
+            ends = [each for each in self.top.subscriptions if each.topic_name == name]
+            is_known = any(each.get_publisher_count() for each in ends)
+            return bool(is_known and publisher.get_subscription_count())
+
+        self.spin_until(is_matched)
 
     @property
     def last_log(self) -> Path:

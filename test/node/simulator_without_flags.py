@@ -9,11 +9,8 @@ def test_pose_and_twist_are_set_and_the_acceleration_is_ignored(client):  # noqa
         client.set_entity(set_pose=True)
     assert 11 in client.features().features  # ENTITY_STATE_SETTING
     turned = {"orientation": {"w": 0.8, "y": 0.6}}
-    state = {
-        "pose": turned,
-        "twist": {"angular": {"z": 5.0}},
-        "acceleration": {"linear": {"x": 1.0}},
-    }
+    turning = {"angular": {"z": 5.0}}
+    state = {"pose": turned, "twist": turning, "acceleration": {"linear": {"x": 1.0}}}
     client.set_state(2)
     assert client.set_entity(state=state).result == OK
     found = client.entity().state

@@ -59,18 +59,10 @@ PARAMETERS: dict[str, Callable[[str], list[Parameter]]] = {
     "the same name": lambda name: [make(name, double_value=0.5)] * MANY,
     "other names": lambda name: [make(f"{name}.{k}", double_value=0.5) for k in range(MANY)],
 }
-NAMED = {
-    "kick": "angular_impulse",
-    "set_initial_conditions": "orientation",
-    "step": "duration",
-    "set_parameters": "initial.orientation",
-    "set_parameters_atomically": "steady_torque",
-}
-ASKED = {
-    "get_parameters": GetParameters,
-    "get_parameter_types": GetParameterTypes,
-    "describe_parameters": DescribeParameters,
-}
+NAMED = {"kick": "angular_impulse", "set_initial_conditions": "orientation", "step": "duration"}
+NAMED |= {"set_parameters": "initial.orientation", "set_parameters_atomically": "steady_torque"}
+ASKED = {"get_parameters": GetParameters, "get_parameter_types": GetParameterTypes}
+ASKED |= {"describe_parameters": DescribeParameters}
 FILTERS = {
     "backtracking": ".?" * 900 + "z",
     "a short one": ".?" * 60 + "z",

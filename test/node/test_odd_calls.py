@@ -21,13 +21,9 @@ from symtop_ros.simulation.settings import PARAMETERS
 
 RATE = 200.0  # Hz
 START = "set_initial_conditions"
-NAMES = {
-    START: START_FIELDS,
-    "kick": KICK_FIELDS,
-    "step": ("duration",),
-    "set_parameters_atomically": (*PARAMETERS, "scene", "none"),
-    "set_parameters": (*PARAMETERS, "scene", "none"),
-}
+NAMES = {START: START_FIELDS, "kick": KICK_FIELDS, "step": ("duration",)}
+SETTERS = ("set_parameters_atomically", "set_parameters")
+NAMES |= dict.fromkeys(SETTERS, (*PARAMETERS, "scene", "none"))
 FIELDS = (  # of a ParameterValue, with their types
     st.tuples(st.just(1), st.just("bool_value"), st.booleans()),
     st.tuples(st.just(2), st.just("integer_value"), st.integers(-(2**63), 2**63 - 1)),
@@ -64,10 +60,8 @@ ACTS = (
     | st.tuples(st.just("pause"), st.booleans())
     | st.tuples(st.just("push"), TORQUES)
 )
-RESTORED = {
-    **{name: PARAMETERS[name].default for name in PARAMETERS if not PARAMETERS[name].read_only},
-    "publish_rate": RATE,
-}
+CHANGEABLE = [name for name in PARAMETERS if not PARAMETERS[name].read_only]
+RESTORED = {name: PARAMETERS[name].default for name in CHANGEABLE} | {"publish_rate": RATE}
 
 
 class Watched(RunningTop):

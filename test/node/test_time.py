@@ -60,9 +60,7 @@ def test_a_clock_that_jumps_and_then_stops_for_good_leaves_the_log_exact(start_t
 
 
 @pytest.mark.realtime
-def test_simulated_time_switched_on_and_off_while_recording_leaves_the_log_exact(
-    start_top, tmp_path
-):
+def test_simulated_time_switched_while_recording_leaves_the_log_exact(start_top, tmp_path):
     run = start_top(realtime=True, publish_rate=100.0, record=tmp_path)
     messages = run.collect(QuaternionStamped, "/top/orientation")
     clock = None
@@ -97,17 +95,10 @@ def test_simulated_time_without_a_clock_is_warned_of_once(start_top, monkeypatch
 
 @pytest.mark.realtime
 @pytest.mark.parametrize("pace", choose(((0.1, 1000.0), (1.0, 200.0), (5.0, 40.0)), ((5.0, 40.0),)))
-def test_a_published_clock_is_the_time_of_the_motion_and_its_log_is_exact(
-    pace, start_top, tmp_path
-):
+def test_a_published_clock_is_the_time_of_the_motion_and_is_logged(pace, start_top, tmp_path):
     factor, rate = pace
-    run = start_top(
-        realtime=True,
-        publish_clock=True,
-        real_time_factor=factor,
-        publish_rate=rate,
-        record=tmp_path,
-    )
+    pace_of = {"real_time_factor": factor, "publish_rate": rate}
+    run = start_top(realtime=True, publish_clock=True, record=tmp_path, **pace_of)
     clocks = run.collect(Clock, "/clock")
     samples = run.collect(QuaternionStamped, "/top/orientation")
 

@@ -130,9 +130,8 @@ def test_a_refusal_is_one_line_and_status_1(
 
 def read_page(path):
     """The run in a page."""
-    found = re.search(
-        r'<script type="application/json" id="top-run">(.*?)</script>', path.read_text()
-    )
+    pattern = r'<script type="application/json" id="top-run">(.*?)</script>'
+    found = re.search(pattern, path.read_text())
     return json.loads(found[1])
 
 

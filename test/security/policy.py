@@ -8,6 +8,7 @@ from rclpy.node import Node
 
 POLICY = Path(__file__).parents[2] / "config" / "sros2_policy.xml"
 RIGHTS = {"publish": "topics", "subscribe": "topics", "reply": "services", "request": "services"}
+KINDS = {"publish": "publisher", "subscribe": "subscriber", "reply": "service", "request": "client"}
 Use = tuple[str, str]  # a right, and the full name of a topic or service
 
 
@@ -22,12 +23,7 @@ def used(node: Node, name: str, as_name: str | None = None) -> set[Use]:
 
     Names in its private namespace are returned for the node name `as_name`.
     """
-    looks = {
-        "publish": node.get_publisher_names_and_types_by_node,
-        "subscribe": node.get_subscriber_names_and_types_by_node,
-        "reply": node.get_service_names_and_types_by_node,
-        "request": node.get_client_names_and_types_by_node,
-    }
+    looks = {right: getattr(node, f"get_{KINDS[right]}_names_and_types_by_node") for right in KINDS}
     names = [(right, each) for right, look in looks.items() for each, _ in look(name, "/")]
     return {(right, each.replace(f"/{name}/", f"/{as_name or name}/")) for right, each in names}
 

@@ -62,11 +62,8 @@ def test_a_viewer_in_the_browser_is_served_to_this_machine_only(program, tmp_pat
 
 def test_no_text_that_can_be_set_from_afar_is_a_path():
     with RunningTop() as run:
-        texts = {
-            name: parameter.value
-            for name, parameter in run.top.get_parameters_by_prefix("").items()
-            if parameter.type_ == Parameter.Type.STRING
-        }
+        found = run.top.get_parameters_by_prefix("").items()
+        texts = {name: each.value for name, each in found if each.type_ == Parameter.Type.STRING}
         assert {"scene", "record.directory", "world_frame"} <= set(texts)
         for name, value in texts.items():
             granted, why = run.change({name: "/tmp/elsewhere"})

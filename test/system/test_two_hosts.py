@@ -16,11 +16,8 @@ from waiting import until
 from symtop_ros.node.host import VARIABLES, distribution_name
 from workshop.load.endings import bound
 
-pytestmark = [
-    pytest.mark.long,
-    pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}"),
-    pytest.mark.untraced,
-]
+skip = pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}")
+pytestmark = [pytest.mark.long, skip, pytest.mark.untraced]
 CONFIG = ROOT / "config"
 WITNESS = Path(__file__).with_name("witness.py")
 RANGE, PEERS = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS"

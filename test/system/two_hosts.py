@@ -68,11 +68,9 @@ class Host:
 
     def __init__(self, address: str) -> None:
         self.address = address
-        self._keeper = subprocess.Popen(
-            ["unshare", "--net", "--mount", "sh", "-c", SHARED_MEMORY],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-        )
+        words = ["unshare", "--net", "--mount", "sh", "-c", SHARED_MEMORY]
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+        self._keeper = subprocess.Popen(words, **pipes)
         assert self._keeper.stdout
         assert self._keeper.stdout.readline() == b"ready\n"
 

@@ -19,6 +19,7 @@ KEYS = (*"hhhddssr ", *(f"{shift}Arrow{way}" for way in ("Up", "Left") for shift
 FIELDS = ("theta", "psi_dot", "phi_dot", "factor", "top.Ix", "top.Mgl", "friction.axial")
 TEXTS = ("0", "1", "pi/3", "-5", "1e-9", "1e20", "-1e99", "1e300", "abc", "")
 SPEEDS = ("1", "0.1", "0.01")
+SIZES = ("width", "height")
 FRAMES = 2  # that follow an act
 
 
@@ -82,9 +83,7 @@ class Trial:
 
     def do_pull(self):
         box = self.page.tab.locator("canvas").bounding_box()
-        x, y = (
-            box[k] + self.rng.random() * box[size] for k, size in (("x", "width"), ("y", "height"))
-        )
+        x, y = (box[k] + self.rng.random() * box[size] for k, size in zip("xy", SIZES, strict=True))
         self.page.drag(x, y, self.rng.uniform(-90, 90), self.rng.uniform(-90, 90))
         self.page.tab.mouse.up()
 

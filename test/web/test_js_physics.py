@@ -27,11 +27,8 @@ def list_cases(count):
         if n % 2:
             Ix = 10 ** rng.uniform(-5, 0)
             Iz = Ix * rng.choice([rng.uniform(0.05, 2.0), 1.0, 2.0])
-            top = {
-                "Ix": Ix,
-                "Iz": Iz,
-                "Mgl": rng.choice([1, 1, -1, 0]) * 10 ** rng.uniform(0, 2) * Ix,
-            }
+            Mgl = rng.choice([1, 1, -1, 0]) * 10 ** rng.uniform(0, 2) * Ix
+            top = {"Ix": Ix, "Iz": Iz, "Mgl": Mgl}
         scale = math.sqrt(abs(top["Mgl"]) / top["Ix"]) or 1.0
         theta = rng.choice([rng.uniform(0, math.pi), 0.5, math.pi / 2, 1e-6])
         spin = rng.choice([0.0, rng.uniform(-10, 10) * scale, 200.0])
@@ -39,12 +36,8 @@ def list_cases(count):
         phi_dot = rng.choice([0.0, rng.uniform(-3, 3) * scale, *slow])
         angles = {"phi": rng.uniform(-3, 3), "theta": theta, "psi": rng.choice([0.0, 1.5, 300.0])}
         rates = {"phi": phi_dot, "theta": rng.choice([0.0, 0.0, scale * 0.1]), "psi": spin}
-        yield {
-            "top": top,
-            "angles": angles,
-            "rates": rates,
-            "kick": make_kick(rng, top, phi_dot, scale),
-        }
+        kick = make_kick(rng, top, phi_dot, scale)
+        yield {"top": top, "angles": angles, "rates": rates, "kick": kick}
 
 
 def make_kick(rng, top, phi_dot, scale):

@@ -78,9 +78,8 @@ def test_the_map_of_kinds_has_the_exact_curve_and_the_present_motion(open_page):
     x, y = (float(dot.get_attribute(name)) for name in ("cx", "cy"))
     read = "all => all.map(e => e.getAttribute('d'))"
     curve = page.tab.locator("#kinds path.cusps").evaluate_all(read)
-    points = np.array(
-        [(float(a), float(b)) for a, b in re.findall(r"[ML]([-\d.]+) ([-\d.]+)", " ".join(curve))]
-    )
+    pairs = re.findall(r"[ML]([-\d.]+) ([-\d.]+)", " ".join(curve))
+    points = np.array(pairs, float)
     assert np.hypot(*(points - (x, y)).T).min() < 3  # 11.325 rad/s is the second cusp
     assert find_boundaries(ARTICLE)[0] == pytest.approx(11.325, abs=1e-3)
 

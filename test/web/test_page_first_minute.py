@@ -35,9 +35,8 @@ def test_a_push_is_predicted_seen_and_compared(new):
     assert not new.tab.is_visible("#hurry")
     new.tab.click("text=It will fall")
     before, motion, time = read_kick(new)
-    assert motion.start.angular_velocity.tolist() == (
-        hurry(before.start, 1.4).angular_velocity.tolist()
-    )
+    hurried = hurry(before.start, 1.4)
+    assert motion.start.angular_velocity.tolist() == hurried.angular_velocity.tolist()
     assert not new.tab.is_visible("#compared")  # it has not been seen yet
     assert new.tab.is_visible("text=In slow motion")
     new.wait_for_time(time + motion.nutation_period / 2)

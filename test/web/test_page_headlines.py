@@ -39,10 +39,8 @@ def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
 @pytest.mark.wording
 def test_a_top_that_at_first_goes_the_other_way_is_said_to_do_both(opened):
     opened.tab.click("text=Pause")
-    for rate, key, words in (
-        (3, "h", "falls at first, but rises"),
-        (9, "d", "rises at first, but"),
-    ):
+    cases = ((3, "h", "falls at first, but rises"), (9, "d", "rises at first, but"))
+    for rate, key, words in cases:
         opened.follow(f"theta=2&psi_dot=200&phi_dot={rate}")
         opened.press(key)
         assert words in opened.say("headline")

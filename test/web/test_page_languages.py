@@ -14,10 +14,8 @@ PHONE = (360, 640)
 
 def test_every_language_is_complete_and_the_command_names_each_fault(capsys):
     assert check_languages(["it"]) == 1
-    assert capsys.readouterr().out.splitlines() == [
-        "it: wording/it.json: is missing",
-        "it: texts/it.json: is missing",
-    ]
+    missing = ["it: wording/it.json: is missing", "it: texts/it.json: is missing"]
+    assert capsys.readouterr().out.splitlines() == missing
     assert check_languages(LANGUAGES) == 0
     assert capsys.readouterr().out == "complete\n"
 
@@ -62,11 +60,8 @@ def test_nothing_is_cut_in_any_window(open_page, language, size):
 
 def is_in(page, language):
     texts = read_texts(language)
-    return (
-        page.tab.get_attribute("html", "lang") == language
-        and page.tab.title() == texts["page.title"]
-        and page.say("hurry") == texts["page.hurry"]
-    )
+    found = (page.tab.get_attribute("html", "lang"), page.tab.title(), page.say("hurry"))
+    return found == (language, texts["page.title"], texts["page.hurry"])
 
 
 def test_the_language_is_that_of_the_address_or_the_choice_or_the_browser(open_page):
@@ -132,8 +127,7 @@ def test_the_program_writes_the_page_in_a_language_of_its_own(open_page, tmp_pat
 
 def test_the_file_of_a_language_is_sorted_as_the_english_one():
     """A translator compares two files line by line; the scenes are at the end."""
-    keys = {
-        each: list(json.loads((TEXTS / f"{each}.json").read_text("utf-8"))) for each in LANGUAGES
-    }
+    texts = {each: (TEXTS / f"{each}.json").read_text("utf-8") for each in LANGUAGES}
+    keys = {each: [*json.loads(text)] for each, text in texts.items()}
     for language in LANGUAGES:
         assert keys[language][: len(keys["en"])] == keys["en"], language

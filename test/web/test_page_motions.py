@@ -102,17 +102,14 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened, tmp_path):
 
 def test_a_disc_on_an_axle_is_that_of_python(opened):
     opened.open_tab("start")
-    shown = [
-        float(opened.tab.input_value(f"[id='field-disc.{name}']"))
-        for name in ("mass", "radius", "distance")
-    ]
+    fields = [f"[id='field-disc.{name}']" for name in ("mass", "radius", "distance")]
+    shown = [float(opened.tab.input_value(field)) for field in fields]
     article = Body.disc(*shown).top
     assert article.moments == pytest.approx((0.000228, 0.0000572, 0.068), rel=1e-5)  # six digits
     opened.follow("scene=toy_gyroscope")
     opened.enter("disc.mass", "0.08")
-    assert opened.read_events()[-1]["top"] == pytest.approx(
-        Body.disc(0.08, 0.026, 0.035).top.moments, rel=1e-14
-    )
+    expected = Body.disc(0.08, 0.026, 0.035).top.moments
+    assert opened.read_events()[-1]["top"] == pytest.approx(expected, rel=1e-14)
     opened.enter("disc.radius", "0")
     assert opened.say("refusal").startswith("its radius (m) must be positive")
     assert len(opened.read_events()) == 3

@@ -55,9 +55,8 @@ class Shown:
         period = self.texts["rows"].get("nutation period")
         if period:
             assert is_rounded(period.split()[0], self.free.nutation_period, 4)
-        if tilts := re.search(
-            f"tilt (?:is between|stays at) ({NUMBER})(?: and ({NUMBER}))? rad", headline
-        ):
+        form = f"tilt (?:is between|stays at) ({NUMBER})(?: and ({NUMBER}))? rad"
+        if tilts := re.search(form, headline):
             low, high = self.free.turning_angles
             assert is_rounded(tilts[1], low), (headline, low)
             assert is_rounded(tilts[2] or tilts[1], high), (headline, high)
@@ -84,14 +83,12 @@ def test_every_number_shown_is_that_of_the_state_drawn(browser, tmp_path, seed, 
 
 def test_the_digits_that_are_shown_start_the_motion_that_is_shown(opened):
     """Tilt, spin and the slow rate are typed again, as fields and buttons show them."""
+    steady = "The top precesses steadily, with its tilt constant at 0.500 rad."
     opened.press("Space")
     for _ in range(2):
         for name, text in (("theta", "0.5"), ("psi_dot", "200"), ("phi_dot", "6.497")):
             opened.enter(name, text)
-            headline = opened.say("headline")
-            assert headline == "The top precesses steadily, with its tilt constant at 0.500 rad.", (
-                name
-            )
+            assert (name, opened.say("headline")) == (name, steady)
     opened.tab.click("#hurry")
     assert " at first" not in opened.say("headline")
     opened.enter("phi_dot", "6.4970")  # another number than the one that is shown

@@ -32,13 +32,8 @@ BROKEN = [
 ]
 NO_RUN = [[], None, 3, "", {}, {"format": 3, "events": []}, {"__proto__": 1}]
 # The kernel and Python have other words for these.
-NO_MOTION = [
-    change(1, orientation=[0, 0, 0, 0]),
-    change(1, orientation=[1, 1, 1, 1]),
-    change(1, top=[1, 3, 1]),
-    change(1, top=[0, 0, 0]),
-    change(1, friction=[-1, 0]),
-]
+NO_MOTION = [change(1, orientation=[number] * 4) for number in (0, 1)]
+NO_MOTION += [change(1, top=[1, 3, 1]), change(1, top=[0, 0, 0]), change(1, friction=[-1, 0])]
 
 
 def get_condition(refusal):
@@ -73,9 +68,7 @@ def test_hostile_runs_are_refused_as_by_python_and_the_present_run_stays(opened,
         pytest.param({"events": 1}, marks=pytest.mark.long),
     ],
 )
-def test_a_run_that_cannot_be_read_ends_no_page_that_remembers_or_holds_it(
-    open_page, tmp_path, run
-):
+def test_a_run_that_cannot_be_read_ends_no_page_that_has_it(open_page, tmp_path, run):
     remembered = f"history.replaceState({{run: {json.dumps(run)}}}, '');"
     saved = tmp_path / "saved.html"
     saved.write_text(write_file(run=run))

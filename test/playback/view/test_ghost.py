@@ -69,9 +69,8 @@ def test_pauses_steps_and_another_real_time_factor_act_on_it(ghost):
 def test_a_parameter_changes_both(ghost):
     ghost, after = ghost
     heavier = Top(ARTICLE.Ix, ARTICLE.Iz, 0.1)
-    ghost.follow(
-        "parameters", after, after.change(2 * SECOND, after.state_at(2 * SECOND), top=heavier)
-    )
+    changed = after.change(2 * SECOND, after.state_at(2 * SECOND), top=heavier)
+    ghost.follow("parameters", after, changed)
     assert ghost.segment.motion.top == heavier
     assert ghost.segment.state_at(2 * SECOND) == BEGIN.state_at(2 * SECOND)
 

@@ -123,10 +123,9 @@ def test_what_a_sensor_feels_is_an_arrow_in_the_world(tmp_path):
     imu = Imu((0.0, 0.0, 0.02), (0.6, 0.0, 0.0, 0.8))
     segment = Segment.begin(Motion(ARTICLE, RUN.start), 0, 1.0, Rig(9.81, imu))
     samples = Samples.at(segment, stamps)
-    columns = {
-        name: Columns(stamps, SAMPLE_TOPICS[name].compute(samples), 1 + np.arange(50))
-        for name in ("orientation", "imu")
-    }
+    numbers = {name: SAMPLE_TOPICS[name].compute(samples) for name in ("orientation", "imu")}
+    counts = 1 + np.arange(50)
+    columns = {name: Columns(stamps, each, counts) for name, each in numbers.items()}
     event = Event.of(0, "start", None, {}, RUN.start, segment)
     file = tmp_path / "sensor.rrd"
     with recording_to(file) as recording:
