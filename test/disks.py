@@ -20,8 +20,3 @@ def mounted(folder: Path, options: str) -> Iterator[Path]:
         yield folder
     finally:
         subprocess.run(["umount", "-l", str(folder)], check=True)
-
-
-def remount(folder: Path, options: str) -> None:
-    """Mount it with other options."""
-    subprocess.run(["mount", "-o", f"remount,{options}", str(folder)], check=True)

@@ -20,16 +20,10 @@ from programs import running
 TIMEOUT = 120.0  # s; ends a test that hangs, and is never waited for
 HELP = "sh test/get_browsers.sh, as root"
 # The scene is drawn by software, and Firefox makes no request.
-FIREFOX_PREFERENCES = {
-    "webgl.force-enabled": True,
-    "webgl.disabled": False,
-    "gfx.webrender.software": True,
-    "browser.shell.checkDefaultBrowser": False,
-    "datareporting.policy.dataSubmissionEnabled": False,
-    "app.update.enabled": False,
-    "network.captive-portal-service.enabled": False,
-    "security.fileuri.strict_origin_policy": True,
-}
+ON = ("webgl.force-enabled", "gfx.webrender.software", "security.fileuri.strict_origin_policy")
+OFF = ("webgl.disabled", "browser.shell.checkDefaultBrowser", "app.update.enabled")
+OFF += ("datareporting.policy.dataSubmissionEnabled", "network.captive-portal-service.enabled")
+FIREFOX_PREFERENCES = dict.fromkeys(ON, True) | dict.fromkeys(OFF, False)
 
 
 def until(driver: Any, condition: str) -> None:

@@ -36,11 +36,9 @@ def old_processor() -> dict[str, str]:
 def list_processors() -> dict[str, dict[str, str]]:
     """Return the variables of each processor, by the name that OpenBLAS has for it."""
     flags = CPUINFO.read_text().split() if CPUINFO.exists() else []
-    processors = {
-        "Nehalem": old_processor(),
-        "Haswell": {"OPENBLAS_CORETYPE": "Haswell", **without_features(*WIDE)},
-        "Zen": {"OPENBLAS_CORETYPE": "Zen", **without_features(*WIDE)},
-    }
+    processors = {"Nehalem": old_processor()}
+    for name in ("Haswell", "Zen"):
+        processors[name] = {"OPENBLAS_CORETYPE": name, **without_features(*WIDE)}
     if "avx512f" in flags:
         processors["SkylakeX"] = {"OPENBLAS_CORETYPE": "SkylakeX"}
     return processors

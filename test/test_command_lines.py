@@ -5,7 +5,6 @@ from importlib import import_module
 
 import pytest
 from odd_values import CONTROL, assert_one_sentence
-from programs import run as run_program
 
 from workshop import main as workshop_main
 from workshop.load.domains import claim_domain
@@ -14,7 +13,6 @@ DOMAIN = claim_domain()
 LONG = "x" * 100_000
 BYTES = "\udcff\udcfe"  # what Python makes of bytes that are no text
 TEXTS = {"CONTROL": CONTROL, "LONG": LONG, "BYTES": BYTES, "NUL": "\0", "NINES": "9" * 5000}
-HEAD = "/**:\n  ros__parameters:\n"
 FOLDERS = {"ctl": "client", "live": "live", "panel": "panel", "replay": "playback"}
 FOLDERS |= {"model": "models", "judge": "judge", "imu": "imu"}
 MAINS = {
@@ -104,19 +102,3 @@ def test_help_is_status_0(name, capsys):
         MAINS[name](["--help"])
     assert end.value.code == 0
     assert capsys.readouterr().out.startswith(f"usage: {name}")
-
-
-@pytest.mark.parametrize(
-    "content",
-    [HEAD + "    a: &a 1.0\n    top: {Ix: *a}\n", HEAD + "    initial: {orientation: 5}\n"],
-    ids=("an alias", "no list"),
-)
-def test_a_parameter_file_that_is_none_ends_the_node_with_one_line(content, tmp_path):
-    path = tmp_path / "odd.yaml"
-    path.write_text(content)
-    result = run_program("top_node", "--ros-args", "--params-file", str(path), domain=DOMAIN)
-    assert result.returncode == 1
-    told = [line for line in result.stderr.splitlines() if line.startswith("top_node: ")]
-    assert len(told) == 1
-    assert_one_sentence(told[0])
-    assert "Traceback" not in result.stderr

@@ -4,7 +4,6 @@ import sys
 from itertools import pairwise
 
 from diagnostic_msgs.msg import DiagnosticArray
-from disks import mounted, remount
 from exact_log import assert_exact, stamps_of
 from geometry_msgs.msg import QuaternionStamped
 from node.listener import Listener
@@ -65,15 +64,15 @@ class Recording:
         assert not any((b - a) % (2 * MS) for a, b in pairwise(stamps_of(path)))
 
 
-def test_a_folder_that_is_read_only_is_refused_until_it_is_not(start_top, tmp_path):
-    with mounted(tmp_path, "ro,size=10m"):
-        recording = Recording(start_top, tmp_path)
-        refusal = f"{UNWRITABLE} {str(tmp_path)!r}: Read-only file system"
-        assert [recording.switch(True) for _ in range(2)] == [refusal] * 2
-        remount(tmp_path, "rw")
-        recording.assert_works()
-        assert recording.errors == []
-        recording.run.top.close()
+def test_what_is_no_folder_is_refused_until_it_is_one(start_top, tmp_path):
+    folder = tmp_path / "logs"
+    folder.touch()
+    recording = Recording(start_top, folder)
+    refusal = f"{UNWRITABLE} {str(folder)!r}: File exists"
+    assert [recording.switch(True) for _ in range(2)] == [refusal] * 2
+    folder.unlink()
+    recording.assert_works()
+    assert recording.errors == []
 
 
 def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_path):

@@ -5,13 +5,27 @@ import sys
 import time
 
 import pytest
-from programs import PATIENT, command, environment, execute, run, running, set_parameters
+from node.listener import Listener
+from odd_values import assert_one_sentence
+from programs import command, environment, execute, run, running, set_parameters
 from trials import choose
 
+from symtop_ros.client.connection import Connection
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
 SIGNALS = signal.SIGHUP, signal.SIGINT, signal.SIGTERM
+HEAD = "/**:\n  ros__parameters:\n"
+FILES = {
+    "alias": "    a: &a 1.0\n    top: {Ix: *a}\n",
+    "no_list": "    initial: {orientation: 5}\n",
+}
+
+
+@pytest.fixture(autouse=True)
+def _strict(monkeypatch):
+    """Deprecations are errors, as some users have it: those of a dependency end no node."""
+    monkeypatch.setenv("PYTHONWARNINGS", "error")
 
 
 def test_help_names_the_scenes():
@@ -29,10 +43,14 @@ def test_help_names_the_scenes():
         ("steady_torque:=[0,0,0.0001]", 1, "got [0,0,0.0001]: write 0.0 for 0"),  # the advice
         ("--ros-args --params-file /nowhere.yaml", 1, "Couldn't parse params file"),
         ("use_sim_time:=7", 1, "use_sim_time"),
+        ("--ros-args --params-file {}/alias.yaml", 1, "alias.yaml"),
+        ("--ros-args --params-file {}/no_list.yaml", 1, "initial.orientation"),
     ],
 )
-def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sentence):
-    words = arguments.split()
+def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sentence, tmp_path):
+    for name, text in FILES.items():
+        (tmp_path / f"{name}.yaml").write_text(HEAD + text)
+    words = arguments.format(tmp_path).split()
     options = set_parameters(*words) if ":=" in arguments else words
     result = run("top_node", *options, domain=DOMAIN)
     assert result.returncode == status
@@ -40,8 +58,8 @@ def test_bad_start_up_ends_with_one_line_and_no_traceback(arguments, status, sen
     assert "Traceback" not in result.stderr
     if status == 1:
         assert ".py" not in result.stderr  # no warning of Python
-        lines = [line for line in result.stderr.splitlines() if line.startswith("top_node: ")]
-        assert len(lines) == 1
+        (line,) = [each for each in result.stderr.splitlines() if each.startswith("top_node: ")]
+        assert_one_sentence(line)
 
 
 @pytest.mark.parametrize("ending", choose(SIGNALS, SIGNALS[:1]))
@@ -68,16 +86,6 @@ def test_signals_again_and_again_do_not_change_the_status(ending):
     assert (node.returncode, rest) == (0, "")
 
 
-def test_a_deprecation_in_a_dependency_ends_no_node(monkeypatch):
-    monkeypatch.setenv("PYTHONWARNINGS", "error")
-    with running(command("top_node", *set_parameters()[:1]), DOMAIN) as node:
-        lines = iter(node.stderr.readline, "")
-        assert any("states are computed" in line for line in lines)
-        node.send_signal(signal.SIGINT)
-        node.communicate(timeout=60)
-    assert node.returncode == 0
-
-
 WITHOUT_MCAP = (
     "import sys; sys.modules['mcap'] = None; "
     "from symtop_ros.programs import top_node; sys.exit(top_node())"
@@ -89,11 +97,12 @@ WAY_OUT = (
 
 
 def test_without_mcap_it_runs_and_refuses_to_record_with_the_way_out():
-    with running([sys.executable, "-c", WITHOUT_MCAP], DOMAIN, stderr=None) as node:
-        assert run("top_ctl", *PATIENT, "hurry", domain=DOMAIN).returncode == 0
-        refused = run("top_ctl", *PATIENT, "record", "on", domain=DOMAIN)
-        assert (refused.returncode, refused.stderr) == (1, f"top_ctl: {WAY_OUT}\n")
-        assert run("top_ctl", *PATIENT, "state", domain=DOMAIN).returncode == 0
+    words = [sys.executable, "-c", WITHOUT_MCAP]
+    with running(words, DOMAIN, stderr=None) as node, Listener(DOMAIN) as user:
+        top = Connection(user.node, timeout=60.0)
+        assert top.request("hurry_precession")[0]
+        assert top.request("record", True) == (False, WAY_OUT)
+        assert top.request("get_state")[0]
     assert node.returncode == 0
 
 

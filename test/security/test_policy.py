@@ -21,13 +21,9 @@ from workshop.load.domains import claim_domain
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
 TIMEOUT = 60.0
-COMMANDS = {
-    **{name: (name,) for name in ("hurry", "reset", "pause", "resume", "state", "watch")},
-    "start": ("start", "theta=0.5"),
-    "kick": ("kick", "precession_rate=9"),
-    "step": ("step", "duration=0.01"),
-    "record": ("record", "on"),
-}
+COMMANDS = {name: (name,) for name in ("hurry", "reset", "pause", "state", "watch")}
+COMMANDS |= {"start": ("start", "theta=0.5"), "kick": ("kick", "precession_rate=9")}
+COMMANDS |= {"step": ("step", "duration=0.01"), "record": ("record", "on")}
 
 
 @contextlib.contextmanager

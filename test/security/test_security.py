@@ -18,12 +18,8 @@ from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
-PROGRAMS = (
-    ("top_node",),
-    ("top_ctl", "state"),
-    ("top_live", "--web"),
-    ("top_panel", "--node", "/top", "--port", "0", "--no-browser"),
-)
+PANEL = ("top_panel", "--node", "/top", "--port", "0", "--no-browser")
+PROGRAMS = (("top_node",), ("top_ctl", "state"), ("top_live", "--web"), PANEL)
 
 
 SECURED = list(product(PROGRAMS, (".", "missing")))

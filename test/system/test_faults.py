@@ -1,7 +1,7 @@
 """Faults of processes: signals at random moments, and a node that is stopped again and again.
 
-The first moment is that of the first line of a program: before that Ctrl-C may show a traceback of
-Python's own start.
+The first moment is that in which a program imports NumPy: before its first line Ctrl-C may show a
+traceback of Python's own start.
 """
 
 import contextlib
@@ -17,10 +17,11 @@ from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact, assert_no_deviation, stamps_of
 from log_files import Run
 from node.listener import Listener
-from node.running_top import facts
+from node.running_top import facts, stamp_of
 from programs import command, running, running_node, set_parameters
 from sensor_msgs.msg import JointState
 from trials import trials
+from waiting import until
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
@@ -36,32 +37,16 @@ RECORDING = ("publish_rate:=1000", "record.enabled:=true")
 SECONDS, ATTEMPTS = 1.0, 2
 
 
-def _wait_for_first_line(process):
-    """Wait until Python's own handler of SIGINT has come and gone.
-
-    One look is not enough: for an instant of its start Python has no handler yet. A look that
-    comes too late for both finds NumPy in memory.
-    """
-    deadline, came = time.monotonic() + TIMEOUT, False
-    while process.poll() is None:
-        handled = _handles_sigint(process.pid)
-        if came > handled or "numpy" in Path(f"/proc/{process.pid}/maps").read_text():
-            return
-        came |= handled
-        assert time.monotonic() < deadline, "the program did not begin in time"
-        time.sleep(0.001)
-
-
-def _handles_sigint(pid):
-    lines = Path(f"/proc/{pid}/status").read_text().splitlines()
-    caught = next(line for line in lines if line.startswith("SigCgt"))
-    return bool(int(caught.split()[1], 16) >> signal.SIGINT - 1 & 1)
+def _wait_for_imports(process):
+    """Wait until a program imports NumPy, which it does after the first line of its own."""
+    maps = Path(f"/proc/{process.pid}/maps")
+    until(lambda: process.poll() is not None or "numpy" in maps.read_text(), lambda: None)
 
 
 def ended_at_random(chance, *words):
     """End a program at a moment of chance; return its exit status and what it wrote to stderr."""
     with running(command(*words), DOMAIN) as process:
-        _wait_for_first_line(process)
+        _wait_for_imports(process)
         time.sleep(chance.uniform(0.0, SECONDS))
         process.send_signal(chance.choice([signal.SIGINT, signal.SIGTERM]))
         _, told = process.communicate(timeout=TIMEOUT)
@@ -140,9 +125,10 @@ def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log
             time.sleep(seconds)
             os.kill(node.pid, signal.SIGCONT)
             listener.spin(chance.uniform(0.0, 0.1))
-        listener.wait_for(diagnostics, 2)
+        resumed = time.time_ns()
+        listener.spin_until(lambda: diagnostics and stamp_of(diagnostics[-1]) > resumed)
         missed = int(facts(diagnostics[-1], "top: pace")["missed"])
-        stamp = diagnostics[-1].header.stamp
+        end = stamp_of(diagnostics[-1])
         asked = time.time_ns()
         angles.clear()
         listener.spin_until(lambda: angles)
@@ -154,8 +140,7 @@ def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log
     # The stamp of the diagnostics is that of the next tick: all before it were published or missed.
     # The start's own stamp: that of the first tick, which a slow start may have missed.
     begin = next(TopLog(McapFile(path)).events()).stamp
-    until = stamp.sec * 1000 * MS + stamp.nanosec
     # Of the first stop, of 1 s, 100 samples are sent late.
-    assert missed == (until - begin) // MS - sum(each < until for each in stamps) > 800
+    assert missed == (end - begin) // MS - sum(each < end for each in stamps) > 800
     assert abs(stamps[-1] - asked) < 5_000 * MS  # where the clock is
     assert_exact(path)

@@ -9,7 +9,7 @@ window.acts = {
   /** Let nothing run for a time in which the clock runs: the ends of the run before and after. */
   async sleep() {
     const before = window.symtop.run().end;
-    const end = performance.now() + 1500;
+    const end = performance.now() + 900;
     while (performance.now() < end) {}
     await window.acts.waitForFrames(3);
     return [before, window.symtop.run().end];
@@ -48,12 +48,10 @@ window.acts = {
     window.lost.loseContext();
   },
 
-  /** Follow an address; the time in ms until what it starts is shown. */
+  /** Follow an address, and wait until what it starts is shown. */
   open(hash) {
     return new Promise((done) => {
-      const begin = performance.now();
-      const end = () => done(performance.now() - begin);
-      const wait = () => requestAnimationFrame(() => requestAnimationFrame(end));
+      const wait = () => requestAnimationFrame(() => requestAnimationFrame(done));
       addEventListener("hashchange", wait, { once: true });
       location.hash = hash;
     });

@@ -25,11 +25,8 @@ def draw_start(rng):
         "theta": rng.choice((0, math.pi, 0.5, rng.uniform(0, math.pi), 10 ** rng.uniform(-100, 0))),
         **rates,
     }
-    optional = {
-        "axial": draw_size(span),
-        "transverse": draw_size(span),
-        "precession": rng.choice(("fast", "slow")),
-    }
+    optional = {"axial": draw_size(span), "transverse": draw_size(span)}
+    optional["precession"] = rng.choice(("fast", "slow"))
     return values | {name: value for name, value in optional.items() if rng.random() < 0.3}
 
 

@@ -132,11 +132,7 @@ class Trial:
 
 
 ACTS = (
-    *["start"] * 6,
-    *["key"] * 6,
-    *["field"] * 4,
-    *["scrub"] * 4,
-    *["run"] * 3,
+    *Counter(start=6, key=6, field=4, scrub=4, run=3).elements(),
     *("scene", "torque", "pull", "speed", "restart", "hostile", "series", "reload"),
     *("save_and_open", "save_and_drop", "lesson"),
 )
