@@ -13,9 +13,8 @@ with contextlib.suppress(ModuleNotFoundError):  # the matrix has no Hypothesis
 
     # No test asserts a time, and an example that waits for the processor is no failure.
     # A folder that cannot be written has no place for a database of examples.
-    settings.register_profile(
-        "untimed", deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow]
-    )
+    profile = {"deadline": None, "database": None}
+    settings.register_profile("untimed", suppress_health_check=[HealthCheck.too_slow], **profile)
     settings.load_profile("untimed")
 
 # What programs write for themselves stays in the environment of Python: the home of the user is

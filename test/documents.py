@@ -7,10 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
-PAGES = [
-    *sorted(ROOT.glob("*.md"), key=lambda path: path.stem != "README"),
-    *sorted(ROOT.glob("docs/*.md")),
-]
+FIRST = sorted(ROOT.glob("*.md"), key=lambda path: path.stem != "README")
+PAGES = [*FIRST, *sorted(ROOT.glob("docs/*.md"))]
 BLOCK = re.compile(r"^ *```(\w+)\n(.*?)^ *```$(?:\n+```text\n(.*?)^```$)?", re.M | re.S)
 DRIVEN = re.compile("friction|torque=")  # the code of a motion whose last digits may differ
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")

@@ -26,11 +26,9 @@ def without_features(*beginnings: str) -> dict[str, str]:
 
 def old_processor() -> dict[str, str]:
     """Return the variables of a processor of 2008: SSE4 in NumPy and OpenBLAS, SSE2 in glibc."""
-    return {
-        "OPENBLAS_CORETYPE": "Nehalem",
-        "GLIBC_TUNABLES": f"glibc.cpu.hwcaps={','.join(GLIBC)}",
-        **without_features(""),
-    }
+    tunables = f"glibc.cpu.hwcaps={','.join(GLIBC)}"
+    less = {"OPENBLAS_CORETYPE": "Nehalem", "GLIBC_TUNABLES": tunables}
+    return less | without_features("")
 
 
 def list_processors() -> dict[str, dict[str, str]]:

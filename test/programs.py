@@ -88,8 +88,7 @@ def run_python(code: str, *arguments: object, cwd: Path | None = None, **variabl
     return execute(words, timeout=120, cwd=cwd, env={**os.environ, **variables})
 
 
-def run_without(modules: tuple[str, ...], program: str, *arguments: str, cwd: Path) -> Done:
-    """Run a program as where some modules are not installed."""
+def write_without(modules: tuple[str, ...], program: str) -> str:
+    """Return the Python that runs a program as where some modules are not installed."""
     code = f"import sys; sys.modules.update(dict.fromkeys({modules})); "
-    code += f"from symtop_ros import programs; sys.exit(programs.{program}())"
-    return run_python(code, *arguments, cwd=cwd, PYTHONPATH=str(Path(__file__).parents[1]))
+    return code + f"from symtop_ros import programs; sys.exit(programs.{program}())"

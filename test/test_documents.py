@@ -32,6 +32,8 @@ pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
 ROS_PAGE = ROOT / "docs/ros.md"
 LAUNCH_FILE = ROOT / "launch/top.launch.py"
+QUOTED = {"fit_imu_record": "truth", "particle_filter": "many"}
+WITH_PYTHON = [page for page in PAGES if blocks(page, "python")]
 PARSED = ("top_panel", "top_live")  # their options are; tests of their own run them
 # These need a network, a shell, or a ROS 2 with security.
 NOT_RUN = (
@@ -57,15 +59,19 @@ def test_links_and_paths_lead_to_files_and_headings(page):
     assert [*broken_links(page)] == []
 
 
-@pytest.mark.parametrize(
-    "page", [page for page in PAGES if blocks(page, "python")], ids=lambda page: page.stem
-)
+@pytest.mark.parametrize("page", WITH_PYTHON, ids=lambda page: page.stem)
 def test_the_python_of_a_page_prints_what_the_page_shows(page):
     variables = {}
     for code, output in blocks(page, "python"):
         with contextlib.redirect_stdout(io.StringIO()) as printed:
             exec(code, variables)
         assert same(printed.getvalue(), output, code), printed.getvalue()
+
+
+@pytest.mark.parametrize(("name", "page"), QUOTED.items())
+def test_a_page_quotes_a_program_of_the_examples_to_the_letter(name, page):
+    _, _, code = (ROOT / f"examples/{name}.py").read_text().partition('"""\n\n')
+    assert f"```python\n{code}```" in (ROOT / f"docs/{page}.md").read_text()
 
 
 @pytest.fixture
@@ -249,10 +255,8 @@ def top():
 def listed(section, kind):
     """Names and types in the first two columns of a table of docs/ros.md."""
     types = {name: row[1] for row in rows(ROS_PAGE, section) for name in names(row[0])}
-    return {
-        (name.replace("~", "/top"), text.split(",")[0].replace("/", f"/{kind}/"))
-        for name, text in types.items()
-    }
+    pairs = ((name.replace("~", "/top"), text.split(",")[0]) for name, text in types.items())
+    return {(name, text.replace("/", f"/{kind}/")) for name, text in pairs}
 
 
 def test_the_topics_of_the_page_on_ros_are_those_of_the_node(top):

@@ -12,6 +12,7 @@ from documents import ROOT
 from node.listener import Listener
 from programs import running_node
 from shown_pictures import assert_same_picture
+from trials import choose
 from waiting import until
 
 from symtop_ros.client import main as client
@@ -95,10 +96,7 @@ def test_the_commands_of_a_step_lead_to_the_motion_of_its_picture(step, tops):
     assert state["kind"] == motion.kind
 
 
-@pytest.mark.parametrize(
-    "number",
-    [1, 8, *(pytest.param(k, marks=pytest.mark.long) for k in (2, 3, 4, 5, 6, 7, 9, 10, 11))],
-)
+@pytest.mark.parametrize("number", choose(range(1, 12), (1, 8)))
 def test_a_picture_is_what_the_command_draws(number):
     drawn = io.BytesIO(picture_of(STEPS[number - 1]))
     assert_same_picture(ROOT / f"docs/lesson/step_{number:02}.png", drawn)

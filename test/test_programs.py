@@ -1,9 +1,11 @@
 import os
 
 import pytest
-from programs import run_python, run_without
+from documents import ROOT
+from programs import run_python, write_without
 
 from symtop_ros import programs
+from symtop_ros.node.host import VARIABLES
 
 pytestmark = pytest.mark.usefixtures("signals_as_before")
 
@@ -29,7 +31,8 @@ ROS = "source a ROS 2, or pip install '.[ros]' in the checkout"
     ],
 )
 def test_a_program_says_what_is_missing(program, missing, remedy, tmp_path):
-    done = run_without((missing,), program, cwd=tmp_path)
+    code = write_without((missing,), program)
+    done = run_python(code, cwd=tmp_path, PYTHONPATH=str(ROOT))
     assert done.returncode == 1
     assert f"{missing} is missing: {remedy}" in done.stderr
 
@@ -39,12 +42,11 @@ def test_a_program_says_what_is_missing(program, missing, remedy, tmp_path):
     [
         ({}, "UDPv4"),
         ({programs.TRANSPORTS: "DEFAULT"}, "DEFAULT"),
-        ({"FASTDDS_DEFAULT_PROFILES_FILE": "mine.xml"}, ""),
-        ({"FASTRTPS_DEFAULT_PROFILES_FILE": "mine.xml"}, ""),
+        *(({name: "mine.xml"}, "") for name in VARIABLES),
     ],
 )
 def test_programs_use_udp_unless_the_user_has_chosen(chosen, transports, monkeypatch):
-    for name in ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE"):
+    for name in VARIABLES:
         monkeypatch.delenv(name, raising=False)
     for name, value in chosen.items():
         monkeypatch.setenv(name, value)

@@ -7,7 +7,7 @@ import time
 import pytest
 from node.listener import Listener
 from odd_values import assert_one_sentence
-from programs import command, environment, execute, run, running, set_parameters
+from programs import command, environment, execute, run, running, set_parameters, write_without
 from trials import choose
 
 from symtop_ros.client.connection import Connection
@@ -16,10 +16,8 @@ from workshop.load.domains import claim_domain
 DOMAIN = claim_domain()
 SIGNALS = signal.SIGHUP, signal.SIGINT, signal.SIGTERM
 HEAD = "/**:\n  ros__parameters:\n"
-FILES = {
-    "alias": "    a: &a 1.0\n    top: {Ix: *a}\n",
-    "no_list": "    initial: {orientation: 5}\n",
-}
+FILES = {"alias": "    a: &a 1.0\n    top: {Ix: *a}\n"}
+FILES["no_list"] = "    initial: {orientation: 5}\n"
 
 
 @pytest.fixture(autouse=True)
@@ -86,10 +84,7 @@ def test_signals_again_and_again_do_not_change_the_status(ending):
     assert (node.returncode, rest) == (0, "")
 
 
-WITHOUT_MCAP = (
-    "import sys; sys.modules['mcap'] = None; "
-    "from symtop_ros.programs import top_node; sys.exit(top_node())"
-)
+WITHOUT_MCAP = write_without(("mcap",), "top_node")
 WAY_OUT = (
     "mcap must be installed for a recording, got none: pip install mcap, on Debian and Ubuntu into "
     "a venv (docs/ros.md, Installing)"

@@ -59,9 +59,8 @@ def asked(capsys, path, *way):
     return status, lines
 
 
-TOO_LONG = (
-    f"{20 * len(STATES)} samples cannot be checked: the motion is too fast or too long to integrate"
-)
+REASON = "the motion is too fast or too long to integrate"
+TOO_LONG = f"{20 * len(STATES)} samples cannot be checked: {REASON}"
 NS, FACTOR, TURNED = "motion.elapsed_ns", "motion.real_time_factor", "motion.orientation"
 BAD_FACTOR, BAD_NS = f"{FACTOR} must be 1e-300 to 1e+06, got ", f"{NS} must be a whole number of ns"
 BAD_SHAPE = "orientation must be of shape (..., 4), got shape"

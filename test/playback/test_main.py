@@ -115,9 +115,7 @@ def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
         (["{run}", "x.mcap", "--mcap", "run.mcap"], "a run of the page must be one file, got 2"),
     ],
 )
-def test_a_refusal_is_one_line_and_status_1(
-    arguments, sentence, log, run_file, tmp_path, capsys, monkeypatch
-):
+def test_a_refusal_is_one_line(arguments, sentence, log, run_file, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     before = set(tmp_path.iterdir())
     assert module.main([each.format(log=log, run=run_file) for each in arguments]) == 1

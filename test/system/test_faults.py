@@ -110,9 +110,7 @@ MS = 1_000_000
 
 @pytest.mark.realtime
 @pytest.mark.parametrize("count", trials(4, 8))
-def test_stopped_again_and_again_at_1000_hz_it_counts_what_is_missed_and_the_log_is_exact(
-    tmp_path, count
-):
+def test_stopped_again_and_again_it_counts_what_is_missed_and_the_log_is_exact(tmp_path, count):
     chance = random.Random(1)
     stops = [1.0, *(chance.uniform(0.02, 0.3) for _ in range(count))]
     folder = f"record.directory:={tmp_path}"

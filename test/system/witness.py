@@ -44,11 +44,8 @@ class Witness(Listener):
 
     def __init__(self) -> None:
         super().__init__(int(os.environ["ROS_DOMAIN_ID"]), "witness")
-        self._samples = {
-            name: self.collect(topic.load_message_class(), f"/top/{name}", DEPTH, raw=True)
-            for name, topic in STATE_TOPICS.items()
-            if name != "tf"
-        }
+        kinds = {n: topic.load_message_class() for n, topic in STATE_TOPICS.items() if n != "tf"}
+        self._samples = {n: self.collect(kinds[n], f"/top/{n}", DEPTH, raw=True) for n in kinds}
         self._events = self.collect(DiagnosticArray, "/top/events", LATCHED)
         self._diagnostics = self.collect(DiagnosticArray, "/diagnostics", 100)
         self._client = self.node.create_client(SetParametersAtomically, "/top/kick")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from colours import perceive
 
+CONTRAST = {"runOnly": ["color-contrast"]}
 TABS = ("push", "history", "view", "save", "lesson")  # the first one is open
 
 
@@ -15,9 +16,7 @@ def check(axe, page, options=None, parts=None):
 
 
 # The dark page has the elements of the light one, in other colours.
-@pytest.mark.parametrize(
-    ("scheme", "options"), [("light", None), ("dark", {"runOnly": ["color-contrast"]})]
-)
+@pytest.mark.parametrize(("scheme", "options"), [("light", None), ("dark", CONTRAST)])
 def test_there_is_no_finding_of_axe(open_page, scheme, options):
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
     page = open_page(color_scheme=scheme)

@@ -239,9 +239,7 @@ def read_well(page):
     return [*heights, curve]
 
 
-@pytest.mark.parametrize(
-    "scene", ["friction", pytest.param("vertical_torque", marks=pytest.mark.long)]
-)
+@pytest.mark.parametrize("scene", choose(("friction", "vertical_torque"), ("friction",)))
 def test_circles_and_energy_are_those_of_a_driven_state_after_waiting_and_a_seek(open_page, scene):
     page = open_page(f"#scene={scene}", script=USUAL + "patches.keepCircles();")
     page.open_charts("well")

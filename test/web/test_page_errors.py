@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from trials import trials
 from web import random_acts
 from web.opened import FEW_FRAMES, UNDRAWN, USUAL
 
@@ -32,9 +33,8 @@ def test_an_error_in_a_part_is_shown_once_and_costs_only_this_part(open_page):
 
 
 def test_a_stored_choice_of_another_version_is_dropped(open_page):
-    stored = (
-        "localStorage.setItem('symtop.free-x', 'speed'); localStorage.setItem('symtop.unit', '');"
-    )
+    store = "localStorage.setItem"
+    stored = f"{store}('symtop.free-x', 'speed'); {store}('symtop.unit', '');"
     opened = open_page(script=stored + USUAL)
     assert opened.tab.input_value("#free-x") == "theta"
     assert opened.tab.input_value("#unit") == "deg"
@@ -56,13 +56,10 @@ def test_a_spin_beyond_what_can_be_computed_waits_and_says_so(opened):
 HALF_HOUR = 1800.0  # s
 
 
-@pytest.mark.parametrize(
-    ("seed", "seconds", "most"),
-    [(49, HALF_HOUR, 4), pytest.param(1749, HALF_HOUR, 10**9, marks=pytest.mark.long)],
-)
-def test_no_act_stops_the_page_and_python_reads_its_run(browser, seed, seconds, most):
-    acts = random_acts.run(browser, seed, seconds, most)
-    print(f"seed {seed}: {acts.total()} acts: {dict(acts)}")
+@pytest.mark.parametrize("most", trials(4, 10**9))
+def test_no_act_stops_the_page_and_python_reads_its_run(browser, most):
+    acts = random_acts.run(browser, 49, HALF_HOUR, most)
+    print(f"{acts.total()} acts: {dict(acts)}")
     assert acts.total() >= min(most, 1000)
 
 

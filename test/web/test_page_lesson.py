@@ -132,6 +132,5 @@ def test_back_is_the_step_before_and_predictions_are_saved_as_a_text(open_page, 
     page.tab.go_back()
     page.until(lambda: page.tab.input_value("#steps").startswith("2."))
     assert page.tab.input_value("#prediction") == "It falls."
-    assert page.save("My predictions", tmp_path).read_text() == (
-        f"The first question: it rises\n2. {STEPS[1].title}: It falls.\n"
-    )
+    text = f"The first question: it rises\n2. {STEPS[1].title}: It falls.\n"
+    assert page.save("My predictions", tmp_path).read_text() == text

@@ -7,7 +7,7 @@ import pytest
 from drawn import Numbers
 from session.test_random_sessions import move
 from simulation.page_runs import change, find_refusal, list_hostile_runs
-from trials import seeds
+from trials import choose, seeds
 from web.opened import USUAL
 
 from symtop_ros.log.top_log import TopLog, open_run
@@ -30,7 +30,9 @@ BROKEN = [
     {**change(1), "end": "soon"},
     {**change(1), "events": change(1)["events"][:1] * 10_001},
 ]
+LINK = "#theta=0.7&psi_dot=180"
 NO_RUN = [[], None, 3, "", {}, {"format": 3, "events": []}, {"__proto__": 1}]
+UNREADABLE = (change(1, kind="__proto__"), change(1, act=None), {"events": 1})
 # The kernel and Python have other words for these.
 NO_MOTION = [change(1, orientation=[number] * 4) for number in (0, 1)]
 NO_MOTION += [change(1, top=[1, 3, 1]), change(1, top=[0, 0, 0]), change(1, friction=[-1, 0])]
@@ -60,15 +62,9 @@ def test_hostile_runs_are_refused_as_by_python_and_the_present_run_stays(opened,
         assert find_refusal(run).startswith("events[1]: ")
 
 
-@pytest.mark.parametrize(
-    "run",
-    [
-        change(1, kind="__proto__"),
-        pytest.param(change(1, act=None), marks=pytest.mark.long),
-        pytest.param({"events": 1}, marks=pytest.mark.long),
-    ],
-)
-def test_a_run_that_cannot_be_read_ends_no_page_that_has_it(open_page, tmp_path, run):
+@pytest.mark.parametrize("number", seeds(1, len(UNREADABLE)))
+def test_a_run_that_cannot_be_read_ends_no_page_that_has_it(open_page, tmp_path, number):
+    run = UNREADABLE[number]
     remembered = f"history.replaceState({{run: {json.dumps(run)}}}, '');"
     saved = tmp_path / "saved.html"
     saved.write_text(write_file(run=run))
@@ -110,9 +106,7 @@ def test_the_page_reads_the_runs_of_sessions_as_python_wrote_them(opened, tmp_pa
         opened.until(partial(has_read, opened, content))
 
 
-@pytest.mark.parametrize(
-    "fragment", [pytest.param("", marks=pytest.mark.long), "#theta=0.7&psi_dot=180"]
-)
+@pytest.mark.parametrize("fragment", choose(("", LINK), (LINK,)))
 def test_a_reload_loses_nothing(open_page, fragment):
     page = open_page(fragment)
     page.wait_for_time(0.02)

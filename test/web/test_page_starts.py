@@ -64,13 +64,10 @@ def get_motion(event):
 
 
 # Scenes in which the last digits decide, and a torque; all in the long tests.
-@pytest.mark.parametrize(
-    "scenes",
-    [("hurry_slow", "vertical_torque"), pytest.param(scene_names(), marks=pytest.mark.long)],
-    ids=["some", "all"],
-)
-def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, scenes):
-    runs = [f"scene={name}" for name in scenes]
+@pytest.mark.parametrize("count", trials(2, 99))
+def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, count):
+    names = dict.fromkeys(["hurry_slow", "vertical_torque", *scene_names()])
+    runs = [f"scene={name}" for name in list(names)[:count]]
     other = open_page()
     for page in (opened, other):  # the headline of a driven motion follows it
         page.press("Space")
