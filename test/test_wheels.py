@@ -18,13 +18,10 @@ from physics.kernel.test_kernel import BITS
 from programs import execute
 
 ZIG, ARM, WINE = (ROOT / ".venv" / name for name in ("zig", "aarch64", "wine"))
-LIBRARIES = {
-    "manylinux_2_28_x86_64": "libsymtop.so",
-    "manylinux_2_28_aarch64": "libsymtop.so",
-    "macosx_11_0_arm64": "libsymtop.dylib",
-    "macosx_11_0_x86_64": "libsymtop.dylib",
-    "win_amd64": "libsymtop.dll",
-}
+LINUX = ("manylinux_2_28_x86_64", "manylinux_2_28_aarch64")
+MACOS = ("macosx_11_0_arm64", "macosx_11_0_x86_64")
+LIBRARIES = dict.fromkeys(LINUX, "libsymtop.so") | dict.fromkeys(MACOS, "libsymtop.dylib")
+LIBRARIES["win_amd64"] = "libsymtop.dll"
 skip = pytest.mark.skipif(not (ZIG / "done").exists(), reason="make .venv/zig/done fetches it")
 pytestmark = [pytest.mark.long, skip, pytest.mark.untraced]
 CODE_SIGNATURE = 0x1D  # a load command
