@@ -46,7 +46,7 @@ test-old-processor: $(VENV)/test
 test-without-ros: $(VENV)/test
 test-examples: $(VENV)/test
 test-lint: $(VENV)/test $(VENV)/js/done
-test-realtime: $(VENV)/test $(VENV)/chromium
+test-realtime: $(VENV)/test
 $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 

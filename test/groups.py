@@ -46,7 +46,7 @@ PAGE = ("test/panel", "test/web")
 WITHOUT_ROS = ("test/simulation", "test/session", "test/log")
 WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_bridge.py")
 ELSEWHERE = (*NODES, "test/physics", *PLAIN, *JUDGE, *PAGE, *WITHOUT_ROS)
-REALTIME = ("test/node", "test/system", "test/load", "test/web")
+REALTIME = ("test/node", "test/system", "test/load")
 # These read no wording: they pass with every template replaced by its key, but for marked ones.
 KEYS = Path(__file__).with_name("keys")
 READ_NO_WORDING = ("nodes", "page", "rest", "plain", "judge", "physics", "without-ros")
@@ -162,7 +162,7 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         "without-ros": [run(*WITHOUT_ROS, options=("-p", "without_ros"))],
         "old-processor": [run(*NUMBERS, *ignore(NOT_TWICE), before=old)],
         "examples": [run("symtop_ros", options=EXAMPLES)],
-        "realtime": [*fetch("chromium"), run("-m", "realtime and not long", *REALTIME)],
+        "realtime": [run("-m", "realtime and not long", *REALTIME)],
     }
 
 
