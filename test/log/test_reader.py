@@ -204,6 +204,12 @@ def test_of_several_tops_one_is_chosen_and_the_others_are_listed(tmp_path):
     assert len(columns_of(TopLog(log.file, "b"))["torque"]) == 50  # the slash may be left out
 
 
+def test_the_top_of_a_file_that_has_lost_its_index_is_found_in_its_chunks(good, tmp_path):
+    log = TopLog(McapFile(save(tmp_path, good.read_bytes()[:-20])))
+    assert len(columns_of(log)["torque"]) == 200
+    assert log.node == "/top"
+
+
 def test_of_several_tops_that_of_the_default_name_is_chosen(tmp_path):
     log = write(tmp_path, {"/a": SECOND_RUN, "/top": SECOND_RUN})
     next(log.events())

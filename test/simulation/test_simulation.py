@@ -73,6 +73,8 @@ def test_the_pace_returns_if_half_of_the_share_is_left(used, factor):
     run = Run()
     simulation = run.simulation
     simulation.apply(simulation.timeline.set_pace(simulation.stamp, 1.0, 0.25))
+    simulation.budget.spent = 8.0
+    simulation.speed_up()  # later, it counts what was spent since then
     simulation.budget.spent += used * SHARE
     simulation.speed_up()
     assert simulation.factor == factor
