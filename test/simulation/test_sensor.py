@@ -171,5 +171,5 @@ def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     assert run.simulation.segment.motion.top.Mgl == 0.05
     only = Run(**{"magnetic_field.enabled": True, "imu.orientation": [0.0, 0.6, 0.0, 0.8]})
     (frame,) = list_fixed_frames("top", only.simulation.settings.imu, None)
-    assert frame.rotation == (0.0, 0.6, 0.0, 0.8)
+    assert (frame.translation, frame.rotation) == ((0.0, 0.0, 0.0), (0.0, 0.6, 0.0, 0.8))
     assert list_fixed_frames("top", Run().simulation.settings.imu, None) == []
