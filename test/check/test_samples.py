@@ -126,7 +126,7 @@ def test_a_sample_that_agrees_with_two_events_belongs_to_the_exact_one():
     """After a jump of the clock back the states of repeated stamps may be the same but rounding."""
     first = start_event(Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0)))
     before, begin, end = first.segment(), 100_000_000, 900_000_000
-    assert (first.stamp, first.state(), first.state_before()) == (0, *[before.motion.start] * 2)
+    assert (first.stamp, first.state(), first.state_before()) == (0, *[before.state_at(0)] * 2)
     start = before.state_at(begin)
     after = Segment.begin(Motion(ARTICLE, start), begin, 1.0)
     request = {"from": str(end), "to": str(begin)}
