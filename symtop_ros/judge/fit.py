@@ -113,8 +113,9 @@ class Fit:
         model = compose(turned, offset.turn_body(self.some.stamps)[known])
         columns[:, :, :3] = to_rotation(compose(world, invert(offset.world))).as_matrix()
         columns[:, :, 3:6] = to_rotation(model).as_matrix()
-        columns[:, :, DELAY] = -to_rotation(world).apply(self._find_speeds(offset)[known])
-        columns[:, :, CLOCK] = columns[:, :, DELAY] * seconds[:, np.newaxis]
+        if {DELAY, CLOCK} & {*free}:
+            columns[:, :, DELAY] = -to_rotation(world).apply(self._find_speeds(offset)[known])
+            columns[:, :, CLOCK] = columns[:, :, DELAY] * seconds[:, np.newaxis]
         columns[:, 2, DRIFT] = seconds
         columns[:, :, SPIN] = to_rotation(turned).as_matrix()[:, :, 2] * seconds[:, np.newaxis]
         if SCALE in free:

@@ -83,7 +83,7 @@ def test_a_clock_that_jumps_back_replaces_what_it_repeats():
     assert (again.states_at(stamps)[0] == first).all()
 
 
-STAMPS = np.arange(SECOND // 2, 9 * SECOND, SECOND // 20)
+STAMPS = np.arange(SECOND // 2, 9 * SECOND, SECOND // 5)
 
 
 @pytest.mark.parametrize(
@@ -109,7 +109,8 @@ def test_a_delay_that_noise_hides_is_not_removed(noise, delay):
     rate = regular_precession_rates(ARTICLE, 0.5, 200.0)[0] + 1e-3
     start = State.from_euler(theta=0.5, phi_dot=rate, psi_dot=200.0)
     truth = Truth([start_event(Motion(ARTICLE, start))])
-    found = explain(Made(delay=0.004, noise=noise).make(truth, STAMPS), truth)
+    estimates = Made(delay=0.004, noise=noise).make(truth, STAMPS)
+    found = explain(estimates, truth, removed=("offset", "delay"))
     assert found.offset.delay == pytest.approx(delay, abs=1e-4)
 
 
