@@ -5,6 +5,7 @@ import io
 
 import pyarrow.parquet as pq
 import pytest
+from matplotlib.figure import Figure
 from PIL import Image
 
 from workshop.article import maps
@@ -24,6 +25,7 @@ def written(tmp_path_factory):
         pytest.MonkeyPatch.context() as patch,
     ):
         patch.setattr(maps, "POINTS", 40)
+        patch.setattr(maps, "Figure", lambda figsize, layout: Figure(figsize))  # quick
         maps.write_maps(folder)
     return folder, printed.getvalue()
 

@@ -62,7 +62,7 @@ def test_a_log_of_an_earlier_version_opens_and_its_samples_agree(capsys):
     assert words == "15 events are of symtop_ros 0.3.0: their words and verdicts are not judged"
 
 
-@pytest.mark.parametrize("number", choose(range(-1, 13), (0, 3, -1)))  # places of events
+@pytest.mark.parametrize("number", choose(range(-1, 13), (0, -1)))  # places of events
 @pytest.mark.parametrize("field", ["top", "motion.stamp"])
 def test_an_event_that_cannot_be_read_is_named_and_the_status_is_1(memory, number, field, capsys):
     message = memory.messages[memory.places("/top/events")[number]]
@@ -72,7 +72,7 @@ def test_an_event_that_cannot_be_read_is_named_and_the_status_is_1(memory, numbe
     assert "top_replay: events: " in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("begin", [0.1, 0.5, 0.9])
+@pytest.mark.parametrize("begin", choose((0.1, 0.5, 0.9), (0.5,)))
 def test_eighty_messages_that_are_missing_in_a_row_are_counted(memory, begin):
     samples = memory.places("/top/orientation")
     place = samples[int(begin * len(samples))]

@@ -46,7 +46,7 @@ def test_a_correct_log_agrees_to_the_last_bit(arguments, tmp_path):
     [(Friction(), 4, False), (Friction(1e-6, 1e-6), 4, True), (Friction(1e-6, 1e-6), 400, False)],
 )
 def test_rounding_is_accepted_in_a_driven_motion_alone(friction, size, is_accepted, tmp_path):
-    run = Run(friction=friction)
+    run = Run(friction=friction, seconds=0.25)
     for place, (name, *_) in enumerate(run.messages):
         if name in LAYOUTS:
             run.change(place, lambda numbers: numbers * (1 + size * EPS))
@@ -57,7 +57,7 @@ def test_rounding_is_accepted_in_a_driven_motion_alone(friction, size, is_accept
 
 @pytest.mark.parametrize("friction", [Friction(), Friction(1e-6, 1e-6)])
 def test_an_angle_that_is_a_turn_off_is_the_same_angle_in_a_driven_motion_alone(friction, tmp_path):
-    run = Run(friction=friction)
+    run = Run(friction=friction, seconds=0.25)
     turn = np.array([2 * np.pi, 0, -2 * np.pi, 0, 0, 0])
     for place in run.places("euler_angles"):
         run.change(place, lambda numbers: numbers + turn)
@@ -88,8 +88,8 @@ def test_one_wrong_number_is_damage_however_small_the_difference(name, change, t
         is_largest = np.abs(numbers) == np.abs(numbers).max()
         return np.where(is_largest, WRONG[change](numbers), numbers)
 
-    run = Run()
-    run.change(run.places(name)[100], falsify)
+    run = Run(seconds=0.5)
+    run.change(run.places(name)[70], falsify)
     deviations = deviations_of(run, tmp_path)
     assert not deviations[name].is_rounding
     found = {other: each.differing for other, each in deviations.items()}

@@ -234,7 +234,7 @@ def test_derivatives_of_stored_motions_are_exact(_, motion, times):
 FLAT_DISCS = (7530, 7826, 8336, 8780)  # next to the vertical
 
 
-@pytest.mark.parametrize("number", [*seeds(6, 400), *FLAT_DISCS])
+@pytest.mark.parametrize("number", [*seeds(4, 400), *FLAT_DISCS])
 def test_motions_next_to_what_is_unstable_are_right_or_refused(number):
     case = make_case(number)
     error = find_error(case)

@@ -108,8 +108,8 @@ class Run:
     def assert_recomputed(self) -> None:
         """Each sample is the one of the last event before it, bit for bit."""
         assert self.sink.samples
+        segments = [event.segment() for event in self.sink.events]
         for stamp, numbers in self.sink.samples:
-            segments = [event.segment() for event in self.sink.events]
             segment = [each for each in segments if each.stamp <= stamp][-1]
             w, x, y, z = segment.state_at(stamp).orientation.tolist()
             assert numbers == [x, y, z, w]

@@ -139,7 +139,7 @@ def test_samples_of_a_minute_and_after_a_year(scene, factor):
 @pytest.mark.parametrize(
     "scene", choose(("cusps", "free", "looping", "through_the_pole"), ["cusps"])
 )
-@pytest.mark.parametrize("count", trials(100, 1000))
+@pytest.mark.parametrize("count", trials(40, 1000))
 def test_samples_after_many_pauses_steps_and_changes(scene, count):
     run, chance = start(scene, publish_rate=30.0), Numbers(1)
     for _ in range(count):

@@ -13,6 +13,8 @@ from physics.kernel.motions import encode, expect, list_many, list_samples, norm
 from programs import execute
 from trials import choose
 
+from symtop_ros.physics.kernel import door
+
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parents[2]
 KERNEL = ROOT / "symtop_ros/physics/kernel"
@@ -25,25 +27,22 @@ needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ comp
 pytestmark = needs_compiler
 
 
-@pytest.fixture(scope="module")
-def kernel(tmp_path_factory):
-    """The kernel compiled once, for all programs."""
-    return compile_kernel(tmp_path_factory.mktemp("kernel"))
+LIBRARY = door.FILE, f"-Wl,-rpath,{door.FILE.parent}"  # that of Python
 
 
 def compile_kernel(folder, *options, **keywords):
     target = folder / "symtop.o"
     command = ["g++", "-std=c++17", *OPTIONS, *STRICT, *options, "-c", KERNEL / "symtop.cpp"]
     subprocess.run([*command, "-o", target], check=True, **keywords)
-    return target
+    return (target,)
 
 
 def build(source, folder, kernel, *options):
-    """Compile a program in C and link it with the kernel; return the path of the program."""
+    """Compile a program in C and link it with files of the kernel; return the path of the program."""
     program, target = folder / source.removesuffix(".c"), folder / "program.o"
     pedantic = ["gcc", *OPTIONS, "-std=c99", "-pedantic", *STRICT, *options]
     subprocess.run([*pedantic, "-c", FOLDER / source, "-o", target], check=True)
-    subprocess.run(["g++", *options, target, kernel, "-o", program], check=True)
+    subprocess.run(["g++", *options, target, *kernel, "-o", program], check=True)
     return program
 
 
@@ -52,16 +51,16 @@ def compare(command, samples, expected):
     assert normalize(np.frombuffer(done.stdout)) == expected
 
 
-def test_a_program_in_c_has_the_bits_of_python_and_needs_none(tmp_path, kernel):
-    program = build("print_motions.c", tmp_path, kernel)
+def test_a_program_in_c_has_the_bits_of_python_and_needs_none(tmp_path):
+    program = build("print_motions.c", tmp_path, LIBRARY)
     compare([program], *list_many())
     libraries = subprocess.check_output(["ldd", program])
     assert b"libc.so" in libraries
     assert b"python" not in libraries
 
 
-def test_whatever_is_passed_is_refused_or_answered(tmp_path, kernel):
-    program = build("hostile.c", tmp_path, kernel)
+def test_whatever_is_passed_is_refused_or_answered(tmp_path):
+    program = build("hostile.c", tmp_path, LIBRARY)
     output = subprocess.check_output([program, "1", "1000"], text=True, timeout=100)
     made = int(re.fullmatch(r"(\d+) of 1000 motions made\n", output)[1])
     assert 100 < made < 900  # many of both kinds
@@ -81,7 +80,7 @@ BAD_ARITHMETIC = 12
 @pytest.mark.parametrize("option", ["-ffast-math", "-Ofast"])
 def test_a_build_with_fast_math_is_refused_in_words(tmp_path, option):
     with pytest.raises(subprocess.CalledProcessError) as failure:
-        compile_kernel(tmp_path, option, stderr=subprocess.PIPE, text=True)
+        compile_kernel(tmp_path, option, "-Wfatal-errors", stderr=subprocess.PIPE, text=True)
     assert "symtop must be compiled without fast-math" in failure.value.stderr
 
 
@@ -104,10 +103,10 @@ def test_options_of_fast_math_before_those_of_the_kernel_change_no_bit(tmp_path)
 @pytest.mark.parametrize(
     "state", ["usual", "upward", "downward", "towards zero", "flushed", "zeros"]
 )
-def test_a_thread_that_rounds_otherwise_gets_a_status_and_no_state(tmp_path, kernel, state):
+def test_a_thread_that_rounds_otherwise_gets_a_status_and_no_state(tmp_path, state):
     if state in ("flushed", "zeros") and platform.machine() != "x86_64":
         pytest.skip("set by a register of x86")
-    assert run_sound(tmp_path, kernel, state) == {0 if state == "usual" else BAD_ARITHMETIC}
+    assert run_sound(tmp_path, LIBRARY, state) == {0 if state == "usual" else BAD_ARITHMETIC}
 
 
 def run_sound(folder, kernel, state):
@@ -136,8 +135,8 @@ def test_sanitizers_find_nothing_in_fifty_thousand_hostile_calls_or_in_ordinary_
 
 
 @pytest.mark.parametrize("options", choose(((), ("-g", "-fsanitize=thread")), ((),)))
-def test_threads_that_share_motions_get_the_same_bits_and_do_not_race(tmp_path, kernel, options):
-    watched = compile_kernel(tmp_path, *options) if options else kernel
+def test_threads_that_share_motions_get_the_same_bits_and_do_not_race(tmp_path, options):
+    watched = compile_kernel(tmp_path, *options) if options else LIBRARY
     program = build("shared.c", tmp_path, watched, "-pthread", *options)
     done = execute([program], timeout=600)
     assert (done.returncode, done.stderr) == (0, "")

@@ -150,7 +150,7 @@ def test_options_of_a_project_that_change_bits_are_overruled(shared, flags, drop
     options = [f"-DBUILD_SHARED_LIBS={shared}", f"-DCMAKE_CXX_FLAGS={flags}"]
     configure_and_build(drop_in, tmp_path, *options)
     (library,) = (path for path in tmp_path.glob("libsymtop.*") if not path.is_symlink())
-    program = build("print_motions.c", tmp_path, library, f"-Wl,-rpath,{tmp_path}")
+    program = build("print_motions.c", tmp_path, (library, f"-Wl,-rpath,{tmp_path}"))
     compare([program], *list_many())
 
 

@@ -167,7 +167,7 @@ def test_a_torque_of_which_the_square_is_zero_turns_the_top(top, omega, torque, 
     assert state.orientation[1] == pytest.approx(turned, rel=1e-15)  # torque t^2/(4 Ix)
 
 
-@pytest.mark.parametrize("seed", seeds(5, 100))
+@pytest.mark.parametrize("seed", seeds(2, 100))
 def test_weak_motions_are_finite_and_have_norm_one(seed):
     rng = Numbers(seed)
     for _ in range(CASES):
