@@ -48,9 +48,10 @@ def test_a_flipped_bit_anywhere_is_found(log, tmp_path, seed):
         assert find_all(path), (place, bit)
 
 
-@pytest.mark.parametrize(
-    "opcode", [Opcode.MESSAGE_INDEX, Opcode.DATA_END, Opcode.FOOTER, Opcode.STATISTICS]
-)
+OPCODES = [Opcode.MESSAGE_INDEX, Opcode.DATA_END, Opcode.FOOTER, Opcode.STATISTICS]
+
+
+@pytest.mark.parametrize("opcode", OPCODES)
 def test_a_flipped_bit_in_each_kind_of_record_is_found(log, tmp_path, opcode):
     rng, path = random.Random(4), tmp_path / "run.mcap"
     records = [(begin, end) for kind, begin, end in list_records(log) if kind == opcode]

@@ -21,19 +21,19 @@ def deviations_of(run, folder):
     return check_log(TopLog(McapFile(run.write(folder))))
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        {"start": State.from_euler(theta=0.5, psi_dot=200.0)},
-        {"top": Top(2e-4, 3e-4, -0.05), "start": State.from_euler(theta=2, phi_dot=3, psi_dot=-40)},
-        {"top": Top(2e-4, 1e-4, 0.0), "start": State.from_euler(theta=1, phi_dot=3, psi_dot=40)},
-        # a disc in its pivot that has weight: no body, of which the force is known, is like that
-        {"top": Top(2e-4, 4e-4, 0.05), "start": State.from_euler(theta=0.5, psi_dot=100.0)},
-        # on the vertical phi' means nothing
-        {"start": State.from_euler(theta=0, theta_dot=1, psi_dot=60), "hurried": False},
-        {"friction": Friction(2e-6, 1e-5), "torque": (1e-4, 0.0, 2e-4), "seconds": 4.0},
-    ],
-)
+RUNS = [
+    {"start": State.from_euler(theta=0.5, psi_dot=200.0)},
+    {"top": Top(2e-4, 3e-4, -0.05), "start": State.from_euler(theta=2, phi_dot=3, psi_dot=-40)},
+    {"top": Top(2e-4, 1e-4, 0.0), "start": State.from_euler(theta=1, phi_dot=3, psi_dot=40)},
+    # a disc in its pivot that has weight: no body, of which the force is known, is like that
+    {"top": Top(2e-4, 4e-4, 0.05), "start": State.from_euler(theta=0.5, psi_dot=100.0)},
+    # on the vertical phi' means nothing
+    {"start": State.from_euler(theta=0, theta_dot=1, psi_dot=60), "hurried": False},
+    {"friction": Friction(2e-6, 1e-5), "torque": (1e-4, 0.0, 2e-4), "seconds": 4.0},
+]
+
+
+@pytest.mark.parametrize("arguments", RUNS)
 def test_a_correct_log_agrees_to_the_last_bit(arguments, tmp_path):
     run = Run(**arguments)
     for name, deviation in deviations_of(run, tmp_path).items():
@@ -41,10 +41,11 @@ def test_a_correct_log_agrees_to_the_last_bit(arguments, tmp_path):
         assert deviation.samples == run.seconds * run.rate
 
 
-@pytest.mark.parametrize(
-    ("friction", "size", "is_accepted"),
-    [(Friction(), 4, False), (Friction(1e-6, 1e-6), 4, True), (Friction(1e-6, 1e-6), 400, False)],
-)
+NONE, WEAK = Friction(), Friction(1e-6, 1e-6)
+SIZES = [(NONE, 4, False), (WEAK, 4, True), (WEAK, 400, False)]
+
+
+@pytest.mark.parametrize(("friction", "size", "is_accepted"), SIZES)
 def test_rounding_is_accepted_in_a_driven_motion_alone(friction, size, is_accepted, tmp_path):
     run = Run(friction=friction, seconds=0.25)
     for place, (name, *_) in enumerate(run.messages):
@@ -55,14 +56,13 @@ def test_rounding_is_accepted_in_a_driven_motion_alone(friction, size, is_accept
         assert deviation.is_rounding is is_accepted
 
 
-@pytest.mark.parametrize("friction", [Friction(), Friction(1e-6, 1e-6)])
+@pytest.mark.parametrize("friction", [NONE, WEAK])
 def test_an_angle_that_is_a_turn_off_is_the_same_angle_in_a_driven_motion_alone(friction, tmp_path):
     run = Run(friction=friction, seconds=0.25)
     turn = np.array([2 * np.pi, 0, -2 * np.pi, 0, 0, 0])
     for place in run.places("euler_angles"):
         run.change(place, lambda numbers: numbers + turn)
-    is_driven = friction != Friction()
-    assert deviations_of(run, tmp_path)["euler_angles"].is_rounding == is_driven
+    assert deviations_of(run, tmp_path)["euler_angles"].is_rounding == (friction is WEAK)
 
 
 @pytest.mark.parametrize("later", [20, 100_000])  # messages; some samples, and all of them

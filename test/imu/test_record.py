@@ -54,9 +54,10 @@ def test_the_record_agrees_with_differences_of_50_digits(sample):
         assert error < 4e-16  # the rounding of the state, and of a product
 
 
-@pytest.mark.parametrize(
-    ("rate", "points"), [(1000.0, 9), pytest.param(30.0, 22, marks=pytest.mark.long)]
-)  # 1e-18 of the integrals
+RATES = [(1000.0, 9), pytest.param(30.0, 22, marks=pytest.mark.long)]  # 1e-18 of the integrals
+
+
+@pytest.mark.parametrize(("rate", "points"), RATES)
 def test_means_are_the_integrals_over_the_interval(rate, points):
     record = record_imu(MOTION, replace(SENSOR, rate=rate), 1.0, average=True)
     k = 7

@@ -86,14 +86,14 @@ def test_a_clock_that_jumps_back_replaces_what_it_repeats():
 STAMPS = np.arange(SECOND // 2, 9 * SECOND, SECOND // 5)
 
 
-@pytest.mark.parametrize(
-    ("scene", "delay", "rate"),
-    [
-        pytest.param("regular_precession", 0.0, 0.01, marks=pytest.mark.long),
-        ("conical_pendulum", 0.007, 1e-4),
-        ("sleeping", 0.007, 0.0),
-    ],
-)
+STEADY = [
+    pytest.param("regular_precession", 0.0, 0.01, marks=pytest.mark.long),
+    ("conical_pendulum", 0.007, 1e-4),
+    ("sleeping", 0.007, 0.0),
+]
+
+
+@pytest.mark.parametrize(("scene", "delay", "rate"), STEADY)
 def test_a_steady_motion_hides_the_delay_but_not_the_drift(scene, delay, rate):
     truth = scene_truth(scene)
     found = explain(Made(delay=delay, drift=rate).make(truth, STAMPS), truth)
@@ -161,10 +161,10 @@ def test_the_nodes_own_attitude_is_exact_while_it_runs():
         assert " estimates: attitude " in done.stdout
 
 
-@pytest.mark.parametrize(
-    "wrong",
-    [{"stamp": "0"}, {"stamp": None}, {"name": 3}, {"values": None}, {"values": {"top": 3}}],
-)
+WRONG = [{"stamp": "0"}, {"stamp": None}, {"name": 3}, {"values": None}, {"values": {"top": 3}}]
+
+
+@pytest.mark.parametrize("wrong", WRONG)
 def test_events_of_wrong_types_are_refused(wrong, tmp_path):
     path = tmp_path / "events.json"
     event = asdict(start_event(Motion(ARTICLE, CUSPS))) | wrong

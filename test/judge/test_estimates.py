@@ -11,22 +11,21 @@ from symtop_ros.judge.tables import read_table
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.messages import TRANSFORM
 
+DAMAGED = [
+    ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z.* header nothing"),
+    ("t,w,x,y\n", "got the header t,w,x,y"),
+    ("t,w,x,y,z\n0,1,0,0,none\n", "line 2 of .* must consist of numbers"),
+    ("t,w,x,y,z\n0,1,0,0\n", "line 2 of .* must have all columns, got 0,1,0,0"),
+    ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a table|must consist of numbers"),
+    ("stamp,w,x,y,z\n0.5,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+    ("t,w,x,y,z\n1_0,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+    ("stamp,w,x,y,z\n1_0,1,0,0,0\n", "line 2 of .* must consist of numbers"),
+    ("t,w,x,y,z\n0,1_0,0,0,0\n", "line 2 of .* must consist of numbers"),
+    (" ".join("1" * 12) + "\n", "must have times, got poses of KITTI"),
+]
 
-@pytest.mark.parametrize(
-    ("text", "reason"),
-    [
-        ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z.* header nothing"),
-        ("t,w,x,y\n", "got the header t,w,x,y"),
-        ("t,w,x,y,z\n0,1,0,0,none\n", "line 2 of .* must consist of numbers"),
-        ("t,w,x,y,z\n0,1,0,0\n", "line 2 of .* must have all columns, got 0,1,0,0"),
-        ("t,w,x,y,z\n1e999,1,0,0,0,\n\0", "line 3|not a table|must consist of numbers"),
-        ("stamp,w,x,y,z\n0.5,1,0,0,0\n", "line 2 of .* must consist of numbers"),
-        ("t,w,x,y,z\n1_0,1,0,0,0\n", "line 2 of .* must consist of numbers"),
-        ("stamp,w,x,y,z\n1_0,1,0,0,0\n", "line 2 of .* must consist of numbers"),
-        ("t,w,x,y,z\n0,1_0,0,0,0\n", "line 2 of .* must consist of numbers"),
-        (" ".join("1" * 12) + "\n", "must have times, got poses of KITTI"),
-    ],
-)
+
+@pytest.mark.parametrize(("text", "reason"), DAMAGED)
 def test_a_damaged_csv_file_is_one_line(tmp_path, text, reason):
     path = tmp_path / "bad.csv"
     path.write_text(text)
@@ -80,14 +79,14 @@ def test_what_is_no_attitude_is_left_out(tmp_path):
     assert found.left_out == 3
 
 
-@pytest.mark.parametrize(
-    ("rows", "note"),
-    [
-        ("0,1,0,0,0\n1,nan,0,0,0\n", r"1 .* line 3"),
-        ("0,1,0,0,0\n2,1,0,0,0\n2,1,0,0,0\n", r"1 .* 2 s"),
-        ("1700000000.12,1,0,0,0\n", "epoch seconds"),
-    ],
-)
+ODD = [
+    ("0,1,0,0,0\n1,nan,0,0,0\n", r"1 .* line 3"),
+    ("0,1,0,0,0\n2,1,0,0,0\n2,1,0,0,0\n", r"1 .* 2 s"),
+    ("1700000000.12,1,0,0,0\n", "epoch seconds"),
+]
+
+
+@pytest.mark.parametrize(("rows", "note"), ODD)
 def test_what_is_odd_is_named_in_a_line(tmp_path, rows, note):
     path = tmp_path / "odd.csv"
     path.write_text(f"t,w,x,y,z\n{rows}")

@@ -60,16 +60,16 @@ def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
     assert main([str(log), "--estimates", str(log), "--topic", "/imu/data"]) == 0
 
 
-@pytest.mark.parametrize(
-    ("arguments", "reason"),
-    [
-        (("--topic", "/nothing"), "--topic must be one of /filter, /imu/data, /text, /top/events"),
-        (("--topic", "/text"), "topic must have a type"),
-        (("--topic", "/filter", "--node", "/other"), "no run of a top /other "),
-        (("--estimates", "missing.csv"), f"cannot open missing.csv: {os.strerror(errno.ENOENT)}"),
-        (("--estimates", "missing.mcap"), "--topic must name the estimates in missing.mcap"),
-    ],
-)
+REFUSED = [
+    (("--topic", "/nothing"), "--topic must be one of /filter, /imu/data, /text, /top/events"),
+    (("--topic", "/text"), "topic must have a type"),
+    (("--topic", "/filter", "--node", "/other"), "no run of a top /other "),
+    (("--estimates", "missing.csv"), f"cannot open missing.csv: {os.strerror(errno.ENOENT)}"),
+    (("--estimates", "missing.mcap"), "--topic must name the estimates in missing.mcap"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "reason"), REFUSED)
 def test_what_cannot_be_judged_is_one_line(log, arguments, reason, capsys):
     assert main([str(log), *arguments]) == 1
     err = capsys.readouterr().err

@@ -100,13 +100,13 @@ def test_a_damaged_database_is_read_up_to_the_damage(tmp_path):
     assert any("damaged" in each for each in log.problems)
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "sentence"),
-    [
-        ("empty.db3", b"", "not a bag of rosbag2 \\(no such table: topics\\)"),
-        ("text.db3", b"some text" * 100, "not a bag of rosbag2 \\(file is not a database\\)"),
-    ],
-)
+NO_BAGS = [
+    ("empty.db3", b"", "not a bag of rosbag2 \\(no such table: topics\\)"),
+    ("text.db3", b"some text" * 100, "not a bag of rosbag2 \\(file is not a database\\)"),
+]
+
+
+@pytest.mark.parametrize(("name", "content", "sentence"), NO_BAGS)
 def test_a_file_of_another_kind_is_refused(name, content, sentence, tmp_path):
     (tmp_path / name).write_bytes(content)
     for path in (tmp_path, tmp_path / name):
@@ -114,9 +114,10 @@ def test_a_file_of_another_kind_is_refused(name, content, sentence, tmp_path):
             open_run([path])
 
 
-@pytest.mark.parametrize(
-    ("count", "reason"), [(10_000, "cannot open 0.mcap"), (10_001, "must have at most 10000 files")]
-)
+COUNTS = [(10_000, "cannot open 0.mcap"), (10_001, "must have at most 10000 files")]
+
+
+@pytest.mark.parametrize(("count", "reason"), COUNTS)
 def test_a_run_has_at_most_ten_thousand_files(count, reason):
     with pytest.raises(LogError, match=reason):
         open_run([Path(f"{number}.mcap") for number in range(count)])

@@ -9,14 +9,8 @@ import pytest
 
 from symtop_ros.physics import Motion
 
-NUMBER = "a number"
-FINITE_NUMBER = "a finite number"
 FINITE_ARRAY = "an array of finite numbers"
-VECTOR = "3 finite numbers"
-HOLD = "'spin_rate' or 'spin_momentum'"
-TILTED = "tilted (phi' is undefined on the vertical; an angular impulse works there)"
 NOT_TOO_LATE = "s of the start (1e15 turns)"
-NOT_TOO_FAST = "s of the start (the motion then becomes too fast)"
 
 
 def meet(motion: Motion, t: float) -> float:

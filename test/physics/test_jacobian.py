@@ -198,9 +198,10 @@ def test_driven_motions_are_right_or_beyond_an_unstable_place_refused(tilt):
         assert error < 1 if error is not None else tilt < 2e-5 and part > 1
 
 
-@pytest.mark.parametrize(
-    "drive", [(Friction(1e-300, 1e-300), (0, 0, 0)), (NO_FRICTION, (1e-60, 0, 0))]
-)
+IDLE_DRIVES = [(Friction(1e-300, 1e-300), (0, 0, 0)), (NO_FRICTION, (1e-60, 0, 0))]
+
+
+@pytest.mark.parametrize("drive", IDLE_DRIVES)
 def test_a_drive_that_changes_nothing_costs_no_derivative(drive):
     free = near_the_vertical(2e-6)
     motion = Motion(free.top, free.start, *drive)

@@ -36,14 +36,14 @@ TURN, TILT = 0.3, 0.5  # phi and theta of the start
 UP = [-math.cos(TILT) * math.sin(TURN), math.cos(TILT) * math.cos(TURN), math.sin(TILT)]
 
 
-@pytest.mark.parametrize(
-    ("after", "J"),
-    [
-        (apply_impulse(ARTICLE, START, J), J),
-        # across the axle, in its vertical plane
-        (push_axle(ARTICLE, START, 1e-4), 1e-4 * np.array(UP)),
-    ],
-)
+KICKED = [
+    (apply_impulse(ARTICLE, START, J), J),
+    # across the axle, in its vertical plane
+    (push_axle(ARTICLE, START, 1e-4), 1e-4 * np.array(UP)),
+]
+
+
+@pytest.mark.parametrize(("after", "J"), KICKED)
 def test_an_impulse_or_a_push_on_the_axle_adds_to_the_angular_momentum_in_the_world(after, J):
     assert after.orientation.tolist() == START.orientation.tolist()  # bit for bit
     before = ARTICLE.angular_momentum(START)

@@ -22,10 +22,15 @@ def test_shapes_follow_those_of_the_times(shape, friction):
     assert state.angular_velocity.shape == (*shape, 3)
 
 
-@pytest.mark.parametrize(
-    "make",
-    [copy.copy, copy.deepcopy, lambda m: pickle.loads(pickle.dumps(m)), lambda m: m.restart(CUSPS)],
+COPIES = (
+    copy.copy,
+    copy.deepcopy,
+    lambda m: pickle.loads(pickle.dumps(m)),
+    lambda m: m.restart(CUSPS),
 )
+
+
+@pytest.mark.parametrize("make", COPIES)
 def test_a_copy_shares_no_integration_and_gives_the_same_states(make):
     motion = Motion(ARTICLE, CUSPS, Friction(axial=2e-6))
     before = motion.at(0.7)

@@ -6,17 +6,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from physics.refusals import (
-    FINITE_ARRAY,
-    FINITE_NUMBER,
-    HOLD,
-    NOT_TOO_FAST,
-    NOT_TOO_LATE,
-    NUMBER,
-    TILTED,
-    VECTOR,
-    refused,
-)
+from physics.refusals import FINITE_ARRAY, NOT_TOO_LATE, refused
 from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.physics import (
@@ -49,6 +39,10 @@ MOTION, POTENTIAL = Motion(ARTICLE, CUSPS), EffectivePotential.of(ARTICLE, CUSPS
 MANY = Motions(Top([1.0, 2.0], 1.0, 1.0), CUSPS)
 DISC = {"mass": 1.0, "radius": 0.5, "distance": 0.25, "gravity": 9.81}
 BODY = {"mass": 1.0, "arm": 0.1, "Ix": 1.0, "Iz": 1.0, "gravity": 9.81}
+NUMBER, FINITE_NUMBER, VECTOR = "a number", "a finite number", "3 finite numbers"
+HOLD = "'spin_rate' or 'spin_momentum'"
+TILTED = "tilted (phi' is undefined on the vertical; an angular impulse works there)"
+NOT_TOO_FAST = "s of the start (the motion then becomes too fast)"
 FIT = "of shapes that fit together"
 EULER = "theta", "phi", "psi", "theta_dot", "phi_dot", "psi_dot"
 SMALL = "so small that rates stay within 1e+100 rad/s"

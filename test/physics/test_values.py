@@ -44,9 +44,10 @@ def test_a_number_of_any_real_type_becomes_a_float(value):
     assert found == 2.0
 
 
-@pytest.mark.parametrize(
-    "value", [[1, 2, 3], (1.0, 2.0, 3.0), np.arange(1, 4), [1, Fraction(2), 3]]
-)
+VECTORS = [[1, 2, 3], (1.0, 2.0, 3.0), np.arange(1, 4), [1, Fraction(2), 3]]
+
+
+@pytest.mark.parametrize("value", VECTORS)
 def test_an_array_of_any_real_type_becomes_new_doubles(value):
     found = validate_array("x", value, 3)
     assert found.dtype == np.float64
@@ -183,10 +184,11 @@ def ask(draw, rng):
 
 
 # Each motion takes some milliseconds; the machine may stand still meanwhile.
+DRAWS = [(draw_extreme, 120, 120), (draw_any, 400, 240)]
+
+
 @pytest.mark.parametrize("block", seeds(1, 40))
-@pytest.mark.parametrize(
-    ("draw", "count", "least"), [(draw_extreme, 120, 120), (draw_any, 400, 240)]
-)
+@pytest.mark.parametrize(("draw", "count", "least"), DRAWS)
 def test_numbers_of_all_sizes_are_served_or_refused_in_a_sentence_and_in_time(
     draw, count, least, block
 ):

@@ -157,15 +157,15 @@ HEAVY = {"top__Mgl": 1e16}  # it swings at 7e9 rad/s
 NO_ROOT, TOO_FAST = "precession must be a rate that exists", "motion must be so slow that it stays "
 
 
-@pytest.mark.parametrize(
-    ("begun", "changes", "reason"),
-    [
-        (SLOW, {"initial.psi_dot": 3.0}, NO_ROOT),
-        (SLOW, {"top.Mgl": 10.0}, NO_ROOT),
-        (HEAVY, {"top.Mgl": 1e24}, TOO_FAST),
-        (HEAVY, {"real_time_factor": 100.0}, TOO_FAST),
-    ],
-)
+IMPOSSIBLE = [
+    (SLOW, {"initial.psi_dot": 3.0}, NO_ROOT),
+    (SLOW, {"top.Mgl": 10.0}, NO_ROOT),
+    (HEAVY, {"top.Mgl": 1e24}, TOO_FAST),
+    (HEAVY, {"real_time_factor": 100.0}, TOO_FAST),
+]
+
+
+@pytest.mark.parametrize(("begun", "changes", "reason"), IMPOSSIBLE)
 def test_parameters_without_a_motion_are_refused_when_they_are_planned(begun, changes, reason):
     session, _ = start(Program(), **begun)
     with pytest.raises(ValueError, match=f"^{reason}"):
@@ -200,15 +200,15 @@ def test_without_odometry_the_sensor_alone_has_a_fixed_frame():
     assert (rotation.x, rotation.y, rotation.z, rotation.w) == attitude
 
 
-@pytest.mark.parametrize(
-    ("kept", "missed", "level", "text"),
-    [
-        (2.0, 0, OK, "on time"),
-        (0.5, 0, WARN, "too fast for the compute budget"),
-        (2.0, 19, OK, "19 ticks missed"),  # less than a tenth of a second
-        (2.0, 20, WARN, "20 ticks missed"),
-    ],
-)
+PACES = [
+    (2.0, 0, OK, "on time"),
+    (0.5, 0, WARN, "too fast for the compute budget"),
+    (2.0, 19, OK, "19 ticks missed"),  # less than a tenth of a second
+    (2.0, 20, WARN, "20 ticks missed"),
+]
+
+
+@pytest.mark.parametrize(("kept", "missed", "level", "text"), PACES)
 def test_a_slower_pace_and_missed_ticks_are_a_warning(kept, missed, level, text):
     session, _ = start(Program(), real_time_factor=2.0)
     simulation = session.simulation
@@ -221,9 +221,10 @@ def test_a_slower_pace_and_missed_ticks_are_a_warning(kept, missed, level, text)
         session.answer("pause", lambda: True)
 
 
-@pytest.mark.parametrize(
-    ("dropped", "failure", "level"), [(7, "a: no space", ERROR), (7, "", WARN), (0, "", OK)]
-)
+RECORDINGS = [(7, "a: no space", ERROR), (7, "", WARN), (0, "", OK)]
+
+
+@pytest.mark.parametrize(("dropped", "failure", "level"), RECORDINGS)
 def test_a_recording_that_failed_is_an_error_and_dropped_messages_are_a_warning(
     dropped, failure, level
 ):

@@ -59,15 +59,15 @@ NEARLY = Motion(START.top, State(_q, _omega * (1 + 1e-6)))
 WILD = Motion(START.top, START.start, torque=(0.0, 0.0, 1e20))
 
 
-@pytest.mark.parametrize(
-    ("first", "others", "reason"),
-    [
-        (START, [replace(KICKED, motion=NEARLY)], r"events\[1\]: angular_velocity must be the "),
-        # a kick that no node grants
-        (START, [replace(KICKED, act={})], r"events\[1\]: a request must have one of"),
-        (WILD, [], "the run cannot be followed: "),
-    ],
-)
+REFUSED = [
+    (START, [replace(KICKED, motion=NEARLY)], r"events\[1\]: angular_velocity must be the "),
+    # a kick that no node grants
+    (START, [replace(KICKED, act={})], r"events\[1\]: a request must have one of"),
+    (WILD, [], "the run cannot be followed: "),
+]
+
+
+@pytest.mark.parametrize(("first", "others", "reason"), REFUSED)
 def test_a_run_that_cannot_be_is_refused_and_leaves_no_file(first, others, reason, tmp_path):
     with pytest.raises(RefusedError, match=reason):
         write_run_log([RunEvent("start", 0, first, {}), *others], END, tmp_path / "run.mcap")

@@ -108,15 +108,15 @@ def test_a_start_on_a_root_is_regular_and_reset_returns_to_it():
     assert run.simulation.segment.motion.start == start
 
 
-@pytest.mark.parametrize(
-    ("request_", "rates"),
-    [
-        ({"psi_dot": 180.0}, (None, 0.0, 180.0)),
-        ({"phi_dot": 2.0}, (2.0, 0.0, 200.0)),
-        ({"theta_dot": 1.0}, (0.0, 1.0, 200.0)),
-        ({"precession": "slow", "theta_dot": 0.0}, (None, 0.0, 200.0)),
-    ],
-)
+ASKED = [
+    ({"psi_dot": 180.0}, (None, 0.0, 180.0)),
+    ({"phi_dot": 2.0}, (2.0, 0.0, 200.0)),
+    ({"theta_dot": 1.0}, (0.0, 1.0, 200.0)),
+    ({"precession": "slow", "theta_dot": 0.0}, (None, 0.0, 200.0)),
+]
+
+
+@pytest.mark.parametrize(("request_", "rates"), ASKED)
 def test_a_rate_that_is_asked_for_takes_the_place_of_a_root_of_the_parameters(request_, rates):
     run = Run(initial__precession="slow", initial__psi_dot=200.0)
     assert run.ask("set_initial_conditions", request_)[0]

@@ -75,17 +75,17 @@ def test_every_number_of_a_motion_and_of_its_sensor_comes_back_from_its_event():
 FACTOR = r"real_time_factor must be 1e-300 to 1e\+06, got"
 
 
-@pytest.mark.parametrize(
-    ("values", "reason"),
-    [
-        *(({"top": text}, r"\S") for text in ("", "1 2", "a b c", "-1.0 1.0 1.0")),
-        *(({"motion.real_time_factor": text}, FACTOR) for text in ("1e-301", "1000001.0")),
-        *(({"gravity": text}, "must") for text in ("-1", "nan")),
-        ({"imu.mount": "0 0 0 0 0 0 1", "imu.noise": "0 0 0 0 0"}, "unpack|values"),
-        ({"imu.mount": "0 0 0", "imu.noise": "0 0 0 0 1"}, "unpack|values"),
-        ({"imu.mount": "0 0 0 0 0 0 9", "imu.seed": "0", "imu.begin": "0"}, "must"),
-    ],
-)
+DAMAGED = [
+    *(({"top": text}, r"\S") for text in ("", "1 2", "a b c", "-1.0 1.0 1.0")),
+    *(({"motion.real_time_factor": text}, FACTOR) for text in ("1e-301", "1000001.0")),
+    *(({"gravity": text}, "must") for text in ("-1", "nan")),
+    ({"imu.mount": "0 0 0 0 0 0 1", "imu.noise": "0 0 0 0 0"}, "unpack|values"),
+    ({"imu.mount": "0 0 0", "imu.noise": "0 0 0 0 1"}, "unpack|values"),
+    ({"imu.mount": "0 0 0 0 0 0 9", "imu.seed": "0", "imu.begin": "0"}, "must"),
+]
+
+
+@pytest.mark.parametrize(("values", "reason"), DAMAGED)
 def test_a_damaged_event_is_refused(values, reason):
     event = event_of(Segment.begin(Motion(ARTICLE, CUSPS), BEGIN, 1.0, Rig(9.81)))
     given = {"gravity": "9.81", "imu.noise": "0 0 0 0 1", **values}
@@ -145,16 +145,16 @@ def test_each_outcome_has_the_numbers_of_its_event(run):
     assert found["record"].path == "a  b/c; d=e.mcap"
 
 
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("outcome.direction", "sinks"),
-        ("outcome.turning_angles", "0.1 0.2 0.3"),
-        ("outcome.turning_angles", "a b"),
-        ("outcome.driven", "maybe"),
-        ("outcome.reason.place.rate", ""),
-    ],
-)
+WRONG_FIELDS = [
+    ("outcome.direction", "sinks"),
+    ("outcome.turning_angles", "0.1 0.2 0.3"),
+    ("outcome.turning_angles", "a b"),
+    ("outcome.driven", "maybe"),
+    ("outcome.reason.place.rate", ""),
+]
+
+
+@pytest.mark.parametrize(("name", "text"), WRONG_FIELDS)
 def test_a_field_that_is_not_of_its_type_is_refused_and_the_motion_is_read(run, name, text):
     kick = next(event for event in run.sink.events if event.name == "kick")
     values = {**kick.values, name: text}

@@ -25,22 +25,22 @@ def test_a_run_without_an_end_ends_with_its_last_event(tmp_path):
     assert read_run(path)[1] == 2222222212
 
 
-@pytest.mark.parametrize(
-    ("content", "message"),
-    [
-        (b"\xff" * 100, "must be a run of the page"),
-        ([], "must be a run of the page"),
-        ({"format": 3, "events": []}, "must be a run of the page"),
-        ({"format": 1, "events": []}, "events must be "),
-        ({"format": 1, "events": [3]}, r"events\[0\]: kind must be "),
-        (change(0, kind="torque"), r'events\[0\]: kind must be "start" for the first event, got '),
-        (change(2, time=1.0), r"events\[2\]: time must be that of the event before it or later, "),
-        (change(0, orientation=[2, 0, 0, 0]), r"events\[0\]: .*norm"),
-        (change(0, angular_velocity=[math.inf, 0, 0]), r"events\[0\]: angular_velocity must be "),
-        (change(0, top=[1, 3, 1]), r"events\[0\]: Iz must be "),
-        (change(0, friction=[-1, 0]), r"events\[0\]: friction.axial must be "),
-    ],
-)
+NO_RUNS = [
+    (b"\xff" * 100, "must be a run of the page"),
+    ([], "must be a run of the page"),
+    ({"format": 3, "events": []}, "must be a run of the page"),
+    ({"format": 1, "events": []}, "events must be "),
+    ({"format": 1, "events": [3]}, r"events\[0\]: kind must be "),
+    (change(0, kind="torque"), r'events\[0\]: kind must be "start" for the first event, got '),
+    (change(2, time=1.0), r"events\[2\]: time must be that of the event before it or later, "),
+    (change(0, orientation=[2, 0, 0, 0]), r"events\[0\]: .*norm"),
+    (change(0, angular_velocity=[math.inf, 0, 0]), r"events\[0\]: angular_velocity must be "),
+    (change(0, top=[1, 3, 1]), r"events\[0\]: Iz must be "),
+    (change(0, friction=[-1, 0]), r"events\[0\]: friction.axial must be "),
+]
+
+
+@pytest.mark.parametrize(("content", "message"), NO_RUNS)
 def test_a_file_that_is_no_run_is_one_message(content, message, tmp_path):
     path = tmp_path / "run.json"
     path.write_bytes(content if isinstance(content, bytes) else json.dumps(content).encode())

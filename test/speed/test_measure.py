@@ -9,7 +9,7 @@ from PIL import Image
 
 from symtop_ros.judge import figures
 from workshop.speed import benchmarks
-from workshop.speed import measure as report
+from workshop.speed import measure as module
 from workshop.speed.measure import measure
 from workshop.speed.peers import CLOSED_FORM, TAYLOR, find_peers
 from workshop.speed.plots import DRAWINGS
@@ -39,13 +39,13 @@ def written(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def folder(written):
-    return written[0]
+def report(written):
+    return json.loads((written[0] / "report.json").read_text())
 
 
-@pytest.fixture(scope="module")
-def facts(folder):
-    return json.loads((folder / "report.json").read_text())["results"]
+@pytest.fixture
+def facts(report):
+    return report["results"]
 
 
 def test_our_errors_are_rounding_at_all_times_and_in_all_hard_cases(facts):
@@ -67,7 +67,7 @@ def test_the_taylor_series_are_as_good_as_promised(facts):
     assert largest <= benchmarks.LARGEST_DRIVEN_ERROR
 
 
-def test_every_peer_is_the_same_top_and_every_curve_has_points(facts, folder):
+def test_every_peer_is_the_same_top_and_every_curve_has_points(facts, report):
     peers, missing = find_peers()
     chosen = [peer for peer in peers if benchmarks.SMALL.includes(peer, 0)]
     frictionless = [peer for peer in chosen if peer.friction != "only"]
@@ -78,15 +78,14 @@ def test_every_peer_is_the_same_top_and_every_curve_has_points(facts, folder):
     arrays = [state["peer"] for state in facts["states"]]
     every = [peer for peer in chosen if benchmarks.SMALL.includes(peer, 1)]
     assert arrays == [peer.name for peer in every if peer.prepare_arrays]
-    environment = json.loads((folder / "report.json").read_text())["environment"]
-    assert environment["missing"] == missing
+    assert report["environment"]["missing"] == missing
 
 
 def test_the_documents_have_the_tables_and_plots_of_the_report(written):
     folder, docs = written
-    report = (folder / "report.md").read_text().partition("\n\n")[2].strip()
+    text = (folder / "report.md").read_text().partition("\n\n")[2].strip()
     page = (docs / "accuracy_tables.md").read_text()
-    assert find_section(page, "chapters") == report
+    assert find_section(page, "chapters") == text
     summary = find_section((docs / "accuracy.md").read_text(), "summary")
     assert f"| {CLOSED_FORM} |" in summary
     for name in ("../README.md", "accuracy.md", "accuracy_tables.md"):
@@ -96,7 +95,8 @@ def test_the_documents_have_the_tables_and_plots_of_the_report(written):
 
 
 @pytest.mark.parametrize("name", DRAWINGS)
-def test_a_plot_is_a_picture(folder, name):
+def test_a_plot_is_a_picture(written, name):
+    folder, _ = written
     assert (folder / f"{name}.svg").read_text().startswith("<?xml")
     with Image.open(folder / f"{name}.png") as picture:
         assert min(picture.size) > 200
@@ -107,8 +107,8 @@ def test_errors_that_are_too_large_fail_the_report(tmp_path, capsys, monkeypatch
     def list_one(_, __, results):
         yield "a peer: model", lambda: results.checks.update({"a peer": 0.5})
 
-    monkeypatch.setattr(report, "list_steps", list_one)
-    monkeypatch.setattr(report, "_write", lambda *_: None)
+    monkeypatch.setattr(module, "list_steps", list_one)
+    monkeypatch.setattr(module, "_write", lambda *_: None)
     assert measure(tmp_path, benchmarks.SMALL, "make -C workshop report") == 1
     progress, failure = capsys.readouterr().err.splitlines()
     assert progress == "1 of 1: a peer: model"

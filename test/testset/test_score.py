@@ -27,33 +27,33 @@ def test_an_error_is_an_angle_whatever_the_sign_and_the_norm():
     assert score.rates is None
 
 
-@pytest.mark.parametrize(
-    ("orientations", "rates", "reason"),
-    [
-        (EXACT[:5], None, "orientations must be of shape \\(20, 4\\), got \\(5, 4\\)"),
-        (EXACT * 1.1, None, "orientations must be unit quaternions, got a norm of 1.1"),
-        (EXACT * np.nan, None, "orientations must be finite numbers up to 1e\\+100, got nan"),
-        (EXACT, EXACT, "angular_velocities must be of shape \\(20, 3\\)"),
-    ],
-)
+NO_STATES = [
+    (EXACT[:5], None, "orientations must be of shape \\(20, 4\\), got \\(5, 4\\)"),
+    (EXACT * 1.1, None, "orientations must be unit quaternions, got a norm of 1.1"),
+    (EXACT * np.nan, None, "orientations must be finite numbers up to 1e\\+100, got nan"),
+    (EXACT, EXACT, "angular_velocities must be of shape \\(20, 3\\)"),
+]
+
+
+@pytest.mark.parametrize(("orientations", "rates", "reason"), NO_STATES)
 def test_states_that_cannot_be_scored_are_refused(orientations, rates, reason):
     with pytest.raises(ValueError, match=reason):
         CUSPS.score(orientations, rates)
 
 
-@pytest.mark.parametrize(
-    ("text", "reason"),
-    [
-        ("a,b\n1,2\n", "must have the columns t, w, x, y, z, got the header a,b"),
-        (
-            "t,w,x,y,z\n0.5,1,0,0,0\n",
-            "trajectory must have a state at each time, got none at 1 s; the nearest is 0.5 s",
-        ),
-        ("t,w,x,y,z\n0.5,1,0,0\n", "line 2 must have all columns"),
-        ("t,w,x,y,z\none,1,0,0,0\n", "line 2 must consist of numbers"),
-        ("t,w,x,y,z\nnan,1,0,0,0\n", "got none at 0.5 s; there is no row"),
-    ],
-)
+NO_TRAJECTORIES = [
+    ("a,b\n1,2\n", "must have the columns t, w, x, y, z, got the header a,b"),
+    (
+        "t,w,x,y,z\n0.5,1,0,0,0\n",
+        "trajectory must have a state at each time, got none at 1 s; the nearest is 0.5 s",
+    ),
+    ("t,w,x,y,z\n0.5,1,0,0\n", "line 2 must have all columns"),
+    ("t,w,x,y,z\none,1,0,0,0\n", "line 2 must consist of numbers"),
+    ("t,w,x,y,z\nnan,1,0,0,0\n", "got none at 0.5 s; there is no row"),
+]
+
+
+@pytest.mark.parametrize(("text", "reason"), NO_TRAJECTORIES)
 def test_a_file_that_is_no_trajectory_is_refused_in_a_line(text, reason, tmp_path, capsys):
     path = tmp_path / "bad.csv"
     path.write_text(text)

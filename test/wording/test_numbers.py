@@ -44,21 +44,21 @@ def test_significant_digits_are_those_of_the_exact_double():
         assert text != "-0"
 
 
-@pytest.mark.parametrize(
-    ("value", "form", "text"),
-    [
-        (1e-4, "3g", "0.0001"),
-        (9.9996e-5, "3g", "0.0001"),
-        (1e-5, "3g", "1e-05"),
-        (999.6, "3g", "1e+03"),
-        (120.0, "3g", "120"),
-        (0.0, "2r", "0.00"),
-        (0.1, "2r", "0.10"),
-        (0.0999, "2r", "0.0999"),
-        (123456.0, "2r", "1.23e+05"),
-        (math.pi, "1fdeg", "180.0"),
-        (-1e-9, "1fdeg", "0.0"),
-    ],
-)
+LIMITS = [
+    (1e-4, "3g", "0.0001"),
+    (9.9996e-5, "3g", "0.0001"),
+    (1e-5, "3g", "1e-05"),
+    (999.6, "3g", "1e+03"),
+    (120.0, "3g", "120"),
+    (0.0, "2r", "0.00"),
+    (0.1, "2r", "0.10"),
+    (0.0999, "2r", "0.0999"),
+    (123456.0, "2r", "1.23e+05"),
+    (math.pi, "1fdeg", "180.0"),
+    (-1e-9, "1fdeg", "0.0"),
+]
+
+
+@pytest.mark.parametrize(("value", "form", "text"), LIMITS)
 def test_each_format_at_its_limits(value, form, text):
     assert write_number(value, form) == text

@@ -38,7 +38,7 @@ def compile_kernel(folder, *options, **keywords):
 
 
 def build(source, folder, kernel, *options):
-    """Compile a program in C and link it with files of the kernel; return the path of the program."""
+    """Compile a program in C and link it with files of the kernel; return its path."""
     program, target = folder / source.removesuffix(".c"), folder / "program.o"
     pedantic = ["gcc", *OPTIONS, "-std=c99", "-pedantic", *STRICT, *options]
     subprocess.run([*pedantic, "-c", FOLDER / source, "-o", target], check=True)
@@ -100,9 +100,10 @@ def test_options_of_fast_math_before_those_of_the_kernel_change_no_bit(tmp_path)
     compare([build("print_motions.c", tmp_path, kernel)], *list_many())
 
 
-@pytest.mark.parametrize(
-    "state", ["usual", "upward", "downward", "towards zero", "flushed", "zeros"]
-)
+MODES = ["usual", "upward", "downward", "towards zero", "flushed", "zeros"]
+
+
+@pytest.mark.parametrize("state", MODES)
 def test_a_thread_that_rounds_otherwise_gets_a_status_and_no_state(tmp_path, state):
     if state in ("flushed", "zeros") and platform.machine() != "x86_64":
         pytest.skip("set by a register of x86")

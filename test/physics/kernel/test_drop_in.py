@@ -138,13 +138,12 @@ def check_project(drop_in, project, find, *options):
     assert run_script("build/my_test", project) == read_console(drop_in, 0)[1]
 
 
+OPTIONS = [("OFF", "-ffast-math"), ("ON", "-ffp-contract=fast")]
+
+
 @pytest.mark.long
 @needs_cmake
-@pytest.mark.parametrize(
-    ("shared", "flags"),
-    [("OFF", "-ffast-math"), ("ON", "-ffp-contract=fast")],
-    ids=["static", "shared"],
-)
+@pytest.mark.parametrize(("shared", "flags"), OPTIONS, ids=["static", "shared"])
 def test_options_of_a_project_that_change_bits_are_overruled(shared, flags, drop_in, tmp_path):
     flags += " -mfma" if HAS_FMA else ""
     options = [f"-DBUILD_SHARED_LIBS={shared}", f"-DCMAKE_CXX_FLAGS={flags}"]

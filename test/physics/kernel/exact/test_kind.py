@@ -33,17 +33,17 @@ def test_a_kind_is_the_same_upside_down(kind, start):
     assert motion.turning_angles == pytest.approx((math.pi - high, math.pi - low), abs=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("Mgl", "upright", "factor", "stable"),
-    [
-        (0.068, True, 1.0 + 1e-12, True),
-        (0.068, True, 1.0 - 1e-12, False),
-        (0.068, False, 0.0, True),
-        (-0.068, False, 0.9, False),
-        (-0.068, False, 1.1, True),
-        (0.0, True, 0.0, True),
-    ],
-)
+SLEEPERS = [
+    (0.068, True, 1.0 + 1e-12, True),
+    (0.068, True, 1.0 - 1e-12, False),
+    (0.068, False, 0.0, True),
+    (-0.068, False, 0.9, False),
+    (-0.068, False, 1.1, True),
+    (0.0, True, 0.0, True),
+]
+
+
+@pytest.mark.parametrize(("Mgl", "upright", "factor", "stable"), SLEEPERS)
 def test_stability_of_sleeping_is_told_for_either_pole(Mgl, upright, factor, stable):
     top = Top(0.000228, 0.0000572, Mgl)
     q = (1.0, 0.0, 0.0, 0.0) if upright else (0.0, 1.0, 0.0, 0.0)
