@@ -72,19 +72,6 @@ def test_an_event_that_cannot_be_read_is_named_and_the_status_is_1(memory, numbe
     assert "top_replay: events: " in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("begin", choose((0.1, 0.5, 0.9), (0.5,)))
-def test_eighty_messages_that_are_missing_in_a_row_are_counted(memory, begin):
-    samples = memory.places("/top/orientation")
-    place = samples[int(begin * len(samples))]
-    lost = {k for k in range(place, place + 80) if "event" not in name_of(memory, k)}
-    memory.messages = [each for k, each in enumerate(memory.messages) if k not in lost]
-    assert sum("samples are missing, most of them" in text for text in judge(memory).missing) > 0
-
-
-def name_of(memory, place):
-    return memory.channels[memory.messages[place].channel_id].topic
-
-
 def test_every_message_twice_is_said_of_samples_and_events(memory):
     memory.messages = [each for message in memory.messages for each in (message, message)]
     events, *samples = judge(memory).missing

@@ -65,15 +65,6 @@ def test_an_angle_that_is_a_turn_off_is_the_same_angle_in_a_driven_motion_alone(
     assert deviations_of(run, tmp_path)["euler_angles"].is_rounding == (friction is WEAK)
 
 
-@pytest.mark.parametrize("later", [20, 100_000])  # messages; some samples, and all of them
-def test_an_event_that_arrives_after_its_first_samples_still_governs_them(later, tmp_path):
-    run = Run()
-    k = run.places("events")[1]
-    kick = run.messages.pop(k)
-    run.messages.insert(k + later, kick)  # as a recorder of arrivals may log it
-    assert all(each.largest == 0.0 for each in deviations_of(run, tmp_path).values())
-
-
 WRONG = {
     "one bit": lambda numbers: np.nextafter(numbers, np.inf),
     "a billionth": lambda numbers: numbers * (1 + 1e-9),

@@ -27,13 +27,12 @@ from symtop_ros.wire.messages import IMU
 from workshop.load.domains import claim_domain
 
 
-def test_exact_estimates_have_no_error_across_kicks_pauses_and_slow_motion():
-    truth, stamps = truth_and_stamps()
-    orientations, rates, _ = truth.states_at(stamps)
-    errors = compare(Estimates.of(stamps, orientations, rates), truth)
-    assert errors.total.max() == 0.0
-    assert errors.rate.max() == 0.0
-    assert errors.unknown == 0
+def test_the_attitude_of_a_stamp_is_that_of_the_last_event():
+    events = make_events()
+    for event in events:
+        stamps = np.array([event.stamp, event.stamp + SECOND // 2])
+        found, expected = Truth(events).states_at(stamps)[0], event.segment().state_at(stamps)
+        assert (found == expected.orientation).all()
 
 
 def test_stamps_before_the_run_are_unknown():

@@ -8,7 +8,7 @@ import random
 
 import numpy as np
 import pytest
-from drawn import Numbers
+from drawn import Numbers, normalize
 from mpmath import mp, mpf
 from physics.refusals import refused
 from physics.tops import (
@@ -167,33 +167,18 @@ def test_a_friction_without_a_coefficient_is_false():
 PROMISED, TURNED = 5 * EPS, 8 * EPS
 
 
-def make_size(rng, bits):
-    """A number of 2^-bits to 1, of any size with the same chance."""
-    return math.ldexp(rng.uniform(1.0, 2.0), -rng.randint(1, bits))
-
-
-def make_orientation(rng):
-    """A quaternion with parts down to 1e-12."""
-    parts = [rng.choice((-1, 1)) * make_size(rng, 40) for _ in range(4)]
-    size = math.sqrt(sum(part * part for part in parts))
-    return [part / size for part in parts]
-
-
 def states(near, count):
-    """States with theta anywhere, down to 1e-9 from a pole, or with parts of all sizes.
-
-    Their numbers come from sums, products and square roots alone, so that they have the same bits
-    on every processor: powers and norms of NumPy do not.
-    """
-    rng = random.Random(5)
+    """States with theta anywhere, down to 1e-9 from a pole, or with parts down to 1e-12."""
+    rng = Numbers(5)
     for _ in range(count):
-        small = make_size(rng, 30)
+        small = rng.power(-9, 0)
         theta = {"pole": small, "lower pole": math.pi - small}.get(near, rng.uniform(0.1, 3.0))
         phi, psi = rng.uniform(-3, 3), rng.uniform(-3, 3)
         rates = {name: rng.uniform(-2, 2) for name in ("theta_dot", "phi_dot", "psi_dot")}
         state = State.from_euler(theta=theta, phi=phi, psi=psi, **rates)
         if near == "zero":
-            state = State(make_orientation(rng), state.angular_velocity)
+            parts = [rng.choice((-1, 1)) * rng.power(-12, 0) for _ in range(4)]
+            state = State(normalize(parts), state.angular_velocity)
         yield state
 
 

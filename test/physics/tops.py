@@ -40,12 +40,8 @@ class Case:
         return ClosedForm(self.inputs, DIGITS).at(self.t)
 
     @property
-    def motion(self) -> Motion:
-        return Motion(self.top, self.start)
-
-    @property
     def found(self) -> State:
-        return self.motion.at(self.t)
+        return Motion(self.top, self.start).at(self.t)
 
 
 def random_case(seed: int, family: str) -> Case:

@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from log_files import ARTICLE, BEGIN, CUSPS
-from simulation.runs import SECOND, Run
+from simulation.runs import SECOND
 
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.simulation.block import CATCH_UP, Block, Ticker
@@ -231,12 +231,6 @@ def test_a_state_that_is_asked_for_in_between_does_not_make_the_factor_negative(
 def test_a_log_may_take_steps_for_each_of_its_samples(count, is_reached):
     stamps = np.array([SECOND * k // count for k in range(1, count + 1)])  # 5100 steps in all
     assert StepBudget().reach_stamps(Segment.begin(fast(), 0, 1.0), stamps) == is_reached
-
-
-def test_another_pace_is_that_of_the_motion_that_follows():
-    simulation = Run("cusps").simulation
-    change = simulation.timeline.set_pace(simulation.stamp, 1.0, 0.25)
-    assert (simulation.segment.factor, change.following.segment.factor) == (1.0, 0.25)
 
 
 def test_a_motion_that_comes_to_its_last_state_is_stopped_there():
