@@ -41,13 +41,6 @@ def save(folder, data):
     return path
 
 
-def save_chunk(folder, chunk):
-    """A file of one chunk."""
-    builder = RecordBuilder()
-    chunk.write(builder)
-    return save(folder, reader.MAGIC + builder.end())
-
-
 def read(path):
     file = McapFile(path)
     return file, [
@@ -65,14 +58,10 @@ def test_a_file_cut_at_any_byte_gives_all_whole_chunks_and_says_so(good, tmp_pat
     file, messages = read(save(tmp_path_factory.mktemp("cut"), whole[:size]))
     assert messages == RUN.messages[: len(messages)]
     missing = len(messages) < len(RUN.messages)
-    assert len(file.problems) == (1 if missing or size < _end_of_data(whole) else 0)
+    end = whole.rindex(b"symtop_ros.end", 0, len(whole) - 200)  # of the data
+    assert len(file.problems) == (1 if missing or size < end else 0)
     if missing:
         assert f"of {size}: messages after" in file.problems[0]
-
-
-def _end_of_data(whole):
-    """Return the offset of the record that ends the data."""
-    return whole.rindex(b"symtop_ros.end", 0, len(whole) - 200)
 
 
 def test_a_flipped_bit_costs_a_chunk_at_most_and_is_never_taken_for_a_number(good, tmp_path):
@@ -128,8 +117,9 @@ def test_a_file_that_is_not_there_and_a_folder_are_refused(tmp_path):
 @pytest.mark.parametrize("compression", ["zstd", "lz4"])
 def test_a_chunk_that_unpacks_to_far_more_than_it_says_is_damaged(compression, tmp_path):
     pack = zstandard.compress if compression == "zstd" else lz4.frame.compress
-    bomb = Chunk(compression, pack(bytes(2**28)), 0, 1, zlib.crc32(b""), 1000)
-    path = save_chunk(tmp_path, bomb)
+    builder = RecordBuilder()
+    Chunk(compression, pack(bytes(2**28)), 0, 1, zlib.crc32(b""), 1000).write(builder)
+    path = save(tmp_path, reader.MAGIC + builder.end())
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     file, messages = read(path)
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before  # KiB

@@ -3,6 +3,7 @@
 import copy
 import pickle
 from functools import partial
+from itertools import product
 
 import numpy as np
 import pytest
@@ -33,40 +34,35 @@ PROPERTIES = (
 TIMES = np.array([[0.0, 1e-4, 0.7], [-3.0, 12.0, 1e4]])
 
 
-def many(count):
-    """Tops of all families, some weightless, some asleep, and their starts."""
-    cases = [
-        random_case(n, family)
-        for family in ("any", "fast", "critical", "pendulum", "from below")
-        for n in range(count // 5)
-    ]
+def draw_motions():
+    """Motions of all families, one without weight, one asleep."""
+    families = product(("any", "fast", "critical", "pendulum", "from below"), range(10))
+    cases = [random_case(n, family) for family, n in families]
     tops, starts = [case.top for case in cases], [case.start for case in cases]
     tops[3] = Top(tops[3].Ix, tops[3].Iz, 0.0)
     starts[4] = State((1, 0, 0, 0), (0, 0, 3.0))
-    return tops, starts
+    return [*map(Motion, tops, starts)]
 
 
-def stack(tops, starts):
-    columns = zip(*(top.moments for top in tops), strict=True)
-    q, omega = (np.stack(parts) for parts in zip(*(start.parts for start in starts), strict=True))
-    return Top(*map(np.array, columns)), State(q, omega)
+ALONE = draw_motions()
+MANY = Motions(
+    Top(*np.transpose([each.top.moments for each in ALONE])),
+    State(*(np.stack([each.start.parts[k] for each in ALONE]) for k in range(2))),
+)
 
 
 @pytest.mark.parametrize("times", [TIMES, 2.5, ExactTimes(np.array([0, 10**9 + 1]))])
 def test_each_state_is_that_of_the_motion_alone(times):
-    tops, starts = many(50)
-    states = Motions(*stack(tops, starts)).at(times)
-    assert states.orientation.shape[0] == 50
-    for n, single in enumerate(map(Motion, tops, starts)):
+    states = MANY.at(times)
+    assert len(states) == len(ALONE)
+    for n, single in enumerate(ALONE):
         for one, other in zip(states[n].parts, single.at(times).parts, strict=True):
             assert one.tobytes() == other.tobytes()
 
 
 @pytest.mark.parametrize("name", PROPERTIES)
 def test_each_property_is_that_of_the_motion_alone(name):
-    tops, starts = many(50)
-    found = getattr(Motions(*stack(tops, starts)), name)
-    singles = [getattr(Motion(*each), name) for each in zip(tops, starts, strict=True)]
+    found, singles = getattr(MANY, name), [getattr(each, name) for each in ALONE]
     if isinstance(found, tuple):
         found = np.stack(found, axis=1)
     np.testing.assert_array_equal(found, singles)

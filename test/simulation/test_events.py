@@ -21,43 +21,32 @@ def event_of(segment, stamp=BEGIN):
     return Event.of(stamp, "kick", None, {"hold": "spin_rate"}, segment.motion.start, segment)
 
 
-# A value for each number of a motion, other than its default: a new one must be added here, and
-# comes back only if it is in the event.
-NUMBERS = {
-    Top: {"Ix": 2.3e-4, "Iz": 6e-5, "Mgl": 0.07},
-    State: {"orientation": (0.8, 0.0, 0.6, 0.0), "angular_velocity": (1.0, 2.0, 150.0)},
-    Friction: {"axial": 1.3e-6, "transverse": 2.3e-6},
-    Magnetometer: {
-        "vector": (1e-5, 2e-5, -3e-5),
-        "magnetometer_noise_density": 5e-8,
-        "magnetometer_random_walk": 6e-9,
-        "seed": 7,
-    },
-    Imu: {
-        "position": (0.1, 0.2, 0.3),
-        "orientation": (0.6, 0.0, 0.8, 0.0),
-        "gyroscope_noise_density": 1e-4,
-        "gyroscope_random_walk": 2e-4,
-        "accelerometer_noise_density": 3e-4,
-        "accelerometer_random_walk": 4e-4,
-        "seed": 5,
-        "rate": 300.0,
-        "begin": 6,
-    },
+VALUES = {  # of parameters that are no sizes of any kind
+    "orientation": (0.6, 0.0, 0.8, 0.0),
+    "angular_velocity": (1.0, 2.0, 150.0),
+    "position": (0.1, 0.2, 0.3),
+    "vector": (1e-5, 2e-5, -3e-5),
+    "seed": 5,
+    "begin": 6,
 }
 
 
 def make(kind, **given):
-    """A record with a value for each of its parameters."""
-    values = {**NUMBERS.get(kind, {}), **given}
-    assert set(inspect.signature(kind).parameters) == set(values), kind
+    """A record with a value for each of its parameters, other than its default.
+
+    It comes back only if it is in the event.
+    """
+    parameters = inspect.signature(kind).parameters
+    sizes = {name: 1e-3 * number for number, name in enumerate(parameters, start=2)}
+    values = {name: {**sizes, **VALUES, **given}[name] for name in parameters}
+    assert all(values[name] != each.default for name, each in parameters.items())
     return kind(**values)
 
 
 def test_every_number_of_a_motion_and_of_its_sensor_comes_back_from_its_event():
     parts = {"top": make(Top), "start": make(State), "friction": make(Friction)}
     motion = make(Motion, **parts, torque=(1e-5, 2e-5, 3e-5))
-    rig = make(Rig, gravity=9.7, imu=make(Imu, magnetometer=make(Magnetometer)))
+    rig = make(Rig, gravity=9.7, imu=make(Imu, magnetometer=make(Magnetometer, seed=7)))
     fields = {"stamp": BEGIN, "elapsed": Fraction(7, 4), "factor": 0.7, "running": False}
     segment = make(Segment, motion=motion, **fields, rig=rig)
     again = event_of(segment).segment()
@@ -65,7 +54,7 @@ def test_every_number_of_a_motion_and_of_its_sensor_comes_back_from_its_event():
     assert again.rig == rig
     assert again.motion.applied_torque == motion.applied_torque
     for name, part in parts.items():
-        for number in NUMBERS[type(part)]:
+        for number in inspect.signature(type(part)).parameters:
             values = (
                 np.asarray(getattr(getattr(each.motion, name), number)) for each in (segment, again)
             )

@@ -120,12 +120,10 @@ def flatten(numbers):
 
 
 def list_gravity(numbers):
-    """Motions under gravity: eight of the table for each number, later at other times."""
+    """Motions under gravity: eight of the table for each number."""
     for number in numbers:
-        earlier, first = divmod(8 * number, len(UNDER_GRAVITY))
-        for each in UNDER_GRAVITY[first : first + 8]:
-            t = max(each.times, key=abs) / (1 + earlier / 8)
-            yield Sample(each.motion, t * TIMES)
+        for each in UNDER_GRAVITY[8 * number : 8 * number + 8]:
+            yield Sample(each.motion, max(each.times, key=abs) * TIMES)
 
 
 def list_driven(numbers):

@@ -21,11 +21,6 @@ FRICTION = Friction(2e-6, 1e-5)
 CASES = 500  # of a seed
 
 
-def exact(motion, t):
-    """The state at t as doubles, from 30 digits."""
-    return State(*(list(map(float, part)) for part in follow_exactly(motion).at(t)))
-
-
 # It changes no bit of a state, and makes a motion under gravity one that is integrated.
 HARDLY_ANY = Friction(1e-300, 1e-300)
 
@@ -84,7 +79,8 @@ def test_exact_times_are_not_rounded_to_doubles(nanoseconds):
     motion = Motion(ARTICLE, CUSPS, FRICTION)
     t = (times.elapsed + Fraction(times.factor) * nanoseconds) / 10**9
     # as at times that are doubles; as a double the time would be off by 400 eps in the second case
-    assert distance(motion.at(times)[1], exact(motion, t)) < 2 * EPS
+    exact = State(*(list(map(float, part)) for part in follow_exactly(motion).at(t)))
+    assert distance(motion.at(times)[1], exact) < 2 * EPS
     assert motion.at(ExactTimes(nanoseconds, times.factor, times.elapsed)) == motion.at(times)[1]
 
 
