@@ -7,6 +7,7 @@ from urllib.parse import parse_qsl
 import pytest
 from documents import ROOT, rows
 from shown_pictures import assert_same_picture
+from trials import choose
 from web.opened import UNDRAWN
 
 from symtop_ros.physics import Motion, State, Top
@@ -84,9 +85,6 @@ def test_a_link_starts_its_motion_whatever_moved_before(link, tab):
             assert getattr(motion.start.euler_rates, name) == pytest.approx(asked, abs=1e-11)
 
 
-@pytest.mark.parametrize(
-    "name",
-    [name if name in QUICK else pytest.param(name, marks=pytest.mark.long) for name in FIGURES],
-)
+@pytest.mark.parametrize("name", choose(FIGURES, QUICK))
 def test_a_picture_is_what_the_command_draws(name):
     assert_same_picture(DOCS / "article" / f"{name}.png", io.BytesIO(pack_figure(FIGURES[name])))

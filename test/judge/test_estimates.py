@@ -35,6 +35,7 @@ def test_a_damaged_csv_file_is_one_line(tmp_path, text, reason):
 
 NAMES = ("t", "w", "x", "y", "z")
 EUROC = ("#timestamp", *("p_RS_R_x [m]", "p_RS_R_y [m]", "p_RS_R_z [m]"), *("q_RS_w []",) * 4)
+TUM = {"separator": " ", "order": (1, 2, 3, 0), "middle": "000"}
 RATES = ("wx", "wy", "wz")
 FORMS = {
     "seconds.csv": {"order": range(7), "header": (*NAMES, *RATES)},
@@ -43,13 +44,8 @@ FORMS = {
     "tabs.csv": {"separator": "\t", "header": NAMES},
     "spaces.txt": {"separator": "  ", "header": NAMES},
     "hash.txt": {"separator": " ", "header": ("#", *NAMES)},
-    "tum.tum": {"separator": " ", "order": (1, 2, 3, 0), "middle": "000"},
-    "tum.txt": {
-        "separator": " ",
-        "order": (1, 2, 3, 0),
-        "middle": "000",
-        "header": ("#", "timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"),
-    },
+    "tum.tum": TUM,
+    "tum.txt": {**TUM, "header": ("#", "timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw")},
     "euroc.csv": {"middle": "000", "header": EUROC, "seconds": False},
     "euroc_bare.csv": {"middle": "000", "seconds": False},
 }

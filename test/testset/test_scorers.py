@@ -63,6 +63,8 @@ def make_files():
     lines = text.splitlines()
     # errors above rounding, which depends on the order of sums
     world = State(q, omega).to_world(omega * (1 + 1e-9))
+    in_world = np.column_stack((t, q, world)), (*NAMES[:5], "omega_x", "omega_y", "omega_z")
+    more = ["a," + lines[0], *(f"x,{row}" for row in [*lines[1:], "0.1" + ",1" * 7])]
     far, odd = good.copy(), good.copy()
     far[3, 1], odd[5, 6] = 1e300, -1e200
     return {
@@ -75,12 +77,8 @@ def make_files():
         "quotes": text.replace("t,w", '"t","w"'),
         "blank lines and carriage returns": "\r\n\r\n".join(lines),
         "no rates": write(good[:, :5], NAMES[:5]),
-        "world rates": write(
-            np.column_stack((t, q, world)), (*NAMES[:5], "omega_x", "omega_y", "omega_z")
-        ),
-        "other columns and rows": "\n".join(
-            ["a," + lines[0], *(f"x,{row}" for row in [*lines[1:], "0.1" + ",1" * 7])]
-        ),
+        "world rates": write(*in_world),
+        "other columns and rows": "\n".join(more),
         "times that have added up": write(good * [1 + 5e-10, *[1.0] * 7]),
         "norms of 1.005": write(good * [1, *[1.005] * 4, 1, 1, 1]),
         "of one sign": write(good * [1, *[-1.0] * 4, 1, 1, 1]),

@@ -8,17 +8,14 @@ from physics.tops import ARTICLE, EPS, random_case
 
 from symtop_ros.physics import Motion, State, Top, perrys_rule, regular_precession_rates
 
+SLOW, _ = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
 KINDS = {
     "cusps": {"theta": 0.5, "psi_dot": 200.0},
     "looping": {"theta": 0.5, "psi_dot": 200.0, "phi_dot": -8.0},
     "unidirectional": {"theta": 0.5, "psi_dot": 200.0, "phi_dot": 9.0},
     "sleeping": {"theta": 0.0, "psi_dot": 200.0},
     "through the pole": {"theta": 1.0, "theta_dot": -20.0},
-    "regular": {
-        "theta": 0.5,
-        "psi_dot": 200.0,
-        "phi_dot": regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0],
-    },
+    "regular": {"theta": 0.5, "psi_dot": 200.0, "phi_dot": SLOW},
 }
 
 
