@@ -20,10 +20,8 @@ FILES = {"perry.rrd"} | {
 def written(tmp_path_factory):
     """Folder of both maps, and what was printed."""
     folder = tmp_path_factory.mktemp("maps")
-    with (
-        contextlib.redirect_stdout(io.StringIO()) as printed,
-        pytest.MonkeyPatch.context() as patch,
-    ):
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed), pytest.MonkeyPatch.context() as patch:
         patch.setattr(maps, "POINTS", 40)
         patch.setattr(maps, "Figure", lambda figsize, layout: Figure(figsize))  # quick
         maps.write_maps(folder)

@@ -69,8 +69,5 @@ class Memory:
 
     def places(self, topic: str) -> list[int]:
         """Places of the messages of a topic."""
-        return [
-            place
-            for place, message in enumerate(self.messages)
-            if self.channels[message.channel_id].topic == topic
-        ]
+        topics = [self.channels[message.channel_id].topic for message in self.messages]
+        return [place for place, each in enumerate(topics) if each == topic]

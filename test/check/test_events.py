@@ -87,9 +87,7 @@ def test_an_altered_name_or_sentence_is_found(events):
             assert (one.field, one.expected) == ("message", event.verdict)
         assert found(before, replace(event, name=alter(rng, event.name)))
         key = rng.choice([each for each in event.values if each not in FREE])
-        values = {
-            alter(rng, name) if name == key else name: event.values[name] for name in event.values
-        }
+        values = {alter(rng, k) if k == key else k: text for k, text in event.values.items()}
         assert found(before, replace(event, values=values)), (event.name, key)
 
 
@@ -204,7 +202,6 @@ def test_descriptions_of_a_run_of_another_version_are_not_judged(memory):
     for place_of_event in memory.places("/top/events"):
         event = memory.messages[place_of_event]
         assert __version__.encode() in event.data
-        memory.messages[place_of_event] = replace(
-            event, data=event.data.replace(__version__.encode(), version)
-        )
+        data = event.data.replace(__version__.encode(), version)
+        memory.messages[place_of_event] = replace(event, data=data)
     assert swap(memory, place, other) == []

@@ -99,9 +99,7 @@ def test_a_message_with_another_frame_is_damage(tmp_path):
     assert "vorld" in damage
 
 
-def test_a_log_without_fields_is_read_and_its_check_is_left_to_the_version_that_wrote_it(
-    tmp_path, monkeypatch, capsys
-):
+def test_a_log_without_fields_is_read_and_left_to_its_version(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("symtop_ros.simulation.events.FORMAT", "2")
     path = Run(seconds=0.2).write(tmp_path)
     monkeypatch.undo()

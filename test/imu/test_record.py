@@ -70,9 +70,8 @@ def test_means_are_the_integrals_over_the_interval(rate, points):
         mean += weight / 2 * np.array([float(x) for x in values])
     for part in (slice(0, 3), slice(3, 6)):
         scale = np.abs(record.means[:, part]).max()
-        assert (
-            np.abs(record.means[k, part] - mean[part]).max() / scale < 4e-16
-        )  # the same, of a sum with positive weights
+        # the same, of a sum with positive weights
+        assert np.abs(record.means[k, part] - mean[part]).max() / scale < 4e-16
     assert (record.measured == record.means).all()
 
 
@@ -144,9 +143,8 @@ def test_a_magnetometer_is_in_every_form_of_the_record(tmp_path, capsys):
     assert "magnetometer_noise_density: 6.7e-08" in (tmp_path / "run/mag0/sensor.yaml").read_text()
     capsys.readouterr()
     assert replay([str(tmp_path / "run.mcap"), "--check"]) == 0
-    assert "/top/magnetic_field               250 samples, largest difference 0" in (
-        capsys.readouterr().out
-    )
+    found = capsys.readouterr().out
+    assert "/top/magnetic_field               250 samples, largest difference 0" in found
 
 
 def test_noise_may_be_in_a_file_of_kalibr(tmp_path, capsys):

@@ -88,6 +88,5 @@ def test_descriptions_of_one_body_are_compared_and_are_no_further_problems(tmp_p
 
 def test_a_folder_without_trajectories_is_refused_in_one_line(tmp_path, capsys):
     assert main(["--testset", "all", str(tmp_path)]) == 1
-    assert capsys.readouterr().err == (
-        f"top_judge: {tmp_path} must have trajectories PROBLEM/NAME.csv, got none\n"
-    )
+    reason = "must have trajectories PROBLEM/NAME.csv, got none"
+    assert capsys.readouterr().err == f"top_judge: {tmp_path} {reason}\n"

@@ -112,11 +112,8 @@ def start_elsewhere(random: Random, motion: Motion, stamps: Stamps) -> Real:
     """An angular velocity at the start that is wrong."""
     q, omega = motion.start.parts
     size = 0.01 * float(np.linalg.norm(omega)) + 0.05
-    return (
-        Motion(motion.top, State(q, omega + size * draw_vector(random)))
-        .at(stamps / SECOND)
-        .orientation
-    )
+    start = State(q, omega + size * draw_vector(random))
+    return Motion(motion.top, start).at(stamps / SECOND).orientation
 
 
 def turn_by(shape: Callable[[Any, Real], Real]) -> Change:

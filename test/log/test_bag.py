@@ -251,9 +251,7 @@ LATE = [("events", 0, MCAP), ("events", 45, SQLITE3), ("events", 900, MCAP), ("t
 
 
 @pytest.mark.parametrize(("topic", "late", "storage"), LATE)
-def test_a_clock_that_goes_back_leaves_a_run_right_however_late_messages_arrive(
-    topic, late, storage, tmp_path
-):
+def test_after_a_clock_went_back_messages_may_be_late(topic, late, storage, tmp_path):
     messages = delay(jump_back(), topic, late)
     assert_complete([write(tmp_path / "bag", messages, storage)], 600)
 

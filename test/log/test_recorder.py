@@ -41,10 +41,8 @@ def contents(path):
     """Topic, log time and bytes of all messages, by mcap's own reader, with CRCs."""
     with path.open("rb") as file:
         reader = make_reader(file, validate_crcs=True)
-        return [
-            (channel.topic, message.log_time, message.data)
-            for _, channel, message in reader.iter_messages(log_time_order=False)
-        ]
+        messages = reader.iter_messages(log_time_order=False)
+        return [(channel.topic, each.log_time, each.data) for _, channel, each in messages]
 
 
 def read_whole(path):

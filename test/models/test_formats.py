@@ -49,9 +49,8 @@ def test_mujoco_reads_the_inertia_and_follows_the_closed_form(scene):
     # The inertia about the pivot, as MuJoCo has it. 1e-12 is asked for; 1e-15 is found.
     inertia = np.zeros((3, 3))
     mujoco.mj_fullM(model, data, inertia)
-    assert inertia == pytest.approx(
-        np.diag([top.Ix, top.Ix, top.Iz]), rel=1e-12, abs=1e-12 * top.Ix
-    )
+    exact = np.diag([top.Ix, top.Ix, top.Iz])
+    assert inertia == pytest.approx(exact, rel=1e-12, abs=1e-12 * top.Ix)
     mass, arm = model.body("top").mass[0], model.body("top").ipos[2]
     assert -model.opt.gravity[2] * mass * arm == pytest.approx(top.Mgl, rel=1e-12, abs=0)
     model.opt.timestep = 2.0**-14
@@ -100,13 +99,12 @@ def test_the_model_goes_to_standard_output_and_what_it_leaves_out_is_told(capsys
     assert printed.err == "top_model: left out: friction\n"
 
 
+MOVERS = [(True, True), (True, False), (False, True)]
 FRAMES = [("world", "top"), ("map", "a/top"), ('w"&<', "gyro's")]
 
 
 @pytest.mark.parametrize(("world", "top"), FRAMES)
-@pytest.mark.parametrize(
-    ("with_tf", "with_state_publisher"), [(True, True), (True, False), (False, True)]
-)
+@pytest.mark.parametrize(("with_tf", "with_state_publisher"), MOVERS)
 def test_the_body_hangs_from_the_world(world, top, with_tf, with_state_publisher):
     text = robot_description(ARTICLE, world, top, tf_moves_it=with_tf)
     robot, parents = ElementTree.fromstring(text), {top: world} if with_tf else {}

@@ -48,9 +48,8 @@ def test_the_snippet_starts_the_engine_as_the_problem_starts(engine, name, tmp_p
     start = State(facts["orientation"], facts["angular_velocity"])
     # doubles: 2e-15 are found
     assert matrix == pytest.approx(start.matrix, abs=1e-14)
-    assert rate == pytest.approx(
-        start.to_world(start.angular_velocity), abs=1e-13 * np.abs(start.angular_velocity).max()
-    )
+    omega = start.to_world(start.angular_velocity)
+    assert rate == pytest.approx(omega, abs=1e-13 * np.abs(start.angular_velocity).max())
     exact = start.to_world([float(x) for x in facts["angular_accelerations"][0]])
     # sums of moments times rates squared, some hundred times the result
     assert acceleration == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())

@@ -53,9 +53,8 @@ def _turn(q, axis, angle):
 def _compare(base, plus, minus, twice):
     """The derivative of attitude, as a rotation vector of the body, and of omega."""
     (w, x, y, z), _ = base
-    change = [
-        (p - m) / twice for p, m in zip(_near(plus[0], base), _near(minus[0], base), strict=True)
-    ]
+    pairs = zip(_near(plus[0], base), _near(minus[0], base), strict=True)
+    change = [(p - m) / twice for p, m in pairs]
     _, *turned = multiply((w, -x, -y, -z), change)
     rates = ((p - m) / twice for p, m in zip(plus[1], minus[1], strict=True))
     return [float(each) for each in (*(2 * each for each in turned), *rates)]

@@ -73,11 +73,9 @@ def test_the_acceleration_of_a_point_is_the_second_derivative_of_its_place(drive
 def test_the_force_of_the_pivot_is_newtons_second_law():
     # Along the way of the article's top, with the momentum of the centre of mass from its place.
     body, motion = Body.of(ARTICLE), Motion(ARTICLE, CUSPS)
-    exact_motion = ClosedForm(Case(ARTICLE, CUSPS, 0.0).inputs, DIGITS)
+    followed = ClosedForm(Case(ARTICLE, CUSPS, 0.0).inputs, DIGITS)
     for t in (0.0, 0.03, 0.08, 7.0):
-        exact = differentiate(
-            lambda h, t=t: exact_motion.at(mpf(t) + h)[0], (0, 0, body.arm), 2.0**-21
-        )
+        exact = differentiate(lambda h, t=t: followed.at(mpf(t) + h)[0], (0, 0, body.arm), 2.0**-21)
         force = body.pivot_force(motion, motion.at(t))
         expected = body.mass * (np.array(exact) + np.array((0, 0, body.gravity)))
         # The state is rounded, and so is the acceleration: three roundings of half an eps.

@@ -247,10 +247,9 @@ def test_motions_next_to_what_is_unstable_are_right_or_refused(number):
 def test_derivatives_by_the_start_are_chained(seed, sign):
     rng = np.random.default_rng(seed)
     Ix, Iz, Mgl = rng.uniform(0.5, 2.0, 3) * [1.0, 1.0, rng.choice([-1.0, 1.0])]
-    theta_dot, phi_dot, psi_dot = rng.uniform(-3.0, 3.0, 3)
-    start = State.from_euler(
-        theta=rng.uniform(0.2, 2.9), theta_dot=theta_dot, phi_dot=phi_dot, psi_dot=psi_dot
-    )
+    names = "theta_dot", "phi_dot", "psi_dot"
+    rates = dict(zip(names, rng.uniform(-3.0, 3.0, 3), strict=True))
+    start = State.from_euler(theta=rng.uniform(0.2, 2.9), **rates)
     motion = Motion(Top(Ix, min(Iz, 2 * Ix), Mgl), start)
     first, then = sign * rng.uniform(10.0, 1e4, 2)
     second = Motion(motion.top, motion.at(first)).jacobian(then)[:, 3:]

@@ -142,15 +142,12 @@ def test_an_empty_array_of_motions_has_empty_states():
 
 
 COUNT = 200
-RNG = Numbers(8)
+RNG, RATES = Numbers(8), (0.0, 1e-200, 3.0, 200.0)
 EULER = {
     "theta": RNG.uniforms(0.0, np.pi, COUNT),
     "phi": np.array(RNG.choices([0.1, 1.0, 1e4, 1e9, 1e20], k=COUNT)) * RNG.normals(COUNT),
     "psi": np.array(RNG.choices([0.0, 3.0, 1e5, 1e12], k=COUNT)) * RNG.normals(COUNT),
-    **{
-        name: np.array(RNG.choices([0.0, 1e-200, 3.0, 200.0], k=COUNT))
-        for name in ("theta_dot", "phi_dot", "psi_dot")
-    },
+    **{f"{name}_dot": RNG.choices(RATES, k=COUNT) for name in ("theta", "phi", "psi")},
 }
 STATES = State.from_euler(**EULER)
 TOPS = Top(RNG.uniforms(0.5, 1.0, COUNT), 0.4, RNG.normals(COUNT))

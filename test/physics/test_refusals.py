@@ -80,10 +80,7 @@ NO_ELAPSED = 0.5, "1", True, Fraction(1, 3), None
 
 TOPS = [
     *((partial(Top, x, 1.0, 1.0), "Ix", "> 0 kg m^2", f"{x:g}") for x in (0.0, -1.0)),
-    *(
-        (partial(Top, 1.0, x, 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg m^2", f"{x:g}")
-        for x in (0.0, 2.1)
-    ),
+    *((partial(Top, 1.0, x, 1.0), "Iz", "> 0 and <= 2 Ix = 2 kg", f"{x:g}") for x in (0.0, 2.1)),
     (partial(Top, 1.0, 1.0, NAN), "Mgl", f"{FINITE_NUMBER} (J)", "nan"),
     (partial(Top, 10**400, 1.0, 1.0), "Ix", f"{FINITE_NUMBER} (kg m^2)", "inf"),
     (partial(Top, 1.0, "1", 1.0), "Iz", f"{NUMBER} (kg m^2)", "'1'"),

@@ -115,9 +115,8 @@ def test_states_and_their_copies_are_read_only_also_through_their_base():
 
 def test_states_tops_and_motions_show_what_they_are():
     start = State((1, 0, 0, 0), (0, 0, 200.0))
-    assert repr(start) == (
-        "State(orientation=(1.0, 0.0, 0.0, 0.0), angular_velocity=(0.0, 0.0, 200.0))"
-    )
+    text = "State(orientation=(1.0, 0.0, 0.0, 0.0), angular_velocity=(0.0, 0.0, 200.0))"
+    assert repr(start) == text
     assert eval(repr(start)) == start
     assert repr(Motion(ARTICLE, start)) == f"Motion({ARTICLE!r}, {start!r})"
     assert repr(Motion(ARTICLE, start).at([1.0, 2.0])) == "<State of shape (2,)>"

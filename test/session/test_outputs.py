@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from drawn import normalize
 from exact_log import read_messages
 from rosbags.typesys import Stores, get_typestore
 
@@ -83,9 +84,8 @@ def test_a_topic_is_published_while_it_has_a_subscriber_and_a_latched_one_always
     advance(session, clock, 0.5)
     assert len(host.publishers["torque"].sent) == 101
     assert host.publishers["orientation"].sent == []
-    assert (
-        len(host.publishers["events"].sent) == len(host.publishers["robot_description"].sent) == 1
-    )
+    assert len(host.publishers["events"].sent) == 1
+    assert len(host.publishers["robot_description"].sent) == 1
 
 
 def record_with_markers(folder):
@@ -121,14 +121,11 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
     state = motion.at(ExactTimes(stamp.sec * SECOND + stamp.nanosec))
     vectors = [state.to_world(each) for each in ([0.0, 0.0, 1.0], state.angular_velocity)]
     vectors += [motion.top.angular_momentum(state), motion.top.gravity_torque(state)]
-    for point, vector in zip(
-        [trace.points[-1], *(each.points[1] for each in arrows)], vectors, strict=True
-    ):
+    ends = [trace.points[-1], *(each.points[1] for each in arrows)]
+    for point, vector in zip(ends, vectors, strict=True):
         # rounding of a product and a division
-        end = np.array([point.x, point.y, point.z])
-        assert end / np.linalg.norm(end) == pytest.approx(
-            vector / np.linalg.norm(vector), abs=1e-15
-        )
+        end = normalize([point.x, point.y, point.z])
+        assert end == pytest.approx(normalize(vector), abs=1e-15)
     assert np.linalg.norm([*vars(trace.points[-1]).values()][:3]) == pytest.approx(LENGTH)
 
 
@@ -225,9 +222,7 @@ RECORDINGS = [(7, "a: no space", ERROR), (7, "", WARN), (0, "", OK)]
 
 
 @pytest.mark.parametrize(("dropped", "failure", "level"), RECORDINGS)
-def test_a_recording_that_failed_is_an_error_and_dropped_messages_are_a_warning(
-    dropped, failure, level
-):
+def test_a_failed_recording_is_an_error_and_dropped_messages_are_a_warning(dropped, failure, level):
     recorder = SimpleNamespace(path="a", dropped=dropped, failure=failure, running=not failure)
     status = _log_status(recorder)
     facts = {"file": "a", "dropped": str(dropped)}

@@ -122,9 +122,8 @@ def draw_changes(rng):
 
 def act(rng, session, clock):
     """Do something; what is refused changes nothing."""
-    kind = rng.choice(
-        ("start", "kick", "kick", "change", "pause", "step", "torque", "jump", "reset")
-    )
+    kinds = "start", "kick", "kick", "change", "pause", "step", "torque", "jump", "reset"
+    kind = rng.choice(kinds)
     if kind == "change":
         try:
             session.apply_settings(draw_changes(rng))
@@ -191,9 +190,8 @@ def drop_idle(events):
     bodies = [list_exact(event)[-1] for event in events]
     is_same = [False, *(before == after for before, after in pairwise(bodies))]
     acts = ("start", "kick", "push")
-    return [
-        event for event, same in zip(events, is_same, strict=True) if event.kind in acts or not same
-    ]
+    pairs = zip(events, is_same, strict=True)
+    return [event for event, same in pairs if event.kind in acts or not same]
 
 
 def is_near(found, given):

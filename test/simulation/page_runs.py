@@ -21,9 +21,7 @@ TEXTS = ("x" * 1000,)
 def make_run():
     """A start, a kick at an odd nanosecond, and friction with a torque."""
     kicked = Motion(ARTICLE, hurry(START.at(ExactTimes(1234567891)), 1.4))
-    driven = Motion(
-        ARTICLE, kicked.at(ExactTimes(987654321)), Friction(1e-6, 0.0), (0.0, 0.0, 5e-4)
-    )
+    driven = Motion(ARTICLE, kicked.at(ExactTimes(987654321)), Friction(1e-6), (0.0, 0.0, 5e-4))
     return [
         RunEvent("start", 0, START, {}),
         RunEvent("kick", 1234567891, kicked, KICK),

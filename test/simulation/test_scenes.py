@@ -134,9 +134,7 @@ def test_the_spin_rate_falls_and_rises_in_one_fall():
 
 
 HEAD = "/**:\n  ros__parameters:\n"
-LAUGHS = "".join(
-    f"    a{k}: &a{k} [{', '.join([f'*a{k - 1}'] * 9) if k else 1}]\n" for k in range(12)
-)
+LAUGHS = "".join(f"    a{k}: &a{k} [{f'*a{k - 1}, ' * 9 if k else 1}]\n" for k in range(12))
 MAPS = "".join(
     f"    a{k}: &a{k} {{x: {f'*a{k - 1}' if k else 1}, y: {f'*a{k - 1}' if k else 1}}}\n"
     for k in range(40)

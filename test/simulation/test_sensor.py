@@ -27,9 +27,7 @@ from symtop_ros.simulation.topics import SENSOR_TOPICS, STATE_TOPICS, Samples
 MOTION = Motion(ARTICLE, CUSPS)
 MOUNT = Rotation.from_euler("xyz", (0.3, -1.1, 2.0))
 PLACE = (0.01, -0.02, 0.05)
-NOISY = Imu(
-    PLACE, tuple(MOUNT.as_quat().tolist()), 2e-3, 3e-4, 0.02, 0.005, seed=11, rate=400.0, begin=0
-)
+NOISY = Imu(PLACE, tuple(MOUNT.as_quat().tolist()), 2e-3, 3e-4, 0.02, 0.005, seed=11, rate=400.0)
 STAMPS = np.arange(40) * 2_500_000 + 7 * SECOND
 
 

@@ -26,9 +26,7 @@ def test_the_tick_after_the_last_sample_waits_for_a_change_of_the_clock():
 def test_a_tick_computes_one_topic_of_the_samples_to_come_at_most():
     run, computed = Run(publish_rate=1000.0), []
     run.sink.encode = lambda name, stamps, _: computed.append(name) or [b""] * len(stamps)
-    run.sink.send_sample = lambda stamp, block: [
-        block.message(name, stamp) for name in STATE_TOPICS
-    ]
+    run.sink.send_sample = lambda stamp, block: [block.message(n, stamp) for n in STATE_TOPICS]
     run.advance(0.1, step=0.001)
     counts = []
     for _ in range(10 * MAX_BLOCK):

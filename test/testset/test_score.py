@@ -18,12 +18,9 @@ def test_an_error_is_an_angle_whatever_the_sign_and_the_norm():
     score = CUSPS.score(-1.001 * compose(turn, EXACT))
     # 2 |q - q_exact| is 4 sin(angle/4): below the angle by angle^3/96
     assert score.angles == pytest.approx(np.full(20, angle), rel=1e-7)
-    assert score.in_limits.max() == pytest.approx(
-        angle / min(CUSPS.facts["orientation_limits"]), rel=1e-6
-    )
-    assert score.in_float32_limits.max() == pytest.approx(
-        angle / min(CUSPS.facts["orientation_limits_float32"]), rel=1e-6
-    )
+    least, of_floats = (min(CUSPS.facts[f"orientation_limits{end}"]) for end in ("", "_float32"))
+    assert score.in_limits.max() == pytest.approx(angle / least, rel=1e-6)
+    assert score.in_float32_limits.max() == pytest.approx(angle / of_floats, rel=1e-6)
     assert score.rates is None
 
 
@@ -43,10 +40,7 @@ def test_states_that_cannot_be_scored_are_refused(orientations, rates, reason):
 
 NO_TRAJECTORIES = [
     ("a,b\n1,2\n", "must have the columns t, w, x, y, z, got the header a,b"),
-    (
-        "t,w,x,y,z\n0.5,1,0,0,0\n",
-        "trajectory must have a state at each time, got none at 1 s; the nearest is 0.5 s",
-    ),
+    ("t,w,x,y,z\n0.5,1,0,0,0\n", "a state at each time, got none at 1 s; the nearest is 0.5 s"),
     ("t,w,x,y,z\n0.5,1,0,0\n", "line 2 must have all columns"),
     ("t,w,x,y,z\none,1,0,0,0\n", "line 2 must consist of numbers"),
     ("t,w,x,y,z\nnan,1,0,0,0\n", "got none at 0.5 s; there is no row"),

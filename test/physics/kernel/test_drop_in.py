@@ -85,9 +85,7 @@ def test_the_one_source_is_the_kernel_word_for_word(drop_in):
 
 @pytest.mark.long
 @needs_compiler
-def test_source_and_example_compile_without_a_warning_and_the_example_says_what_is_refused(
-    drop_in, tmp_path
-):
+def test_the_example_compiles_without_a_warning_and_says_what_is_refused(drop_in, tmp_path):
     """The one source needs no other file, and the example is C99 to the letter."""
     kernel, program = tmp_path / "symtop.o", tmp_path / "example"
     options = ["-O2", "-ffp-contract=off", *WARNINGS, "-c", "symtop.cpp", "-o", kernel]

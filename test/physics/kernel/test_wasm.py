@@ -14,9 +14,8 @@ from workshop.kernel_wasm import DIGEST, FUNCTIONS, MODULE, SOURCES, digest_sour
 ROOT = Path(__file__).parents[3]
 ZIG = ROOT / ".venv/zig/bin/python"
 SCRIPT = Path(__file__).with_name("print_motions.js").read_text()
-KERNEL = (
-    ROOT / "symtop_ros/web/js/physics/kernel.js"
-).read_text() + "\nwindow.binding = { Kernel, pack };"
+MODULE_OF_PAGE = ROOT / "symtop_ros/web/js/physics/kernel.js"
+KERNEL = MODULE_OF_PAGE.read_text() + "\nwindow.binding = { Kernel, pack };"
 
 
 @pytest.fixture(scope="module")

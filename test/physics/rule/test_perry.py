@@ -129,9 +129,8 @@ def push_along(top, state, size):
 def test_a_push_along_the_precession_is_judged_as_a_hurry_that_holds_the_spin_momentum(seed):
     rng = Numbers(seed)
     top, theta, psi = ARTICLE, rng.uniform(0.2, 2.9), rng.uniform(-3, 3)
-    before = State.from_euler(
-        theta=theta, phi=1.1, psi=psi, theta_dot=rng.choice((0.0, 1.0)), phi_dot=6.0, psi_dot=200.0
-    )
+    rates = {"theta_dot": rng.choice((0.0, 1.0)), "phi_dot": 6.0, "psi_dot": 200.0}
+    before = State.from_euler(theta=theta, phi=1.1, psi=psi, **rates)
     size = rng.choice([0.05, -0.05, 1.0]) * top.Ix * abs(before.euler_rates.phi)
     after = apply_impulse(top, before, push_along(top, before, size))
     found = kick_verdict(Motion(top, after), before, None)
@@ -251,9 +250,7 @@ UNCHANGED = [
 
 
 @pytest.mark.parametrize(("top", "theta", "psi_dot", "direction"), UNCHANGED)
-def test_where_the_rate_changes_nothing_the_verdict_does_not_depend_on_rounding(
-    top, theta, psi_dot, direction
-):
+def test_where_the_rate_changes_nothing_no_rounding_decides(top, theta, psi_dot, direction):
     rng = Numbers(3)
     for _ in range(200):
         phi, psi = rng.uniform(-math.pi, math.pi), rng.uniform(-math.pi, math.pi)

@@ -49,9 +49,10 @@ def test_the_recorded_motion_is_the_one_that_is_timed(peer):
     np.testing.assert_allclose(end, solution.reach(0.125), rtol=0, atol=close)
 
 
-@pytest.mark.parametrize(
-    "peer", [peer for peer in PEERS if peer.prepare_arrays], ids=lambda peer: peer.name
-)
+WITH_ARRAYS = [peer for peer in PEERS if peer.prepare_arrays]
+
+
+@pytest.mark.parametrize("peer", WITH_ARRAYS, ids=lambda peer: peer.name)
 def test_arrays_of_states_are_states_at_those_times(peer):
     times = np.linspace(0.0, 1.0, 11)[1:]
     found = peer.prepare_arrays(CUSPS.task)(times)
