@@ -155,13 +155,10 @@ def test_in_a_log_that_names_no_rate_the_first_samples_say_the_period(tmp_path):
 
 def set_missed(data, count):
     """Diagnostics in which the node has missed so many samples."""
-    statuses = [
-        each._replace(values={**each.values, "missed": str(count)})
-        if each.name == "top: pace"
-        else each
-        for each in decode_statuses(data)
-    ]
-    return encode_statuses(statuses[0].stamp, "world", statuses)
+    statuses = {each.name: each for each in decode_statuses(data)}
+    pace = statuses["top: pace"]
+    statuses["top: pace"] = pace._replace(values={**pace.values, "missed": str(count)})
+    return encode_statuses(pace.stamp, "world", [*statuses.values()])
 
 
 KINDS = (1, "ended"), (3, "begun"), (13, "ended")

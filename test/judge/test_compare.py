@@ -7,7 +7,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 from judge.cases import SECOND, Made, make_estimates, make_events, truth_and_stamps
-from physics.tops import ARTICLE, CUSPS, EPS
+from physics.tops import ARTICLE, CUSPS, EPS, SLOW, precess
 from programs import run, running_node
 from scipy.spatial.transform import Rotation
 from trials import seeds
@@ -17,7 +17,7 @@ from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.judgement import judge
 from symtop_ros.judge.search import explain
 from symtop_ros.judge.truth import Truth, read_events, scene_truth
-from symtop_ros.physics import Motion, State, regular_precession_rates
+from symtop_ros.physics import Motion
 from symtop_ros.simulation.events import Event, start_event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor.imu import Imu, Rig
@@ -105,9 +105,7 @@ def test_a_steady_motion_hides_the_delay_but_not_the_drift(scene, delay, rate):
 @pytest.mark.parametrize(("noise", "delay"), [(1e-9, 0.004), (1e-2, 0.0)])
 def test_a_delay_that_noise_hides_is_not_removed(noise, delay):
     # 1e-3 rad/s off regular precession: a nutation of 1e-5 rad
-    rate = regular_precession_rates(ARTICLE, 0.5, 200.0)[0] + 1e-3
-    start = State.from_euler(theta=0.5, phi_dot=rate, psi_dot=200.0)
-    truth = Truth([start_event(Motion(ARTICLE, start))])
+    truth = Truth([start_event(Motion(ARTICLE, precess(SLOW + 1e-3)))])
     estimates = Made(delay=0.004, noise=noise).make(truth, STAMPS)
     found = explain(estimates, truth, removed=("offset", "delay"))
     assert found.offset.delay == pytest.approx(delay, abs=1e-4)

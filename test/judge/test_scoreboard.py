@@ -41,15 +41,10 @@ def test_an_entry_that_tries_more_and_solves_nothing_more_is_not_ranked_first(tm
     assert found == [("careful", 2, 2, 10), ("bold", 1, 3, 10), ("shy", 1, 1, 10)]
 
 
-STEPS = [
-    ("rk4-1e-3", ("rk4", 0.001)),
-    ("euler-2-1", ("euler-2", 1.0)),
-    ("rk4", None),
-    ("rk4-0", None),
-]
+STEPS = {"rk4-1e-3": ("rk4", 0.001), "euler-2-1": ("euler-2", 1.0), "rk4": None, "rk4-0": None}
 
 
-@pytest.mark.parametrize(("name", "step"), STEPS)
+@pytest.mark.parametrize(("name", "step"), STEPS.items())
 def test_the_step_of_an_entry_is_the_number_at_its_end(name, step):
     assert Entry(name, Mock()).step == step
 

@@ -33,10 +33,9 @@ class ExactMotion:
 
     def __init__(self, row: dict[str, Any]) -> None:
         self.row, self.family = row, str(row["family"])
-        top, q, omega, friction, torque, times = (
-            list(map(float.fromhex, row[name]))
-            for name in ("top", "q", "omega", "friction", "torque", "t")
-        )
+        names = "top", "q", "omega", "friction", "torque", "t"
+        parts = (list(map(float.fromhex, row[name])) for name in names)
+        top, q, omega, friction, torque, times = parts
         self.motion = Motion(Top(*top), State(q, omega), Friction(*friction), torque)
         self.inputs, self.times = Inputs.exact(*top, q, omega), times
 

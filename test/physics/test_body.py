@@ -9,10 +9,7 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS, DISC, EPS, Case, follow_exactly, random_states, turn
 
 from symtop_ros.physics import Body, Friction, Motion, State, Top
-from symtop_ros.physics.dynamics import (
-    STANDARD_GRAVITY,
-    point_acceleration,
-)
+from symtop_ros.physics.dynamics import STANDARD_GRAVITY, point_acceleration
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.precession import theta_acceleration, theta_torque
 from symtop_ros.physics.reference import ClosedForm

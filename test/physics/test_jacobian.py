@@ -8,7 +8,7 @@ import pytest
 from drawn import Numbers
 from physics.differences import FEW_DIGITS, differentiate, find_errors
 from physics.exact_motions import read_motions
-from physics.tops import ARTICLE, CUSPS, DISC, precess
+from physics.tops import ARTICLE, CUSPS, DISC, SLOW, precess
 from trials import choose, seeds
 
 from symtop_ros.physics import Friction, Motion, Motions, State, Top
@@ -87,7 +87,6 @@ def find_error(case: Case, exact: Motion | None = None) -> float | None:
     return float(find_errors(case.motion, found, right).max()) / PROMISED
 
 
-SLOW = 6.497144816155788  # rad/s, the slow root of the article's top
 HALF, FREE = Top(2e-4, 1e-4, 0.05), Top(2e-4, 1e-4, 0.0)
 BELOW = DISC, State.from_euler(theta=2.0, phi_dot=3.0, theta_dot=1.0, psi_dot=-40.0)
 RETURNING = {

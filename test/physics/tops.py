@@ -10,7 +10,7 @@ import numpy as np
 from drawn import Numbers, cos, sin
 from mpmath import mp, mpf
 
-from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
 from workshop.testset.exact import DIGITS
 
@@ -18,6 +18,7 @@ EPS = 2.0**-52
 FAMILIES = ("any", "weak gravity", "fast", "critical", "pendulum", "from below")
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)
+SLOW, FAST = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
 # A disc that hangs from its pivot: Iz > Ix and Mgl < 0, where Perry's rule can fail at slow roots.
 DISC = Top(Ix=0.0002, Iz=0.00035, Mgl=-0.05)
 

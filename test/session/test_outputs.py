@@ -7,6 +7,7 @@ import pytest
 from drawn import normalize
 from exact_log import read_messages
 from rosbags.typesys import Stores, get_typestore
+from simulation.runs import HandClock
 
 from symtop_ros.models.urdf import LENGTH
 from symtop_ros.physics import ExactTimes
@@ -20,10 +21,6 @@ from symtop_ros.wire.diagnostics import ERROR, OK, WARN
 from symtop_ros.wire.messages import CLOCK
 
 SECOND = 1_000_000_000
-
-
-class Clock:
-    now, is_simulated = 0, True
 
 
 class Publisher:
@@ -66,7 +63,7 @@ class Program:
 
 
 def start(host, scene="cusps", **changes):
-    clock = Clock()
+    clock = HandClock()
     session = Session(Settings.from_scene(scene, **changes), clock, host, scene, {})
     return session, clock
 

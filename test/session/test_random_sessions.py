@@ -89,20 +89,18 @@ def draw_values(rng):
     return {name: values[name] for name in rng.sample(sorted(values), rng.randint(0, 5))}
 
 
+CHANGES = ("", 20.0), ("_change", 10.0), ("_factor", 3.0)
+
+
 def draw_kick(rng):
     if rng.random() < 0.3:
         return {"angular_impulse": [rng.uniform(-1e-3, 1e-3) for _ in range(3)]}
     if rng.random() < 0.4:
         pushes = {"rate": rng.uniform(10.0, 500.0), "number": rng.randint(1, 40)}
         return {"axle_impulse": rng.uniform(-1e-4, 1e-4), **rng.choice((pushes, pushes, {}))}
-    kinds = {
-        "precession_rate": rng.uniform(-20.0, 20.0),
-        "precession_rate_change": rng.uniform(-10.0, 10.0),
-        "precession_rate_factor": rng.uniform(-3.0, 3.0),
-    }
-    kind = rng.choice(sorted(kinds))
+    kind, size = rng.choice(CHANGES)
     hold = rng.choice(({}, {"hold": "spin_rate"}, {"hold": "spin_momentum"}))
-    return {kind: kinds[kind], **hold}
+    return {f"precession_rate{kind}": rng.uniform(-size, size), **hold}
 
 
 def draw_changes(rng):

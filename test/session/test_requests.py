@@ -14,13 +14,8 @@ from trials import trials
 from symtop_ros.physics import Motion, kick_verdict, perrys_rule
 from symtop_ros.session.diagnostics import summarize_state
 from symtop_ros.session.session import Answer
+from symtop_ros.simulation.changes import requests
 from symtop_ros.simulation.changes.outcomes import Pause, Step
-from symtop_ros.simulation.changes.requests import (
-    KICK_FIELDS,
-    START_FIELDS,
-    initial_state,
-    plan_kick,
-)
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment, to_nanoseconds
 from symtop_ros.simulation.sensor.imu import find_body
@@ -49,13 +44,13 @@ STARTS = (
         {"precession": st.sampled_from(["slow", "fast"])},
         optional={name: EULER[name] for name in ("theta", "psi", "psi_dot")},
     )
-    | st.dictionaries(st.sampled_from(START_FIELDS), VALUES)
+    | st.dictionaries(st.sampled_from(requests.START_FIELDS), VALUES)
 )
 KICKS = (
     st.fixed_dictionaries({"precession_rate": SIZES}, optional={"hold": HOLDS})
     | st.fixed_dictionaries({"precession_rate_factor": SIZES}, optional={"hold": HOLDS})
     | st.fixed_dictionaries({"angular_impulse": st.lists(SIZES, min_size=3, max_size=3)})
-    | st.dictionaries(st.sampled_from(KICK_FIELDS), VALUES)
+    | st.dictionaries(st.sampled_from(requests.KICK_FIELDS), VALUES)
 )
 FRICTION = dict.fromkeys(("friction.axial", "friction.transverse"), SIZES.map(abs))
 VECTORS = st.lists(SIZES, min_size=3, max_size=3)
@@ -69,7 +64,7 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
     def check(top, torques, asked, kicked, t):
         try:
             settings = Settings.from_values({**top, **torques})
-            start = initial_state(settings.top, settings.initial, asked)
+            start = requests.initial_state(settings.top, settings.initial, asked)
         except RefusedError as refused:
             assert_one_sentence(str(refused))
             return
@@ -86,7 +81,7 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
         again = Event.of(0, "start", None, asked, start, segment).segment()
         assert (again.motion.start, again.elapsed) == (motion.start, segment.elapsed)
         try:
-            after, hold = plan_kick(motion, state, kicked)
+            after, hold = requests.plan_kick(motion, state, kicked)
         except RefusedError as refused:
             assert_one_sentence(str(refused))
         else:

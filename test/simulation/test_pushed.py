@@ -5,9 +5,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from physics.tops import ARTICLE, CUSPS
+from physics.tops import ARTICLE, CUSPS, FAST, SLOW, precess
 
-from symtop_ros.physics import ExactTimes, Motion, State, push_axle, regular_precession_rates
+from symtop_ros.physics import ExactTimes, Motion, push_axle
 from symtop_ros.simulation.changes.outcomes import Pushed
 from symtop_ros.simulation.segment import PushedMotion, Pushes
 
@@ -26,8 +26,7 @@ PUSHED = [
 
 @pytest.mark.parametrize(("root", "numbers"), PUSHED)
 def test_the_numbers_of_the_article_s_top_pushed_for_a_second(root, numbers):
-    rate = float(regular_precession_rates(ARTICLE, 0.5, 200.0)[root])
-    before = State.from_euler(theta=0.5, phi_dot=rate, psi_dot=200.0)
+    before = precess((SLOW, FAST)[root])
     pushes = Pushes(2.5e-6, 400.0, 400)  # 1e-3 N m for 1 s
     motion = PushedMotion(ARTICLE, push_axle(ARTICLE, before, pushes.impulse), pushes)
     states = motion.at(ExactTimes(np.arange(1, 401) * 2_500_000 - 1))  # each before a push

@@ -12,15 +12,7 @@ from simulation.runs import SECOND, Run
 from symtop_ros.physics import Body, Motion, State, Top, point_acceleration
 from symtop_ros.session.outputs import list_fixed_frames
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import (
-    EARTH,
-    EXACT,
-    EXACT_FIELD,
-    Imu,
-    Magnetometer,
-    Rig,
-    find_body,
-)
+from symtop_ros.simulation.sensor.imu import EARTH, EXACT, EXACT_FIELD, Imu, Magnetometer, Rig
 from symtop_ros.simulation.sensor.noise import random_walks
 from symtop_ros.simulation.topics import SENSOR_TOPICS, STATE_TOPICS, Samples
 
@@ -159,7 +151,7 @@ def test_noise_of_the_magnetometer_has_its_own_seed_and_a_random_walk():
 def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     run = Run(**{"imu.enabled": True, "imu.position": list(PLACE), "odometry.enabled": True})
     settings = run.sink.descriptions[0]
-    body = find_body(settings.top, settings.gravity)
+    body = Body.of(settings.top, settings.gravity)
     frames = list_fixed_frames(settings.top_frame, settings.imu, body)
     assert [each.child for each in frames] == ["top_imu", "top_centre_of_mass"]
     assert frames[0].translation == PLACE

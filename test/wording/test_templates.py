@@ -8,16 +8,9 @@ from dataclasses import fields
 from itertools import chain
 
 import pytest
-from physics.tops import ARTICLE, precess
+from physics.tops import ARTICLE, SLOW, precess
 
-from symtop_ros.physics import (
-    KickVerdict,
-    Motion,
-    hurry,
-    kick_verdict,
-    perrys_rule,
-    regular_precession_rates,
-)
+from symtop_ros.physics import KickVerdict, Motion, hurry, kick_verdict, perrys_rule
 from symtop_ros.physics.kicks import HOLDS
 from symtop_ros.physics.rule.perry import Place, Reason
 from symtop_ros.simulation.changes.outcomes import OUTCOMES
@@ -84,8 +77,7 @@ def read_numbers(text):
 @pytest.mark.parametrize("hold", HOLDS)
 @pytest.mark.parametrize("nearness", [10.0**-n for n in range(1, 13)])
 def test_two_numbers_that_differ_read_differently(nearness, hold):
-    slow, _ = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
-    for rate in (slow * (1 + nearness), slow * (1 - nearness), 9.0):
+    for rate in (SLOW * (1 + nearness), SLOW * (1 - nearness), 9.0):
         before, factor = precess(rate), 1 + nearness
         kicked = kick_verdict(Motion(ARTICLE, hurry(before, factor, hold)), before, hold)
         for verdict in (perrys_rule(ARTICLE, before, factor, hold), kicked):
@@ -99,8 +91,7 @@ def test_two_numbers_that_differ_read_differently(nearness, hold):
 
 @pytest.mark.parametrize("off", [1e-3, 1e-5, -1e-5])
 def test_a_top_that_moves_is_not_said_to_stay(off):
-    slow, _ = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
-    verdict = perrys_rule(ARTICLE, precess(slow + off))
+    verdict = perrys_rule(ARTICLE, precess(SLOW + off))
     assert verdict.direction in ("rises", "falls")
     for variant in ("radians", "degrees"):
         low, high = read_numbers(write("verdict", verdict, variant).partition(". ")[0])

@@ -36,16 +36,9 @@ ELAPSED = Fraction(2**60 + 1, 2**30)  # ns
 LONGEST = 5.0  # s of a driven motion
 FACTOR = np.array([1.4])
 # Names of enums that programs are told.
-NAMES = {
-    "kinds": KINDS,
-    "subjects": SUBJECTS,
-    "directions": DIRECTIONS,
-    "rules": RULES,
-    "places": PLACES,
-    "reasons": REASONS,
-    "lifts": LIFTS,
-    "facts": FACTS,
-}
+ENUMS = "kinds", "subjects", "directions", "rules", "places", "reasons", "lifts", "facts"
+WORDS = KINDS, SUBJECTS, DIRECTIONS, RULES, PLACES, REASONS, LIFTS, FACTS
+NAMES = dict(zip(ENUMS, WORDS, strict=True))
 
 
 class Sample:

@@ -18,10 +18,8 @@ from symtop_ros import __version__
 
 WARNINGS = ["-Wall", "-Wextra", "-Werror"]
 HAS_FMA = platform.machine() == "x86_64" and " fma " in Path("/proc/cpuinfo").read_text()
-needs_cmake = pytest.mark.skipif(
-    not all(map(shutil.which, ("g++", "cmake", "pkg-config"))),
-    reason="no C++ compiler, CMake or pkg-config",
-)
+HAS_CMAKE = all(map(shutil.which, ("g++", "cmake", "pkg-config")))
+needs_cmake = pytest.mark.skipif(not HAS_CMAKE, reason="no C++ compiler, CMake or pkg-config")
 PROJECT = "cmake_minimum_required(VERSION 3.14)\nproject(mine LANGUAGES C CXX)\n"
 # In the order of their numbers, by which programs that are compiled know them.
 STATUSES = (

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from drawn import Numbers
 from mpmath import mp, mpf
-from physics.tops import ARTICLE, DISC, exact_euler, exact_parts, precess, random_case
+from physics.tops import ARTICLE, DISC, FAST, SLOW, exact_euler, exact_parts, precess, random_case
 from trials import seeds
 
 from symtop_ros.physics import (
@@ -20,13 +20,10 @@ from symtop_ros.physics import (
     hurry,
     kick_verdict,
     perrys_rule,
-    regular_precession_rates,
     set_precession_rate,
 )
 
 pytestmark = pytest.mark.untraced
-
-SLOW, FAST = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
 
 
 def answer(before, factor=1.4, hold="spin_rate", top=ARTICLE):
@@ -152,18 +149,19 @@ def test_a_fall_too_small_to_see_is_none():
     assert perrys_rule(ARTICLE, before).direction == "rises"
 
 
+NODDING = State.from_euler(theta=0.5, psi=0.8, theta_dot=1.0, phi_dot=6.5, psi_dot=200.0)
+
+
 def test_a_delay_to_rest_is_a_delay_and_not_a_reversal():
-    before = State.from_euler(theta=0.5, psi=0.8, theta_dot=1.0, phi_dot=6.5, psi_dot=200.0)
-    assert perrys_rule(ARTICLE, before, 0.0).rule_holds is True
-    found = answer(before, 0.0)
+    assert perrys_rule(ARTICLE, NODDING, 0.0).rule_holds is True
+    found = answer(NODDING, 0.0)
     assert (found.before, found.after) == (pytest.approx(6.5, rel=1e-15), 0.0)
     assert (found.reason.kind, found.reason.rule) == ("delayed", "holds")
 
 
 def test_a_rate_that_is_set_to_itself_is_unchanged():
-    before = State.from_euler(theta=0.5, psi=0.8, theta_dot=1.0, phi_dot=6.5, psi_dot=200.0)
-    after = set_precession_rate(before, 6.5)  # which rounding has made 6.5 and some EPS
-    found = kick_verdict(Motion(ARTICLE, after), before, "spin_rate")
+    after = set_precession_rate(NODDING, 6.5)  # which rounding has made 6.5 and some EPS
+    found = kick_verdict(Motion(ARTICLE, after), NODDING, "spin_rate")
     assert (found.reason.kind, found.factor) == ("unchanged", 1.0)
 
 

@@ -2,18 +2,9 @@
 
 import numpy as np
 import pytest
-from physics.tops import ARTICLE, DISC, EPS, precess
+from physics.tops import ARTICLE, DISC, EPS, FAST, SLOW, precess
 
-from symtop_ros.physics import (
-    HOLDS,
-    Motion,
-    Top,
-    compare_hurried,
-    hurry,
-    kick_verdict,
-    perrys_rule,
-    regular_precession_rates,
-)
+from symtop_ros.physics import HOLDS, Motion, Top, compare_hurried, hurry, kick_verdict, perrys_rule
 
 pytestmark = pytest.mark.untraced
 TOPS = [ARTICLE, DISC, Top(1e-3, 1e-3, 0.2), Top(2e-4, 1e-4, 0.0)]
@@ -63,8 +54,7 @@ def test_the_map_says_what_kicks_and_verdicts_say(top, hold, factor):
 
 
 def test_at_a_root_the_other_turning_angle_is_the_tilt_itself():
-    slow, fast = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
-    found = compare_hurried(ARTICLE, 0.5, [slow, fast], 200.0).before
+    found = compare_hurried(ARTICLE, 0.5, [SLOW, FAST], 200.0).before
     # theta'' is a sum that vanishes but for rounding of phi', some eps of a slope of order one
     assert np.abs(found - 0.5).max() < 8 * EPS
 

@@ -4,11 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from physics.tops import ARTICLE, EPS, random_case
+from physics.tops import ARTICLE, EPS, SLOW, random_case
 
-from symtop_ros.physics import Motion, State, Top, perrys_rule, regular_precession_rates
+from symtop_ros.physics import Motion, State, Top, perrys_rule
 
-SLOW, _ = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
 KINDS = {
     "cusps": {"theta": 0.5, "psi_dot": 200.0},
     "looping": {"theta": 0.5, "psi_dot": 200.0, "phi_dot": -8.0},
