@@ -47,6 +47,7 @@ FIT = "of shapes that fit together"
 EULER = "theta", "phi", "psi", "theta_dot", "phi_dot", "psi_dot"
 SMALL = "so small that rates stay within 1e+100 rad/s"
 ONE_MOTION = "one motion", "motions of shape (2,)"
+ONE_STATE = "one state", "<State of shape (2,)>"
 STAMP = "an int or an array (n,) of ints, of at most 63 bits (ns)"
 ELAPSED = "a Fraction with a power of two as denominator (ns)"
 ROTATION = "a rotation (orthogonal within 0.001, determinant 1)"
@@ -139,7 +140,7 @@ MOTIONS = [
     *((partial(MOTION.at, t), "t", f"{FINITE_ARRAY} (s)", repr(t)[:40]) for t in NO_TIMES),
     *((partial(MOTION.reach, t, 10), "t", "number") for t in (NAN, INF, "1")),
     (partial(MOTION.reach, 1.0, NAN), "steps", ">= 0", "nan"),
-    (partial(MOTION.restart, MANY.at(0.0)), "start", "one state", "<State of shape (2,)>"),
+    (partial(MOTION.restart, MANY.at(0.0)), "start", *ONE_STATE),
     *((partial(PUSHED(torque=(0, 0, x)).at, 1.0), "t", NOT_TOO_FAST, "1") for x in (1e300, 1e308)),
     (partial(MOTION.jacobian, NAN), "t", FINITE_ARRAY),
     *((partial(MOTION.at, t), "t", NOT_TOO_LATE) for t in TOO_LATE),
@@ -170,12 +171,7 @@ KICKS = [
     *((partial(compare_hurried, ARTICLE, 1, 6, 90, 2, each), "hold", HOLD) for each in NO_HOLDS),
     *((partial(kick_verdict, MOTION, START, each), "hold", HOLD) for each in NO_HOLDS[1:]),
     (partial(kick_verdict, MANY, CUSPS, "spin_rate"), "motion", *ONE_MOTION),
-    (
-        partial(kick_verdict, MOTION, MANY.at(0.0), "spin_rate"),
-        "before",
-        "one state",
-        "<State of shape (2,)>",
-    ),
+    (partial(kick_verdict, MOTION, MANY.at(0.0), "spin_rate"), "before", *ONE_STATE),
     *((partial(perrys_rule, ARTICLE, START, x), "factor", FINITE_NUMBER, str(x)) for x in ODD),
     (partial(perrys_rule, ARTICLE, START, 1e200), "factor", "phi' stays within 1e+100", "1e+200"),
     *((partial(f, ARTICLE, 0.5, x, 200.0), "phi_dot", "") for f in OF_RATES for x in NO_RATES),

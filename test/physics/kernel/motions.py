@@ -11,15 +11,7 @@ from symtop_ros.physics import ExactTimes, Motion
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.door import KINDS
 from symtop_ros.physics.kicks import FACTOR_OF_RATE
-from symtop_ros.physics.rule.perry import (
-    DIRECTIONS,
-    FACTS,
-    LIFTS,
-    PLACES,
-    REASONS,
-    RULES,
-    SUBJECTS,
-)
+from symtop_ros.physics.rule import perry
 
 MOTIONS = read_motions()
 # But for weights of 1e-100 J, of which short times are refused.
@@ -36,9 +28,8 @@ ELAPSED = Fraction(2**60 + 1, 2**30)  # ns
 LONGEST = 5.0  # s of a driven motion
 FACTOR = np.array([1.4])
 # Names of enums that programs are told.
-ENUMS = "kinds", "subjects", "directions", "rules", "places", "reasons", "lifts", "facts"
-WORDS = KINDS, SUBJECTS, DIRECTIONS, RULES, PLACES, REASONS, LIFTS, FACTS
-NAMES = dict(zip(ENUMS, WORDS, strict=True))
+ENUMS = "subjects", "directions", "rules", "places", "reasons", "lifts", "facts"
+NAMES = {"kinds": KINDS, **{name: getattr(perry, name.upper()) for name in ENUMS}}
 
 
 class Sample:
