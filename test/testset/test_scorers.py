@@ -153,10 +153,11 @@ def score(capsys, *args):
 
 
 def assert_same(capsys, cpp, javascript, *args):
-    """Compare what the three scorers print."""
+    """Compare what the three scorers print; return the status."""
     wanted = score(capsys, *args)
     assert cpp(*args) == wanted
     assert javascript(*args) == wanted
+    return wanted[0]
 
 
 CASES = {kind: ("cusps", text) for kind, text in FILES.items()}
@@ -169,7 +170,8 @@ for problem in PROBLEMS:
 def test_the_three_scorers_print_the_same(name, text, tmp_path, capsys, cpp, javascript):
     path = tmp_path / "trajectory.csv"
     path.write_text(text, encoding="utf-8")
-    assert_same(capsys, cpp, javascript, name, path)
+    status = assert_same(capsys, cpp, javascript, name, path)
+    assert status == 0 or name == "cusps"  # of which there are bad files
 
 
 def test_the_three_scorers_list_and_refuse_the_same(capsys, cpp, javascript):
