@@ -53,9 +53,12 @@ def assert_agrees(log: TopLog, samples: int) -> None:
 def read_messages(path: Path) -> list[tuple[str, int, bytes]]:
     """Topic, log time and bytes of each message, in the order of the file."""
     file = McapFile(path)
-    topics = {number: channel.topic for number, channel in file.channels.items()}
-    messages = (message for chunk in file.chunks() for message in chunk)
-    return [(topics[each.channel_id], each.log_time, bytes(each.data)) for each in messages]
+    # the channels of a file that was not finished stand in its chunks
+    return [
+        (file.channels[each.channel_id].topic, each.log_time, bytes(each.data))
+        for chunk in file.chunks()
+        for each in chunk
+    ]
 
 
 def stamps_of(path: Path, topic: str = "/orientation") -> list[int]:
