@@ -7,35 +7,24 @@ from functools import partial
 import pytest
 from physics.tops import ARTICLE, CUSPS
 
-from symtop_ros.physics import (
-    Motion,
-    Motions,
-    State,
-    Top,
-    compare_hurried,
-    hurry,
-    kick_verdict,
-    perrys_rule,
-    push_axle,
-    regular_precession_rates,
-)
+from symtop_ros import physics
 
 UPWARD = {"x86_64": 0x800, "aarch64": 0x400000}.get(platform.machine())  # FE_UPWARD of fenv.h
-TOPS, MOTION = Top(ARTICLE.Ix, ARTICLE.Iz, [0.0625, 0.125]), Motion(ARTICLE, CUSPS)
+TOPS, MOTION = physics.Top(ARTICLE.Ix, ARTICLE.Iz, [0.0625, 0.125]), physics.Motion(ARTICLE, CUSPS)
 CALLS = {
-    "motion": partial(Motion, ARTICLE, CUSPS),
+    "motion": partial(physics.Motion, ARTICLE, CUSPS),
     "state": partial(MOTION.at, 0.5),
     "states": partial(MOTION.at, [0.5, 1.0]),
-    "motions": partial(Motions(TOPS, CUSPS).at, 0.5),
-    "angles": partial(State.from_euler, theta=0.5),
+    "motions": partial(physics.Motions(TOPS, CUSPS).at, 0.5),
+    "angles": partial(physics.State.from_euler, theta=0.5),
     "angles of a state": partial(getattr, CUSPS, "euler_angles"),
-    "kick": partial(hurry, CUSPS),
-    "push": partial(push_axle, ARTICLE, CUSPS, 0.125),
-    "rates": partial(regular_precession_rates, ARTICLE, 0.5, 200.0),
-    "verdict": partial(perrys_rule, ARTICLE, CUSPS),
-    "verdicts": partial(perrys_rule, TOPS, CUSPS),
-    "verdict on a kick": partial(kick_verdict, MOTION, CUSPS, "spin_rate"),
-    "map": partial(compare_hurried, ARTICLE, 0.5, 8.0, 200.0),
+    "kick": partial(physics.hurry, CUSPS),
+    "push": partial(physics.push_axle, ARTICLE, CUSPS, 0.125),
+    "rates": partial(physics.regular_precession_rates, ARTICLE, 0.5, 200.0),
+    "verdict": partial(physics.perrys_rule, ARTICLE, CUSPS),
+    "verdicts": partial(physics.perrys_rule, TOPS, CUSPS),
+    "verdict on a kick": partial(physics.kick_verdict, MOTION, CUSPS, "spin_rate"),
+    "map": partial(physics.compare_hurried, ARTICLE, 0.5, 8.0, 200.0),
 }
 
 
