@@ -6,7 +6,7 @@ next to the fields from which it is made; nothing reads the sentence.
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, astuple, dataclass
+from dataclasses import astuple, dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any, TypeVar
@@ -98,13 +98,12 @@ class Event:
         event has got, if it was pushed.
         """
         after, motion = following.state_at(stamp), following.motion
-        fields = asdict(outcome) if outcome else {}
         values = {
             "format": FORMAT,
             "number": str(number),
             "top_frame": top_frame,
             **{f"request.{key}": write_text(value) for key, value in request.items()},
-            **write_fields("outcome", fields),
+            **(write_fields("outcome", outcome) if outcome else {}),
             **{name: write_text(read(motion)) for name, read in MOTION.items()},
             **{name: write_text(read(following)) for name, read in SEGMENT.items()},
             "before.orientation": write_text(before.orientation.tolist()),
@@ -118,7 +117,7 @@ class Event:
             "kernel_version": kernel_version(),
             "version": __version__,
         }
-        return cls(stamp, name, write(name, fields) if outcome else "", values)
+        return cls(stamp, name, write(name, outcome) if outcome else "", values)
 
     def encode(self, frame: str, node: str = "") -> bytes:
         """Encode the event of a node (full name) as a DiagnosticArray with one status."""

@@ -76,20 +76,21 @@ def write_text(value: Any) -> str:
     return " ".join(value if is_words else map(repr, map(float, value)))
 
 
-def write_fields(prefix: str, fields: Mapping[str, Any]) -> dict[str, str]:
+def write_fields(prefix: str, record: Any) -> dict[str, str]:
     """Return the fields of a record as texts; their names begin with a prefix."""
     found: dict[str, str] = {}
-    _flatten(found, prefix, fields)
+    _flatten(found, prefix, record)
     return found
 
 
 def _flatten(found: dict[str, str], name: str, value: Any) -> None:
     """Add the fields of a value under a name."""
-    if isinstance(value, tuple) and value and isinstance(value[0], Mapping):
-        value = {str(place): each for place, each in enumerate(value)}
-    if isinstance(value, Mapping):
-        for key, each in value.items():
-            _flatten(found, f"{name}.{key}", each)
+    if is_dataclass(value):
+        for key in value.__dataclass_fields__:
+            _flatten(found, f"{name}.{key}", getattr(value, key))
+    elif isinstance(value, tuple) and value and is_dataclass(value[0]):
+        for place, each in enumerate(value):
+            _flatten(found, f"{name}.{place}", each)
     elif value is not None:
         found[name] = write_text(value)
 

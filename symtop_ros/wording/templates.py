@@ -42,11 +42,11 @@ form         text
 
 import json
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
-from functools import lru_cache
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -69,9 +69,10 @@ def read_templates(name: str) -> dict[str, str]:
 TEMPLATES = read_templates("en") | read_templates("programs")
 
 
-def write(
-    name: str, record: "DataclassInstance | Mapping[str, Any]", variant: Variant = "radians"
-) -> str:
+Record = Union["DataclassInstance", Mapping[str, Any]]
+
+
+def write(name: str, record: Record, variant: Variant = "radians") -> str:
     """Return a record as text.
 
     Parameters
@@ -89,7 +90,7 @@ def write(
     >>> write("pause", {"time": 0.25})
     'paused at 0.250000 s of the motion'
     """
-    return _Writer(variant).write(name, record if isinstance(record, Mapping) else asdict(record))
+    return _Writer(variant).write(name, record)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,20 +99,21 @@ class _Writer:
 
     variant: Variant
 
-    def write(self, name: str, record: Mapping[str, Any]) -> str:
-        kind = record.get("kind")
+    def write(self, name: str, record: Record) -> str:
+        kind = record.get("kind") if isinstance(record, Mapping) else getattr(record, "kind", None)
         return self._fill(f"{name}.{kind}" if kind else name, record)
 
-    def _fill(self, key: str, record: Mapping[str, Any]) -> str:
+    def _fill(self, key: str, record: Record) -> str:
         places, end = _split(key, self.variant)
+        read = record.__getitem__ if isinstance(record, Mapping) else partial(getattr, record)
         pieces = list[str]()
         for before, name, form in places:
-            value = _pick(name, record) if "," in name else record[name]
+            value = _join(map(read, name.split(","))) if "," in name else read(name)
             text = self._write_value(name, value, form, record)
             pieces += (before if text else before.removesuffix(" "), text)
         return "".join((*pieces, end))
 
-    def _write_value(self, name: str, value: Any, form: str, record: Mapping[str, Any]) -> str:
+    def _write_value(self, name: str, value: Any, form: str, record: Record) -> str:
         match value:
             case None:
                 return ""
@@ -121,14 +123,12 @@ class _Writer:
                 return write_number(value, form)
             case str():
                 return self._fill(f"{form}.{value}", record) if form else value
-            case Mapping():
-                return self.write(form or name, value)
-            case _:
+            case list() | tuple():
                 return self._write_several(name, value, form, record)
+            case _:
+                return self.write(form or name, value)
 
-    def _write_several(
-        self, name: str, values: Sequence[Any], form: str, record: Mapping[str, Any]
-    ) -> str:
+    def _write_several(self, name: str, values: Sequence[Any], form: str, record: Record) -> str:
         if form in TEMPLATES and set(map(type, values)) <= {float}:
             return self._fill_numbers(form, values)
         texts = [self._write_value(name, each, form, record) for each in values]
@@ -158,9 +158,8 @@ def _split(key: str, variant: Variant) -> tuple[list[tuple[str, str, str]], str]
     return list(zip(parts[::3], parts[1::3], forms, strict=True)), end
 
 
-def _pick(names: str, record: Mapping[str, Any]) -> Any:
-    """Return the numbers of several fields."""
-    values = [record[name] for name in names.split(",")]
+def _join(values: Iterable[Any]) -> list[float]:
+    """Return the numbers of several fields, each a number or some."""
     return [
         number for each in values for number in (each if isinstance(each, list | tuple) else [each])
     ]
