@@ -175,8 +175,7 @@ def test_a_motion_must_have_states_for_a_day_of_the_clock():
 def test_a_step_that_leads_to_the_farthest_time_itself_is_refused():
     run = Run(**{"top.Mgl": 2.0**55})
     run.ask("pause", True)
-    segment = run.simulation.segment
-    left = segment.motion.farthest_time - segment.begin_time
+    left = run.simulation.segment.motion.farthest_time  # from its start
     assert not run.ask("step", {"duration": left})[0]
     assert run.ask("step", {"duration": left - 1.0})[0]
 

@@ -78,7 +78,8 @@ def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
     button.dispatch_event("pointerup")
     opened.until(lambda: opened.say("headline").startswith("The torque has ended: the top "))
     torques = [each["torque"] for each in opened.read_events() if each["kind"] == "torque"]
-    assert torques == [[0, 0, pytest.approx(0.0075 * 0.068)], [0, 0, 0]]
+    # a page that is held up for long lets go
+    assert torques == [[0, 0, pytest.approx(0.0075 * 0.068)], [0, 0, 0]] * (len(torques) // 2)
 
 
 def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened, tmp_path):
@@ -133,14 +134,15 @@ def test_a_held_button_pushes_as_python_does_to_the_last_bit_and_letter(opened):
     button.dispatch_event("pointerdown")
     opened.until(lambda: opened.read_events()[-1].get("act", {}).get("number", 0) > 2)
     button.dispatch_event("pointerup")
-    start, event = opened.read_events()
+    event = opened.read_events()[-1]
     assert event["kind"] == "push"
     given = (event["time"], event["act"]["number"])
     opened.wait_for_time(given[0] + given[1] / 20 + 0.1)  # nothing is pushed any more
     opened.tab.click("#hurry")
-    start, event, after = opened.read_events()
+    *_, former, event, after = opened.read_events()  # one that is held up for long lets go
     assert (event["time"], event["act"]["number"]) == given
-    motion, before = read_pushed(event), read_motion(start).at(find_time(start, event))
+    begun = read_pushed(former) if former["kind"] == "push" else read_motion(former)
+    motion, before = read_pushed(event), begun.at(find_time(former, event))
     opened.seek(after["time"] - 0.02)
     assert opened.say("why") == write("push", Pushed.of(motion, before))
     reached = motion.at(find_time(event, after))
