@@ -4,7 +4,7 @@ Tick k is at start + k/rate, whenever it is published. The samples of several ti
 together, as arrays.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -111,21 +111,23 @@ class Ticker:
     def _go_to(self, number: int) -> None:
         self._next, self.next_stamp = number, self._stamp(number)  # of the next tick, and in ns
 
-    def due(self, now: int, catch_up: float, until: int, count_late: bool = True) -> list[int]:
-        """Return the stamps that are due, in order, and count late and dropped ones."""
+    def due(self, now: int, catch_up: float, until: int, count_late: bool = True) -> Iterator[int]:
+        """Yield the stamps that are due, in order, and count late and dropped ones.
+
+        A stamp is taken when it is yielded: those that are not asked for stay due.
+        """
         last = (now - self._start) * self._ticks // self._nanoseconds
         oldest = last - int(catch_up * self.rate)
         if oldest > self._next:
             self.missed += oldest - self._next
             self._go_to(oldest)
-        stamps, latest = [], min(now, until)
+        latest = min(now, until)
         # A stamp is rounded, so the one of tick `last` may be half a nanosecond after `now`.
         while self._next <= last and self.next_stamp <= latest:
-            stamps.append(self.next_stamp)
+            stamp = self.next_stamp
             self._go_to(self._next + 1)
-        if count_late:
-            self.late += sum((now - stamp) * self._ticks > self._nanoseconds for stamp in stamps)
-        return stamps
+            self.late += count_late and (now - stamp) * self._ticks > self._nanoseconds
+            yield stamp
 
     def grid(self, stamp: int, count: int) -> list[int]:
         """Return `count` consecutive stamps of the grid from `stamp` (one of them) on."""

@@ -6,7 +6,9 @@ takes effect, and what is published.
 """
 
 import threading
-from collections.abc import Callable, Sequence
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from typing import TypeVar
 
@@ -44,6 +46,7 @@ class Simulation:
     def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
         self._sink, self.host, self._clock = sink, host, clock
         self._lock = threading.RLock()
+        self._waiting: deque[None] = deque()  # one for each turn that waits for the lock
         self._failures: dict[str, Failure] = {}  # by the name of the turn
         self._events = 0  # events so far
         self._jumped_to: int | None = None  # ns
@@ -97,7 +100,7 @@ class Simulation:
         once until the action `name` succeeds again; the motion keeps running. A request that may
         be refused is an action of `attempt`.
         """
-        with self._lock:
+        with self._turn():
             self._follow_jump()
             self.settle()
             stamp, before = self.stamp, self.timeline
@@ -112,6 +115,14 @@ class Simulation:
             self._failures.pop(name, None)
             return result
 
+    @contextmanager
+    def _turn(self) -> Iterator[None]:
+        """Take the lock, for which no more than one sample is waited, however many are late."""
+        self._waiting.append(None)
+        with self._lock:
+            self._waiting.pop()
+            yield
+
     def _report_failure(self, failure: Failure, stamp: int, before: Timeline) -> None:
         name = failure.action
         if self._failures.get(name) != failure or self.segment is not before.segment:
@@ -124,7 +135,7 @@ class Simulation:
 
         `act` returns the answer or raises RefusedError.
         """
-        with self._lock:
+        with self._turn():
             found = self.take_turn(f"~/{name}", partial(attempt, act))
             # The first sample of the new motion need not wait for the next tick.
             self.publish()
@@ -154,13 +165,15 @@ class Simulation:
     # Samples
 
     def publish(self) -> bool:
-        """Publish what is due; return False if the motion is not integrated up to there."""
+        """Publish what is due, but one sample if a turn waits; False if it is not integrated."""
         ready = self._work_on_block()
         if ready:
             missed, is_real = self.ticker.missed, not self._clock.is_simulated
             for stamp in self.ticker.due(self.now, self._catch_up, self._block.last, is_real):
                 self._sink.send_sample(stamp, self._block)
                 self.last = stamp
+                if self._waiting:
+                    break
             if self.ticker.missed > missed:
                 self._report_gap(self.ticker.missed - missed)
         return ready

@@ -99,7 +99,7 @@ NEVER = 2**62
 
 
 def due(ticker, now, until=NEVER):
-    return ticker.due(now, CATCH_UP, until)
+    return [*ticker.due(now, CATCH_UP, until)]
 
 
 LATE_TICKS = [

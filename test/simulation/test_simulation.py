@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import pytest
 from simulation.runs import SECOND, Run
+from waiting import until
 
 from symtop_ros.simulation.budget import SHARE
 from symtop_ros.simulation.changes.outcomes import Failure
@@ -92,6 +93,27 @@ def test_while_the_clock_jumps_no_sample_gets_a_stamp_of_the_new_time():
     ticks.join()
     assert run.sink.events[-1].name == "clock"
     assert run.simulation.ticker.missed == 0
+    run.assert_recomputed()
+
+
+def test_a_request_waits_for_one_sample_however_many_are_late():
+    run = Run(publish_rate=1000.0, seconds=0.1)
+    sent, send = len(run.stamps), run.sink.send_sample
+    asking = threading.Thread(target=run.ask, args=("pause", True))
+
+    def send_and_ask(stamp, block):
+        send(stamp, block)
+        if not asking.ident:
+            asking.start()
+            until(lambda: run.simulation._waiting)
+
+    run.sink.send_sample = send_and_ask
+    run.clock.now += 12 * SECOND // 1000  # they are in one block
+    run.simulation.tick()
+    asking.join()
+    assert run.stamps.index(run.sink.events[-1].stamp) == sent + 1
+    run.tick()
+    assert len(run.stamps) == sent + 12
     run.assert_recomputed()
 
 
