@@ -149,7 +149,7 @@ REFUSED = [
     ({}, "step", {"duration": 1.0, "speed": 2.0}, "field name must be one of duration, got "),
     ({}, "step", {}, "duration must be 0 to 1e+09 s, got none"),
     ({}, "step", {"duration": 1e15}, "duration must be 0 to 1e+09 s, got "),
-    ({"top.Mgl": 1e16}, "step", {"duration": 1e9}, "duration must be within 1e15 turns of the "),
+    ({"top.Mgl": 2.0**55}, "step", {"duration": 2.0**20}, "duration must be within 1e15 turns of "),
     (DRIVEN, "step", {"duration": 1e9}, "duration must be up to "),  # of what takes too long
 ]
 
@@ -170,14 +170,6 @@ def test_a_motion_must_have_states_for_a_day_of_the_clock():
     assert Run(**fast, real_time_factor=12.0).ask(START, {"theta": 0.5})[0]
     with pytest.raises(RefusedError, match="for a day at this real-time factor"):
         Run(**fast, real_time_factor=12.25)
-
-
-def test_a_step_that_leads_to_the_farthest_time_itself_is_refused():
-    run = Run(**{"top.Mgl": 2.0**55})
-    run.ask("pause", True)
-    left = run.simulation.segment.motion.farthest_time  # from its start
-    assert not run.ask("step", {"duration": left})[0]
-    assert run.ask("step", {"duration": left - 1.0})[0]
 
 
 def test_an_empty_request_starts_from_the_quaternion_of_the_parameters_and_any_other_from_angles():

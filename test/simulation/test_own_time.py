@@ -21,7 +21,9 @@ def start(seconds=0.0, **changes):
 
 @pytest.mark.parametrize("factor", [0.1, 1.0, 5.0])
 def test_time_stands_still_in_a_pause_and_no_period_is_lost(factor):
-    run = start(real_time_factor=factor, publish_rate=400.0, seconds=0.3)
+    run = start(publish_rate=400.0)
+    run.change({"real_time_factor": factor})
+    run.advance(0.3)
     assert run.ask("pause", True)[0]
     before, last = len(run.sink.samples), run.sink.samples[-1][0]
     assert before == round(0.3 * factor * 400) + 1
@@ -50,15 +52,6 @@ def test_a_step_advances_time_by_its_duration_with_one_sample_at_the_end():
     assert run.ask("pause", False)[0]
     run.advance(0.1)
     assert np.diff(run.stamps)[-20:].tolist() == [PERIOD] * 20
-    run.assert_recomputed()
-
-
-def test_another_factor_is_that_of_the_clock():
-    run = start(seconds=0.1)
-    run.change({"real_time_factor": 2.0})
-    before = run.simulation.now
-    run.advance(0.1)
-    assert run.simulation.now - before == SECOND // 5
     run.assert_recomputed()
 
 

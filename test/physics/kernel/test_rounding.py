@@ -19,10 +19,8 @@ CALLS = {
     "angles": partial(physics.State.from_euler, theta=0.5),
     "angles of a state": partial(getattr, CUSPS, "euler_angles"),
     "kick": partial(physics.hurry, CUSPS),
-    "push": partial(physics.push_axle, ARTICLE, CUSPS, 0.125),
     "rates": partial(physics.regular_precession_rates, ARTICLE, 0.5, 200.0),
     "verdict": partial(physics.perrys_rule, ARTICLE, CUSPS),
-    "verdicts": partial(physics.perrys_rule, TOPS, CUSPS),
     "verdict on a kick": partial(physics.kick_verdict, MOTION, CUSPS, "spin_rate"),
     "map": partial(physics.compare_hurried, ARTICLE, 0.5, 8.0, 200.0),
 }
