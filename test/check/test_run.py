@@ -141,7 +141,8 @@ def test_what_was_missed_before_a_log_that_begins_later_is_not_of_it(memory, beg
     places = memory.places("/diagnostics")
     for place, count in zip(places, (7, *[27] * len(places[1:])), strict=True):
         memory.messages[place].data = set_missed(memory.messages[place].data, count)
-    assert count_missed(TopLog(memory), list(TopLog(memory).events())[begin:]) == missed
+    log = TopLog(memory)
+    assert count_missed(log, list(log.events())[begin:]) == missed
 
 
 def test_in_a_log_that_names_no_rate_the_first_samples_say_the_period(tmp_path):

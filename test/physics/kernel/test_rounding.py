@@ -17,7 +17,6 @@ CALLS = {
     "states": partial(MOTION.at, [0.5, 1.0]),
     "motions": partial(physics.Motions(TOPS, CUSPS).at, 0.5),
     "angles": partial(physics.State.from_euler, theta=0.5),
-    "angles of a state": partial(getattr, CUSPS, "euler_angles"),
     "kick": partial(physics.hurry, CUSPS),
     "rates": partial(physics.regular_precession_rates, ARTICLE, 0.5, 200.0),
     "verdict": partial(physics.perrys_rule, ARTICLE, CUSPS),
