@@ -155,8 +155,7 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         "lint": [  # early, because its tools come from a registry that may be slow
             *fetch("js/done"),
             *(check("ruff", "check"), check("ruff", "format", "--check")),
-            *(check("codespell"), check("mypy")),
-            *(check_page("style"), check_page("types")),
+            *(check("codespell"), check("mypy"), check_page("style"), check_page("types")),
         ],
         "plain": [*fetch("chromium"), run(*PLAIN, *WITH_ROS)],
         "physics": [run("test/physics")],

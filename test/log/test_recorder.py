@@ -70,6 +70,7 @@ def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp
     for stamp in (0, 1_100_000_000):
         recorder.add(1, stamp, b"one")
     until(lambda: is_finished(path))
+    assert list(tmp_path.iterdir()) == [path]  # the next one begins with its first message
     recorder.add(1, 1_200_000_000, b"two")
     recorder.stop()
     first, second = sorted(tmp_path.iterdir(), key=lambda path: path.stat().st_mtime_ns)
@@ -145,6 +146,7 @@ def test_a_full_disk_stops_the_recording_and_what_was_written_opens(tmp_path):
             time.sleep(0.0005)
             assert stamp < 100_000
         assert recorder.failure == f"{path}: {os.strerror(errno.ENOSPC)}"
+        assert recorder.path is None
         (problem,) = read_whole(path).problems
         assert "not finished" in problem
         found = [log_time for _, log_time, _ in contents(path)]  # a whole file for others
