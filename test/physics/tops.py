@@ -165,7 +165,8 @@ def within(seconds: float, error: type[BaseException] = AssertionError) -> Itera
         raise error(f"longer than {seconds} s")
 
     usual = signal.signal(signal.SIGALRM, end)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    # again and again: Python ignores what is raised while it collects garbage
+    signal.setitimer(signal.ITIMER_REAL, seconds, seconds)
     try:
         yield
     finally:
