@@ -117,7 +117,7 @@ class Simulation:
 
     @contextmanager
     def _turn(self) -> Iterator[None]:
-        """Take the lock, for which no more than one sample is waited, however many are late."""
+        """Take the lock: who publishes late samples lets a turn in after each of them."""
         self._waiting.append(None)
         with self._lock:
             self._waiting.pop()
@@ -165,7 +165,7 @@ class Simulation:
     # Samples
 
     def publish(self) -> bool:
-        """Publish what is due, but one sample if a turn waits; False if it is not integrated."""
+        """Publish what is due, one sample if a turn waits; False if the motion is not so far."""
         ready = self._work_on_block()
         if ready:
             missed, is_real = self.ticker.missed, not self._clock.is_simulated
