@@ -124,7 +124,7 @@ class Motion:
         Raises
         ------
         ValueError
-            If there are many states.
+            If it is not one state.
 
         Examples
         --------
@@ -142,9 +142,10 @@ class Motion:
         motion._kernel = door.KernelMotion(motion.packed_start)
         return motion
 
-    def pack_with(self, name: str, state: State) -> bytes:
+    def pack_with(self, name: str, state: Any) -> bytes:
         """Return the numbers of the motion from another state, as `symtop_start` has them."""
-        require(state.orientation.ndim == 1, name, "one state", state)
+        is_one = isinstance(state, State) and state.orientation.ndim == 1
+        require(is_one, name, "one state", state)
         given, omega = state.given_orientation, state.angular_velocity
         return door.replace_state(self.packed_start, given, omega)
 

@@ -140,7 +140,7 @@ MOTIONS = [
     *((partial(MOTION.at, t), "t", f"{FINITE_ARRAY} (s)", repr(t)[:40]) for t in NO_TIMES),
     *((partial(MOTION.reach, t, 10), "t", "number") for t in (NAN, INF, "1")),
     (partial(MOTION.reach, 1.0, NAN), "steps", ">= 0", "nan"),
-    (partial(MOTION.restart, MANY.at(0.0)), "start", *ONE_STATE),
+    *((partial(MOTION.restart, x), "start", "one state", str(x)) for x in (MANY.at(0.0), 3)),
     *((partial(PUSHED(torque=(0, 0, x)).at, 1.0), "t", NOT_TOO_FAST, "1") for x in (1e300, 1e308)),
     (partial(MOTION.jacobian, NAN), "t", FINITE_ARRAY),
     *((partial(MOTION.at, t), "t", NOT_TOO_LATE) for t in TOO_LATE),

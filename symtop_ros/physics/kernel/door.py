@@ -303,7 +303,7 @@ class KernelMotion:
         return float(max(transverse / Ix, axial / Iz))
 
     def at(self, t: float | ExactTimes) -> tuple[float, ...] | None:
-        """Return quaternion and angular velocity at one time (s); None if it is too far."""
+        """Return quaternion and angular velocity at one time, in s or exact; None if too far."""
         if isinstance(t, ExactTimes):
             q, omega, clock = Quaternion(), Rates(), ClockRecord(*t.clock)
             stamp = int(t.nanoseconds).to_bytes(8, sys.byteorder, signed=True)
