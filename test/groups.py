@@ -11,7 +11,6 @@ import argparse
 import os
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 import time
@@ -22,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 sys.path.append(str(Path(__file__).parents[1]))
+import lint
 from processors import old_processor
 
 from workshop.load.endings import bound
@@ -118,26 +118,9 @@ def pytest(
     )
 
 
-def check(*words: str) -> Command:
-    """Return the command of a tool that checks the sources."""
-    return Command((str(BIN / words[0]), *words[1:]), ())
-
-
-def check_page(what: str) -> Command:
-    """Return the command that checks the page's modules."""
-    script = Path(__file__).with_name("check_js.sh")
-    return Command(("sh", str(script), str(Path(sys.prefix, "js")), what), ())
-
-
-def fetch(*targets: str) -> list[Command]:
-    """Return the commands that fetch what only some groups need, never one target twice at once."""
-    commands = []
-    for target in targets:
-        lock = str(OUTPUT / f"{target.replace('/', '-')}.lock")
-        alone = ("flock", lock) if shutil.which("flock") else ()
-        path = os.path.relpath(Path(sys.prefix, target), ROOT)
-        commands.append(Command((*alone, "make", "--silent", path), ()))
-    return commands
+def fetch(*names: str) -> list[Command]:
+    """Return the commands that fetch what only some groups need."""
+    return [Command(("make", "--silent", f"set-up-{name}"), ()) for name in names]
 
 
 def list_groups(trace: bool) -> dict[str, list[Command]]:
@@ -149,13 +132,12 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
 
     return {
         "page": [*fetch("chromium"), run(*PAGE, options=("-p", "without_ros"))],
-        "nodes": [*fetch("messages/done"), run(*NODES)],
+        "nodes": [*fetch("messages"), run(*NODES)],
         "rest": [*fetch("vulkan", "chromium"), run("test", *ignore(ELSEWHERE))],
         "judge": [run(*JUDGE)],
         "lint": [  # early, because its tools come from a registry that may be slow
-            *fetch("js/done"),
-            *(check("ruff", "check"), check("ruff", "format", "--check")),
-            *(check("codespell"), check("mypy"), check_page("style"), check_page("types")),
+            *fetch("js"),
+            *(Command((*words,), ()) for words in lint.list_commands()),
         ],
         "plain": [*fetch("chromium"), run(*PLAIN, *WITH_ROS)],
         "physics": [run("test/physics")],
