@@ -1,9 +1,10 @@
 """The first hour: what make says and does before anything is installed."""
 
+import json
 import os
 import re
 import shutil
-import sys
+import sysconfig
 
 import groups
 import pytest
@@ -12,68 +13,203 @@ from programs import execute
 
 from symtop_ros.web.join import write_file
 
-MAKEFILE = ROOT / "Makefile"
-ACTIVATE = ".venv/bin/activate"  # the target that makes the environment
+README = ROOT / "README.md"
+PACKAGE = ("setup.py", "setup.cfg", "build_kernel.py", "package.xml", "symtop_ros/__init__.py")
+NEEDED = ("Makefile", "workshop/environment.mk", "workshop/set_up.py", *PACKAGE)
+HEADER = "symtop_ros/physics/kernel/symtop.h"
+LIBRARY = "symtop_ros/physics/kernel/libsymtop.so"
+# Writes down what it is asked for, and what an editable installation leaves.
+PIP = """
+import json, pathlib, sys
+root = pathlib.Path(sys.prefix).parent
+with (root / "asked").open("a") as file:
+    print(*(word for word in sys.argv[1:] if word not in ("--no-compile", "--quiet")), file=file)
+if "--editable" in sys.argv:
+    site = pathlib.Path(__file__).parents[1] / "symtop_ros-1.dist-info"
+    site.mkdir(exist_ok=True)
+    (site / "direct_url.json").write_text(json.dumps({"dir_info": {"editable": True}, "url": ""}))
+sys.exit((root / "no network").exists())
+"""
+# Makes an environment of the Python that runs it, with that pip.
+VENV = """
+import pathlib, sys
+folder, python = pathlib.Path(sys.argv[-1]), pathlib.Path(sys.executable).resolve()
+pip = folder / "lib/python{}.{}/site-packages/pip".format(*sys.version_info[:2])
+for each in (folder / "bin", pip):
+    each.mkdir(parents=True)
+(folder / "bin/python").symlink_to(python)
+config = f"home = {python.parent}\\ninclude-system-site-packages = false"
+(folder / "pyvenv.cfg").write_text(config)
+(pip / "__main__.py").write_text(pathlib.Path("pip.txt").read_text())
+"""
 
 
 def make(folder, *words, **variables):
     """Run make in a folder without any environment; return the process, which has ended."""
     outer = {"MAKEFLAGS", "MFLAGS", "MAKELEVEL"}  # of the make that runs the tests
     environment = {name: os.environ[name] for name in os.environ.keys() - outer}
-    words = ["make", "-f", MAKEFILE, *words, *(f"{k}={value}" for k, value in variables.items())]
+    words = ["make", *words, *(f"{k}={value}" for k, value in variables.items())]
     return execute(words, cwd=folder, env=environment, timeout=300)
 
 
-PARTS = {"style", "types", "types-js"}  # of `make lint`
+PARTS = {"style", "types"}  # of `make lint`
 GROUPS = {f"test-{name}" for name in groups.list_groups(trace=False)}
 
 
-def list_phony(*words, folder):
+def list_phony():
     """The targets that are no files."""
-    (found,) = re.findall(r"^\.PHONY: (help .*)$", make(folder, "-pn", *words).stdout, re.MULTILINE)
+    (found,) = re.findall(r"^\.PHONY: (help .*)$", make(ROOT, "-pn", "help").stdout, re.MULTILINE)
     return set(found.split())
 
 
-def test_help_lists_every_target_of_a_user_and_of_a_change(tmp_path):
-    listed = make(tmp_path, "help").stdout
-    assert list_phony("help", folder=tmp_path) > GROUPS | PARTS
+def test_help_lists_every_target_of_a_user_and_of_a_change():
+    listed = make(ROOT, "help").stdout
+    assert list_phony() > GROUPS | PARTS
     named = set(re.findall(r"^(\S+)  ", listed, re.MULTILINE))
-    assert named == list_phony("help", folder=tmp_path) - GROUPS - PARTS
+    assert named == list_phony() - GROUPS - PARTS
 
 
-@pytest.mark.long  # pip is installed; the next test has an environment without a pip, too
-@pytest.mark.parametrize("present", ["no pip", "nothing"])
-def test_an_environment_that_was_not_completed_is_made_again(tmp_path, present):
-    if present != "nothing":
-        interpreter = tmp_path / ".venv/bin/python"
-        interpreter.parent.mkdir(parents=True)
-        interpreter.symlink_to(sys.executable)
-    made = make(tmp_path, ACTIVATE, PYTHON=sys.executable)
-    assert made.returncode == 0, made.stderr
-    pip = [tmp_path / ".venv/bin/python", "-m", "pip", "--version"]
-    assert str(tmp_path) in execute(pip, check=True).stdout
+@pytest.fixture(name="fresh")
+def _fresh(tmp_path):
+    """A checkout in a path with a blank, with what make needs and a pip that fetches nothing."""
+    folder = tmp_path / "My Größe"
+    for name in (*NEEDED, HEADER):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, folder / name)
+    (folder / LIBRARY).touch()
+    (folder / "venv.py").write_text(VENV)
+    (folder / "pip.txt").write_text(PIP)
+    return folder
 
 
-def test_a_python_that_cannot_make_an_environment_leaves_none_and_names_the_package(tmp_path):
-    """As on Debian without python3-venv, where venv fails after it has written the interpreter."""
-    python = tmp_path / "python3"
-    python.write_text(
-        '#!/bin/sh\n[ "$2" = venv ] || exit 0\nmkdir -p .venv/bin\ntouch .venv/bin/python\nexit 1\n'
-    )
-    python.chmod(0o755)
+@pytest.fixture(name="checkout")
+def _checkout(fresh):
+    """The same, set up as `panel` and as `ros`."""
+    done = make(fresh, "set-up-panel", "set-up-ros")
+    assert (done.returncode, done.stdout.splitlines()[0]) == (0, "Setting up .venv: Python ...")
+    (fresh / "asked").unlink()
+    return fresh
+
+
+def set_up(checkout, *names):
+    """Make set-ups; return the status, the lines of make and what pip was asked for."""
+    done = make(checkout, *(f"set-up-{name}" for name in names or ("panel", "ros")))
+    asked = checkout / "asked"
+    lines = asked.read_text().splitlines() if asked.exists() else []
+    return done.returncode, done.stdout.splitlines(), lines
+
+
+def is_anew(printed, reason):
+    """Return True if the environment was made anew for a reason, in one line."""
+    return printed[:2] == [
+        f"make: .venv {reason}: it is made anew",
+        "Setting up .venv: Python ...",
+    ]
+
+
+def test_nothing_is_run_where_all_is_there(checkout):
+    for path in checkout.rglob("*"):
+        if not path.is_symlink():
+            os.utime(path)  # an archive has the times of its commit
+    assert set_up(checkout) == (0, [], [])
+
+
+def test_one_extra_more_has_those_before(checkout):
+    status, printed, asked = set_up(checkout, "test")
+    assert (status, printed[0].partition(":")[0]) == (0, "Setting up .venv")
+    assert asked[-1].endswith("--editable .[ros,playback,report,test,lint]")
+    (checkout / "asked").unlink()
+    assert set_up(checkout, "ros", "report", "panel") == (0, [], [])
+
+
+@pytest.mark.parametrize("change", [HEADER, "symtop_ros/__init__.py", LIBRARY])
+def test_the_package_is_built_anew_where_its_sources_have_changed(checkout, change):
+    path = checkout / change
+    if change == LIBRARY:
+        path.unlink()
+    else:
+        path.write_text(path.read_text() + "\n")
+    status, printed, asked = set_up(checkout)
+    said = "make: sources of the package have changed: it is built anew"
+    assert (status, printed) == (0, [said])
+    assert [line.split()[-3:] for line in asked] == [["--no-deps", "--editable", "."]]
+    (checkout / LIBRARY).touch()
+    (checkout / "asked").unlink()
+    assert set_up(checkout) == (0, [], [])
+
+
+def test_python_that_has_changed_needs_no_build(checkout):
+    (checkout / "symtop_ros/new.py").touch()
+    assert set_up(checkout) == (0, [], [])
+
+
+def test_a_copy_that_pip_has_put_in_its_place_goes(checkout):
+    (record,) = checkout.glob(".venv/lib/python*/site-packages/symtop*/direct_url.json")
+    record.write_text('{"dir_info": {}, "url": ""}')
+    status, (line,), asked = set_up(checkout, "ros")
+    assert status == 0
+    assert "was installed as a copy, which changes of the checkout do not reach" in line
+    assert len(asked) == 1
+
+
+def test_a_moved_checkout_gets_a_new_environment(checkout):
+    moved = checkout.rename(checkout.with_name("moved"))
+    status, printed, _ = set_up(moved, "python")
+    assert status == 0
+    assert is_anew(printed, f"was made in {checkout}")
+    assert set_up(moved, "python") == (0, [], [])
+
+
+def test_an_environment_of_another_python_is_made_anew(checkout):
+    stamp = checkout / ".venv/set-up/python.json"
+    now = json.loads(stamp.read_text())["python"]
+    stamp.write_text(stamp.read_text().replace(now, "Python 3.2 in /usr"))
+    status, printed, _ = set_up(checkout, "python")
+    assert status == 0
+    assert is_anew(printed, f"was made of Python 3.2 in /usr, which is {now} now")
+
+
+def test_an_environment_that_was_not_completed_is_made_anew(checkout):
+    (checkout / ".venv/set-up/python.json").unlink()
+    status, printed, _ = set_up(checkout, "python")
+    assert status == 0
+    assert is_anew(printed, "was not completed, or is of an earlier version")
+
+
+def test_without_a_network_a_line_says_what_to_do_and_the_next_run_tries_again(checkout):
+    (checkout / "no network").touch()
+    (checkout / "setup.py").write_text((checkout / "setup.py").read_text() + "\n")
+    for _ in range(2):
+        status, printed, _ = set_up(checkout, "ros")
+        assert status == 2
+        assert printed[-1].startswith("make: pip could not install what is missing")
+    (checkout / "no network").unlink()
+    assert set_up(checkout, "ros")[0] == 0
+
+
+def test_a_python_without_venv_leads_to_its_package(fresh):
+    """As on Debian without python3-venv."""
+    (fresh / "venv.py").write_text("raise SystemExit(1)")
     for _ in range(2):  # the advice is the same the second time
-        made = make(tmp_path, ACTIVATE, PYTHON=python)
-        assert made.returncode == 2
-        assert "apt install python3-venv" in made.stdout
+        done = make(fresh, "set-up-python")
+        assert done.returncode == 2
+        assert "apt install python3-venv" in done.stdout
 
 
-def test_a_python_that_is_missing_is_named(tmp_path):
-    made = make(tmp_path, ACTIVATE, PYTHON="nonexistent")
-    assert made.returncode == 2
-    assert "PYTHON must be a Python 3.11 or later, got nonexistent: not found" in made.stdout
+def test_a_python_that_is_missing_or_old_is_named(fresh, tmp_path):
+    old = tmp_path / "old python"
+    old.write_text("#!/bin/sh\necho 3.9.2\nexit 1\n")
+    old.chmod(0o755)
+    for python, reason in (("nonexistent", "not found"), (old, "3.9.2; name one")):
+        done = make(fresh, "set-up-python", PYTHON=python)
+        assert done.returncode == 2
+        said = f"PYTHON must be Python 3.11 or later, got {python}: {reason}"
+        assert said in done.stdout
 
 
-def test_the_tests_run_without_the_variables_of_the_machine(tmp_path):
+def test_the_set_up_of_the_readme_is_typed_line_by_line_without_the_variables_of_the_machine(
+    tmp_path,
+):
     fake = tmp_path / "make"
     fake.write_text("#!/bin/sh\necho $*\nenv\n")
     fake.chmod(0o755)
@@ -81,34 +217,31 @@ def test_the_tests_run_without_the_variables_of_the_machine(tmp_path):
     path = os.pathsep.join([str(tmp_path), os.environ["PATH"]])
     variables = {**os.environ, **variables, "PATH": path}
     printed = execute([ROOT / ".ci/run"], env=variables, check=True).stdout
-    first, *rest = printed.splitlines()
-    names = {line.partition("=")[0] for line in rest}
-    assert first == "test"
+    block = re.search(r"## Set-up\n.*?```sh\n.*?\ncd \S+\n(.*?)```", README.read_text(), re.S)[1]
+    assert re.findall(r"^\$ (.*)$", printed, re.M) == block.splitlines()
+    assert block.splitlines()[-1] == "make test"
+    names = {line.partition("=")[0] for line in printed.splitlines()}
     assert {"HOME", "PATH", "PIP_NO_INPUT"} <= names
     assert not names & {"PYTHONUNBUFFERED", "ROS_DOMAIN_ID"}
 
 
 def test_every_variable_of_the_makefile_has_a_value():
     """Of a variable without a definition make takes the empty text, and says so when asked."""
-    told = make(ROOT, "--warn-undefined-variables", "-nB", "test", "test-kilted", "docs").stderr
+    told = make(ROOT, "--warn-undefined-variables", "-n", "test", "test-kilted", "docs").stderr
     ours = [line for line in told.splitlines() if "undefined variable" in line]
     assert [line for line in ours if not re.search("'(ROS_LOG_DIR|MPLCONFIGDIR)'", line)] == []
 
 
-def test_the_page_needs_no_compiler_and_no_compiled_kernel(tmp_path):
+def test_the_page_needs_no_compiler_and_no_compiled_kernel(checkout):
     """As in a fresh checkout on a machine without a compiler, once NumPy and PyYAML are there."""
     compiled = shutil.ignore_patterns("libsymtop.*", "symtop.dll", "__pycache__")
-    shutil.copytree(ROOT / "symtop_ros", tmp_path / "symtop_ros", ignore=compiled)
-    shutil.copytree(ROOT / "config", tmp_path / "config")
-    shutil.copy(ROOT / "package.xml", tmp_path)
-    programs = tmp_path / ".venv/bin"
-    programs.mkdir(parents=True)
-    python = programs / "python"
-    python.write_text(f'#!/bin/sh\nexec {sys.executable} "$@"\n')
-    python.chmod(0o755)
-    for name in ("bin/activate", "panel"):  # they have been set up
-        (tmp_path / ".venv" / name).touch()
-    command = [shutil.which("make"), "-f", MAKEFILE, "panel"]
-    made = execute(command, cwd=tmp_path, env={"PATH": str(programs)}, timeout=60)
+    shutil.rmtree(checkout / "symtop_ros")
+    shutil.copytree(ROOT / "symtop_ros", checkout / "symtop_ros", ignore=compiled)
+    shutil.copytree(ROOT / "config", checkout / "config")
+    (site,) = checkout.glob(".venv/lib/python*/site-packages")
+    (site / "those_of_the_tests.pth").write_text(sysconfig.get_paths()["purelib"])
+    words = [shutil.which("make"), "panel"]
+    path = {"PATH": str(checkout / ".venv/bin")}
+    made = execute(words, cwd=checkout, env=path, timeout=60)
     assert (made.returncode, made.stdout) == (0, "wrote top.html, open it in a browser\n"), made
-    assert (tmp_path / "top.html").read_text() == write_file()
+    assert (checkout / "top.html").read_text() == write_file()

@@ -231,7 +231,9 @@ def _install(place: str, *words: str) -> None:
 def _has_compiler(python: str) -> bool:
     """Return False where the build has to fetch a compiler, into an environment of its own."""
     code = "import sys, build_kernel; sys.exit(not build_kernel.find_compiler())"
-    done = subprocess.run([python, "-c", code], cwd=ROOT, env=_environment(), check=False)
+    done = subprocess.run(
+        [python, "-c", code], cwd=ROOT, env=_environment(), capture_output=True, check=False
+    )
     return done.returncode == 0
 
 
@@ -277,14 +279,15 @@ def _stamp(name: str) -> dict[str, str]:
 
 def _read(name: str) -> dict[str, str]:
     try:
-        return dict(json.loads((STAMPS / f"{name}.json").read_text()))
+        return dict(json.loads((STAMPS / f"{name}.json").read_text(encoding="utf-8")))
     except (OSError, ValueError):
         return {}
 
 
 def _write(name: str) -> None:
     STAMPS.mkdir(parents=True, exist_ok=True)
-    (STAMPS / f"{name}.json").write_text(json.dumps(_stamp(name), indent=1) + "\n")
+    text = json.dumps(_stamp(name), indent=1, ensure_ascii=False)
+    (STAMPS / f"{name}.json").write_text(f"{text}\n", encoding="utf-8")
 
 
 @contextlib.contextmanager
