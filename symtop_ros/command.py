@@ -5,7 +5,9 @@ import math
 import os
 import sys
 from collections.abc import Callable
+from typing import Any
 
+from symtop_ros import __version__
 from symtop_ros.simulation.validation import one_line, plain
 
 
@@ -19,6 +21,13 @@ def tell_failures(name: str, act: Callable[[], int]) -> int:
         text = f"{one_line(error.filename or 'output')}: {error.strerror}"
     print(f"{name}: {text}", file=sys.stderr)
     return 1
+
+
+def new_parser(name: str, description: str, **more: Any) -> argparse.ArgumentParser:
+    """Return the parser of a program, which has --version."""
+    parser = argparse.ArgumentParser(prog=name, description=description, **more)
+    parser.add_argument("--version", action="version", version=f"{name} {__version__}")
+    return parser
 
 
 def port(text: str) -> int:

@@ -8,25 +8,22 @@ import signal
 import sys
 import warnings
 from functools import partial
+from importlib.util import find_spec
+from itertools import takewhile
 from typing import Any, NoReturn
+
+from symtop_ros.missing import find_package, name_remedy
 
 # Statuses of programs that a signal has ended, as shells have them: SIGINT, and SIGPIPE, which says
 # that the output is no longer read.
 INTERRUPTED, BROKEN_PIPE = 130, 141
 TRANSPORTS = "FASTDDS_BUILTIN_TRANSPORTS"
 THREADS = "OPENBLAS_NUM_THREADS"
-# Packages that pip installs, by the names under which they are imported.
-PYPI = {"mcap": "mcap", "numpy": "numpy", "scipy": "scipy", "yaml": "pyyaml"}
-EXTRAS = {
-    **dict.fromkeys(("rerun", "rerun_cli"), "playback"),
-    **dict.fromkeys(("matplotlib", "tqdm", "pyarrow", "PIL"), "report"),
-    "ahrs": "peers",
-}
 
 
 def top_ctl() -> int:
     """Call the services of a running node; it ends the process."""
-    return _leave(run("top_ctl", "symtop_ros.client.main"))
+    return _leave(run("top_ctl", "client"))
 
 
 def _leave(status: int) -> NoReturn:
@@ -39,8 +36,8 @@ def _leave(status: int) -> NoReturn:
     os._exit(status)
 
 
-def run(name: str, module: str, interruptible: bool = False) -> int:
-    """Run a program. A signal before it ends the process without a traceback.
+def run(name: str, room: str, interruptible: bool = False) -> int:
+    """Run the program of a room. A signal before it ends the process without a traceback.
 
     Both signals raise KeyboardInterrupt in an interruptible program, so that it removes incomplete
     files and ends what it has started. The other programs handle signals themselves. At the end
@@ -50,13 +47,14 @@ def run(name: str, module: str, interruptible: bool = False) -> int:
     _spare_the_user()
     _use_udp_only()
     try:
-        main = importlib.import_module(module).main
+        _answer_without_the_program(f"symtop_ros.{room}.options")
+        main = importlib.import_module(f"symtop_ros.{room}.main").main
         if interruptible:
             _set_signals(signal.default_int_handler)
         return int(main())
     except ModuleNotFoundError as error:
-        package = str(error.name).partition(".")[0]
-        print(f"{name}: {package} is missing: {_remedy(package)}", file=sys.stderr)
+        package = find_package(str(error.name)) or str(error.name).partition(".")[0]
+        print(f"{name}: {package} is missing: {name_remedy(str(error.name))}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return INTERRUPTED
@@ -68,14 +66,20 @@ def run(name: str, module: str, interruptible: bool = False) -> int:
         _set_signals(signal.SIG_IGN)
 
 
-# Of these the first two and a node on the page need ROS, and the scene in 3D needs Rerun.
-top_node = partial(run, "top_node", "symtop_ros.node.main")
-top_live = partial(run, "top_live", "symtop_ros.live.main")
-top_panel = partial(run, "top_panel", "symtop_ros.panel.main")
-top_replay = partial(run, "top_replay", "symtop_ros.playback.main", interruptible=True)
-top_model = partial(run, "top_model", "symtop_ros.models.main")
-top_imu = partial(run, "top_imu", "symtop_ros.imu.main", interruptible=True)
-top_judge = partial(run, "top_judge", "symtop_ros.judge.main", interruptible=True)
+def _answer_without_the_program(options: str) -> None:
+    """Answer --help and --version, and end, where the program itself may lack what it needs."""
+    words = list(takewhile(lambda word: word != "--ros-args", sys.argv[1:]))
+    if {"-h", "--help", "--version"} & {*words} and find_spec(options):
+        importlib.import_module(options).make_parser().parse_args(words)
+
+
+top_node = partial(run, "top_node", "node")
+top_live = partial(run, "top_live", "live")
+top_panel = partial(run, "top_panel", "panel")
+top_replay = partial(run, "top_replay", "playback", interruptible=True)
+top_model = partial(run, "top_model", "models")
+top_imu = partial(run, "top_imu", "imu", interruptible=True)
+top_judge = partial(run, "top_judge", "judge", interruptible=True)
 
 
 def _spare_the_user() -> None:
@@ -105,14 +109,3 @@ def _use_udp_only() -> None:
 def _set_signals(handler: Any) -> None:
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, handler)
-
-
-def _remedy(package: str) -> str:
-    if package in PYPI:
-        return (
-            f"pip install {PYPI[package]}, on Debian and Ubuntu into a venv (docs/ros.md, "
-            "Installing)"
-        )
-    if package in EXTRAS:
-        return f"pip install '.[{EXTRAS[package]}]' in the checkout"
-    return "source a ROS 2, or pip install '.[ros]' in the checkout"

@@ -25,7 +25,7 @@ window.cancelAnimationFrame = clearTimeout;
 def running_browser() -> Iterator[Browser]:
     """Run a browser; the test is skipped without one."""
     api = pytest.importorskip(
-        "playwright.sync_api", reason="no playwright: pip install '.[test]' in the checkout"
+        "playwright.sync_api", reason="no playwright: pip install -e '.[test]' in the checkout"
     )
     with _playwright(api) as playwright:
         try:

@@ -180,7 +180,7 @@ def parse(program, words):
     if program != "top_node":  # which has no options
         module = importlib.import_module(MAINS[program].__module__)
         with contextlib.chdir(ROOT):
-            module._parser().parse_args(" ".join(words).partition("--ros-args")[0].split())
+            module.make_parser().parse_args(" ".join(words).partition("--ros-args")[0].split())
 
 
 def run(program, words):

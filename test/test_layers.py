@@ -8,7 +8,7 @@ from documents import ROOT
 
 PACKAGE = ROOT / "symtop_ros"
 # Files of the package itself.
-TOP = {"__init__", "arrays", "command", "programs", "shutdown"}
+TOP = {"__init__", "__main__", "arrays", "command", "missing", "programs", "shutdown"}
 # Folder -> folders and files of the package | other packages. Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 TABLE = {
@@ -20,13 +20,13 @@ TABLE = {
     "simulation": "__init__ physics wire wording | numpy scipy yaml",
     "log": "__init__ simulation wire | lz4 mcap numpy zstandard",
     # the page as one file
-    "web": "simulation wording | yaml",
+    "web": "__init__ simulation wording | yaml",
     # of session what it says of a motion
     "check": "__init__ log models physics session simulation wire | mcap numpy",
     # of session the log that a node would have written of a run of the page
     "playback": "check command log physics session simulation web | numpy rerun rerun_cli",
-    "session": "__init__ log models physics simulation wire wording | numpy",
-    "node": "__init__ physics session shutdown simulation wire | "
+    "session": "__init__ log missing models physics simulation wire wording | numpy",
+    "node": "__init__ command physics session shutdown simulation wire | "
     "geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces std_srvs",
     # of session only the table of services, which imports nothing
     "client": "command session shutdown simulation | rcl_interfaces rclpy sensor_msgs std_srvs",

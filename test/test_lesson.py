@@ -55,7 +55,7 @@ def tops():
 
 def do(tops, line):
     """Do what a command of top_ctl does, without a new process for each; return the answer."""
-    options = client._parser().parse_args(shlex.split(line)[1:])
+    options = client.make_parser().parse_args(shlex.split(line)[1:])
     values = parse_values(vars(options).get("values", ()))
     granted, text = client._run(options, values, tops[options.node])
     assert granted, text
@@ -69,7 +69,7 @@ def test_the_page_has_the_steps_of_the_data():
 
 
 def test_the_commands_that_need_no_ros_are_options_of_their_programs():
-    assert panel._parser().parse_args(["--lesson"]).lesson
+    assert panel.make_parser().parse_args(["--lesson"]).lesson
     assert report._parser().parse_args(["lesson", "--sheets"]).sheets
     assert typed(BEFORE)[:2] == ["top_panel --lesson", "make -C workshop lesson ARGS=--sheets"]
 

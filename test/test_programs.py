@@ -4,8 +4,9 @@ import pytest
 from documents import ROOT
 from programs import run_python, write_without
 
-from symtop_ros import programs
+from symtop_ros import __version__, missing, programs
 from symtop_ros.node.host import VARIABLES
+from symtop_ros.physics import kernel_version
 
 pytestmark = pytest.mark.usefixtures("signals_as_before")
 
@@ -16,25 +17,62 @@ def _environment_as_before(monkeypatch):
         monkeypatch.setenv(name, "")
 
 
-ROS = "source a ROS 2, or pip install '.[ros]' in the checkout"
+ROS = "source a ROS 2, or pip install 'symtop_ros[ros]'"
+# What programs for logs, ROS and Rerun import.
+HEAVY = ("rclpy", "rerun", "rerun_cli", "mcap", "lz4", "zstandard", "sensor_msgs")
+PROGRAMS = sorted(path.name for path in (ROOT / "resource").glob("top_*"))
 
 
 @pytest.mark.parametrize(
-    ("program", "missing", "remedy"),
+    ("program", "missing", "text"),
     [
-        ("top_node", "rclpy", ROS),
-        ("top_ctl", "rclpy", ROS),
-        ("top_live", "rclpy", ROS),
-        ("top_live", "rerun", "pip install '.[playback]' in the checkout"),
-        ("top_panel", "yaml", "pip install pyyaml"),
-        ("top_replay", "mcap", "pip install mcap"),
+        ("top_node", "rclpy", f"rclpy is missing: {ROS}"),
+        ("top_ctl", "rclpy", f"rclpy is missing: {ROS}"),
+        ("top_live", "rclpy", f"rclpy is missing: {ROS}"),
+        ("top_live", "rerun", "rerun-sdk is missing: pip install rerun-sdk"),
+        ("top_panel", "yaml", "pyyaml is missing: pip install pyyaml"),
+        ("top_replay", "mcap", "mcap is missing: pip install mcap"),
+        ("top_replay", "lz4", "mcap is missing: pip install mcap"),
     ],
 )
-def test_a_program_says_what_is_missing(program, missing, remedy, tmp_path):
+def test_a_program_says_what_is_missing(program, missing, text, tmp_path):
     code = write_without((missing,), program)
     done = run_python(code, cwd=tmp_path, PYTHONPATH=str(ROOT))
     assert done.returncode == 1
-    assert f"{missing} is missing: {remedy}" in done.stderr
+    assert f"{program}: {text}" in done.stderr
+
+
+def test_a_checkout_that_is_not_installed_names_its_extra(monkeypatch):
+    monkeypatch.setattr(missing, "NAME", "not_installed")
+    assert missing.name_remedy("rclpy").endswith("pip install -e '.[ros]' in the checkout")
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_help_and_version_need_neither_ros_nor_rerun_nor_mcap(program, tmp_path):
+    code = write_without(HEAVY, program)
+    answers = [run_python(code, each, cwd=tmp_path) for each in ("--help", "-h", "--version")]
+    assert [done.returncode for done in answers] == [0, 0, 0], answers
+    assert answers[0].stdout.startswith(f"usage: {program} ")
+    assert answers[2].stdout == f"{program} {__version__}\n"
+
+
+def test_help_after_the_arguments_of_ros_is_theirs(monkeypatch, capsys):
+    monkeypatch.setattr("sys.argv", ["top_ctl", "--ros-args", "--help"])
+    assert programs.run("top_ctl", "a room that is missing") == 1
+    assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize("absent", [(), HEAVY])
+def test_what_a_report_needs_is_printed_whatever_is_missing(absent):
+    code = f"import sys; sys.modules.update(dict.fromkeys({absent})); "
+    done = run_python(code + "from symtop_ros.__main__ import main; sys.exit(main())")
+    found = {line[:13].strip(): line[13:] for line in done.stdout.splitlines()}
+    assert done.returncode == 0, done.stderr
+    assert found["symtop_ros"] == f"{__version__} ({ROOT / 'symtop_ros'})"
+    assert found["kernel"].startswith(kernel_version())
+    assert {"platform", "Python", "NumPy", "ROS 2", "middleware", "discovery", "mcap"} <= {*found}
+    for name in ("ROS 2", "middleware", "mcap"):
+        assert (found[name] == "not installed") is bool(absent)
 
 
 @pytest.mark.parametrize(

@@ -165,8 +165,6 @@ def _replay(log: Path) -> int:
     _say(f"to open the log:      {_command('top_replay', log)}")
     _say(f"  without a screen:   {_command('top_replay', log, '--web')}")
     _say(f"to check it:          {_command('top_replay', log, '--check')}")
-    _say(f"to open the replay:   {_command('rerun', recording)}")
-    _say(f"  without a screen:   {_command('rerun', recording, '--serve-web')}")
     if has_screen():
         _say("the viewer is open; closing it ends the demonstration")
         viewer.show(recording, web=False)

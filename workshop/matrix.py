@@ -18,7 +18,10 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[1]
 ENVIRONMENT = ROOT / ".venv" / "matrix" / "cell"
 TESTS = ("test/node/test_topics.py", "test/client/test_main.py", "test/check/test_samples.py")
-DISTRIBUTIONS = {"jazzy": ("3.11", "3.12", "3.13"), "kilted": ("3.11", "3.12", "3.13", "3.14")}
+DISTRIBUTIONS = {
+    "jazzy": ("3.11", "3.12", "3.13", "3.14"),
+    "kilted": ("3.11", "3.12", "3.13", "3.14"),
+}
 NUMPYS = {"1": "numpy<2", "2": "numpy>=2,<3"}
 # The oldest Rerun of setup.py, and the newest.
 RERUNS = ("rerun-sdk~=0.38.0", "rerun-sdk")

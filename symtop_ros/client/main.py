@@ -21,7 +21,7 @@ from rclpy.utilities import remove_ros_args
 from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
-from symtop_ros.command import positive
+from symtop_ros.client.options import make_parser
 from symtop_ros.session.services import SERVICES, Response
 from symtop_ros.shutdown import describe_failure, ros_context
 from symtop_ros.simulation.validation import MAX_SHOWN, one_line, plain
@@ -40,7 +40,7 @@ def main(args: list[str] | None = None) -> int:
     """Run one command; return 0 (granted), 1 (refused, no answer) or 2 (usage)."""
     arguments = sys.argv if args is None else ["top_ctl", *args]
     try:
-        options = _parser().parse_args(remove_ros_args(arguments)[1:])
+        options = make_parser().parse_args(remove_ros_args(arguments)[1:])
         values = parse_values(vars(options).get("values", ()))
         with ros_context(arguments, is_last=args is None) as listen:
             node = rclpy.create_node("top_ctl", start_parameter_services=False)
@@ -68,33 +68,6 @@ def main(args: list[str] | None = None) -> int:
     elif text:
         print(f"top_ctl: {one_line(text)}", file=sys.stderr)
     return 0 if granted else 1
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="top_ctl",
-        description="Call the services of a running top_node; exit status 1 if it refuses.",
-    )
-    parser.add_argument("--node", default="/top", help="name of the node (default /top)")
-    parser.add_argument("--timeout", type=positive, default=5.0, help="seconds to wait (default 5)")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    parsers = {
-        service.command: commands.add_parser(service.command, help=service.help)
-        for service in SERVICES.values()
-    }
-    for service in SERVICES.values():
-        if service.kind == "named":
-            parsers[service.command].add_argument(
-                "values", nargs="*", metavar="NAME=VALUE", help=service.help
-            )
-    parsers["record"].add_argument("switch", choices=("on", "off"))
-    parsers["state"].add_argument("--json", action="store_true", help="as JSON in one line")
-    commands.add_parser("resume", help="continue the motion from where it stopped")
-    commands.add_parser("keys", help="send requests by single keys: hurry, delay, pause, push")
-    commands.add_parser("watch", help="show the motion in a line that is updated").add_argument(
-        "--seconds", type=positive, default=math.inf, help="how long (default: until Ctrl-C)"
-    )
-    return parser
 
 
 def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Response:

@@ -1,19 +1,20 @@
 """Entry point of `top_imu`: a record of an inertial sensor on the top of a scene."""
 
 import argparse
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-from symtop_ros.command import decimal, integer, tell_failures
+from symtop_ros.command import decimal, integer, new_parser, tell_failures
 from symtop_ros.imu.files import write_folder, write_log, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.sensor.imu import BMM150, CONSUMER, MAGNETOMETER_NOISE, NOISE
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.validation import RefusedError, one_line
+from symtop_ros.simulation.validation import RefusedError, one_line, reject
 
 MAX_BYTES = 65_536  # of a file with noise
 DESCRIPTION = """Writes what an inertial sensor on the top measures, next to the exact truth: a log
@@ -23,10 +24,11 @@ files of EuRoC and poses as TUM has them. Stamps begin at 0."""
 
 def main(args: list[str] | None = None) -> int:
     """Write a record; return 0 (good), 1 (refused or failed) or 2 (usage)."""
-    return tell_failures("top_imu", lambda: _run(_parser().parse_args(args)))
+    return tell_failures("top_imu", lambda: _run(make_parser().parse_args(args)))
 
 
 def _run(options: argparse.Namespace) -> int:
+    write = find_writer(options.output)
     record = make_record(options)
     write(record, options.output)
     print(f"{options.output}: {len(record.stamps)} samples at {record.imu.rate:g} Hz")
@@ -80,9 +82,12 @@ def read_noise(name: str | None) -> dict[str, Any]:
     return found
 
 
-def write(record: ImuRecord, path: Path) -> None:
-    """Write a record in the form that the name of its path asks for."""
-    {".mcap": write_log, ".csv": write_table}.get(path.suffix, write_folder)(record, path)
+def find_writer(path: Path) -> Callable[[ImuRecord, Path], None]:
+    """Return the function that writes the form that the name of a path asks for."""
+    writers = {".mcap": write_log, ".csv": write_table, "": write_folder}
+    if path.suffix in writers or path.is_dir():
+        return writers.get(path.suffix, write_folder)
+    raise reject("--output", "FILE.mcap, FILE.csv or a folder (without an ending)", str(path))
 
 
 def decimals(text: str) -> list[float]:
@@ -90,8 +95,9 @@ def decimals(text: str) -> list[float]:
     return [decimal(part) for part in text.split(",")]
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="top_imu", description=DESCRIPTION)
+def make_parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    parser = new_parser("top_imu", DESCRIPTION)
     parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
     parser.add_argument(
         "--rate", type=decimal, default=200.0, help="samples per second, default 200"

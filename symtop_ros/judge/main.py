@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from symtop_ros.command import positive, tell_failures
+from symtop_ros.command import new_parser, positive, tell_failures
 from symtop_ros.judge.clock import format_clocks, measure_clock
 from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.judgement import Judgement, format_judgements, judge, tell_limit
@@ -25,7 +25,7 @@ SENSOR, BODY = "sensor", "body"
 
 def main(args: list[str] | None = None) -> int:
     """Judge; return 0 (good), 1 (failed, or above --max-error) or 2 (usage)."""
-    parser = _parser()
+    parser = make_parser()
     # The rest belongs to ROS (--ros-args ...), which only --live needs.
     options, rest = parser.parse_known_args(args)
     if fault := _find_fault(options, rest):
@@ -52,8 +52,9 @@ def _find_fault(options: argparse.Namespace, rest: list[str]) -> str | None:
     return next((text for text, is_there in faults.items() if is_there), None)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(prog="top_judge", description=DESCRIPTION)
+def make_parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    parser = new_parser("top_judge", DESCRIPTION)
     parser.add_argument(
         "files",
         type=Path,

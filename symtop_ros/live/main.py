@@ -14,16 +14,16 @@ import rclpy
 import rerun as rr
 from rclpy.executors import SingleThreadedExecutor
 
-from symtop_ros.command import has_screen, port
+from symtop_ros.command import has_screen
 from symtop_ros.live.feed import Feed
+from symtop_ros.live.options import make_parser
 from symtop_ros.log.reader import LogError
 from symtop_ros.playback import viewer
-from symtop_ros.playback.main import add_view_options, view_options
+from symtop_ros.playback.options import view_options
 from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.shutdown import run_with_ros, spin_until
 from symtop_ros.simulation.validation import full_name
 
-PORT = 9876  # default of Rerun
 SEND_PERIOD = 0.05  # s between two batches
 PROBE_PERIOD = 1.0  # s between two checks that the viewer is running
 SILENCE = 5.0  # s without a message at the start, after which it says so
@@ -33,7 +33,7 @@ END_TIMEOUT = 3.0  # s for the viewer to take what is left
 
 def main(args: list[str] | None = None) -> int:
     """Stream until interrupted, or until the viewer that was opened is closed."""
-    return run_with_ros(_parser(), args, _run)
+    return run_with_ros(make_parser(), args, _run)
 
 
 def _run(options: argparse.Namespace, listen: Callable[[], None]) -> int:
@@ -45,21 +45,6 @@ def _run(options: argparse.Namespace, listen: Callable[[], None]) -> int:
     with _viewer(options.port, options.web) as process:
         _stream(executor, feed, options, process)
     return 0
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="top_live",
-        description="Show a running top in the Rerun viewer that listens on the port (it may be "
-        "restarted), or else in a new viewer.",
-    )
-    parser.add_argument("--node", default="/top", help="name of the node (default /top)")
-    parser.add_argument(
-        "--port", type=port, default=PORT, help=f"port of the viewer (default {PORT})"
-    )
-    parser.add_argument("--web", action="store_true", help="serve it to a browser on this machine")
-    add_view_options(parser)
-    return parser
 
 
 @contextlib.contextmanager

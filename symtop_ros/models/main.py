@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from symtop_ros.command import decimal, tell_failures
+from symtop_ros.command import decimal, new_parser, tell_failures
 from symtop_ros.models import FORMATS
 from symtop_ros.physics import STANDARD_GRAVITY, Body
 from symtop_ros.simulation.changes.requests import initial_state
@@ -14,7 +14,7 @@ from symtop_ros.simulation.validation import number
 
 def main(args: list[str] | None = None) -> int:
     """Write a model; return 0 (good), 1 (refused or failed) or 2 (usage)."""
-    return tell_failures("top_model", lambda: _write(_parser().parse_args(args)))
+    return tell_failures("top_model", lambda: _write(make_parser().parse_args(args)))
 
 
 def _write(options: argparse.Namespace) -> int:
@@ -35,10 +35,9 @@ def _write(options: argparse.Namespace) -> int:
     return 0
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="top_model", description="Write a top and its start as a model for other engines."
-    )
+def make_parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    parser = new_parser("top_model", "Write a top and its start as a model for other engines.")
     parser.add_argument("--format", choices=sorted(FORMATS), required=True)
     parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
     parser.add_argument(

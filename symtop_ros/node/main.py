@@ -9,33 +9,19 @@ import rclpy
 from rclpy.executors import SingleThreadedExecutor
 
 from symtop_ros.node.host import use_profile
+from symtop_ros.node.options import make_parser
 from symtop_ros.node.top_node import TopNode
 from symtop_ros.shutdown import run_with_ros
-from symtop_ros.simulation.presets import scene_names
 
-HELP = """\
-examples:
-  top_node --ros-args -p scene:=hurry_slow
-  top_node --ros-args -p top.Mgl:=-0.068 -p initial.theta:=0.3 -p publish_rate:=1000
-  top_node --ros-args --params-file my_top.yaml
-
-scenes: {scenes}
-"""
 SWITCH_INTERVAL = 1e-4  # s that a tick may wait for the thread that writes the log
 
 
 def main(args: list[str] | None = None) -> int:
     """Run the node until it is shut down; return the exit status."""
-    parser = argparse.ArgumentParser(
-        prog="top_node",
-        description="Simulate a heavy symmetric top in real time. Parameters are ROS parameters.",
-        epilog=HELP.format(scenes=", ".join(scene_names())),
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
     sys.setswitchinterval(SWITCH_INTERVAL)
     # Fast DDS announces this node every 0.1 s instead of 3 s: the file says why.
     use_profile("fastdds_discovery.xml")
-    return run_with_ros(parser, args, _run)
+    return run_with_ros(make_parser(), args, _run)
 
 
 def _run(_: argparse.Namespace, listen: Callable[[], None]) -> int:

@@ -10,7 +10,7 @@ import webbrowser
 from contextlib import closing
 from pathlib import Path
 
-from symtop_ros.command import has_screen, port, tell_failures
+from symtop_ros.command import has_screen, new_parser, port, tell_failures
 from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES, Node, PageServer
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.web.join import LANGUAGES, write_file
@@ -23,7 +23,7 @@ FILE = Path("top.html")  # in the folder where the program is started: browsers 
 def main(args: list[str] | None = None) -> int:
     """Write, open or serve the page; return 0 (good), 1 (failed) or 2 (usage)."""
     arguments = sys.argv[1:] if args is None else args
-    parser = _parser()
+    parser = make_parser()
     # The rest belongs to ROS (--ros-args ...), which only --node needs.
     options, rest = parser.parse_known_args(arguments)
     if rest and not (options.node and rest[0] == "--ros-args"):
@@ -31,10 +31,11 @@ def main(args: list[str] | None = None) -> int:
     return tell_failures("top_panel", lambda: _run(options, arguments))
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="top_panel",
-        description="Play with a top on a page in the browser. The page is a file with a top of "
+def make_parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    parser = new_parser(
+        "top_panel",
+        "Play with a top on a page in the browser. The page is a file with a top of "
         f"its own, {FILE} in this folder, unless it is served or shows a running node.",
     )
     parser.add_argument(

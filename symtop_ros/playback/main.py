@@ -10,12 +10,13 @@ from pathlib import Path
 from symtop_ros.check.events import Mismatch
 from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import Deviation
-from symtop_ros.command import decimal, has_screen, tell_failures
+from symtop_ros.command import has_screen, tell_failures
 from symtop_ros.log.reader import LogError, McapFile, list_problems, log_errors
 from symtop_ros.log.repair import repair
 from symtop_ros.log.top_log import TopLog, open_run
-from symtop_ros.session.run_log import RATE, write_run_log
-from symtop_ros.simulation.run_file import RunEvent, read_run, record_run, write_run
+from symtop_ros.playback.options import make_parser, view_options
+from symtop_ros.session.run_log import write_run_log
+from symtop_ros.simulation.run_file import RATE, RunEvent, read_run, record_run, write_run
 from symtop_ros.simulation.settings import MAX_PUBLISH_RATE
 from symtop_ros.simulation.topics import EVENTS
 from symtop_ros.simulation.validation import number, one_line
@@ -24,84 +25,11 @@ from symtop_ros.web.join import write_file
 
 def main(args: list[str] | None = None) -> int:
     """Replay, check or repair a log; return 0 (success), 1 (failure) or 2 (usage)."""
-    parser = _parser()
+    parser = make_parser()
     options = parser.parse_args(args)
     if options.rate is not None and not options.mcap:
         parser.error("--rate goes with --mcap")
     return tell_failures("top_replay", lambda: _run(options))
-
-
-def add_view_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options for parts of the scene: those of `ViewOptions`, which needs Rerun."""
-    for option, text in (
-        ("--no-ghost", "do not draw the top that was not kicked"),
-        ("--angles", "draw both frames and Euler's angles phi, theta, psi"),
-        (
-            "--torques",
-            "draw dL/dt and the inertial torque, in the body frame and in that of the nodes",
-        ),
-        (
-            "--fictitious",
-            "draw the torques in the precessing frame: gravity's, Coriolis' and centrifugal",
-        ),
-    ):
-        parser.add_argument(option, action="store_true", help=text)
-
-
-def view_options(options: argparse.Namespace) -> dict[str, bool]:
-    """Return the fields of `ViewOptions` that the options ask for."""
-    return {
-        "ghost": not options.no_ghost,
-        "angles": options.angles,
-        "torques": options.torques,
-        "fictitious": options.fictitious,
-    }
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="top_replay",
-        description="Play a log of top_node, or a run of the page, in the Rerun viewer; or save, "
-        "check, repair or convert it.",
-        epilog="Plain `rerun FILE.mcap` draws the top as well, on the timeline that it opens.",
-    )
-    parser.add_argument(
-        "files",
-        type=Path,
-        nargs="+",
-        metavar="FILE.mcap|run.json",
-        help="a log, complete or damaged; a rosbag2 folder or a .db3 file; several are one run; or "
-        "a run that the page has saved",
-    )
-    parser.add_argument("--node", help="full name of the node if the log has several tops")
-    add_view_options(parser)
-    ways = parser.add_mutually_exclusive_group()
-    ways.add_argument(
-        "--save",
-        type=Path,
-        metavar="OUT",
-        help="write a Rerun recording (OUT.rrd) or a page for any browser (OUT.html)",
-    )
-    ways.add_argument("--web", action="store_true", help="serve it to a browser on this machine")
-    ways.add_argument(
-        "--check", action="store_true", help="compute the run again from its events and compare"
-    )
-    ways.add_argument(
-        "--repair",
-        type=Path,
-        metavar="OUT.mcap",
-        help="write the readable messages to a complete log",
-    )
-    ways.add_argument(
-        "--mcap",
-        type=Path,
-        metavar="OUT.mcap",
-        help="write the log that a node would have written of run.json",
-    )
-    parser.add_argument(
-        "--rate", type=decimal, help=f"samples per second for --mcap (default {RATE:g})"
-    )
-    return parser
 
 
 def _run(options: argparse.Namespace) -> int:

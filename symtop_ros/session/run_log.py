@@ -16,14 +16,14 @@ import numpy as np
 from symtop_ros.physics import Motion
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.events import KICKS
-from symtop_ros.simulation.run_file import RunEvent
+from symtop_ros.simulation.run_file import RATE, RunEvent
 from symtop_ros.simulation.settings import Settings, list_body
 from symtop_ros.simulation.topics import Topic
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.diagnostics import Status
 from symtop_ros.wire.layout import NANOSECONDS
 
-NODE, RATE = "/top", 200.0  # name of the node that would have written the log, and its rate in Hz
+NODE = "/top"  # name of the node that would have written the log
 # A run may be of another version of the kernel, whose states may differ by rounding, and an event
 # of a node may be half a nanosecond away from its place in the run.
 ROUNDING, HALF_NANOSECOND = 1e-9, 0.5e-9

@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 from symtop_ros import __version__
 from symtop_ros.log.recorder import Recorder, describe_error
+from symtop_ros.missing import find_package, name_remedy
 from symtop_ros.session.diagnostics import collect_statuses, summarize_state
 from symtop_ros.session.outputs import OutputHost, Outputs
 from symtop_ros.session.services import SERVICES, Response
@@ -203,10 +204,9 @@ class Recording:
             msg = f"record.directory must be a writable folder, got {directory!r}: "
             raise RefusedError(msg + describe_error(error)) from None
         except ModuleNotFoundError as error:
-            package = str(error.name).partition(".")[0]
             raise RefusedError(
-                f"{package} must be installed for a recording, got none: pip install {package}, "
-                "on Debian and Ubuntu into a venv (docs/ros.md, Installing)"
+                f"{find_package(str(error.name))} must be installed for a recording, got none: "
+                f"{name_remedy(str(error.name))}"
             ) from None
         self._failure_reported = False
         self._host.inform(f"recording to {path}")

@@ -16,6 +16,7 @@ from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
 from symtop_ros.simulation.changes.requests import KICK_FIELDS, read_kick, read_pushes
 from symtop_ros.simulation.events import KICKS, MOTION, RESTARTS, Event
 from symtop_ros.simulation.segment import PushedMotion, Segment
+from symtop_ros.simulation.settings import PARAMETERS
 from symtop_ros.simulation.validation import (
     RefusedError,
     choice,
@@ -34,6 +35,7 @@ FORMATS: list[int] = TABLE["formats"]  # that are read; the last one is written
 KINDS: list[str] = TABLE["event"]["kind"]["words"]
 ACTS = ("start", *KICKS)
 MAX_BYTES = 100_000_000
+RATE: float = PARAMETERS["publish_rate"].default  # Hz, of the log that is written of a run
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from typing import Any
 
 import yaml
 
+from symtop_ros import __version__
 from symtop_ros.simulation.presets import describe_scenes, scene_names
 from symtop_ros.simulation.run_file import TABLE
 from symtop_ros.simulation.settings import Settings
@@ -59,6 +60,7 @@ def write_file(
     )
     script = join_modules()
     parts = {
+        "VERSION": __version__,
         "POLICY": POLICY.format(
             script=_sign(script), style=_sign(style), server="'self'" if node else "'none'"
         ),

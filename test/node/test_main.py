@@ -87,7 +87,7 @@ def test_signals_again_and_again_do_not_change_the_status(ending):
 WITHOUT_MCAP = write_without(("mcap",), "top_node")
 WAY_OUT = (
     "mcap must be installed for a recording, got none: pip install mcap, on Debian and Ubuntu into "
-    "a venv (docs/ros.md, Installing)"
+    "a venv"
 )
 
 
