@@ -13,7 +13,7 @@ from workshop.load.endings import bound
 Done = subprocess.CompletedProcess[str]
 RESOURCE = Path(__file__).parents[1] / "resource"
 # Options of top_ctl: a node that is starting on a loaded machine may take longer than 5 s.
-PATIENT = "--timeout", "60"
+PATIENT = "--timeout", "300"
 # Fast DDS 3 has renamed an element.
 LOSSY_PROFILES = {"jazzy": "fastdds_lossy.xml", "kilted": "fastdds_lossy_kilted.xml"}
 
@@ -28,7 +28,9 @@ def environment(domain: int) -> dict[str, str]:
     return {**os.environ, "ROS_DOMAIN_ID": str(domain)}
 
 
-def execute(words: Iterable[object], check: bool = False, timeout: float = 60, **more: Any) -> Done:
+def execute(
+    words: Iterable[object], check: bool = False, timeout: float = 300, **more: Any
+) -> Done:
     """Run a command to its end; its output is text."""
     options = {"capture_output": True, "text": True, **more}
     return subprocess.run([*map(str, words)], check=check, timeout=timeout, **options)
@@ -63,7 +65,7 @@ def running(words: Iterable[object], domain: int, **options: Any) -> Iterator[An
         finally:
             process.terminate()
             try:
-                process.communicate(timeout=60)
+                process.communicate(timeout=300)
             finally:
                 process.kill()
 

@@ -91,6 +91,6 @@ def test_a_signal_ends_it_and_its_node_without_a_traceback(tmp_path, number):
     with running_demo(tmp_path) as (process, line):
         process.stdout.readline()
         process.send_signal(number)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=300)
     assert (process.returncode, other_than_delays(errors)) == (130, [])
     assert listening_in(domain_of(line)) == set()

@@ -222,7 +222,7 @@ def call_service(name, kind, text="{}"):
     service = getattr(importlib.import_module(f"{package}.srv"), message)
     node, _, short = name.rpartition("/")
     with Listener(DOMAIN) as listener:
-        connection = Connection(listener.node, node, timeout=60.0)
+        connection = Connection(listener.node, node, timeout=300.0)
         request = fill(service.Request(), yaml.safe_load(text))
         answer = str(connection._call(service, short, request))
     assert "success=True" in answer or "successful=True" in answer

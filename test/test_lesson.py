@@ -50,7 +50,7 @@ def tops():
         Listener(DOMAIN, "user_of_disc") as other,
     ):
         nodes = dict(zip(NAMES, (user.node, other.node), strict=True))
-        yield {name: Connection(node, name, timeout=20.0) for name, node in nodes.items()}
+        yield {name: Connection(node, name, timeout=300.0) for name, node in nodes.items()}
 
 
 def do(tops, line):

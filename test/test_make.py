@@ -242,6 +242,6 @@ def test_the_page_needs_no_compiler_and_no_compiled_kernel(checkout):
     (site / "those_of_the_tests.pth").write_text(sysconfig.get_paths()["purelib"])
     words = [shutil.which("make"), "panel"]
     path = {"PATH": str(checkout / ".venv/bin")}
-    made = execute(words, cwd=checkout, env=path, timeout=60)
+    made = execute(words, cwd=checkout, env=path, timeout=300)
     assert (made.returncode, made.stdout) == (0, "wrote top.html, open it in a browser\n"), made
     assert (checkout / "top.html").read_text() == write_file()

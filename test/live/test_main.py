@@ -54,7 +54,7 @@ def test_a_program_on_the_port_that_does_not_answer_does_not_keep_it_from_ending
             assert process.stdout.readline().startswith("showing the top in the viewer")
             process.terminate()
             said = "top_live: the viewer does not answer\n"
-            assert process.communicate(timeout=30) == ("", said)
+            assert process.communicate(timeout=300) == ("", said)
             assert process.returncode == 0
 
 
@@ -75,7 +75,7 @@ def test_a_viewer_that_was_closed_is_found_again():
             with running_viewer(port=port) as (client, _):
                 moving(client)
             process.terminate()
-            said, _ = process.communicate(timeout=60)
+            said, _ = process.communicate(timeout=300)
         assert said.count(f"showing the top in the viewer on port {port}\n") == 2
 
 

@@ -24,7 +24,7 @@ from symtop_ros.log.writer import MAGIC, LogFile
 from symtop_ros.simulation.settings import RecordSettings
 from symtop_ros.simulation.topics import EVENTS, TOPICS, Topic
 
-TIMEOUT = 60.0
+TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 LATCHED = Topic("/latched", "std_msgs/msg/String", latched=True)
 PLAIN = Topic("/plain", "std_msgs/msg/String")
 

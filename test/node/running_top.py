@@ -26,7 +26,7 @@ from symtop_ros.simulation.segment import Segment
 from workshop.load.domains import claim_domain, release_domain
 
 LATCHED = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-TIMEOUT = 60.0  # s of real time; ends a test that hangs, and is never waited for
+TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 TURN = 0.002  # s of real time between two advances of the simulated clock, at least
 STEP = 5_000_000  # ns; an advance of the simulated clock
 

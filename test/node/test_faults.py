@@ -99,7 +99,7 @@ def test_a_log_that_fails_at_the_very_end_is_one_line(tmp_path):
         (path,) = tmp_path.iterdir()
         path.unlink()
         node.terminate()
-        _, errors = node.communicate(timeout=60)
+        _, errors = node.communicate(timeout=300)
     # A machine that is overloaded adds its own warning, which is not the matter here.
     lines = [line for line in errors.splitlines() if "no samples for" not in line]
     assert lines == [f"top_node: recording stopped: {path}: the file was removed"]

@@ -66,7 +66,7 @@ def test_a_signal_while_it_starts_ends_it_cleanly(ending):
         while "scene cusps" not in node.stderr.readline():
             assert node.poll() is None
         node.send_signal(ending)
-        _, rest = node.communicate(timeout=60)
+        _, rest = node.communicate(timeout=300)
     assert node.returncode == 0
     assert "Traceback" not in rest
     assert "top_node:" not in rest
@@ -80,7 +80,7 @@ def test_signals_again_and_again_do_not_change_the_status(ending):
         while node.poll() is None:
             node.send_signal(ending)
             time.sleep(0.005)
-        _, rest = node.communicate(timeout=60)
+        _, rest = node.communicate(timeout=300)
     assert (node.returncode, rest) == (0, "")
 
 
@@ -94,7 +94,7 @@ WAY_OUT = (
 def test_without_mcap_it_runs_and_refuses_to_record_with_the_way_out():
     words = [sys.executable, "-c", WITHOUT_MCAP]
     with running(words, DOMAIN, stderr=None) as node, Listener(DOMAIN) as user:
-        top = Connection(user.node, timeout=60.0)
+        top = Connection(user.node, timeout=300.0)
         assert top.request("hurry_precession")[0]
         assert top.request("record", True) == (False, WAY_OUT)
         assert top.request("get_state")[0]

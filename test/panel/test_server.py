@@ -14,7 +14,7 @@ from serving import serving
 
 from symtop_ros.panel.server import LOCAL_HOST, MAX_REQUEST
 
-TIMEOUT = 60.0
+TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 PORTS = ("", ":{port}")
 PAGE = "<!doctype html><title>Heavy symmetric top</title>"
 

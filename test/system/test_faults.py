@@ -31,7 +31,7 @@ from workshop.load.domains import claim_domain
 pytestmark = pytest.mark.untraced
 
 DOMAIN = claim_domain()
-TIMEOUT = 60.0
+TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 SILENT = {-signal.SIGINT, -signal.SIGTERM}  # ended before there was anything to put in order
 RECORDING = ("publish_rate:=1000", "record.enabled:=true")
 SECONDS, ATTEMPTS = 1.0, 2
