@@ -19,7 +19,7 @@ SET_UP = @python='$(PYTHON)'; \
   "$$python" -IS workshop/set_up.py $(ASKED)
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-ubuntu test-kilted lint style types docs wheels kernel-wasm clean
+.PHONY: help demo panel test $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-newcomer test-ubuntu test-kilted lint style types docs wheels kernel-wasm clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 20
@@ -43,7 +43,7 @@ $(addprefix test-,$(GROUPS)):
 	$(SET_UP) test
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
-test-long: test-keys test-elsewhere test-ubuntu test-kilted  ## trials that take longer (two hours), coverage, and the matrix
+test-long: test-keys test-elsewhere test-newcomer test-ubuntu test-kilted  ## trials that take longer (two hours), coverage, and the matrix
 	$(SET_UP) peers docs aarch64 wine zig
 	@$(MAKE) --no-print-directory -C workshop coverage matrix
 	@$(BIN)/python -m pytest -m long test
@@ -55,6 +55,10 @@ test-keys:  ## tests of all but wording, every template replaced by its key
 test-elsewhere:  ## tests of numbers and logs as on other processors, in other countries, for a stranger (20 minutes)
 	$(SET_UP) test
 	@$(BIN)/python test/elsewhere.py
+
+test-newcomer:  ## the README and all documents typed by a new user; Pythons, pulls, a moved folder, no network (40 minutes)
+	$(SET_UP) test
+	@$(BIN)/python test/newcomer.py
 
 test-ubuntu:  ## tests of node and client with NumPy 1.26 and pytest 7.4, as on Ubuntu 24.04
 	$(SET_UP) ubuntu

@@ -88,9 +88,9 @@ def make_stranger(folder: Path) -> groups.Command:
     return make_command(variables, *(give_up_rights() if os.geteuid() == 0 else ()), folder=copy)
 
 
-def give_up_rights() -> tuple[str, ...]:
-    """Return what makes root a user without rights: nobody, if that user may run this Python."""
-    places = Path(sys.executable).resolve().parents
+def give_up_rights(python: Path = Path(sys.executable)) -> tuple[str, ...]:
+    """Return what makes root a user without rights: nobody, if that user may run the Python."""
+    places = python.resolve().parents
     if all(place.stat().st_mode & 0o001 for place in places):
         return "setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"
     # A Python in the home of root: permissions of files then count for root, too.
