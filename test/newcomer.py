@@ -28,7 +28,7 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).parents[1]))
 from documents import FIRST, blocks, commands
-from elsewhere import give_up_rights
+from elsewhere import NOBODY, give_up_rights
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = [path.relative_to(ROOT) for path in sorted(ROOT.glob("docs/*.md"))]
@@ -50,6 +50,7 @@ NOT_TYPED = {
 ENCLAVE = "--enclave"
 # A command of these runs until Ctrl-C, but with an option that ends it.
 SERVERS = {"top_node": (), "top_panel": ("--write",), "top_live": ()}
+HEED_INTERRUPTS = ("env", "--default-signal=INT")  # which the background of a shell ignores
 SERVING = 8.0  # s until what serves is stopped
 # Without a screen these end with a line that says so.
 NEED_A_SCREEN = (["top_replay", "run.mcap"], ["top_replay", "run.json"])
@@ -119,14 +120,13 @@ class User:
         print(f"$ {line}  # until Ctrl-C", flush=True)
         with tempfile.TemporaryFile("w+") as output:
             process = subprocess.Popen(
-                [*self.before, "bash", "-c", f"exec {line}"],
+                [*self.before, *HEED_INTERRUPTS, "bash", "-c", f"exec {line}"],
                 cwd=self.folder,
                 env=self.variables,
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=output,
                 start_new_session=True,
-                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
             )
             began = time.monotonic()
             try:
@@ -168,13 +168,14 @@ def new_user(python: str = "") -> Iterator[User]:
             subprocess.run(["chmod", "-R", "u+w", name], check=False)
 
 
-def clone(user: User, source: Path = ROOT) -> None:
-    """Type the README's first two lines, with a source that exists."""
-    safe = {"GIT_CONFIG_COUNT": "1", "GIT_CONFIG_KEY_0": "safe.directory"}
-    safe["GIT_CONFIG_VALUE_0"] = "*"
-    user.variables |= safe
-    user.type(f"git clone --quiet {shlex.quote(str(source))} symtop_ros")
-    user.folder /= "symtop_ros"
+def clone(user: User) -> None:
+    """Clone the last commit for a user, and enter it as the README does."""
+    bare, folder = user.folder / "upstream", user.folder / "symtop_ros"
+    subprocess.run(["git", "clone", "--quiet", "--bare", ROOT, bare], check=True)
+    if any(NOBODY in word for word in user.before):
+        subprocess.run(["chown", "-R", NOBODY, bare], check=True)
+    user.type(f"git clone --quiet upstream {folder.name}")
+    user.folder = folder
 
 
 def list_set_up() -> list[str]:
@@ -249,12 +250,11 @@ def try_python(user: User) -> None:
 
 def try_later(user: User) -> None:
     """Go on after the set-up: each time it works, or a line says what to do."""
-    upstream = user.folder / "upstream"
-    user.type(f"git clone --quiet --bare {shlex.quote(str(ROOT))} upstream")
-    clone(user, upstream)
+    clone(user)
     user.type("make panel")
     user.type("make demo")
-    author = shutil.copytree(user.folder, user.folder.with_name("author"), symlinks=True)
+    author = user.folder.with_name("author")
+    user.type(f"git clone --quiet ../upstream ../{author.name}")
 
     def pull(path: str) -> None:
         """Pull a commit that adds a comment to a file."""
