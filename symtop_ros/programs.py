@@ -23,7 +23,7 @@ THREADS = "OPENBLAS_NUM_THREADS"
 
 def top_ctl() -> int:
     """Call the services of a running node; it ends the process."""
-    return _leave(run("top_ctl", "client"))
+    return _leave(run("top_ctl", "symtop_ros.client"))
 
 
 def _leave(status: int) -> NoReturn:
@@ -36,8 +36,8 @@ def _leave(status: int) -> NoReturn:
     os._exit(status)
 
 
-def run(name: str, room: str, interruptible: bool = False) -> int:
-    """Run the program of a room. A signal before it ends the process without a traceback.
+def run(name: str, package: str, interruptible: bool = False) -> int:
+    """Run the program of a package. A signal before it ends the process without a traceback.
 
     Both signals raise KeyboardInterrupt in an interruptible program, so that it removes incomplete
     files and ends what it has started. The other programs handle signals themselves. At the end
@@ -47,14 +47,14 @@ def run(name: str, room: str, interruptible: bool = False) -> int:
     _spare_the_user()
     _use_udp_only()
     try:
-        _answer_without_the_program(f"symtop_ros.{room}.options")
-        main = importlib.import_module(f"symtop_ros.{room}.main").main
+        _answer_without_the_program(f"{package}.options")
+        main = importlib.import_module(f"{package}.main").main
         if interruptible:
             _set_signals(signal.default_int_handler)
         return int(main())
     except ModuleNotFoundError as error:
-        package = find_package(str(error.name)) or str(error.name).partition(".")[0]
-        print(f"{name}: {package} is missing: {name_remedy(str(error.name))}", file=sys.stderr)
+        missing = find_package(str(error.name)) or str(error.name).partition(".")[0]
+        print(f"{name}: {missing} is missing: {name_remedy(str(error.name))}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return INTERRUPTED
@@ -73,13 +73,13 @@ def _answer_without_the_program(options: str) -> None:
         importlib.import_module(options).make_parser().parse_args(words)
 
 
-top_node = partial(run, "top_node", "node")
-top_live = partial(run, "top_live", "live")
-top_panel = partial(run, "top_panel", "panel")
-top_replay = partial(run, "top_replay", "playback", interruptible=True)
-top_model = partial(run, "top_model", "models")
-top_imu = partial(run, "top_imu", "imu", interruptible=True)
-top_judge = partial(run, "top_judge", "judge", interruptible=True)
+top_node = partial(run, "top_node", "symtop_ros.node")
+top_live = partial(run, "top_live", "symtop_ros.live")
+top_panel = partial(run, "top_panel", "symtop_ros.panel")
+top_replay = partial(run, "top_replay", "symtop_ros.playback", interruptible=True)
+top_model = partial(run, "top_model", "symtop_ros.models")
+top_imu = partial(run, "top_imu", "symtop_ros.imu", interruptible=True)
+top_judge = partial(run, "top_judge", "symtop_ros.judge", interruptible=True)
 
 
 def _spare_the_user() -> None:

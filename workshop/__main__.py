@@ -4,4 +4,4 @@ import sys
 
 from symtop_ros.programs import run
 
-sys.exit(run("workshop", "workshop.main", interruptible=True))
+sys.exit(run("workshop", "workshop", interruptible=True))
