@@ -62,6 +62,9 @@ class Angles(NamedTuple):
 class State:
     """Orientation and angular velocity at one instant, or at many.
 
+    A state is what was given: parts of many states, copies and kicks keep `given_orientation`, and
+    states are equal if the given numbers are.
+
     Parameters
     ----------
     orientation : array_like (..., 4)
@@ -166,13 +169,18 @@ class State:
         """Return the call that makes one state; of many, their shape."""
         if self.orientation.ndim > 1:
             return f"<State of shape {self.orientation.shape[:-1]}>"
-        orientation, omega = (tuple(part.tolist()) for part in self.parts)
+        orientation, omega = (tuple(part.tolist()) for part in self._given)
         return f"State(orientation={orientation}, angular_velocity={omega})"
 
     @property
     def parts(self) -> tuple[Real, Real]:
         """Orientation and angular velocity."""
         return self.orientation, self.angular_velocity
+
+    @property
+    def _given(self) -> tuple[Real, Real]:
+        """The arguments; what was done to them follows from them."""
+        return self.given_orientation, self.angular_velocity
 
     @classmethod
     def from_euler(
@@ -409,8 +417,8 @@ class State:
         places = place if isinstance(place, tuple) else (place,)
         has_gap = any(each is Ellipsis for each in places)
         where = (*places, slice(None)) if has_gap else (*places, ..., slice(None))
-        orientation, omega = (part[where] for part in self.parts)
-        return State.wrap(orientation, omega)
+        orientation, omega, given = (part[where] for part in (*self.parts, self.given_orientation))
+        return State.wrap(orientation, omega, given)
 
     def __len__(self) -> int:
         """Return the number of states along the first axis."""
@@ -427,12 +435,16 @@ class State:
         return (self[n] for n in range(len(self)))
 
     def __eq__(self, other: object) -> bool:
-        """Compare bit for bit (q and -q differ)."""
+        """Compare what was given, number by number (q and -q differ)."""
         return isinstance(other, State) and all(
-            np.array_equal(a, b) for a, b in zip(self.parts, other.parts, strict=True)
+            np.array_equal(a, b) for a, b in zip(self._given, other._given, strict=True)
         )
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        """Return a hash of one state; many cannot be hashed."""
+        if self.orientation.ndim > 1:
+            raise TypeError("many states cannot be hashed")
+        return hash(tuple(tuple(part.tolist()) for part in self._given))
 
 
 def _flush_tiny(array: Real) -> Real:
