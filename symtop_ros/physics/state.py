@@ -16,7 +16,6 @@ from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
     are_floats,
-    ignore_underflow,
     refuse,
     require,
     validate_array,
@@ -229,7 +228,7 @@ class State:
         return cls.of_given(q, omega)
 
     @cached_property
-    @ignore_underflow
+    @door.compute_soundly
     def vertical(self) -> Real:
         """World z' in the body frame, (..., 3): sin theta sin psi, sin theta cos psi, cos theta.
 
@@ -261,7 +260,7 @@ class State:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
         return Angles(*split(door.find_angle_rates(*self.parts)))
 
-    @ignore_underflow
+    @door.compute_soundly
     def to_world(self, vector: ArrayLike) -> Real:
         """Rotate body-frame vectors into the world frame.
 
@@ -277,7 +276,7 @@ class State:
         """
         return rotate(*self._components, np.asarray(vector, dtype=float))
 
-    @ignore_underflow
+    @door.compute_soundly
     def to_body(self, vector: ArrayLike) -> Real:
         """Rotate world-frame vectors into the body frame.
 
@@ -295,7 +294,7 @@ class State:
         return rotate(-w, x, y, z, np.asarray(vector, dtype=float))
 
     @property
-    @ignore_underflow
+    @door.compute_soundly
     def matrix(self) -> Real:
         """Rotation matrices from body to world, (..., 3, 3): the columns are the body's axes.
 
@@ -314,6 +313,7 @@ class State:
         return np.stack(rows, axis=-2)
 
     @classmethod
+    @door.compute_soundly
     def from_matrix(cls, matrix: ArrayLike, angular_velocity: ArrayLike) -> "State":
         """Return the state with these rotation matrices from body to world.
 
@@ -472,4 +472,5 @@ def _normalize(q: Real) -> Real:
             f"a quaternion of norm 1 within {NORM_TOLERANCE:g}",
             f"a norm of {norm.flat[deviation.argmax()]:g}",
         )
+    door.demand_arithmetic()
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))
