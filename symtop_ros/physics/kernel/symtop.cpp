@@ -1,9 +1,8 @@
-// The functions of symtop.h. This is the one file that is compiled. The first header is for all
-// functions behind it.
+// The functions of symtop.h. This is the one file that is compiled. The first headers are for all
+// that is behind them.
+#include "compiler.hpp"
 #include "no_fma.hpp"
 #include "symtop.h"
-
-#include <initializer_list>
 
 #include "functions/disc.hpp"
 #include "functions/library.hpp"

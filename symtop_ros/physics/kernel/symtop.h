@@ -23,8 +23,9 @@
  *
  * There is no global state. Threads may use different motions, and the same one, at the same time.
  *
- * To build it, compile symtop.cpp as C++17 with -ffp-contract=off, and link it. Without that option
- * a compiler may fuse products and sums, and the last bits are others. With -ffast-math or -Ofast it
+ * To build it, compile symtop.cpp as C++17 with -ffp-contract=off, and link it. It takes GCC or
+ * Clang, 64 bits, or Clang for WebAssembly. Without that option a compiler may fuse products and sums,
+ * and the last bits are others. With -ffast-math or -Ofast it
  * does not compile: give -fno-fast-math after them. What a compiler does not announce, such as
  * -fassociative-math, and a thread that does not round to the nearest or flushes subnormal numbers
  * to zero, is found when a function is called: the status is SYMTOP_BAD_ARITHMETIC, and nothing is

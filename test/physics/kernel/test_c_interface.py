@@ -94,6 +94,16 @@ def test_a_build_with_fast_math_is_refused_in_words(tmp_path, option):
     assert "symtop must be compiled without fast-math" in failure.value.stderr
 
 
+# The second is what MSVC and compilers for 32 bits lack; the first asks for such a processor.
+@pytest.mark.parametrize("option", ["-m32", "-U__SIZEOF_INT128__"])
+def test_a_compiler_without_integers_of_128_bits_is_refused_in_words(tmp_path, option):
+    if option == "-m32" and platform.machine() != "x86_64":
+        pytest.skip("an option of x86")
+    with pytest.raises(subprocess.CalledProcessError) as failure:
+        compile_kernel(tmp_path, option, "-Wfatal-errors", stderr=subprocess.PIPE, text=True)
+    assert "symtop must be compiled by GCC or Clang, 64 bits" in failure.value.stderr
+
+
 @pytest.mark.parametrize("asked", choose((QUICK, *product(UNSOUND, ("-O2",))), (QUICK,)))
 def test_a_build_that_may_change_sums_answers_nothing(tmp_path, asked):
     name, level = asked
