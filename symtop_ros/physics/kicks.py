@@ -162,7 +162,10 @@ def _stack_moments(top: Top) -> Real:
 
 
 def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: str) -> State:
-    """Return states after kicks of one kind; tops, states and amounts are broadcast together."""
+    """Return states after kicks of one kind; tops, states and amounts are broadcast together.
+
+    A kick leaves the attitude as it is, with the digits that were given.
+    """
     given = np.asarray(amounts, np.float64)
     axes = given.ndim - (kind == IMPULSE)
     parts: tuple[Real, ...] = (tops, *state.parts, given)
@@ -171,7 +174,8 @@ def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: s
     rows, orientation, omega, given = parts
     kicked, done, status = door.kick(rows, orientation, omega, kind, HOLDS.index(hold), given)
     if status == door.OK:
-        return State.wrap(orientation, kicked)
+        attitude = np.broadcast_to(state.given_orientation, orientation.shape)
+        return State.wrap(orientation, kicked, attitude)
     flat = [part.reshape(-1, width) for part, width in zip(parts[1:3], (4, 3), strict=True)]
     if status == door.VERTICAL:
         raise _refuse_vertical(State.wrap(*(part[done].copy() for part in flat)))

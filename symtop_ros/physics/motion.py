@@ -27,7 +27,6 @@ from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import (
-    ignore_underflow,
     require,
     validate_array,
     validate_number,
@@ -210,8 +209,8 @@ class Motion:
         ----------
         t : float, array_like (...) or ExactTimes
             Time since the start in s, of either sign, up to 1e15 turns of the fastest phase, or
-            exact times in ns. A driven motion costs about 0.04 ms for each radian of nutation on
-            the way: a minute for a time of six hours. Ctrl-C ends it.
+            exact times in ns. A driven motion takes steps on the way, about 10 us for each: some
+            seconds for a time of six hours. A way of more than 1e7 steps is refused.
 
         Returns
         -------
@@ -222,7 +221,7 @@ class Motion:
         ------
         ValueError
             If a time is not a finite number or too far, or if a driven motion becomes too fast on
-            the way to it or has a friction too strong to reach it.
+            the way to it, has a friction too strong to reach it, or takes too many steps.
 
         Examples
         --------
@@ -311,7 +310,7 @@ class Motion:
         """
         return self._kernel.farthest_time
 
-    @ignore_underflow
+    @door.compute_soundly
     def jacobian(self, t: ArrayLike) -> Real:
         """Return the derivatives of the state by the top and the start.
 

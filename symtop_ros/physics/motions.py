@@ -23,12 +23,12 @@ from symtop_ros.physics.arguments import (
     validate_types,
     wrap_states,
 )
-from symtop_ros.physics.kernel.door import ENGINES, KINDS
+from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import ignore_underflow, require, validate_array
+from symtop_ros.physics.values import require, validate_array
 
 
 class Motions:
@@ -304,7 +304,7 @@ class Motions:
     @property
     def engine(self) -> NDArray[np.str_]:
         """Methods of solution, as in `Motion.engine`."""
-        return np.take(ENGINES, self._constants["engine"]).reshape(self.shape)
+        return np.take(door.ENGINES, self._constants["engine"]).reshape(self.shape)
 
     @cached_property
     def _constants(self) -> NDArray[Any]:
@@ -317,7 +317,7 @@ class Motions:
     @property
     def kind(self) -> NDArray[np.str_]:
         """Names of the motions, as in `Motion.kind`."""
-        return np.take(KINDS, self._constants["kind"]).reshape(self.shape)
+        return np.take(door.KINDS, self._constants["kind"]).reshape(self.shape)
 
     @property
     def nutation_period(self) -> Real:
@@ -356,6 +356,7 @@ class Motions:
         return np.asarray(self._find_rates("spin_reverses") != 0)
 
     @property
+    @door.compute_soundly
     def fast_top_precession_rate(self) -> Real:
         """Mgl/p_psi in rad/s, as in `Motion.fast_top_precession_rate`."""
         Iz, Mgl, omega_z = self._starts[:, [1, 2, 9]].T
@@ -365,7 +366,7 @@ class Motions:
         return rates.reshape(self.shape)
 
     @property
-    @ignore_underflow
+    @door.compute_soundly
     def fast_top_nutation_rate(self) -> Real:
         """|p_psi|/Ix in rad/s."""
         Ix, Iz, omega_z = self._starts[:, [0, 1, 9]].T

@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics.kernel import door
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import ignore_underflow, validate_array, validate_one
+from symtop_ros.physics.values import validate_array, validate_one
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +55,7 @@ class EffectivePotential:
         momenta = float(top.vertical_momentum(state)), float(top.axial_momentum(state))
         return cls(top, *momenta, energy)
 
-    @ignore_underflow
+    @door.compute_soundly
     def at(self, theta: ArrayLike) -> Real:
         """Return U_eff = (p_phi - p_psi cos(theta))^2/(2 Ix sin^2(theta)) + Mgl cos(theta) in J.
 
@@ -76,7 +77,7 @@ class EffectivePotential:
             share = np.where(turning == 0, 0.0, turning / np.sin(theta))
             return np.asarray(self.top.Ix * share * share / 2 + self.top.Mgl * np.cos(theta))
 
-    @ignore_underflow
+    @door.compute_soundly
     def cubic(self, u: ArrayLike) -> Real:
         """Return f(u) = (1 - u^2)(alpha - beta u) - (b - a u)^2 = (du/dt)^2 in 1/s^2.
 
@@ -96,6 +97,7 @@ class EffectivePotential:
         rate = self._rate(u, 1 - u)
         return np.asarray((1 - u) * (1 + u) * left - rate * rate)
 
+    @door.compute_soundly
     def find_third_root(self, low: float, high: float) -> float:
         """Return the root of the cubic that no angle has, from the two turning angles.
 

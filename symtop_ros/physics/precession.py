@@ -31,7 +31,6 @@ from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
     are_floats,
     fit_shapes,
-    ignore_underflow,
     validate_array,
     validate_rate,
     validate_together,
@@ -95,7 +94,7 @@ def spread_tops(top: Top, *columns: Any) -> tuple[tuple[int, ...], list[Real]]:
     return shape, [np.stack(flat[:3], axis=-1), *flat[3:]]
 
 
-@ignore_underflow
+@door.compute_soundly
 def theta_torque(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
     """Return Ix theta''/sin(theta): zero where precession is regular, negative if the top rises.
 
@@ -135,7 +134,7 @@ def _find_tilt_torques(top: Top, theta: Any, phi_dot: Any, psi_dot: Any) -> list
     return [np.ascontiguousarray(each).reshape(shape) for each in found]
 
 
-@ignore_underflow
+@door.compute_soundly
 def theta_acceleration(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
     """Return theta'' as displayed in the article: sin(theta)/Ix times `theta_torque`.
 
@@ -176,7 +175,7 @@ class FrameTorques(NamedTuple):
         return self.gravity + self.coriolis + self.centrifugal
 
 
-@ignore_underflow
+@door.compute_soundly
 def precessing_frame_torques(
     top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike
 ) -> FrameTorques:

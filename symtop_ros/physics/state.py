@@ -16,7 +16,6 @@ from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
     are_floats,
-    ignore_underflow,
     refuse,
     require,
     validate_array,
@@ -61,6 +60,9 @@ class Angles(NamedTuple):
 @dataclass(frozen=True, eq=False, repr=False)
 class State:
     """Orientation and angular velocity at one instant, or at many.
+
+    A state is what was given: parts of many states, copies and kicks keep `given_orientation`, and
+    states are equal if the given numbers are.
 
     Parameters
     ----------
@@ -166,13 +168,18 @@ class State:
         """Return the call that makes one state; of many, their shape."""
         if self.orientation.ndim > 1:
             return f"<State of shape {self.orientation.shape[:-1]}>"
-        orientation, omega = (tuple(part.tolist()) for part in self.parts)
+        orientation, omega = (tuple(part.tolist()) for part in self._given)
         return f"State(orientation={orientation}, angular_velocity={omega})"
 
     @property
     def parts(self) -> tuple[Real, Real]:
         """Orientation and angular velocity."""
         return self.orientation, self.angular_velocity
+
+    @property
+    def _given(self) -> tuple[Real, Real]:
+        """The arguments; what was done to them follows from them."""
+        return self.given_orientation, self.angular_velocity
 
     @classmethod
     def from_euler(
@@ -221,7 +228,7 @@ class State:
         return cls.of_given(q, omega)
 
     @cached_property
-    @ignore_underflow
+    @door.compute_soundly
     def vertical(self) -> Real:
         """World z' in the body frame, (..., 3): sin theta sin psi, sin theta cos psi, cos theta.
 
@@ -253,7 +260,7 @@ class State:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
         return Angles(*split(door.find_angle_rates(*self.parts)))
 
-    @ignore_underflow
+    @door.compute_soundly
     def to_world(self, vector: ArrayLike) -> Real:
         """Rotate body-frame vectors into the world frame.
 
@@ -269,7 +276,7 @@ class State:
         """
         return rotate(*self._components, np.asarray(vector, dtype=float))
 
-    @ignore_underflow
+    @door.compute_soundly
     def to_body(self, vector: ArrayLike) -> Real:
         """Rotate world-frame vectors into the body frame.
 
@@ -287,7 +294,7 @@ class State:
         return rotate(-w, x, y, z, np.asarray(vector, dtype=float))
 
     @property
-    @ignore_underflow
+    @door.compute_soundly
     def matrix(self) -> Real:
         """Rotation matrices from body to world, (..., 3, 3): the columns are the body's axes.
 
@@ -306,6 +313,7 @@ class State:
         return np.stack(rows, axis=-2)
 
     @classmethod
+    @door.compute_soundly
     def from_matrix(cls, matrix: ArrayLike, angular_velocity: ArrayLike) -> "State":
         """Return the state with these rotation matrices from body to world.
 
@@ -409,8 +417,8 @@ class State:
         places = place if isinstance(place, tuple) else (place,)
         has_gap = any(each is Ellipsis for each in places)
         where = (*places, slice(None)) if has_gap else (*places, ..., slice(None))
-        orientation, omega = (part[where] for part in self.parts)
-        return State.wrap(orientation, omega)
+        orientation, omega, given = (part[where] for part in (*self.parts, self.given_orientation))
+        return State.wrap(orientation, omega, given)
 
     def __len__(self) -> int:
         """Return the number of states along the first axis."""
@@ -427,12 +435,16 @@ class State:
         return (self[n] for n in range(len(self)))
 
     def __eq__(self, other: object) -> bool:
-        """Compare bit for bit (q and -q differ)."""
+        """Compare what was given, number by number (q and -q differ)."""
         return isinstance(other, State) and all(
-            np.array_equal(a, b) for a, b in zip(self.parts, other.parts, strict=True)
+            np.array_equal(a, b) for a, b in zip(self._given, other._given, strict=True)
         )
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        """Return a hash of one state; many cannot be hashed."""
+        if self.orientation.ndim > 1:
+            raise TypeError("many states cannot be hashed")
+        return hash(tuple(tuple(part.tolist()) for part in self._given))
 
 
 def _flush_tiny(array: Real) -> Real:
@@ -460,4 +472,5 @@ def _normalize(q: Real) -> Real:
             f"a quaternion of norm 1 within {NORM_TOLERANCE:g}",
             f"a norm of {norm.flat[deviation.argmax()]:g}",
         )
+    door.demand_arithmetic()
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))

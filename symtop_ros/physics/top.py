@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real, Vector, split, stack
+from symtop_ros.physics.kernel import door
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import (
     EPS,
     LARGEST_MOMENT,
     SMALLEST_MOMENT,
-    ignore_underflow,
     refuse,
     validate_one,
     validate_together,
@@ -109,6 +109,7 @@ class Top(_Numbers):
         return self.Ix, self.Iz, self.Mgl
 
     @property
+    @door.compute_soundly
     def critical_spin(self) -> Any:
         """Smallest |omega_z| in rad/s at which sleeping upright is stable; 0 for Mgl <= 0.
 
@@ -117,6 +118,7 @@ class Top(_Numbers):
         spin = 2 * np.sqrt(self.Ix) * np.sqrt(np.maximum(self.Mgl, 0.0)) / self.Iz
         return spin if self.shape else float(spin)
 
+    @door.compute_soundly
     def sleeping_is_stable(self, state: State) -> bool:
         """Return True if an axis at rest on the vertical stays near it after a small kick.
 
@@ -137,19 +139,19 @@ class Top(_Numbers):
         least = 2 * math.sqrt(self.Ix) * math.sqrt(weight)
         return abs(float(self.axial_momentum(state))) >= (1 - 8 * EPS) * least
 
-    @ignore_underflow
+    @door.compute_soundly
     def body_angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the body frame, (..., 3), in N m s."""
         Ix, Iz = match(self.Ix, state), match(self.Iz, state)
         x, y, z = split(state.angular_velocity)
         return stack(x * Ix, y * Ix, z * Iz)
 
-    @ignore_underflow
+    @door.compute_soundly
     def angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the world frame, (..., 3), in N m s."""
         return state.to_world(self.body_angular_momentum(state))
 
-    @ignore_underflow
+    @door.compute_soundly
     def gravity_torque(self, state: State) -> Real:
         """Return the torque of gravity about the pivot in the world frame, (..., 3), in N m.
 
@@ -160,18 +162,18 @@ class Top(_Numbers):
         x, y, z = split(state.to_world(stack(none, none, Mgl)))
         return stack(-y, x, 0.0 * abs(z))
 
-    @ignore_underflow
+    @door.compute_soundly
     def energy(self, state: State) -> Any:
         """Return the kinetic and potential energy, (...), in J; the potential is Mgl cos(theta)."""
         kinetic = (self.body_angular_momentum(state) * state.angular_velocity).sum(axis=-1) / 2
         return kinetic + match(self.Mgl, state) * state.vertical[..., 2]
 
-    @ignore_underflow
+    @door.compute_soundly
     def axial_momentum(self, state: State) -> Any:
         """Return L_z = p_psi = Iz omega_z, (...), in N m s; constant without friction."""
         return match(self.Iz, state) * state.angular_velocity[..., 2]
 
-    @ignore_underflow
+    @door.compute_soundly
     def vertical_momentum(self, state: State) -> Any:
         """Return L_z' = p_phi = L . z', (...), in N m s; constant without friction."""
         return (self.body_angular_momentum(state) * state.vertical).sum(axis=-1)
@@ -243,7 +245,7 @@ class Friction(_Numbers):
             return bool(np.any(self.axial) or np.any(self.transverse))
         return self.axial > 0 or self.transverse > 0  # asked of every motion
 
-    @ignore_underflow
+    @door.compute_soundly
     def torque(self, state: State) -> Real:
         """Return the torque of friction in the body frame, (..., 3), in N m."""
         across, along = -match(self.transverse, state), -match(self.axial, state)

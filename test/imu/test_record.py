@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf
 from physics.test_body import differentiate
-from physics.tops import ARTICLE, CUSPS, Case, cross, turn
+from physics.tops import ARTICLE, CUSPS, EPS, Case, cross, turn
 
 from symtop_ros.imu import Imu, record_imu
 from symtop_ros.imu.main import main
 from symtop_ros.judge.main import main as judge
-from symtop_ros.physics import Motion
+from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.playback.main import main as replay
+from symtop_ros.simulation.validation import RefusedError
 
 MOTION = Motion(ARTICLE, CUSPS)
 GRAVITY = 9.81
@@ -73,6 +74,39 @@ def test_means_are_the_integrals_over_the_interval(rate, points):
         # the same, of a sum with positive weights
         assert np.abs(record.means[k, part] - mean[part]).max() / scale < 4e-16
     assert (record.measured == record.means).all()
+
+
+# A pendulum that is slow at the stamps and fast between them, one that spins, and driven tops.
+SLOW_AT_STAMPS = Motion(Top(1.0, 0.5, 100.0), State.from_euler(theta=0.1))
+SWINGS = {
+    "pendulum": SLOW_AT_STAMPS,
+    "spinning": Motion(Top(1.0, 0.5, 100.0), State.from_euler(theta=0.1, psi_dot=4.0)),
+    "hanging": Motion(Top(1.0, 0.5, -100.0), State.from_euler(theta=3.0, phi_dot=0.1)),
+    "friction": Motion(Top(1.0, 0.5, 2.0), State.from_euler(theta=0.1), Friction(0.01, 0.02)),
+    "torque": Motion(Top(1.0, 0.5, 1.0), State.from_euler(theta=1.0), torque=(0.1, 0.0, 0.02)),
+}
+
+
+@pytest.mark.parametrize("name", SWINGS)
+def test_the_mean_of_a_long_interval_is_that_of_its_parts(name):
+    # 64 parts each: in a part the top turns little, so that no choice of points can be wrong.
+    long = record_imu(SWINGS[name], replace(SENSOR, rate=0.125), 24.0, average=True)
+    short = record_imu(SWINGS[name], replace(SENSOR, rate=8.0), 24.0, average=True)
+    means = short.means[1:129].reshape(2, 64, 6).mean(axis=1)
+    largest = np.abs(short.forces).max(), np.abs(short.rates).max()
+    for part, size in ((slice(3, 6), largest[0]), (slice(0, 3), largest[1])):
+        # the rounding of states, of products, and of the means of 64
+        assert np.abs(long.means[1:, part] - means[:, part]).max() < 32 * EPS * size
+
+
+def test_a_sensor_slower_than_the_top_has_its_mean_force():
+    record = record_imu(SLOW_AT_STAMPS, Imu(PLACE, rate=0.114), 20.0, average=True)
+    assert record.means[0, 5] == pytest.approx(3.50202489, abs=1e-8)
+
+
+def test_means_of_too_many_states_are_refused():
+    with pytest.raises(RefusedError, match="states of all means must be at most 1e\\+09, got"):
+        record_imu(MOTION, replace(SENSOR, rate=1e-3), 2e7, average=True)
 
 
 SHORT = "--scene", "cusps", "--seconds", "0.5", "--rate", "500"

@@ -54,6 +54,8 @@ ROTATION = "a rotation (orthogonal within 0.001, determinant 1)"
 UNIT, REST, NAN, INF = (1, 0, 0, 0), (0, 0, 0), math.nan, math.inf
 UPRIGHT, HANGING = State(UNIT, (0, 0, 200.0)), State((0, 1, 0, 0), (0, 0, 200.0))
 BOTH, TILTED_BY = State([UNIT, (0, 1, 0, 0)], [REST] * 2), partial(State.from_euler, theta=0.5)
+TOO_LONG = "within ten million steps of integration (a minute or two) of what is reached"
+LATE_DERIVATIVES = "s of the start for derivatives with friction or a torque"
 RESOLVED = "a time at which double precision resolves the derivatives"
 TOO_LATE = 1e17, -1e20, [1.0, 1e17], ExactTimes(2**63 - 1, 1e40)
 THROWN_UP, UNSTABLE = State([0.5] * 4, (-2, 0, 0)), State(UNIT, (0, 0, 30))
@@ -61,6 +63,7 @@ OF_RATES = theta_torque, theta_acceleration, precessing_frame_torques
 PUSHED = partial(Motion, ARTICLE, CUSPS)
 RISING = Motion(Top(1, 1e-21, 0.0), CUSPS, torque=(1, 1, 1))  # turns too fast for all digits
 DRAG = Friction(2e-6, 1e-5)
+WEAK = Friction(1e-6)
 TOO_FINE = [
     ExactTimes(np.array([10**8, 2 * 10**8]), elapsed=each)
     for each in (sum(Fraction(1, 2**n) for n in range(0, 400, 80)), Fraction(1, 2**400))
@@ -147,7 +150,11 @@ MOTIONS = [
     (partial(MANY.at, [0.1, 1e17]), "t", NOT_TOO_LATE),
     *((partial(PUSHED(DRAG).at, each), "elapsed", "a sum of four doubles") for each in TOO_FINE),
     (partial(RISING.at, [1e-3, 1.0]), "t", NOT_TOO_FAST),
-    (partial(PUSHED(DRAG).jacobian, 1e5), "t", "at most "),
+    (partial(PUSHED(DRAG).jacobian, 1e5), "t", LATE_DERIVATIVES, "100000"),
+    (partial(PUSHED(DRAG).jacobian, [1.0, -1e6]), "t", LATE_DERIVATIVES, "-1000000"),
+    *((partial(PUSHED(WEAK).at, t), "t", TOO_LONG, f"{t:.0f}") for t in (-1e6, 1e6)),
+    (partial(PUSHED(WEAK).at, ExactTimes(-(10**15))), "t", TOO_LONG, "-1000000"),
+    (partial(PUSHED(WEAK).at, [1.0, -1e6]), "t", TOO_LONG, "-1000000"),
     (partial(Motion(Top(1.0, 0.5, 2.0), THROWN_UP).jacobian, 1e9), "t", RESOLVED),
     (partial(Motion(ARTICLE, UNSTABLE).jacobian, 1e5), "t", RESOLVED),
     *((partial(balance, MOTION, 2.0, wrong), "longest", "> 0 s") for wrong in (0.0, -1.0)),

@@ -5,6 +5,7 @@ import hashlib
 import math
 import pickle
 import random
+from functools import partial
 
 import numpy as np
 import pytest
@@ -24,13 +25,24 @@ from physics.tops import (
 )
 from trials import trials
 
-from symtop_ros.physics import Friction, Motion, Motions, State, Top
+from symtop_ros.physics import (
+    Friction,
+    Motion,
+    Motions,
+    State,
+    Top,
+    apply_impulse,
+    hurry,
+    push_axle,
+    set_precession_rate,
+)
 
 
 def test_an_orientation_is_normalised_once_and_then_stays_bit_for_bit():
     once = State((1.0005, 0.0, 1e-3, 0.0), (1.0, 2.0, 3.0))
     assert np.linalg.norm(once.orientation) == pytest.approx(1.0, abs=EPS)
-    assert State(*once.parts) == once
+    again = State(*once.parts)
+    assert [each.tobytes() for each in again.parts] == [each.tobytes() for each in once.parts]
     states = random_states(1000)
     assert State(*states.parts) == states
 
@@ -111,6 +123,56 @@ def test_states_and_their_copies_are_read_only_also_through_their_base():
             for part in other.parts:
                 assert not part.flags.writeable
                 assert part.base is None or not part.base.flags.writeable
+
+
+# Of norms that are not 1 to rounding: what is kept of them are the doubles that were given.
+LONG = np.array([(0.8, 0.6, 0.0, 0.0), (0.6, 0.0, 0.64, 0.48)]) * 1.0005
+RATES = np.array([(1.0, 2.0, 200.0), (0.0, 3.0, 150.0)])
+
+
+def hold_given(state, n):
+    return state.given_orientation.tobytes() == LONG[n].tobytes()
+
+
+def test_a_state_of_many_keeps_the_digits_that_were_given():
+    states, one = State(LONG, RATES), State(LONG[1], RATES[1])
+    assert not hold_given(State(states.orientation, RATES)[1], 1)
+    copies = copy.copy(states), copy.deepcopy(states), pickle.loads(pickle.dumps(states))
+    for many in (states, *copies):
+        for found in (many[1], many[1:][0], list(many)[1], many[[1, 0]][0], many[..., 1]):
+            assert found == one
+            assert hold_given(found, 1)
+    late = [Motion(ARTICLE, each).at(1e10) for each in (states[1], one)]
+    assert late[0] == late[1]
+
+
+def test_a_kick_keeps_the_digits_of_the_attitude_that_were_given():
+    states = State(LONG, RATES)
+    for kick in (
+        partial(set_precession_rate, phi_dot=9.1),
+        partial(hurry, factor=[1.2, 1.4], hold="spin_momentum"),
+        partial(hurry, factor=1.4),
+        partial(lambda state: apply_impulse(ARTICLE, state, (1e-4, 0, 0))),
+        partial(lambda state: push_axle(ARTICLE, state, 1e-4)),
+    ):
+        kicked = kick(states)
+        assert kicked.orientation.tobytes() == states.orientation.tobytes()
+        assert hold_given(kicked[0], 0)
+        assert hold_given(kicked, slice(None))
+    assert hold_given(hurry(states[0]), 0)
+
+
+def test_states_are_equal_if_what_was_given_is():
+    one = State(LONG[0], RATES[0])
+    normalised = State(one.orientation, RATES[0])
+    assert one.orientation.tobytes() == normalised.orientation.tobytes()
+    assert one != normalised
+    assert eval(repr(one)) == one
+    assert {one: 1}[State(LONG[0], RATES[0])] == 1
+    assert normalised not in {one: 1}
+    assert hash(State((1, 0, 0, 0), (0, 0, 0.0))) == hash(State((1, 0, 0, 0), (0, 0, -0.0)))
+    with pytest.raises(TypeError, match="many states cannot be hashed"):
+        hash(State(LONG, RATES))
 
 
 def test_states_tops_and_motions_show_what_they_are():

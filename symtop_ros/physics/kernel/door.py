@@ -8,12 +8,13 @@ that threads may use one motion together. The library is loaded when it is first
 import ctypes
 import hashlib
 import sys
+from collections.abc import Callable
 from ctypes import POINTER, Structure, byref, c_double, c_int, c_size_t, c_uint, c_uint8
-from functools import cache
+from functools import cache, wraps
 from pathlib import Path
 from struct import Struct
 from types import SimpleNamespace
-from typing import Any, ClassVar, Literal, get_args
+from typing import Any, ClassVar, Literal, ParamSpec, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,9 @@ from numpy.typing import NDArray
 from symtop_ros.arrays import Real
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY, refuse
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 FOLDER = Path(__file__).parent
 FILE = FOLDER / f"libsymtop{ {'win32': '.dll', 'darwin': '.dylib'}.get(sys.platform, '.so') }"
@@ -43,7 +47,7 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 ENGINES: tuple[Engine, ...] = get_args(Engine)
 # Statuses of `symtop_status`.
 OK, NO_MEMORY, BAD_ANGULAR_VELOCITY, TOO_FAR, TOO_FAST, MORE_STEPS = 0, 1, 4, 8, 9, 11
-TOO_STIFF, BAD_ARITHMETIC, BAD_KICK, VERTICAL = 10, 12, 14, 15
+TOO_STIFF, BAD_ARITHMETIC, BAD_KICK, VERTICAL, TOO_LONG = 10, 12, 14, 15, 16
 START, STATE = 15, 7  # numbers of `symtop_start`, of an orientation and an angular velocity
 BEFORE_STATE, AFTER_STATE = 8 * 3, 8 * (3 + STATE)  # offsets in `symtop_start`
 
@@ -158,6 +162,7 @@ _FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "free": (_HANDLE,),
     "describe_status": (c_int,),
     "version": (),
+    "check_arithmetic": (),
     "read": (_HANDLE, POINTER(State)),
     "find_kind": (_HANDLE,),
     "find_engine": (_HANDLE,),
@@ -247,6 +252,23 @@ def demand(status: int) -> None:
     """Raise the exception for a status other than OK."""
     if status != OK:
         raise refuse_status(status)
+
+
+def demand_arithmetic() -> None:
+    """Refuse, in the kernel's words, to compute in a thread that rounds otherwise."""
+    demand(open_door().check_arithmetic())
+
+
+def compute_soundly(function: Callable[P, T]) -> Callable[P, T]:
+    """Have a function of NumPy refuse as the kernel does in such a thread, and ignore underflow."""
+
+    @wraps(function)
+    def compute(*arguments: P.args, **named: P.kwargs) -> T:
+        demand_arithmetic()
+        with np.errstate(under="ignore"):  # although the caller's NumPy raises for it
+            return function(*arguments, **named)
+
+    return compute
 
 
 def _lend(array: Any, kind: Any) -> Any:
@@ -341,7 +363,9 @@ class KernelMotion:
     @property
     def kind(self) -> Kind:
         """Name of the motion."""
-        return KINDS[int(self._door.find_kind(self._handle))]
+        kind = int(self._door.find_kind(self._handle))
+        demand(OK if kind < len(KINDS) else BAD_ARITHMETIC)
+        return KINDS[kind]
 
     @property
     def engine(self) -> Engine:
@@ -352,21 +376,21 @@ class KernelMotion:
     def turning_angles(self) -> tuple[float, float]:
         """Smallest and largest theta in rad."""
         angles = Pair()
-        self._door.find_turning_angles(self._handle, angles)
+        demand(self._door.find_turning_angles(self._handle, angles))
         return angles[0], angles[1]
 
     @property
     def rates(self) -> RatesRecord:
         """Nutation period, mean rates, and whether the spin reverses."""
         found = RatesRecord()
-        self._door.find_rates(self._handle, found)
+        demand(self._door.find_rates(self._handle, found))
         return found
 
     @property
     def farthest_time(self) -> float:
         """1e15 turns of the fastest phase in s: there are no states from there on."""
         farthest = c_double()
-        self._door.find_farthest_time(self._handle, farthest)
+        demand(self._door.find_farthest_time(self._handle, farthest))
         return farthest.value
 
 

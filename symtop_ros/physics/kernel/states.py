@@ -8,8 +8,10 @@ from symtop_ros.physics.kernel.door import (
     OK,
     TOO_FAR,
     TOO_FAST,
+    TOO_LONG,
     TOO_STIFF,
     KernelMotion,
+    demand,
     refuse_status,
 )
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
@@ -54,8 +56,10 @@ def reach(motion: KernelMotion, t: float, steps: float) -> float:
     """Integrate towards a time in a limited number of steps, or to where it is too fast."""
     while True:
         reached, status = motion.reach(t, min(steps, STEPS))
+        if status not in (MORE_STEPS, TOO_FAST):
+            demand(status)
         steps -= STEPS
-        if status == TOO_FAST or reached == t or steps <= 0:
+        if status != MORE_STEPS or steps <= 0:
             return reached
 
 
@@ -63,9 +67,14 @@ def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
     """Return the error for a time at which there is no state."""
     if status == TOO_FAR:
         return refuse("t", f"within {motion.farthest_time:.3g} s of the start (1e15 turns)", t)
-    if status not in (TOO_FAST, TOO_STIFF):
+    if status not in (TOO_FAST, TOO_STIFF, TOO_LONG):
         return refuse_status(status)
-    end, why = abs(reach(motion, t, 0)), "the motion then becomes too fast"
+    reached = reach(motion, t, 0)
+    if status == TOO_LONG:
+        # No time can be named: back in time friction drives a top, and the steps become shorter.
+        way = "ten million steps of integration (a minute or two)"
+        return refuse("t", f"within {way} of what is reached, {reached:.3g} s", t)
+    end, why = abs(reached), "the motion then becomes too fast"
     if status == TOO_STIFF:
         # After some decay times the top creeps, but explicit series cannot take longer steps.
         decay = 1 / motion.decay

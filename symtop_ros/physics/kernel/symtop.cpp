@@ -1,9 +1,8 @@
-// The functions of symtop.h. This is the one file that is compiled. The first header is for all
-// functions behind it.
+// The functions of symtop.h. This is the one file that is compiled. The first headers are for all
+// that is behind them.
+#include "compiler.hpp"
 #include "no_fma.hpp"
 #include "symtop.h"
-
-#include <initializer_list>
 
 #include "functions/disc.hpp"
 #include "functions/library.hpp"
@@ -29,6 +28,7 @@ const char* symtop_describe_status(symtop_status status) {
     case SYMTOP_TOO_FAR: return "times must be within 1e15 turns of the start";
     case SYMTOP_TOO_FAST: return "times must be before the motion becomes too fast for doubles";
     case SYMTOP_TOO_STIFF: return "times must be within 1e5 decay times of what has been reached";
+    case SYMTOP_TOO_LONG: return "times must be within 1e7 steps of what has been reached";
     case SYMTOP_MORE_STEPS: return "most_steps must suffice for the way: call again to go on";
     case SYMTOP_BAD_ARITHMETIC:
       return "arithmetic must be that of IEEE 754: sums in the order of the source, rounded to the "
@@ -38,6 +38,15 @@ const char* symtop_describe_status(symtop_status status) {
     case SYMTOP_BAD_KICK: return "kick must be finite, and leave phi' at most 1e100 rad/s in size";
     case SYMTOP_VERTICAL:
       return "axis must be tilted (phi' is undefined on the vertical; an angular impulse works there)";
+    case SYMTOP_BAD_POINTER: return "pointers must not be null";
+    case SYMTOP_BAD_COUNT: return "count must be so small that the arrays fit into memory";
+    case SYMTOP_BAD_HOLD:
+      return "hold must be the spin rate or the spin momentum (nothing is held by impulses alone)";
+    case SYMTOP_BAD_KICK_KIND: return "kind of kick must be one of symtop_kick_kind";
+    case SYMTOP_BAD_RATE: return "rates must be finite, at most 1e100 rad/s in size";
+    case SYMTOP_BAD_STEPS: return "most_steps must be >= 0";
+    case SYMTOP_BAD_DISC:
+      return "disc must be of finite numbers, with mass and radius > 0, and gravity finite";
   }
   return "status must be one of symtop_status";
 }

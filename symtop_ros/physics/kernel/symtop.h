@@ -13,12 +13,19 @@
  *
  * Functions on `count` elements read and write arrays of so many: a shape (count, 4) means four
  * numbers for each. *done is the number of elements written, from the first on: all of them, or
- * those before the one that the status is about.
+ * those before the one that the status is about. What a function writes must not overlap what it
+ * reads, nor another argument that it writes: the numbers would be wrong, without a word.
+ *
+ * All arguments are looked at before they are used, and each refusal has a status with a sentence:
+ * numbers that are not finite or out of range, orientations without norm 1, null pointers, and enums
+ * that are none. Arrays without elements may be null. Only a handle that is neither null nor a motion
+ * is not found. What was not computed is not written, but for the element that is refused.
  *
  * There is no global state. Threads may use different motions, and the same one, at the same time.
  *
- * To build it, compile symtop.cpp as C++17 with -ffp-contract=off, and link it. Without that option
- * a compiler may fuse products and sums, and the last bits are others. With -ffast-math or -Ofast it
+ * To build it, compile symtop.cpp as C++17 with -ffp-contract=off, and link it. It takes GCC or
+ * Clang, 64 bits, or Clang for WebAssembly. Without that option a compiler may fuse products and sums,
+ * and the last bits are others. With -ffast-math or -Ofast it
  * does not compile: give -fno-fast-math after them. What a compiler does not announce, such as
  * -fassociative-math, and a thread that does not round to the nearest or flushes subnormal numbers
  * to zero, is found when a function is called: the status is SYMTOP_BAD_ARITHMETIC, and nothing is
@@ -74,7 +81,15 @@ typedef enum {
   SYMTOP_BAD_ARITHMETIC, /* of the compiler or of the calling thread: see above */
   SYMTOP_BAD_ANGLES,
   SYMTOP_BAD_KICK,
-  SYMTOP_VERTICAL /* phi' is undefined on the vertical; an angular impulse works there */
+  SYMTOP_VERTICAL, /* phi' is undefined on the vertical; an angular impulse works there */
+  SYMTOP_TOO_LONG, /* the way to the time of a driven motion takes more than 1e7 steps */
+  SYMTOP_BAD_POINTER,
+  SYMTOP_BAD_COUNT, /* the arrays would be larger than any memory */
+  SYMTOP_BAD_HOLD,  /* no symtop_hold, or SYMTOP_NOTHING where phi' is changed */
+  SYMTOP_BAD_KICK_KIND,
+  SYMTOP_BAD_RATE,
+  SYMTOP_BAD_STEPS,
+  SYMTOP_BAD_DISC
 } symtop_status;
 
 /* The version of the library; SYMTOP_VERSION is that of the header. */
@@ -93,7 +108,9 @@ SYMTOP_API void symtop_free(symtop_motion* motion); /* null is allowed */
 SYMTOP_API symtop_status symtop_continue(symtop_motion* motion, double t, const double torque[3],
                               symtop_motion** continued);
 
-/* The state at one time in s of either sign. A driven motion is integrated as far as it takes. */
+/* The state at one time in s of either sign. A driven motion is integrated as far as it takes, but
+ * not if more than 1e7 steps seem to be left, a minute or two: SYMTOP_TOO_LONG. To go further, first
+ * reach times on the way. */
 SYMTOP_API symtop_status symtop_state(symtop_motion* motion, double t, double orientation[4],
                            double angular_velocity[3]);
 
@@ -131,7 +148,7 @@ typedef enum {
   SYMTOP_ASYMPTOTIC,       /* the axis approaches the vertical for ever */
   SYMTOP_SLEEPING,         /* the axis rests on the vertical */
   SYMTOP_DRIVEN,           /* friction or a torque acts */
-  SYMTOP_UNKNOWN_KIND      /* the arithmetic is bad: see above; numbers are NaN */
+  SYMTOP_UNKNOWN_KIND      /* the arithmetic is bad, see above, or the motion is null */
 } symtop_kind;
 
 SYMTOP_API symtop_kind symtop_find_kind(symtop_motion* motion);
@@ -140,7 +157,7 @@ SYMTOP_API symtop_kind symtop_find_kind(symtop_motion* motion);
  * alone. */
 
 /* The smallest and the largest angle theta in rad between the axis and the vertical. */
-SYMTOP_API void symtop_find_turning_angles(symtop_motion* motion, double angles[2]);
+SYMTOP_API symtop_status symtop_find_turning_angles(symtop_motion* motion, double angles[2]);
 
 typedef struct {
   double nutation_period;         /* s; infinite if theta does not return */
@@ -150,19 +167,20 @@ typedef struct {
   int spin_reverses;              /* 1 if psi' takes both signs */
 } symtop_rates;
 
-SYMTOP_API void symtop_find_rates(symtop_motion* motion, symtop_rates* rates);
+SYMTOP_API symtop_status symtop_find_rates(symtop_motion* motion, symtop_rates* rates);
 
 /* 1e15 turns of the fastest phase in s: there are no states from there on. Infinite for a driven
  * motion. */
-SYMTOP_API void symtop_find_farthest_time(symtop_motion* motion, double* t);
+SYMTOP_API symtop_status symtop_find_farthest_time(symtop_motion* motion, double* t);
 
 /* 2 pi over the nutation period in rad/s, as the sum of two doubles; 0 if theta does not return. */
-SYMTOP_API void symtop_find_nutation_rate(symtop_motion* motion, double rate[2]);
+SYMTOP_API symtop_status symtop_find_nutation_rate(symtop_motion* motion, double rate[2]);
 
 typedef enum {
   SYMTOP_CLOSED_FORM, /* elliptic functions */
   SYMTOP_FREE,        /* circular functions: Mgl is 0, or the axis rests on the vertical */
-  SYMTOP_TAYLOR       /* series in time: friction or a torque acts */
+  SYMTOP_TAYLOR,      /* series in time: friction or a torque acts */
+  SYMTOP_UNKNOWN_ENGINE /* the motion is null */
 } symtop_engine;
 
 SYMTOP_API symtop_engine symtop_find_engine(symtop_motion* motion);
@@ -211,8 +229,8 @@ typedef struct {
   double Ix, Iz, Mgl; /* as in symtop_start */
 } symtop_top;
 
-/* The top that a flat disc makes on an axle without mass: mass in kg, radius and distance of its
- * centre from the pivot in m (negative: on the other side), and gravity in m/s^2. */
+/* The top that a flat disc makes on an axle without mass: mass in kg and radius in m, both > 0,
+ * distance of its centre from the pivot in m (negative: on the other side), and gravity in m/s^2. */
 SYMTOP_API symtop_status symtop_find_disc_top(const double disc[3], double gravity,
                                               symtop_top* top);
 
@@ -223,7 +241,7 @@ SYMTOP_API symtop_status symtop_find_disc(const symtop_top* top, double gravity,
 typedef enum {
   SYMTOP_SPIN_RATE,     /* psi': the article's comparison */
   SYMTOP_SPIN_MOMENTUM, /* Iz omega_z: a push on the axle, which cannot change it */
-  SYMTOP_NOTHING        /* by an angular impulse */
+  SYMTOP_NOTHING        /* by an impulse: for symtop_kick and symtop_judge_kick alone */
 } symtop_hold;
 
 /* Rates phi' at which the tilt is constant, (count, 2): slow and fast, NaN for what there is not.
@@ -255,7 +273,8 @@ typedef enum {
                             direction in which phi grows; theta' and Iz omega_z are held */
 } symtop_kick_kind;
 
-/* Angular velocities (count, 3) after kicks of one kind at fixed orientations (count, 4). */
+/* Angular velocities (count, 3) after kicks of one kind at fixed orientations (count, 4). An impulse
+ * asks for no hold: any is allowed. */
 SYMTOP_API symtop_status symtop_kick(const symtop_top* tops, const double* orientation,
                                      const double* angular_velocity, symtop_kick_kind kind,
                                      symtop_hold hold, const double* amounts, size_t count,

@@ -1,17 +1,25 @@
-/* Calls of every function of symtop.h with whatever a caller may pass: bits at random, extremes, and
- * ordinary numbers among them. What is not refused is answered; nothing may crash or hang. */
+/* Calls of every function of symtop.h with whatever a caller may pass: bits at random, extremes, norms,
+ * numbers that are no enum, null pointers and buffers that overlap, and ordinary arguments among them.
+ * Of each argument it is known here, by the words of the header alone, whether it is allowed. What is
+ * not must be refused, with a status that has a sentence, and leave what is written as it was; what is
+ * answered must be finite, but where the header says NaN. Nothing may crash or hang.
+ *
+ * A module of WebAssembly has no `main`: it exports `run`, and `digest` of what all calls answered. */
+#include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "symtop.h"
 
-#define TIMES 6
+enum { MOST = 3, WORDS = 4096, STEPS = 40 };
 
 static const double ODD[] = {0.0,    -0.0,   1.0,    -1.0,   NAN,   INFINITY, -INFINITY, 5e-324,
                              1e-300, 1e300,  1e-100, 1e100,  0.5,   2.0,      1e-8,      1e-16,
                              1e9,    -1e17,  1e30,   0x1p63, 1e-9,  3.0,      0.1,       1e-200};
+static const double UNTOUCHED = -7.25;
+
+/* ---- Numbers ---- */
 
 static uint64_t state;
 
@@ -20,6 +28,7 @@ static uint64_t draw(void) { /* xorshift64* */
   return state * 2685821657736338717u;
 }
 
+static int is_rare(unsigned one_in) { return draw() % one_in == 0; }
 static double draw_unit(void) { return (double)(draw() >> 11) * 0x1p-53; }
 
 static double draw_bits(void) {
@@ -29,129 +38,556 @@ static double draw_bits(void) {
   return number;
 }
 
-/* One of `oddness` numbers is odd, the others lie about `usual`. */
-static double draw_number(double usual, int oddness) {
-  if (draw() % oddness) return usual * (draw_unit() - (draw() % 4 ? 0 : 0.5));
-  return draw() % 2 ? ODD[draw() % (sizeof ODD / sizeof ODD[0])] : draw_bits();
+static unsigned oddness; /* one number in so many is odd */
+
+static double draw_number(double usual) {
+  if (!is_rare(oddness)) return usual * (draw_unit() - (is_rare(4) ? 0.5 : 0.0));
+  return is_rare(2) ? ODD[draw() % (sizeof ODD / sizeof ODD[0])] : draw_bits();
 }
 
-static void draw_start(symtop_start* start, int oddness) {
+/* An enum of `count` values, or a number that is none. */
+static int draw_enum(int count) {
+  return is_rare(8) ? (int)(draw() % 9) - 2 : (int)(draw() % (unsigned)count);
+}
+
+/* ---- Buffers ---- */
+
+typedef union {
+  double number;
+  uint64_t bits;
+} word;
+
+static word arena[WORDS];
+static size_t used;
+static int has_null, has_overlap; /* of the call that is prepared */
+static void* last;
+
+static void prepare(void) { used = 0, has_null = has_overlap = 0, last = NULL; }
+
+/* Room for so many words; or null, or the room of another argument, if `is_hostile`. */
+static void* take(size_t words, int is_hostile) {
+  word* room = arena + used;
+  used += words + 1;
+  if (used > WORDS) abort();
+  for (size_t k = 0; k <= words; k++) room[k].number = UNTOUCHED;
+  if (is_hostile && is_rare(40)) return has_null = 1, NULL;
+  if (is_hostile && last && is_rare(40)) return has_overlap = 1, (word*)last + draw() % 2;
+  return last = room;
+}
+
+static double* take_room(size_t words) { return (double*)take(words, 1); }
+
+static double* take_numbers(size_t count, double usual) {
+  double* room = (double*)take(count, 1);
+  for (size_t k = 0; room && k < count; k++) room[k] = draw_number(usual);
+  return room;
+}
+
+static int is_untouched(const double* room, size_t count) {
+  for (size_t k = 0; room && k < count; k++)
+    if (memcmp(room + k, &UNTOUCHED, sizeof UNTOUCHED)) return 0;
+  return 1;
+}
+
+/* ---- What the header allows ---- */
+
+static int are_within(const double* numbers, size_t count, double most) {
+  for (size_t k = 0; k < count; k++)
+    if (!(fabs(numbers[k]) <= most)) return 0;
+  return 1;
+}
+
+static int are_finite(const double* numbers, size_t count) {
+  return are_within(numbers, count, DBL_MAX);
+}
+
+static int is_hold(int hold) { return hold == SYMTOP_SPIN_RATE || hold == SYMTOP_SPIN_MOMENTUM; }
+
+static int is_top(const symtop_top* top) {
+  return top->Ix >= 1e-100 && top->Ix <= 1e100 && top->Iz >= 1e-100 && top->Iz <= 2 * top->Ix &&
+         top->Iz <= 1e100 && fabs(top->Mgl) <= 1e100;
+}
+
+static int is_unit(const double q[4]) {
+  return fabs(sqrt((q[0] * q[0] + q[3] * q[3]) + (q[1] * q[1] + q[2] * q[2])) - 1) <= 1e-3;
+}
+
+static int is_start(const symtop_start* s) {
+  const symtop_top top = {s->Ix, s->Iz, s->Mgl};
+  return is_top(&top) && is_unit(s->orientation) && are_within(s->angular_velocity, 3, 1e100) &&
+         are_finite(s->friction, 2) && s->friction[0] >= 0 && s->friction[1] >= 0 &&
+         are_finite(s->torque, 3);
+}
+
+/* ---- What a call answered ---- */
+
+static uint64_t hash;
+static long calls, answered;
+static int fault; /* the line of the first call that was not as promised */
+
+static void add_to_hash(uint64_t bits) { hash = (hash ^ bits) * 1099511628211u; }
+
+static void add_numbers(const double* numbers, size_t count) {
+  for (size_t k = 0; k < count; k++) {
+    uint64_t bits;
+    memcpy(&bits, numbers + k, sizeof bits);
+    add_to_hash(isnan(numbers[k]) ? 1 : bits); /* the sign of a NaN is that of the processor */
+  }
+}
+
+/* Whether the status fits: `is_allowed` says that all arguments are. */
+static int judge(symtop_status status, int is_allowed, int line) {
+  const int has_sentence = strcmp(symtop_describe_status(status), symtop_describe_status((symtop_status)99)) != 0;
+  const int is_bad_argument = status == SYMTOP_BAD_POINTER || status == SYMTOP_BAD_COUNT ||
+                              status == SYMTOP_BAD_HOLD || status == SYMTOP_BAD_KICK_KIND ||
+                              status == SYMTOP_BAD_TOP || status == SYMTOP_BAD_ORIENTATION ||
+                              status == SYMTOP_BAD_STEPS || status == SYMTOP_BAD_RATE ||
+                              status == SYMTOP_BAD_ARITHMETIC || status == SYMTOP_BAD_TORQUE ||
+                              status == SYMTOP_BAD_FRICTION;
+  calls++, answered += status == SYMTOP_OK;
+  add_to_hash((uint64_t)status);
+  /* Of buffers that overlap nothing is promised but that the call ends. */
+  if (!has_overlap && (!has_sentence || (status == SYMTOP_OK && !is_allowed) ||
+                       (is_allowed && is_bad_argument)))
+    fault = fault ? fault : line;
+  return status == SYMTOP_OK && !has_overlap;
+}
+
+/* What a call may write: as it was after a refusal, finite after an answer. */
+static void check_room(symtop_status status, const double* room, size_t count, int may_be_nan,
+                       int line) {
+  if (has_overlap || !room) return;
+  if (status == SYMTOP_OK) add_numbers(room, count);
+  if (status == SYMTOP_OK ? !may_be_nan && !are_finite(room, count) : !is_untouched(room, count))
+    fault = fault ? fault : line;
+}
+
+/* ---- Arguments ---- */
+
+static double* take_orientations(size_t count, int* are_allowed) {
+  double* room = (double*)take(4 * count, 1);
+  for (size_t i = 0; room && i < count; i++) {
+    double* q = room + 4 * i;
+    double norm = 0.0;
+    for (int k = 0; k < 4; k++) q[k] = draw_number(1.0), norm += q[k] * q[k];
+    /* of norm 1 to rounding, or nearly, or hardly */
+    const double wanted = is_rare(3) ? 1 + 4e-3 * (draw_unit() - 0.5) : 1.0;
+    if (!is_rare(10))
+      for (int k = 0; k < 4; k++) q[k] *= wanted / sqrt(norm);
+    if (is_rare(10)) memset(q + 1, 0, 2 * sizeof q[0]); /* seldom of norm 1 then, or on the vertical */
+    *are_allowed &= is_unit(q);
+  }
+  return room;
+}
+
+static double* take_omegas(size_t count, int* are_allowed) {
+  double* room = take_numbers(3 * count, 100.0);
+  if (room) *are_allowed &= are_within(room, 3 * count, 1e100);
+  return room;
+}
+
+static symtop_top draw_top(void) {
+  symtop_top top;
+  top.Ix = draw_number(1.0), top.Iz = draw_number(1.0), top.Mgl = draw_number(100.0);
+  return top;
+}
+
+static symtop_top* take_tops(size_t count, int* are_allowed) {
+  symtop_top* room = (symtop_top*)take(3 * count, 1);
+  for (size_t i = 0; room && i < count; i++) {
+    room[i] = draw_top();
+    *are_allowed &= is_top(room + i);
+  }
+  return room;
+}
+
+static void draw_start(symtop_start* start) {
   double norm = 0.0;
-  start->Ix = draw_number(1.0, oddness), start->Iz = draw_number(1.0, oddness);
-  start->Mgl = draw_number(100.0, oddness);
+  const symtop_top top = draw_top();
+  start->Ix = top.Ix, start->Iz = top.Iz, start->Mgl = top.Mgl;
   for (int k = 0; k < 4; k++) {
-    start->orientation[k] = draw_number(1.0, oddness);
+    start->orientation[k] = draw_number(1.0);
     norm += start->orientation[k] * start->orientation[k];
   }
-  for (int k = 0; k < 4; k++) start->orientation[k] /= sqrt(norm);
-  for (int k = 0; k < 3; k++) start->angular_velocity[k] = draw_number(100.0, oddness);
-  for (int k = 0; k < 2; k++)
-    start->friction[k] = draw() % 3 ? 0.0 : fabs(draw_number(0.1, oddness));
-  for (int k = 0; k < 3; k++) start->torque[k] = draw() % 3 ? 0.0 : draw_number(1.0, oddness);
+  const double wanted = is_rare(3) ? 1 + 4e-3 * (draw_unit() - 0.5) : 1.0;
+  for (int k = 0; k < 4; k++) start->orientation[k] *= wanted / sqrt(norm);
+  for (int k = 0; k < 3; k++) start->angular_velocity[k] = draw_number(100.0);
+  for (int k = 0; k < 2; k++) start->friction[k] = is_rare(3) ? fabs(draw_number(0.1)) : 0.0;
+  for (int k = 0; k < 3; k++) start->torque[k] = is_rare(3) ? draw_number(1.0) : 0.0;
 }
 
-/* The status of every call is a sentence, and no more states are written than were asked for. */
-static void check(symtop_status status, size_t written) {
-  if (symtop_describe_status(status)[0] && written <= TIMES) return;
-  fprintf(stderr, "status %d, %zu states\n", (int)status, written);
-  exit(1);
-}
-
-/* The count is read after the call. */
-#define CHECK(call, written)             \
-  do {                                   \
-    const symtop_status found_ = (call); \
-    check(found_, written);              \
-  } while (0)
-
-static void call_all(symtop_motion* motion, int oddness) {
-  double times[TIMES], orientation[4 * TIMES], omega[3 * TIMES], angles[2], reached, torque[3];
-  int64_t stamps[TIMES];
-  symtop_clock clock;
-  symtop_rates rates;
-  symtop_motion* continued = NULL;
-  size_t written = 0;
-  for (int i = 0; i < TIMES; i++) {
-    times[i] = draw_number(10.0, oddness);
-    stamps[i] = (int64_t)(draw() % 3 ? draw() >> 30 : draw());
+/* `is_free` leaves friction and torque out: integrations may take a minute each. */
+static symtop_start* take_starts(size_t count, int is_free, int* are_allowed) {
+  symtop_start* room = (symtop_start*)take(15 * count, 1);
+  for (size_t i = 0; room && i < count; i++) {
+    draw_start(room + i);
+    if (is_free) memset(room[i].friction, 0, sizeof room[i].friction + sizeof room[i].torque);
+    *are_allowed &= is_start(room + i);
   }
-  clock.factor = draw_number(1.0, oddness);
-  for (int k = 0; k < 4; k++) clock.elapsed[k] = draw() % 2 ? 0.0 : draw_number(1e9, oddness);
-  for (int k = 0; k < 3; k++) torque[k] = draw_number(1.0, oddness);
-  CHECK(symtop_states(motion, times, TIMES, 40, orientation, omega, &written), written);
-  CHECK(symtop_states_of_clock(motion, &clock, stamps, TIMES, 40, orientation, omega, &written),
-        written);
-  CHECK(symtop_reach(motion, times[0], 40, &reached), 0);
-  CHECK(symtop_state(motion, reached, orientation, omega), 0);
-  CHECK(symtop_continue(motion, reached, torque, &continued), 0);
-  if (continued)
-    CHECK(symtop_states(continued, times, TIMES, 40, orientation, omega, &written), written);
-  symtop_free(continued);
-  if ((unsigned)symtop_find_kind(motion) > SYMTOP_DRIVEN) exit(1);
-  if ((unsigned)symtop_find_engine(motion) > SYMTOP_TAYLOR) exit(1);
-  symtop_find_nutation_rate(motion, angles);
-  symtop_find_farthest_time(motion, &reached);
-  symtop_find_turning_angles(motion, angles);
-  symtop_find_rates(motion, &rates);
+  return room;
 }
 
-/* What is known of a start: the same numbers go to every function, refused by some of them. */
-static void ask_of_start(const symtop_start* start, int oddness) {
-  const symtop_top top = {start->Ix, start->Iz, start->Mgl};
-  const symtop_hold hold = (symtop_hold)(draw() % 3);
-  double angles[3], rates[3], q[4], omega[3], kicked[3], found[4], amounts[3], time = 1.0;
-  size_t done;
-  uint8_t left = 0;
-  symtop_start after = *start;
-  symtop_verdict verdict;
-  symtop_constants constants;
-  for (int k = 0; k < 3; k++) {
-    angles[k] = draw_number(10.0, oddness), rates[k] = draw_number(100.0, oddness);
-    amounts[k] = draw_number(2.0, oddness);
+/* How many elements: few, none, or so many that no memory has them. */
+static size_t draw_count(int* is_allowed) {
+  if (!is_rare(20)) return draw() % (MOST + 1);
+  *is_allowed = 0;
+  return (size_t)-1 >> draw() % 2;
+}
+
+/* For arrays of more elements than there can be, room for some is enough. */
+static size_t bound(size_t count) { return count < MOST ? count : MOST; }
+
+static size_t* take_done(void) { return (size_t*)take(1, 1); }
+
+/* Null arrays are allowed if they have no elements. */
+static int allow(int are_allowed, size_t count, const size_t* done) {
+  return count ? are_allowed && !has_null : done != NULL;
+}
+
+#define CHECK(status, is_allowed) judge(status, is_allowed, __LINE__)
+#define ROOM(status, room, count) check_room(status, room, count, 0, __LINE__)
+#define ROOM_OR_NAN(status, room, count) check_room(status, room, count, 1, __LINE__)
+
+/* ---- Functions that know no motion ---- */
+
+static void try_angles(void) {
+  int good = 1;
+  prepare();
+  const size_t count = draw_count(&good), n = bound(count);
+  double *angles = take_numbers(3 * n, 10.0), *rates = take_numbers(3 * n, 100.0);
+  double *q = take_room(4 * n), *omega = take_room(3 * n);
+  size_t* done = take_done();
+  if (angles && rates) good &= are_finite(angles, 3 * n) && are_finite(rates, 3 * n);
+  const symtop_status status = symtop_from_angles(angles, rates, count, q, omega, done);
+  if (CHECK(status, allow(good, count, done) && done)) ROOM(status, q, 4 * n), ROOM(status, omega, 3 * n);
+}
+
+static void try_orientations(void) {
+  int good = 1;
+  prepare();
+  const size_t count = draw_count(&good), n = bound(count);
+  double *q = take_orientations(n, &good), *room = take_room(3 * n);
+  symtop_status status = symtop_find_angles(q, count, room);
+  CHECK(status, allow(good, count, &count));
+  if (n < 2) ROOM(status, room, 3 * n);
+  good = 1;
+  prepare();
+  q = take_orientations(n, &good);
+  double* omega = take_omegas(n, &good);
+  room = take_room(3 * n);
+  good &= count == n;
+  status = symtop_find_angle_rates(q, omega, count, room);
+  CHECK(status, allow(good, count, &count));
+  if (n < 2) ROOM(status, room, 3 * n);
+}
+
+static void try_regular_rates(void) {
+  int good = 1;
+  const int hold = draw_enum(2);
+  prepare();
+  const size_t count = draw_count(&good), n = bound(count);
+  symtop_top* tops = take_tops(n, &good);
+  double *thetas = take_numbers(n, 3.0), *spins = take_numbers(n, 300.0), *room = take_room(2 * n);
+  if (thetas && spins) good &= are_finite(thetas, n) && are_finite(spins, n);
+  const symtop_status status =
+      symtop_find_regular_rates(tops, thetas, spins, count, (symtop_hold)hold, room);
+  CHECK(status, count ? allow(good, count, &count) && is_hold(hold) : 1);
+  if (n < 2) ROOM_OR_NAN(status, room, 2 * n);
+}
+
+static void try_tilts(void) {
+  int good = 1;
+  const int hold = draw_enum(2);
+  prepare();
+  const size_t count = draw_count(&good), n = bound(count);
+  symtop_top* tops = take_tops(n, &good);
+  double *thetas = take_numbers(n, 3.0), *phi_dots = take_numbers(n, 300.0);
+  double *psi_dots = take_numbers(n, 300.0), *torques = take_room(4 * n);
+  if (thetas && phi_dots && psi_dots)
+    good &= are_finite(thetas, n) && are_within(phi_dots, n, 1e100) && are_within(psi_dots, n, 1e100);
+  symtop_status status = symtop_find_tilt_torques(tops, thetas, phi_dots, psi_dots, count, torques);
+  CHECK(status, allow(good, count, &count));
+  if (n < 2) ROOM(status, torques, 4 * n);
+  good = count == n;
+  prepare();
+  symtop_start* start = take_starts(1, 0, &good);
+  phi_dots = take_numbers(n, 300.0);
+  double* found = take_room(n);
+  status = symtop_find_tilt_accelerations(start, (symtop_hold)hold, phi_dots, count, found);
+  CHECK(status, start && good && is_hold(hold) && (!count || !has_null));
+  ROOM(status, found, n);
+}
+
+static void try_discs(void) {
+  int good = 1;
+  double gravity = draw_number(10.0);
+  prepare();
+  symtop_top* top = take_tops(1, &good);
+  double* disc = take_room(3);
+  symtop_status status = symtop_find_disc(top, gravity, disc);
+  CHECK(status, good && !has_null && isfinite(gravity));
+  ROOM_OR_NAN(status, disc, 3);
+  prepare();
+  disc = take_numbers(3, 1.0);
+  double* room = take_room(3);
+  status = symtop_find_disc_top(disc, gravity, (symtop_top*)(void*)room);
+  /* the top that is found may be none */
+  if (status == SYMTOP_OK)
+    CHECK(status, !has_null && are_finite(disc, 3) && isfinite(gravity) && disc[0] > 0 && disc[1] > 0);
+  ROOM(status, room, 3);
+}
+
+static void try_kicks(void) {
+  int good = 1;
+  const int kind = draw_enum(5), hold = draw_enum(3);
+  const int is_impulse = kind == SYMTOP_IMPULSE || kind == SYMTOP_AXLE_IMPULSE;
+  const size_t width = kind == SYMTOP_IMPULSE ? 3 : 1;
+  prepare();
+  const size_t count = draw_count(&good), n = bound(count);
+  symtop_top* tops = take_tops(n, &good);
+  double *q = take_orientations(n, &good), *omega = take_omegas(n, &good);
+  double *amounts = take_numbers(3 * n, 2.0), *kicked = take_room(3 * n);
+  size_t* done = take_done();
+  if (amounts) good &= are_finite(amounts, width * n);
+  const int is_held = is_hold(hold) || (is_impulse && hold == SYMTOP_NOTHING);
+  const int is_kind = kind >= 0 && kind <= SYMTOP_AXLE_IMPULSE;
+  const symtop_status status = symtop_kick(tops, q, omega, (symtop_kick_kind)kind, (symtop_hold)hold,
+                                           amounts, count, kicked, done);
+  CHECK(status, is_kind && allow(good && is_held, count, done) && done);
+  if (n < 2) ROOM(status, kicked, 3 * n);
+}
+
+static void hash_verdict(const symtop_verdict* v) {
+  add_numbers(v->turning_angles, 2), add_numbers(&v->factor, 1), add_numbers(&v->average.rate, 1);
+  add_numbers(&v->reason.before, 4), add_to_hash((uint64_t)v->motion);
+  add_to_hash(v->contrary_facts + 100u * (unsigned)v->direction + 1000u * (unsigned)v->reason.kind);
+  if (!are_finite(v->turning_angles, 2) || v->motion > SYMTOP_DRIVEN) fault = fault ? fault : __LINE__;
+}
+
+static void try_verdicts(void) {
+  int good = 1;
+  const int hold = draw_enum(3);
+  const size_t words = (sizeof(symtop_verdict) + 7) / 8;
+  prepare();
+  const size_t count = draw_count(&good), n = bound(count);
+  symtop_start* starts = take_starts(n, 0, &good);
+  double* factors = take_numbers(n, 2.0);
+  symtop_verdict* verdicts = (symtop_verdict*)take(n * words, 1);
+  size_t* done = take_done();
+  if (factors) good &= are_finite(factors, n);
+  symtop_status status = symtop_judge(starts, factors, count, (symtop_hold)hold, verdicts, done);
+  if (CHECK(status, allow(good && is_hold(hold), count, done) && done))
+    for (size_t i = 0; i < n; i++) hash_verdict(verdicts + i);
+  else if (n < 2)
+    ROOM(status, (double*)(void*)verdicts, words * n);
+  good = 1;
+  prepare();
+  symtop_start *before = take_starts(1, 0, &good), *after = take_starts(1, 0, &good);
+  symtop_verdict* verdict = (symtop_verdict*)take(words, 1);
+  if (before && after && !is_rare(4)) { /* often the same attitude */
+    memmove(after->orientation, before->orientation, sizeof after->orientation);
+    good = is_start(before) && is_start(after);
   }
-  CHECK(symtop_from_angles(angles, rates, 1, q, omega, &done), done);
-  CHECK(symtop_find_angles(start->orientation, 1, angles), 0);
-  CHECK(symtop_find_angle_rates(start->orientation, start->angular_velocity, 1, rates), 0);
-  CHECK(symtop_find_regular_rates(&top, amounts, rates, 1, hold, found), 0);
-  CHECK(symtop_find_disc(&top, amounts[0], found), 0);
-  symtop_top disc_top;
-  CHECK(symtop_find_disc_top(amounts, amounts[1], &disc_top), 0);
-  CHECK(symtop_find_tilt_torques(&top, amounts, rates, rates + 1, 1, found), 0);
-  CHECK(symtop_find_tilt_accelerations(start, hold, rates, 3, found), 0);
-  CHECK(symtop_compare_hurried(&top, amounts, rates, rates + 1, 1, amounts[1], hold, found, &left),
-        0);
-  if (left > SYMTOP_RULE_FAILS) exit(1);
-  CHECK(symtop_kick(&top, start->orientation, start->angular_velocity,
-                    (symtop_kick_kind)(draw() % 5), hold, amounts, 1, kicked, &done), done);
-  CHECK(symtop_judge(start, amounts, 1, hold, &verdict, &done), done);
-  memcpy(after.angular_velocity, kicked, sizeof kicked);
-  CHECK(symtop_judge_kick(start, &after, hold, &verdict), 0);
-  CHECK(symtop_describe_many(start, 1, &constants, &done), done);
-  if (symtop_describe_many(start, 0, NULL, &done) || done) exit(1);
-  after = *start;
-  memset(after.friction, 0, sizeof after.friction), memset(after.torque, 0, sizeof after.torque);
-  CHECK(symtop_states_of_many(&after, 1, &time, 1, q, omega, &left), left);
+  status = symtop_judge_kick(before, after, (symtop_hold)hold, verdict);
+  if (CHECK(status, good && !has_null && hold >= 0 && hold <= SYMTOP_NOTHING))
+    hash_verdict(verdict);
+  else
+    ROOM(status, (double*)(void*)verdict, words);
 }
 
-/* Arguments: the first seed, and the number of motions. Prints how many were made. */
-int main(int count, char** words) {
-  const long first = count > 1 ? atol(words[1]) : 1, number = count > 2 ? atol(words[2]) : 1000;
-  long made = 0;
-  for (long seed = first; seed < first + number; seed++) {
-    symtop_start start;
-    symtop_motion* motion;
-    const int oddness = seed % 2 ? 3 : 30;
+static void try_map(void) {
+  int good = 1;
+  const int hold = draw_enum(2);
+  const double factor = draw_number(2.0);
+  prepare();
+  const size_t count = draw_count(&good), n = bound(count);
+  symtop_top* tops = take_tops(n, &good);
+  double *thetas = take_numbers(n, 3.0), *phi_dots = take_numbers(n, 300.0);
+  double *psi_dots = take_numbers(n, 300.0), *angles = take_room(2 * n);
+  unsigned char* rules = (unsigned char*)take(1, 1);
+  if (thetas && phi_dots && psi_dots)
+    good &= are_finite(thetas, n) && are_within(phi_dots, n, 1e100) && are_within(psi_dots, n, 1e100);
+  good &= isfinite(factor) != 0;
+  const symtop_status status = symtop_compare_hurried(tops, thetas, phi_dots, psi_dots, count, factor,
+                                                      (symtop_hold)hold, angles, rules);
+  CHECK(status, allow(good && is_hold(hold), count, &count) || (!count && 1));
+  if (n < 2) ROOM(status, angles, 2 * n);
+  for (size_t i = 0; status == SYMTOP_OK && !has_overlap && i < n; i++)
+    if (rules[i] > SYMTOP_RULE_FAILS) fault = fault ? fault : __LINE__;
+}
+
+static void try_many(void) {
+  int good = 1, count_is_good = 1;
+  const size_t words = (sizeof(symtop_constants) + 7) / 8;
+  prepare();
+  const size_t count = draw_count(&count_is_good), n = bound(count), each = draw() % (MOST + 1);
+  int are_starts = 1; /* a start that is refused is left, and no refusal of the call */
+  symtop_start* starts = take_starts(n, 1, &are_starts);
+  double *times = take_numbers(each, 1.0), *q = take_room(4 * n * each), *omega = take_room(3 * n * each);
+  uint8_t* left = (uint8_t*)take(2, 1);
+  if (times) good &= are_finite(times, each);
+  symtop_status status = symtop_states_of_many(starts, count, times, each, q, omega, left);
+  const int has_states = count && each;
+  CHECK(status, count_is_good && (!count || starts) && (!each || times) &&
+                    (!has_states || (good && q && omega && left)));
+  for (size_t k = 0; status == SYMTOP_OK && !has_overlap && k < n * each; k++)
+    if (left[k] > 1 || (!left[k] && !are_finite(q + 4 * k, 4))) fault = fault ? fault : __LINE__;
+  good = count == n;
+  prepare();
+  starts = take_starts(n, 0, &good);
+  symtop_constants* found = (symtop_constants*)take(n * words, 1);
+  size_t* done = take_done();
+  status = symtop_describe_many(starts, count, found, done);
+  if (CHECK(status, allow(good, count, done) && done))
+    for (size_t i = 0; i < n; i++) {
+      add_to_hash((uint64_t)found[i].kind), add_numbers(found[i].turning_angles, 2);
+      if (found[i].kind > SYMTOP_DRIVEN || !are_finite(found[i].turning_angles, 2))
+        fault = fault ? fault : __LINE__;
+    }
+}
+
+/* ---- Motions ---- */
+
+static symtop_motion* draw_handle(symtop_motion* motion) {
+  if (!is_rare(40)) return motion;
+  has_null = 1;
+  return NULL;
+}
+
+static void try_states(symtop_motion* given) {
+  int good = 1;
+  prepare();
+  symtop_motion* motion = draw_handle(given);
+  const size_t count = draw_count(&good), n = bound(count);
+  const double steps = is_rare(10) ? draw_number(10.0) : STEPS;
+  double *times = take_numbers(n, 10.0), *q = take_room(4 * n), *omega = take_room(3 * n);
+  size_t* done = take_done();
+  if (steps > STEPS) return; /* a minute may pass */
+  const int has_arrays = times && q && omega;
+  if (times) good &= are_finite(times, n);
+  symtop_status status = symtop_states(motion, times, count, steps, q, omega, done);
+  good &= motion && done && steps >= 0;
+  if (CHECK(status, good && (has_arrays || !count)))
+    ROOM(status, q, 4 * n), ROOM(status, omega, 3 * n);
+  good = count == n;
+  prepare();
+  motion = draw_handle(given);
+  symtop_clock* clock = (symtop_clock*)take(5, 1);
+  int64_t* stamps = (int64_t*)take(n, 1);
+  q = take_room(4 * n), omega = take_room(3 * n), done = take_done();
+  for (size_t i = 0; stamps && i < n; i++)
+    stamps[i] = is_rare(30) ? INT64_MIN : (int64_t)(is_rare(3) ? draw() : draw() >> 30);
+  if (clock) {
+    clock->factor = draw_number(1.0);
+    for (int k = 0; k < 4; k++) clock->elapsed[k] = is_rare(2) ? draw_number(1e9) : 0.0;
+    const double parts[] = {clock->factor, clock->elapsed[0], clock->elapsed[1], clock->elapsed[2],
+                            clock->elapsed[3]};
+    for (int k = 0; k < 5; k++)
+      good &= parts[k] == 0 || (fabs(parts[k]) >= 1e-100 && fabs(parts[k]) <= 1e100);
+  }
+  for (size_t i = 0; stamps && i < n; i++) good &= stamps[i] != INT64_MIN;
+  status = symtop_states_of_clock(motion, clock, stamps, count, STEPS, q, omega, done);
+  good &= motion && clock && done && (!count || !has_null);
+  if (CHECK(status, good)) ROOM(status, q, 4 * n), ROOM(status, omega, 3 * n);
+}
+
+static void try_one_state(symtop_motion* given) {
+  int good;
+  prepare();
+  symtop_motion *motion = draw_handle(given), *continued = given;
+  const double t = draw_number(10.0), steps = is_rare(10) ? draw_number(10.0) : STEPS;
+  double* reached = take_room(1);
+  if (steps > STEPS) return;
+  symtop_status status = symtop_reach(motion, t, steps, reached);
+  CHECK(status, !has_null && isfinite(t) && steps >= 0);
+  const double time = status == SYMTOP_OK && reached ? *reached : 0.0;
+  prepare();
+  motion = draw_handle(given);
+  double *q = take_room(4), *omega = take_room(3);
+  /* A time that is not finite is refused at once; to another one integrations may take a minute. */
+  const double asked = isfinite(t) ? time : t;
+  status = symtop_state(motion, asked, q, omega);
+  CHECK(status, !has_null && isfinite(asked));
+  ROOM(status, q, 4), ROOM(status, omega, 3);
+  prepare();
+  motion = draw_handle(given);
+  double* torque = take_numbers(3, 1.0);
+  good = torque && are_finite(torque, 3);
+  symtop_motion** to = is_rare(20) ? NULL : &continued;
+  status = symtop_continue(motion, asked, torque, to);
+  CHECK(status, good && motion && to && isfinite(asked));
+  if (to && (status == SYMTOP_OK) != (continued != NULL)) fault = fault ? fault : __LINE__;
+  if (to) symtop_free(continued);
+}
+
+static void try_constants(symtop_motion* given) {
+  prepare();
+  symtop_motion* motion = draw_handle(given);
+  const symtop_kind kind = symtop_find_kind(motion);
+  const symtop_engine engine = symtop_find_engine(motion);
+  if ((kind == SYMTOP_UNKNOWN_KIND) != !motion || (engine == SYMTOP_UNKNOWN_ENGINE) != !motion ||
+      (unsigned)kind > SYMTOP_UNKNOWN_KIND || (unsigned)engine > SYMTOP_UNKNOWN_ENGINE)
+    fault = fault ? fault : __LINE__;
+  add_to_hash((uint64_t)kind), calls += 2;
+  double *angles = take_room(2), *rate = take_room(2), *farthest = take_room(1);
+  symtop_rates* rates = (symtop_rates*)take(5, 1);
+  symtop_status status = symtop_find_turning_angles(motion, angles);
+  CHECK(status, motion && angles), ROOM(status, angles, 2);
+  status = symtop_find_nutation_rate(motion, rate);
+  CHECK(status, motion && rate), ROOM(status, rate, 2);
+  status = symtop_find_farthest_time(motion, farthest);
+  CHECK(status, motion && farthest), ROOM_OR_NAN(status, farthest, 1);
+  status = symtop_find_rates(motion, rates);
+  CHECK(status, motion && rates), ROOM_OR_NAN(status, (double*)(void*)rates, 4);
+}
+
+static void try_motion(void) {
+  int good = 1;
+  symtop_motion *motion = NULL, **to = is_rare(40) ? NULL : &motion;
+  prepare();
+  symtop_start* start = take_starts(1, 0, &good);
+  const symtop_status status = symtop_new(start, to);
+  CHECK(status, good && start && to);
+  if (to && (status == SYMTOP_OK) != (motion != NULL)) fault = fault ? fault : __LINE__;
+  if (!motion) return;
+  try_states(motion), try_one_state(motion), try_constants(motion);
+  symtop_free(motion);
+}
+
+/* Calls with so many seeds from the first one on. Returns 0, or the line of the first fault. */
+int run(unsigned first, unsigned number);
+int run(unsigned first, unsigned number) {
+  static void (*const TRIALS[])(void) = {try_angles, try_orientations, try_regular_rates, try_tilts,
+                                         try_discs,  try_kicks,        try_verdicts,      try_map,
+                                         try_many,   try_motion,       try_motion};
+  hash = 14695981039346656037u, calls = answered = 0, fault = 0;
+  for (unsigned seed = first; seed < first + number && !fault; seed++) {
+    oddness = seed % 2 ? 6 : 60;
     state = (uint64_t)seed * 0x9e3779b97f4a7c15u | 1;
     for (int i = 0; i < 8; i++) draw();
-    draw_start(&start, oddness);
-    ask_of_start(&start, oddness);
-    CHECK(symtop_new(&start, &motion), 0);
-    if (!motion) continue;
-    made++;
-    call_all(motion, oddness);
-    symtop_free(motion);
+    for (size_t k = 0; k < sizeof TRIALS / sizeof TRIALS[0]; k++) TRIALS[k]();
+    symtop_free(NULL);
+    if (!symtop_describe_status((symtop_status)draw_enum(99))[0]) fault = __LINE__;
   }
-  symtop_free(NULL);
-  printf("%ld of %ld motions made\n", made, number);
+  return fault;
+}
+
+/* Of all answers, in 32 bits; how many calls, and how many were answered. */
+unsigned digest(void);
+unsigned digest(void) { return (unsigned)(hash ^ hash >> 32); }
+int count_calls(void);
+int count_calls(void) { return (int)calls; }
+int count_answers(void);
+int count_answers(void) { return (int)answered; }
+
+#ifndef __wasm__
+#include <stdio.h>
+
+/* Arguments: the first seed, and how many. */
+int main(int count, char** words) {
+  const int line = run(count > 1 ? (unsigned)atol(words[1]) : 1, count > 2 ? (unsigned)atol(words[2]) : 100);
+  if (line) return fprintf(stderr, "hostile.c:%d: not as promised\n", line), 1;
+  printf("%d of %d calls answered, digest %08x\n", count_answers(), count_calls(), digest());
   return 0;
 }
+#endif

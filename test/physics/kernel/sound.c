@@ -39,7 +39,7 @@ int main(int count, char** words) {
   const double angles[3] = {0, 0.5, 0}, rates[3] = {1, 0, 200}, factor = 1.4;
   symtop_motion *motion = NULL, *refused = NULL;
   symtop_verdict verdict;
-  symtop_rates found;
+  symtop_rates found = {-7.0, -7.0, -7.0, -7.0, 0};
   double q[4], omega[3], few[4];
   size_t done;
   unsigned char rule;
@@ -50,9 +50,13 @@ int main(int count, char** words) {
   if (motion) { /* it was made before; nothing is computed of it now */
     show(symtop_state(motion, 0.3, q, omega), q, 4);
     show(symtop_states(motion, rates, 1, INFINITY, q, omega, &done), q, 4);
-    symtop_find_rates(motion, &found);
-    if ((symtop_find_kind(motion) == SYMTOP_UNKNOWN_KIND) != (isnan(found.mean_spin_rate) != 0))
-      return 3;
+    show(symtop_find_turning_angles(motion, q), q, 2);
+    show(symtop_find_nutation_rate(motion, q), q, 2);
+    show(symtop_find_farthest_time(motion, q), q, 1);
+    show(symtop_reach(motion, 1.0, 100.0, q), q, 1);
+    const symtop_status last = symtop_find_rates(motion, &found);
+    show(last, &found.mean_spin_rate, 1);
+    if ((symtop_find_kind(motion) == SYMTOP_UNKNOWN_KIND) != (last != SYMTOP_OK)) return 3;
   } else {
     show(first, q, 4);
   }

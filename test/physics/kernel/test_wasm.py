@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from browser import running_browser
 from physics.kernel.motions import NAMES, list_many, normalize
+from physics.kernel.test_c_interface import HOSTILE_SEEDS, LIBRARY, build, run_hostile
 
 from workshop.kernel_wasm import DIGEST, FUNCTIONS, MODULE, SOURCES, digest_sources
 
@@ -78,6 +79,37 @@ def test_an_integration_goes_on_where_it_was_left(page):
         return [motion.reach(1, 3), motion.reach(1, 3), motion.reach(1, Infinity)];
     }""")
     assert 0 < reached[0] < reached[1] < reached[2] == 1.0
+
+
+HOSTILE = """async (module) => {
+    const { instance } = await WebAssembly.instantiate(decode(module), {});
+    instance.exports._initialize();
+    window.hostile = instance.exports;
+}"""
+RUN_HOSTILE = """(seeds) => [
+    hostile.run(1, seeds), (hostile.digest() >>> 0).toString(16).padStart(8, "0"),
+    hostile.count_calls()
+]"""
+
+
+@pytest.mark.long
+@pytest.mark.skipif(not ZIG.exists(), reason="make kernel-wasm fetches the compiler")
+def test_a_million_hostile_calls_are_answered_as_on_this_processor(page, tmp_path):
+    options = ["-target", "wasm32-wasi", "-Os", "-ffp-contract=off", "-Wno-psabi"]
+    source = Path(__file__).with_name("hostile.c")
+    program, module = tmp_path / "hostile.o", tmp_path / "hostile.wasm"
+    zig, include = (ZIG, "-m", "ziglang"), ("-I", SOURCES)
+    subprocess.run([*zig, "cc", *options, *include, "-c", source, "-o", program], check=True)
+    library = ["-mexec-model=reactor", "-std=c++17", "-fno-exceptions", "-fno-rtti"]
+    names = ("run", "digest", "count_calls")
+    exports = [f"-Wl,--export={name}" for name in names]
+    sources = SOURCES / "symtop.cpp", program
+    subprocess.run([*zig, "c++", *options, *library, *exports, *sources, "-o", module], check=True)
+    page.evaluate(HOSTILE, to_text(module.read_bytes()))
+    fault, digest, calls = page.evaluate(RUN_HOSTILE, HOSTILE_SEEDS)
+    assert (fault, calls > 1_000_000) == (0, True)
+    native = build("hostile.c", tmp_path, LIBRARY)
+    assert run_hostile(native, HOSTILE_SEEDS) == (digest, calls)
 
 
 @pytest.mark.long

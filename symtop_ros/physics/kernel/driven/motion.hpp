@@ -12,8 +12,6 @@ namespace symtop {
 
 const double MOST_DECAYS = 1e5;  // decay times on the way, each of which takes a step
 
-enum Progress { ARRIVED, IS_TOO_FAST, IS_TOO_STIFF, NEEDS_STEPS, HAS_NO_MEMORY };
-
 // A call moves along the pieces of a trail: a lock keeps it whole.
 class DrivenMotion {
  public:
@@ -41,9 +39,11 @@ class DrivenMotion {
     const Lock lock(mutex_);
     Trail* trail = find_trail(t);
     if (!trail) return HAS_NO_MEMORY;
-    bool is_stuck;
-    *reached = trail->reach(t, &steps, &is_stuck);
-    return *reached == t ? ARRIVED : is_stuck ? IS_TOO_FAST : NEEDS_STEPS;
+    Progress progress;
+    // Who allows few steps knows what they take.
+    const double longest = steps > LONGEST_WAY ? LONGEST_WAY : INFINITY;
+    *reached = trail->reach(t, &steps, longest, &progress);
+    return progress;
   }
 
  private:
@@ -69,14 +69,13 @@ class DrivenMotion {
     }
     Trail* trail = find_trail(t);
     if (!trail) return HAS_NO_MEMORY;
-    bool is_stuck;
+    Progress progress;
     double none = 0.0;
-    const double before = trail->reach(t, &none, &is_stuck);
+    const double before = trail->reach(t, &none, LONGEST_WAY, &progress);
     if (std::fabs(t - before) * trail->decay() > MOST_DECAYS) return IS_TOO_STIFF;
-    if (before != t && trail->reach(t, steps, &is_stuck) != t)
-      return is_stuck ? IS_TOO_FAST : NEEDS_STEPS;
-    trail->read(t, rest, to.orientation, to.omega);
-    return ARRIVED;
+    if (before != t) trail->reach(t, steps, LONGEST_WAY, &progress);
+    if (progress == ARRIVED) trail->read(t, rest, to.orientation, to.omega);
+    return progress;
   }
 };
 

@@ -14,6 +14,14 @@ namespace symtop {
 // up to the present one. So few that the two arrays are no mappings of their own: for a short motion
 // that would take as long as all of its steps.
 const int KEPT = 512, RECENT = 16;
+// Steps from what has been reached, a minute or two. A way is judged after the first ones, some tenths
+// of a second: friction may have slowed the top by then.
+const double LONGEST_WAY = 1e7;
+const long UNJUDGED = 50000;
+
+enum Progress {
+  ARRIVED, IS_TOO_FAST, IS_TOO_STIFF, IS_TOO_LONG, NEEDS_STEPS, HAS_NO_MEMORY
+};
 
 class Trail {
  public:
@@ -36,20 +44,24 @@ class Trail {
     std::free(recent_);
   }
 
-  // Integrates towards a time; *steps is lowered by those taken, and *is_stuck is set if the motion is too fast
-  // to go on.
-  double reach(double t, double* steps, bool* is_stuck) {
+  // Integrates towards a time, and returns the time reached; *steps is lowered by those taken. It stops
+  // if the motion is too fast to go on, or if more steps seem to be left than `longest`: back in time
+  // friction drives a top, and steps become shorter and shorter.
+  double reach(double t, double* steps, double longest, Progress* progress) {
     go_back(t);
-    *is_stuck = false;
+    *progress = NEEDS_STEPS;
     while (*steps > 0 && std::fabs(present().end) < std::fabs(t)) {
-      if (present().end == present().start.t) {
-        *is_stuck = true;
-        break;
-      }
+      if (present().end == present().start.t)
+        *progress = IS_TOO_FAST;
+      else if (is_judged() && count_steps_to(t) > longest)
+        *progress = IS_TOO_LONG;
+      if (*progress != NEEDS_STEPS) break;
       step();
       *steps -= 1;
     }
-    return std::fabs(t) <= std::fabs(present().end) ? t : present().end;
+    if (std::fabs(t) > std::fabs(present().end)) return present().end;
+    *progress = ARRIVED;
+    return t;
   }
 
   // Write the state at t + rest; the time has been reached.
@@ -80,6 +92,14 @@ class Trail {
   long count_ = 0;  // pieces before the present one
 
   const Piece& present() const { return recent_[last_]; }
+
+  bool is_judged() const { return count_ >= UNJUDGED && recent_count_ == RECENT; }
+
+  // Steps from the end of the present piece to a time, if they are as long as the last ones.
+  double count_steps_to(double t) const {
+    const Piece& first = recent_[(last_ + RECENT - recent_count_ + 1) % RECENT];
+    return (t - present().end) / (present().end - first.start.t) * recent_count_;
+  }
 
   // DrivenEquations.start
   static Knot start(const DrivenArguments& top) {

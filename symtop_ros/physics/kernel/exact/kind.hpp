@@ -30,24 +30,34 @@ inline Precise find_largest_precession(const ClosedForm& motion) {
   return rate * root(sine_squared) + size(n.a) * sine_squared;
 }
 
-// True if theta' = theta'' = 0 at the start.
+// True if theta' = theta'' = 0 at the start. The centrifugal term of theta'' is u |omega_xy|^2. Near
+// the horizontal u is small, but its rounding is not: it is that of |A|^2 - |B|^2, some EPS of 1.
 inline bool is_regular(const Nutation& n) {
   const Precise rounding(START_ROUNDING), sine_squared = n.one_plus_u * n.one_minus_u;
-  const Precise centrifugal = n.omega_xy_squared * size(n.u());
+  const Precise& centrifugal = n.omega_xy_squared;
   const Precise gravity = (n.beta * sine_squared).scale(-1), spin = n.a * n.b_minus_au;
   const bool is_still =
       n.u_dot * n.u_dot <= rounding * rounding * n.omega_xy_squared * sine_squared;
   return is_still && size(n.u_dot_dot) <= rounding * (size(spin) + centrifugal + gravity);
 }
 
+// True if the axis passes the upper pole: b = a up to rounding, and the root next to the pole, which
+// (1 - u2)(u3 - 1) = (b - a)^2/(beta (1 - u1)) has, is u2. Next to the separatrix both are, and
+// rounding alone decides which is nearer: a state of an asymptotic motion is never quite on it.
+inline bool passes_upper_pole(const ClosedForm& motion, const Precise& rounding) {
+  const Zero& B = motion.zeros[OF_B];
+  if (size(B.d) > rounding) return false;
+  const Precise square = motion.nutation.beta * B.from_u1 * B.from_u2 * B.from_u2;
+  return B.from_u2 <= B.from_u3 || square <= rounding * rounding;
+}
+
 // Of a motion whose axis moves under gravity.
 inline Kind classify(const ClosedForm& motion) {
   const Nutation& n = motion.nutation;
-  const Zero &A = motion.zeros[OF_A], &B = motion.zeros[OF_B];
   if (!motion.roots.s32.sign) return ASYMPTOTIC;
   if (is_regular(n)) return REGULAR;
   const Precise rounding = Precise(START_ROUNDING) * find_largest_precession(motion);
-  if (size(A.d) <= rounding || (size(B.d) <= rounding && B.from_u2 <= B.from_u3))
+  if (size(motion.zeros[OF_A].d) <= rounding || passes_upper_pole(motion, rounding))
     return THROUGH_THE_POLE;
   const Precise lower = n.b_minus_au_at(motion.roots.s1), upper = n.b_minus_au_at(motion.roots.s2);
   if (size(lower) <= rounding || size(upper) <= rounding) return CUSPS;

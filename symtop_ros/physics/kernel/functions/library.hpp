@@ -30,6 +30,9 @@ SYMTOP_API symtop_motion* symtop_make(const symtop_start* start) {
 SYMTOP_API symtop_status symtop_read(symtop_motion* motion, double state[7]) {
   return symtop_state(motion, state[0], state, state + 4);
 }
+
+// SYMTOP_BAD_ARITHMETIC in a thread in which a caller's own sums would be wrong, too.
+SYMTOP_API symtop_status symtop_check_arithmetic(void) { return symtop::admit({}); }
 }
 
 #endif

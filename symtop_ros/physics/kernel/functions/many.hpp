@@ -22,10 +22,19 @@ class Member {
 symtop_status symtop_states_of_many(const symtop_start* starts, size_t count, const double* times,
                                     size_t each, double* orientation, double* angular_velocity,
                                     uint8_t* left) {
+  using namespace symtop;
+  symtop_status status = admit({});
+  if (status == SYMTOP_OK) status = admit_arrays(count, sizeof(symtop_start), {starts});
+  if (status == SYMTOP_OK) status = admit_arrays(each, sizeof(double), {times});
+  if (status != SYMTOP_OK) return status;
+  if (!count || !each) return SYMTOP_OK;
+  status = admit_arrays(count, ORIENTATION_BYTES * each, {orientation, angular_velocity, left});
+  if (status == SYMTOP_OK && each > PTRDIFF_MAX / ORIENTATION_BYTES) status = SYMTOP_BAD_COUNT;
+  if (status == SYMTOP_OK) status = accept_times(times, each);
+  if (status != SYMTOP_OK) return status;
   std::memset(left, 1, count * each);
-  if (!symtop::is_sound()) return SYMTOP_BAD_ARITHMETIC;
   for (size_t i = 0; i < count; i++) {
-    const symtop::Member member(starts[i]);
+    const Member member(starts[i]);
     size_t written = 0;
     if (member.motion)
       symtop_states(member.motion, times, each, INFINITY, orientation + 4 * i * each,
@@ -37,14 +46,16 @@ symtop_status symtop_states_of_many(const symtop_start* starts, size_t count, co
 
 symtop_status symtop_describe_many(const symtop_start* starts, size_t count,
                                    symtop_constants* constants, size_t* done) {
-  for (*done = 0; *done < count; ++*done) {
-    const symtop::Member member(starts[*done]);
+  using namespace symtop;
+  return compute_each(count, sizeof(symtop_constants), {starts, constants}, done, [&](size_t i) {
+    const Member member(starts[i]);
     if (!member.motion) return member.status;
-    symtop_constants& found = constants[*done];
+    symtop_constants found = {};
     found.kind = symtop_find_kind(member.motion);
     found.engine = symtop_find_engine(member.motion);
     symtop_find_turning_angles(member.motion, found.turning_angles);
     symtop_find_rates(member.motion, &found.rates);
-  }
-  return SYMTOP_OK;
+    constants[i] = found;
+    return SYMTOP_OK;
+  });
 }

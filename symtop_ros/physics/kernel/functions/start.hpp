@@ -7,67 +7,90 @@
 
 symtop_status symtop_from_angles(const double* angles, const double* rates, size_t count,
                                  double* orientation, double* angular_velocity, size_t* done) {
-  *done = 0;
-  if (!symtop::is_sound()) return SYMTOP_BAD_ARITHMETIC;
-  for (; *done < count; ++*done) {
-    const size_t i = *done;
-    if (!symtop::are_finite(angles + 3 * i, 3) || !symtop::are_finite(rates + 3 * i, 3))
-      return SYMTOP_BAD_ANGLES;
-    double* omega = angular_velocity + 3 * i;
-    symtop::find_state(angles + 3 * i, rates + 3 * i, orientation + 4 * i, omega);
-    if (!symtop::are_at_most(omega, 3, symtop::LARGEST)) return SYMTOP_BAD_ANGULAR_VELOCITY;
-  }
-  return SYMTOP_OK;
+  using namespace symtop;
+  const Pointers arrays = {angles, rates, orientation, angular_velocity};
+  return compute_each(count, ORIENTATION_BYTES, arrays, done, [&](size_t i) {
+    const double *given = angles + 3 * i, *turning = rates + 3 * i;
+    const symtop_status status = find_refusal({accept_angles(given, 3), accept_angles(turning, 3)});
+    if (status != SYMTOP_OK) return status;
+    double q[4], omega[3];
+    find_state(given, turning, q, omega);
+    for (int k = 0; k < 4; k++) orientation[4 * i + k] = q[k];
+    // One that is refused is written as well, for the words of the refusal.
+    for (int k = 0; k < 3; k++) angular_velocity[3 * i + k] = omega[k];
+    return are_at_most(omega, 3, LARGEST) ? SYMTOP_OK : SYMTOP_BAD_ANGULAR_VELOCITY;
+  });
 }
 
 symtop_status symtop_find_angles(const double* orientation, size_t count, double* angles) {
-  if (!symtop::is_sound()) return SYMTOP_BAD_ARITHMETIC;
-  for (size_t i = 0; i < count; i++) symtop::find_angles(orientation + 4 * i, angles + 3 * i);
-  return SYMTOP_OK;
+  using namespace symtop;
+  size_t done;
+  return compute_each(count, ORIENTATION_BYTES, {orientation, angles}, &done, [&](size_t i) {
+    double q[4];
+    const symtop_status status = accept_orientation(orientation + 4 * i, q);
+    if (status == SYMTOP_OK) find_angles(q, angles + 3 * i);
+    return status;
+  });
 }
 
 symtop_status symtop_find_angle_rates(const double* orientation, const double* angular_velocity,
                                       size_t count, double* rates) {
-  if (!symtop::is_sound()) return SYMTOP_BAD_ARITHMETIC;
-  for (size_t i = 0; i < count; i++)
-    symtop::find_angle_rates(orientation + 4 * i, angular_velocity + 3 * i, rates + 3 * i);
-  return SYMTOP_OK;
+  using namespace symtop;
+  size_t done;
+  const Pointers arrays = {orientation, angular_velocity, rates};
+  return compute_each(count, ORIENTATION_BYTES, arrays, &done, [&](size_t i) {
+    double q[4], omega[3];
+    const symtop_status status =
+        accept_state(orientation + 4 * i, angular_velocity + 3 * i, q, omega);
+    if (status == SYMTOP_OK) find_angle_rates(q, omega, rates + 3 * i);
+    return status;
+  });
 }
 
 symtop_status symtop_find_regular_rates(const symtop_top* tops, const double* thetas,
                                         const double* spins, size_t count, symtop_hold hold,
                                         double* rates) {
-  if (!symtop::is_sound()) return SYMTOP_BAD_ARITHMETIC;
-  for (size_t i = 0; i < count; i++) {
-    if (!symtop::is_top(tops[i].Ix, tops[i].Iz, tops[i].Mgl)) return SYMTOP_BAD_TOP;
-    if (!symtop::are_finite(thetas + i, 1) || !symtop::are_finite(spins + i, 1))
-      return SYMTOP_BAD_ANGLES;
-    symtop::find_regular_rates(tops[i], thetas[i], spins[i], hold, rates + 2 * i);
-  }
-  return SYMTOP_OK;
+  using namespace symtop;
+  size_t done;
+  const symtop_status held = accept_hold(hold);
+  const Pointers arrays = {tops, thetas, spins, rates};
+  return compute_each(count, sizeof(symtop_top), arrays, &done, [&](size_t i) {
+    const symtop_status status = find_refusal(
+        {held, accept(tops[i]), accept_angles(thetas + i, 1), accept_angles(spins + i, 1)});
+    if (status == SYMTOP_OK) find_regular_rates(tops[i], thetas[i], spins[i], hold, rates + 2 * i);
+    return status;
+  });
 }
 
 symtop_status symtop_find_tilt_torques(const symtop_top* tops, const double* thetas,
-                                        const double* phi_dots, const double* psi_dots,
-                                        size_t count, double* torques) {
-  if (!symtop::is_sound()) return SYMTOP_BAD_ARITHMETIC;
-  for (size_t i = 0; i < count; i++) {
-    if (!symtop::are_finite(thetas + i, 1)) return SYMTOP_BAD_ANGLES;
-    symtop::find_tilt_torques(tops[i], thetas[i], phi_dots[i], psi_dots[i], torques + 4 * i);
-  }
-  return SYMTOP_OK;
+                                       const double* phi_dots, const double* psi_dots,
+                                       size_t count, double* torques) {
+  using namespace symtop;
+  size_t done;
+  const Pointers arrays = {tops, thetas, phi_dots, psi_dots, torques};
+  return compute_each(count, ORIENTATION_BYTES, arrays, &done, [&](size_t i) {
+    const symtop_status status = find_refusal({accept(tops[i]), accept_angles(thetas + i, 1),
+                                               accept_rates({phi_dots[i], psi_dots[i]})});
+    if (status == SYMTOP_OK)
+      find_tilt_torques(tops[i], thetas[i], phi_dots[i], psi_dots[i], torques + 4 * i);
+    return status;
+  });
 }
 
 symtop_status symtop_find_tilt_accelerations(const symtop_start* start, symtop_hold hold,
                                              const double* phi_dots, size_t count,
                                              double* theta_ddots) {
-  symtop_start s = *start;
-  const symtop_status status = symtop::accept(s);
+  using namespace symtop;
+  symtop_status status = admit({start});
+  if (status == SYMTOP_OK) status = admit_arrays(count, sizeof(double), {phi_dots, theta_ddots});
   if (status != SYMTOP_OK) return status;
-  const symtop::Instant now(s);
+  symtop_start s = *start;
+  status = find_refusal({accept(s), accept_hold(hold)});
+  if (status != SYMTOP_OK) return status;
+  const Instant now(s);
   if (now.vertical.is_of_vertical_axis()) return SYMTOP_VERTICAL;
-  if (!symtop::are_at_most(phi_dots, count, symtop::LARGEST)) return SYMTOP_BAD_KICK;
-  const symtop::TiltAcceleration tilt(now, hold);
+  if (!are_at_most(phi_dots, count, LARGEST)) return SYMTOP_BAD_KICK;
+  const TiltAcceleration tilt(now, hold);
   for (size_t i = 0; i < count; i++) theta_ddots[i] = tilt.at(phi_dots[i]);
   return SYMTOP_OK;
 }
@@ -75,56 +98,73 @@ symtop_status symtop_find_tilt_accelerations(const symtop_start* start, symtop_h
 symtop_status symtop_kick(const symtop_top* tops, const double* orientation,
                           const double* angular_velocity, symtop_kick_kind kind, symtop_hold hold,
                           const double* amounts, size_t count, double* kicked, size_t* done) {
+  using namespace symtop;
+  if (done) *done = 0;
+  const symtop_status kind_status = accept_kind_of_kick(kind);
+  if (kind_status != SYMTOP_OK) return kind_status;
+  const symtop_status held = is_impulse(kind) ? accept_hold_of_kick(hold) : accept_hold(hold);
   const size_t width = kind == SYMTOP_IMPULSE ? 3 : 1;
-  *done = 0;
-  if (!symtop::is_sound()) return SYMTOP_BAD_ARITHMETIC;
-  for (; *done < count; ++*done) {
-    const double *q = orientation + 4 * *done, *amount = amounts + width * *done;
-    double* omega = kicked + 3 * *done;
-    std::memcpy(omega, angular_velocity + 3 * *done, 3 * sizeof(double));
-    if (!symtop::are_finite(amount, width)) return SYMTOP_BAD_KICK;
-    if (!symtop::kick(tops[*done], q, kind, hold, amount, omega)) return SYMTOP_VERTICAL;
-    if (!symtop::are_at_most(omega, 3, symtop::LARGEST)) return SYMTOP_BAD_KICK;
-  }
-  return SYMTOP_OK;
+  const Pointers arrays = {tops, orientation, angular_velocity, amounts, kicked};
+  return compute_each(count, ORIENTATION_BYTES, arrays, done, [&](size_t i) {
+    if (held != SYMTOP_OK) return held;
+    symtop_status status = accept(tops[i]);
+    if (status != SYMTOP_OK) return status;
+    double q[4], omega[3];
+    status = accept_state(orientation + 4 * i, angular_velocity + 3 * i, q, omega);
+    if (status != SYMTOP_OK) return status;
+    const double* amount = amounts + width * i;
+    if (!are_finite(amount, width)) return SYMTOP_BAD_KICK;
+    if (!kick(tops[i], q, kind, hold, amount, omega)) return SYMTOP_VERTICAL;
+    if (!are_at_most(omega, 3, LARGEST)) return SYMTOP_BAD_KICK;
+    for (int k = 0; k < 3; k++) kicked[3 * i + k] = omega[k];
+    return SYMTOP_OK;
+  });
 }
 
 symtop_status symtop_judge(const symtop_start* starts, const double* factors, size_t count,
                            symtop_hold hold, symtop_verdict* verdicts, size_t* done) {
-  for (*done = 0; *done < count; ++*done) {
-    symtop_start s = starts[*done];
-    const symtop_status status = symtop::accept(s);
+  using namespace symtop;
+  const symtop_status held = accept_hold(hold);
+  const Pointers arrays = {starts, factors, verdicts};
+  return compute_each(count, sizeof(symtop_verdict), arrays, done, [&](size_t i) {
+    symtop_start s = starts[i];
+    const symtop_status status = find_refusal({held, accept(s)});
     if (status != SYMTOP_OK) return status;
-    symtop::GravityMotion motion(symtop::to_start(s));
-    if (!symtop::judge(s, motion, factors[*done], hold, verdicts[*done])) return SYMTOP_BAD_KICK;
-  }
-  return SYMTOP_OK;
+    GravityMotion motion(to_start(s));
+    return judge(s, motion, factors[i], hold, verdicts[i]) ? SYMTOP_OK : SYMTOP_BAD_KICK;
+  });
 }
 
 symtop_status symtop_compare_hurried(const symtop_top* tops, const double* thetas,
                                      const double* phi_dots, const double* psi_dots, size_t count,
                                      double factor, symtop_hold hold, double* angles,
                                      unsigned char* rules) {
-  if (!symtop::is_sound()) return SYMTOP_BAD_ARITHMETIC;
-  for (size_t i = 0; i < count; i++) {
-    if (!symtop::is_top(tops[i].Ix, tops[i].Iz, tops[i].Mgl)) return SYMTOP_BAD_TOP;
-    if (!symtop::are_finite(thetas + i, 1)) return SYMTOP_BAD_ANGLES;
+  using namespace symtop;
+  size_t done;
+  const symtop_status held = accept_hold(hold);
+  const Pointers arrays = {tops, thetas, phi_dots, psi_dots, angles, rules};
+  return compute_each(count, sizeof(symtop_top), arrays, &done, [&](size_t i) {
+    const symtop_status status =
+        find_refusal({held, accept(tops[i]), accept_angles(thetas + i, 1)});
+    if (status != SYMTOP_OK) return status;
     const double rates[] = {phi_dots[i], psi_dots[i], factor * phi_dots[i]};
-    if (!symtop::are_at_most(rates, 3, symtop::LARGEST)) return SYMTOP_BAD_KICK;
-    rules[i] = static_cast<unsigned char>(symtop::compare_hurried(
-        tops[i], thetas[i], phi_dots[i], psi_dots[i], factor, hold, angles + 2 * i));
-  }
-  return SYMTOP_OK;
+    if (!are_at_most(rates, 3, LARGEST) || !are_finite(&factor, 1)) return SYMTOP_BAD_KICK;
+    const symtop_rule rule =
+        compare_hurried(tops[i], thetas[i], rates[0], rates[1], factor, hold, angles + 2 * i);
+    rules[i] = static_cast<unsigned char>(rule);
+    return SYMTOP_OK;
+  });
 }
 
 symtop_status symtop_judge_kick(const symtop_start* before, const symtop_start* after,
                                 symtop_hold hold, symtop_verdict* verdict) {
+  using namespace symtop;
+  symtop_status status = admit({before, after, verdict});
+  if (status != SYMTOP_OK) return status;
   symtop_start was = *before, now = *after;
-  for (symtop_start* each : {&was, &now}) {
-    const symtop_status status = symtop::accept(*each);
-    if (status != SYMTOP_OK) return status;
-  }
-  symtop::GravityMotion without(symtop::to_start(was)), with(symtop::to_start(now));
-  *verdict = symtop::judge_kick(was, now, without, with, symtop::is_driven(now), hold);
+  status = find_refusal({accept(was), accept(now), accept_hold_of_kick(hold)});
+  if (status != SYMTOP_OK) return status;
+  GravityMotion without(to_start(was)), with(to_start(now));
+  *verdict = judge_kick(was, now, without, with, is_driven(now), hold);
   return SYMTOP_OK;
 }

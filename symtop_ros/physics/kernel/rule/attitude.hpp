@@ -53,13 +53,15 @@ inline Pair find_cosine_and_sine(double angle) {
   return cosine_and_sine(is_large ? take_turns_off(angle).to_double() : angle);
 }
 
-// Cosine and sine of (a + b)/2. Knuth's two-sum finds what the sum has lost, up to half an EPS of it,
-// and a small rotation makes it good: below LARGEST_ANGLE its cosine is 1 to rounding.
+// Cosine and sine of (a + b)/2. The halves are added, which no angle makes overflow. Knuth's two-sum
+// finds what the sum has lost, up to half an EPS of it, and another rotation makes it good: below
+// LARGEST_ANGLE its cosine is 1 to rounding.
 inline Pair turn_by_half_sum(double a, double b) {
-  const double total = a + b, part = total - a;
-  const double lost = ((a - (total - part)) + (b - part)) / 2;
-  const bool is_large = std::fabs(total) > LARGEST_ANGLE;
-  return multiply(find_cosine_and_sine(total / 2), is_large ? cosine_and_sine(lost) : Pair{1, lost});
+  const double x = a / 2, y = b / 2, total = x + y, part = total - x;
+  const double lost = (x - (total - part)) + (y - part);
+  const bool is_large = std::fabs(total) > LARGEST_ANGLE / 2;
+  return multiply(find_cosine_and_sine(total),
+                  is_large ? find_cosine_and_sine(lost) : Pair{1, lost});
 }
 
 // Cosine and sine of a tilt, or of half a tilt. A multiple of the double next to pi is the vertical

@@ -56,7 +56,8 @@ inline symtop_rule compare_hurried(const symtop_top& top, double theta, double p
   angles[0] = find_other_turning_angle(top, theta, phi_dot, psi_dot);
   angles[1] = find_other_turning_angle(top, theta, after, kicked);
   if (tilt.y == 0) return SYMTOP_RULE_SAYS_NOTHING;  // on the vertical, where phi' is undefined
-  const int change = TiltQuadratic(top, tilt.x, spin, hold).change(phi_dot, after).sign;
+  const TiltQuadratic quadratic(top, {tilt.x, std::fabs(tilt.x)}, {spin, std::fabs(spin)}, hold);
+  const int change = quadratic.change(phi_dot, after).sign;
   return judge_change({phi_dot, after, factor, false}, change);
 }
 

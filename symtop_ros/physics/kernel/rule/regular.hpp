@@ -80,13 +80,18 @@ inline void find_regular_rates(const symtop_top& top, double theta, double spin,
 
 struct TiltQuadratic {
   Precise a, b, Mgl;
+  Precise a_terms, b_terms;  // sizes of the terms whose rounding a and b have
 
-  // Of the cosine and the spin of a state. Precise numbers: phi' of an axis next to the vertical
-  // has a square beyond all doubles, and at a root the terms cancel.
-  TiltQuadratic(const symtop_top& top, double cosine, double spin, symtop_hold hold)
-      : a(Precise(hold == SYMTOP_SPIN_MOMENTUM ? top.Ix : top.Ix - top.Iz) *
-          Precise(std::fabs(cosine) <= EPS ? 0.0 : cosine)),
-        b(Precise(top.Iz) * Precise(spin)), Mgl(top.Mgl) {}
+  // Of the cosine and the spin of a state or of an angle, and of the sizes of the terms that they are
+  // sums of. Precise numbers: phi' of an axis next to the vertical has a square beyond all doubles,
+  // and at a root the terms cancel.
+  TiltQuadratic(const symtop_top& top, Pair cosine_of_terms, Pair spin_of_terms, symtop_hold hold)
+      : Mgl(top.Mgl) {
+    const double cosine = std::fabs(cosine_of_terms.x) <= EPS ? 0.0 : cosine_of_terms.x;
+    const Precise moment(hold == SYMTOP_SPIN_MOMENTUM ? top.Ix : top.Ix - top.Iz), Iz(top.Iz);
+    a = moment * Precise(cosine), a_terms = size(moment) * Precise(cosine_of_terms.y);
+    b = Iz * Precise(spin_of_terms.x), b_terms = Iz * Precise(spin_of_terms.y);
+  }
 
   Precise at(double rate) const {
     const Precise p(rate);
@@ -98,13 +103,13 @@ struct TiltQuadratic {
   // its rounding. As a product it is right to rounding, and zero if its second factor is no more.
   Precise change(double before, double after) const {
     const Precise p(before), q(after), slope = a * (p + q) - b;
-    const Precise largest = size(a) * (size(p) + size(q)) + size(b);
+    const Precise largest = a_terms * (size(p) + size(q)) + b_terms;
     return size(slope) <= Precise(START_ROUNDING) * largest ? Precise() : (q - p) * slope;
   }
 
   // True if the quadratic vanishes at a rate, up to rounding of its terms.
   bool is_balanced(double rate) const {
-    const Precise p(std::fabs(rate)), terms = (size(a) * p + size(b)) * p + size(Mgl);
+    const Precise p(std::fabs(rate)), terms = (a_terms * p + b_terms) * p + size(Mgl);
     return size(at(rate)) <= Precise(START_ROUNDING) * terms;
   }
 

@@ -83,13 +83,16 @@ class TiltAcceleration {
 
   // A state has cos(theta) and psi' to some EPS of 1 and of its rates. What is smaller is zero: else
   // a horizontal axis without spin would rise or fall by the chance of its rounding.
-  static double find_cosine(const Instant& now) {
-    return std::fabs(now.vertical.z) <= STATE_ROUNDING ? 0.0 : now.vertical.z;
+  // The second number is the size of the terms: near the horizontal a fast precession has a
+  // centrifugal torque that the rounding of a small cosine decides.
+  static Pair find_cosine(const Instant& now) {
+    return {std::fabs(now.vertical.z) <= STATE_ROUNDING ? 0.0 : now.vertical.z, 1.0};
   }
-  static double find_spin(const Instant& now, symtop_hold hold) {
+  static Pair find_spin(const Instant& now, symtop_hold hold) {
     const double spin = hold == SYMTOP_SPIN_MOMENTUM ? now.start.angular_velocity[2]
                                                      : find_exact_rates(now.start).psi_dot;
-    return std::fabs(spin) <= STATE_ROUNDING * now.find_largest_rate() ? 0.0 : spin;
+    const double size = std::fabs(spin), largest = now.find_largest_rate();
+    return {size <= STATE_ROUNDING * largest ? 0.0 : spin, std::fmax(size, largest)};
   }
 
   symtop_place_kind find_place(double rate, const double roots[2]) const {

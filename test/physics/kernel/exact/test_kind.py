@@ -4,9 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from drawn import PI, Numbers
 from physics.tops import ARTICLE, EPS, SLOW, random_case
 
-from symtop_ros.physics import Motion, State, Top, perrys_rule
+from symtop_ros.physics import Motion, State, Top, perrys_rule, regular_precession_rates
 
 KINDS = {
     "cusps": {"theta": 0.5, "psi_dot": 200.0},
@@ -62,6 +63,43 @@ def test_a_kind_is_the_same_from_any_state_within_rounding_of_a_turning_point():
     times = motion.nutation_period * (3 + np.geomspace(1e-16, 1e-3, 300))
     for q, omega in zip(*motion.at(times).parts, strict=True):
         assert Motion(ARTICLE, State(q, omega)).kind == "cusps"
+
+
+def list_regular_starts(seed):
+    """Tops within 0.05 rad of the horizontal on either root, and the number of the root."""
+    rng = Numbers(seed)
+    for _ in range(150):
+        top = Top(ARTICLE.Ix, ARTICLE.Ix * rng.uniform(0.05, 1.9), rng.choice((0.068, -0.068)))
+        theta, spin = PI / 2 + rng.uniform(-0.05, 0.05), rng.uniform(-400, 400)
+        for root, phi_dot in enumerate(regular_precession_rates(top, theta, spin)):
+            angles = {"theta": theta, "phi": rng.uniform(-3, 3), "psi": rng.uniform(-3, 3)}
+            yield root, top, State.from_euler(**angles, phi_dot=phi_dot, psi_dot=spin)
+
+
+def test_a_regular_precession_next_to_the_horizontal_is_regular_at_any_time():
+    for _, top, start in list_regular_starts(70):
+        motion = Motion(top, start)
+        assert motion.kind == "regular"
+        for state in motion.at(motion.nutation_period * np.array([0.3, 7.7, 1e3])):
+            assert Motion(top, state).kind == "regular"
+
+
+def test_a_rate_next_to_the_horizontal_is_found_at_its_root():
+    for root, top, start in list_regular_starts(71):
+        verdict = perrys_rule(top, start)
+        assert verdict.reason.place.kind == ("slow", "fast")[root]
+        assert verdict.reason.theta_ddot_without == 0
+        assert verdict.direction == "stays"
+
+
+def test_a_state_of_an_asymptotic_motion_belongs_to_one_that_passes_the_pole():
+    # Exactly on the separatrix: u = 0, omega_y = Iz omega_z/Ix and omega_xy^2 = 2 Mgl/Ix.
+    for x, y in ((2.0, 0.0), (1.5, -2.25), (0.25, 3.0), (-4.75, 1.0)):
+        top = Top(1.0, 0.5, (x * x + y * y) / 2)
+        motion = Motion(top, State((0.5, 0.5, 0.5, 0.5), (x, y, 2 * y)))
+        assert motion.kind == "asymptotic"
+        for state in motion.at([-1.7, -0.3, 0.1, 0.2, 0.6]):
+            assert Motion(top, state).kind in ("asymptotic", "through the pole")
 
 
 @pytest.mark.parametrize("phi", np.linspace(-3.0, 3.0, 40).tolist())
