@@ -46,6 +46,13 @@ NOT_TYPED = {
     },
     ("make", "test"): "typed in the README's order",
     ("top_judge", "--live", "--topic", "/imu/data"): "there is no such filter",
+    (
+        "make",
+        "-C",
+        "workshop",
+        "language",
+        "ARGS=it",
+    ): "names the texts that a translator begins with",
 }
 ENCLAVE = "--enclave"
 # A command of these runs until Ctrl-C, but with an option that ends it.
@@ -62,11 +69,15 @@ import json, sys
 from pathlib import Path
 sys.path[:0] = ["test"]
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log
+from log_files import Run
 from simulation.page_runs import make_run
 from symtop_ros.simulation.run_file import write_run
 from symtop_ros.testset.score import read_problems
-estimates = encode("sensor_msgs/msg/Imu", make_estimates(*truth_and_stamps(200)))
-write_log(Path("run.mcap"), {"/imu/data": estimates})
+if sys.argv[1] == "logs":
+    Run(seconds=2.0).write(Path.cwd()).rename("run.mcap")
+if sys.argv[1] == "truth":
+    estimates = encode("sensor_msgs/msg/Imu", make_estimates(*truth_and_stamps(200)))
+    write_log(Path("run.mcap"), {"/imu/data": estimates})
 Path("run.json").write_text(json.dumps(write_run(make_run(), 3_000_000_000)))
 facts = read_problems()["cusps"].facts
 states = zip(facts["times"], facts["orientations"])
@@ -208,9 +219,7 @@ def type_page(user: User, page: Path) -> None:
     if not lines:
         return
     print(f"\n{page}", flush=True)
-    user.type(f".venv/bin/python -c {shlex.quote(PREPARE)}")
-    if page.stem == "panel":
-        (user.folder / "run.mcap").unlink()
+    user.type(f".venv/bin/python -c {shlex.quote(PREPARE)} {page.stem}")
     with contextlib.ExitStack() as stack:
         if any(word in ("top_ctl", "/top") for words in lines for word in words):
             stack.enter_context(user.serving("top_node"))

@@ -33,7 +33,7 @@ inline double hide(double x) {
 // True if the calling thread rounds to the nearest and keeps subnormal numbers. Both can change
 // while a program runs: a library that was linked with fast-math drops them when it is loaded.
 inline bool rounds_to_nearest() {
-#ifdef __SSE2__
+#if defined(__SSE2__) && !defined(__CUDA_ARCH__)
   // Read from the register that decides: there a sum with a subnormal number can take as long as a
   // state. The bits are those of the rounding (two), of flushed results and of flushed arguments.
   uint32_t control;

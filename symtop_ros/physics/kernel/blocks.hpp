@@ -4,20 +4,9 @@
 
 #include "clock.hpp"
 #include "exact/free.hpp"
+#include "target.hpp"
 
 namespace symtop {
-
-struct Target {  // where states are written: orientation (n, 4) and omega (n, 3)
-  double *orientation, *omega;
-
-  Target from(int64_t i) const { return {orientation + 4 * i, omega + 3 * i}; }
-};
-
-inline void write_state(const Attitude& state, double omega_z, const Target& to) {
-  double *q = to.orientation, *omega = to.omega;
-  q[0] = state.w, q[1] = state.x, q[2] = state.y, q[3] = state.z;
-  omega[0] = state.omega_x, omega[1] = state.omega_y, omega[2] = omega_z;
-}
 
 // States at LANES times; phases are turns (3, LANES) and rests (3, LANES), as in Phase.
 SYMTOP_CLONES inline void fill_lanes(const ClosedForm& motion, const double* times,

@@ -5,11 +5,19 @@
 
 #include "lanes.hpp"
 
-// Sums and products are calls in WebAssembly: inlined they would make a module twice as large.
-#ifdef __wasm__
+// Sums and products are calls in WebAssembly: inlined they would make a module twice as large. The
+// compiler of a graphics processor would inline and unroll all of a set-up, and never come to an end.
+#if defined(__wasm__) || defined(__CUDACC__)
 #define SYMTOP_CALL __attribute__((noinline))
 #else
 #define SYMTOP_CALL
+#endif
+#ifdef __CUDACC__
+#define SYMTOP_SET_UP __attribute__((noinline))
+#define SYMTOP_ROLLED _Pragma("unroll 1")
+#else
+#define SYMTOP_SET_UP
+#define SYMTOP_ROLLED
 #endif
 
 namespace symtop {
@@ -90,14 +98,16 @@ SYMTOP_CALL int compare(const Float<N>& a, const Float<N>& b) {
 }
 
 template <int N>
-Float<N> operator*(const Float<N>& a, const Float<N>& b) {
+SYMTOP_SET_UP Float<N> operator*(const Float<N>& a, const Float<N>& b) {
   Float<N> result;
   result.sign = a.sign * b.sign;
   if (!result.sign) return result;
   uint64_t product[2 * N] = {};
+  SYMTOP_ROLLED
   for (int i = 0; i < N; i++) {
     if (!a.limbs[i]) continue;  // doubles have many limbs of zero
     uint64_t carry = 0;
+    SYMTOP_ROLLED
     for (int j = 0; j < N; j++) {
       const Wide sum = static_cast<Wide>(a.limbs[i]) * b.limbs[j] + product[i + j] + carry;
       product[i + j] = static_cast<uint64_t>(sum);
@@ -107,6 +117,7 @@ Float<N> operator*(const Float<N>& a, const Float<N>& b) {
   }
   result.exponent = a.exponent + b.exponent;
   const bool is_full = product[2 * N - 1] >> 63;
+  SYMTOP_ROLLED
   for (int i = 0; i < N; i++)
     result.limbs[i] =
         is_full ? product[N + i] : product[N + i] << 1 | product[N + i - 1] >> 63;
@@ -146,7 +157,7 @@ SYMTOP_CALL inline Float<3> operator*(const Float<3>& a, const Float<3>& b) {
 
 // Shift the N + 1 limbs of a sum or a difference until the highest bit is set.
 template <int N>
-void normalize(uint64_t* limbs, Float<N>& result) {
+SYMTOP_SET_UP void normalize(uint64_t* limbs, Float<N>& result) {
   int top = N;
   while (top >= 0 && !limbs[top]) top--;
   if (top < 0) {
@@ -154,6 +165,7 @@ void normalize(uint64_t* limbs, Float<N>& result) {
     return;
   }
   const int places = N - top, bits = __builtin_clzll(limbs[top]);
+  SYMTOP_ROLLED
   for (int i = N; i > 0; i--) {  // the lowest is no part of the result
     const uint64_t upper = i >= places ? limbs[i - places] : 0;
     const uint64_t lower = i >= places + 1 ? limbs[i - places - 1] : 0;
@@ -164,7 +176,7 @@ void normalize(uint64_t* limbs, Float<N>& result) {
 }
 
 template <int N>
-Float<N> operator+(const Float<N>& x, const Float<N>& y) {
+SYMTOP_SET_UP Float<N> operator+(const Float<N>& x, const Float<N>& y) {
   if (!x.sign) return y;
   if (!y.sign) return x;
   const bool is_first = compare_sizes(x, y) >= 0;
@@ -177,6 +189,7 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
   std::memcpy(large + 1, a.limbs, sizeof a.limbs);
   std::memcpy(between + 1, b.limbs, sizeof b.limbs);
   const int places = distance / 64, bits = distance % 64;
+  SYMTOP_ROLLED
   for (int i = 0; i <= N; i++) {
     const Wide both = static_cast<Wide>(between[i + places + 1]) << 64 | between[i + places];
     small[i] = static_cast<uint64_t>(both >> bits);
@@ -186,12 +199,14 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
   result.exponent = a.exponent;
   if (a.sign == b.sign) {
     uint64_t carry = 0;
+    SYMTOP_ROLLED
     for (int i = 0; i <= N; i++) {
       const Wide sum = static_cast<Wide>(large[i]) + small[i] + carry;
       large[i] = static_cast<uint64_t>(sum);
       carry = static_cast<uint64_t>(sum >> 64);
     }
     if (carry) {
+      SYMTOP_ROLLED
       for (int i = 0; i < N; i++) large[i] = large[i] >> 1 | large[i + 1] << 63;
       large[N] = large[N] >> 1 | uint64_t(1) << 63;
       result.exponent++;
@@ -200,6 +215,7 @@ Float<N> operator+(const Float<N>& x, const Float<N>& y) {
     return result;
   } else {
     uint64_t borrow = 0;
+    SYMTOP_ROLLED
     for (int i = 0; i <= N; i++) {
       const Wide difference = static_cast<Wide>(large[i]) - small[i] - borrow;
       large[i] = static_cast<uint64_t>(difference);

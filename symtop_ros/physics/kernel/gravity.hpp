@@ -11,21 +11,6 @@
 
 namespace symtop {
 
-// Below this share of the kinetic energy the weight changes no digit of any phase, and the largest
-// root of the cubic, of the order of 1/Mgl, would leave the range of doubles.
-const double WEIGHTLESS = 1e-200;
-
-// True if no torque turns the axis: for circular functions instead of elliptic ones. It is not omega_z
-// that counts, but Iz/Ix omega_z: a rod may spin fast.
-inline bool is_free(const Start& s) {
-  const bool is_vertical = (s.w == 0 && s.z == 0) || (s.x == 0 && s.y == 0);
-  if (s.wx == 0 && s.wy == 0 && is_vertical) return true;
-  const double weight = std::fabs(s.Mgl) / s.Ix;
-  for (double rate : {s.wx, s.wy, s.Iz / s.Ix * s.wz})
-    if (weight <= WEIGHTLESS * rate * rate) return true;
-  return false;
-}
-
 struct Rates {
   double nutation_period, mean_precession_rate, mean_spin_rate, precession_per_nutation;
   bool spin_reverses;
@@ -35,11 +20,7 @@ struct Rates {
 class GravityMotion {
  public:
   explicit GravityMotion(const Start& given) : start_(given) {
-    is_turned_over_ = given.Mgl < 0;
-    if (is_turned_over_) {  // the closed form wants Mgl > 0: a world turned by pi about x' has it
-      start_.w = -given.x, start_.x = given.w, start_.y = -given.z, start_.z = given.y;
-      start_.Mgl = -given.Mgl;
-    }
+    is_turned_over_ = turn_over(start_);
     is_free_ = symtop::is_free(start_);
   }
 

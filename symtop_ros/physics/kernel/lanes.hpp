@@ -20,18 +20,24 @@
 namespace symtop {
 
 const int LANES = 4;
+// A graphics processor has threads instead, and its compiler no vectors.
+#if !defined(__CUDACC__) && !defined(SYMTOP_NO_LANES)
+#define SYMTOP_LANES
 typedef double Lanes __attribute__((vector_size(8 * LANES)));
 typedef uint64_t IntegerLanes __attribute__((vector_size(8 * LANES)));
 typedef decltype(Lanes{} < Lanes{}) Truths;
+#endif
 
 template <class R>
 struct IntegerOf {
   typedef uint64_t Type;
 };
+#ifdef SYMTOP_LANES
 template <>
 struct IntegerOf<Lanes> {
   typedef IntegerLanes Type;
 };
+#endif
 template <class R>
 using Integer = typename IntegerOf<R>::Type;  // as many integers as numbers, modulo 2^64
 
@@ -43,25 +49,54 @@ SYMTOP_INLINE To read_bits_as(const From& from) {
   return to;
 }
 
-// A constant in every lane. Subtracting 0 keeps the sign of a zero.
-template <class R>
-SYMTOP_INLINE R repeat(double x) { return x - R{}; }
-
-SYMTOP_INLINE double choose(bool condition, double a, double b) { return condition ? a : b; }
-SYMTOP_INLINE Lanes choose(Truths condition, Lanes a, Lanes b) { return condition ? a : b; }
+// ---- What is written for a double and for lanes ----
 
 const uint64_t SIGN = uint64_t(1) << 63;
 
+SYMTOP_INLINE double choose(bool condition, double a, double b) { return condition ? a : b; }
+
 SYMTOP_INLINE double find_size(double x) { return std::fabs(x); }
+
+SYMTOP_INLINE double copy_sign(double size, double x) { return std::copysign(size, x); }
+
+// The nearest double of an integer with sign. The lanes add two parts whose digits are placed
+// behind a 1, which is taken off again: few processors convert lanes of 64 bits.
+SYMTOP_INLINE double to_double(uint64_t n) { return static_cast<double>(static_cast<int64_t>(n)); }
+
+// Entry k of rows of four numbers, for every lane.
+SYMTOP_INLINE void read_row(const double (*rows)[4], uint64_t k, double entries[4]) {
+  for (int i = 0; i < 4; i++) entries[i] = rows[k][i];
+}
+
+#ifdef SYMTOP_LANES
+SYMTOP_INLINE Lanes choose(Truths condition, Lanes a, Lanes b) { return condition ? a : b; }
+
 SYMTOP_INLINE Lanes find_size(Lanes x) {
   return read_bits_as<Lanes>(read_bits_as<IntegerLanes>(x) & ~SIGN);
 }
 
-SYMTOP_INLINE double copy_sign(double size, double x) { return std::copysign(size, x); }
 SYMTOP_INLINE Lanes copy_sign(Lanes size, Lanes x) {
   const IntegerLanes sign = read_bits_as<IntegerLanes>(x) & SIGN;
   return read_bits_as<Lanes>(read_bits_as<IntegerLanes>(find_size(size)) | sign);
 }
+
+SYMTOP_INLINE Lanes to_double(IntegerLanes n) {
+  const Lanes lower = read_bits_as<Lanes>((n & 0xffffffff) | read_bits_as<uint64_t>(0x1p52));
+  const Lanes upper = read_bits_as<Lanes>((n >> 32) ^ read_bits_as<uint64_t>(0x1p84 + 0x1p63));
+  return (upper - (0x1p84 + 0x1p63 + 0x1p52)) + lower;
+}
+
+SYMTOP_INLINE void read_row(const double (*rows)[4], IntegerLanes k, Lanes entries[4]) {
+  for (int i = 0; i < 4; i++)
+    for (int lane = 0; lane < LANES; lane++) entries[i][lane] = rows[k[lane]][i];
+}
+#endif
+
+// ---- What follows for both ----
+
+// A constant in every lane. Subtracting 0 keeps the sign of a zero.
+template <class R>
+SYMTOP_INLINE R repeat(double x) { return x - R{}; }
 
 template <class R>
 SYMTOP_INLINE R find_sign(R x) { return copy_sign(repeat<R>(1.0), x); }
@@ -78,24 +113,6 @@ template <class R>
 SYMTOP_INLINE Integer<R> count_of(R whole) {
   const double LARGE = 0x1.8p52;
   return read_bits_as<Integer<R>>(whole + LARGE) - read_bits_as<uint64_t>(LARGE);
-}
-
-// The nearest double of an integer with sign. The lanes add two parts whose digits are placed
-// behind a 1, which is taken off again: few processors convert lanes of 64 bits.
-SYMTOP_INLINE double to_double(uint64_t n) { return static_cast<double>(static_cast<int64_t>(n)); }
-SYMTOP_INLINE Lanes to_double(IntegerLanes n) {
-  const Lanes lower = read_bits_as<Lanes>((n & 0xffffffff) | read_bits_as<uint64_t>(0x1p52));
-  const Lanes upper = read_bits_as<Lanes>((n >> 32) ^ read_bits_as<uint64_t>(0x1p84 + 0x1p63));
-  return (upper - (0x1p84 + 0x1p63 + 0x1p52)) + lower;
-}
-
-// Entry k of rows of four numbers, for every lane.
-SYMTOP_INLINE void read_row(const double (*rows)[4], uint64_t k, double entries[4]) {
-  for (int i = 0; i < 4; i++) entries[i] = rows[k][i];
-}
-SYMTOP_INLINE void read_row(const double (*rows)[4], IntegerLanes k, Lanes entries[4]) {
-  for (int i = 0; i < 4; i++)
-    for (int lane = 0; lane < LANES; lane++) entries[i][lane] = rows[k[lane]][i];
 }
 
 }  // namespace symtop

@@ -14,7 +14,7 @@ inline void split_mantissa(const Float<3>& a, double& high, double& low) {
 
 // The reciprocal, from a double; each step doubles the digits. The first step is
 // made in doubles: what is left of 1 is formed without rounding.
-inline Float<3> invert(const Float<3>& a) {
+SYMTOP_SET_UP inline Float<3> invert(const Float<3>& a) {
   Float<3> mantissa = a;
   mantissa.exponent = 0;
   mantissa.sign = 1;
@@ -32,7 +32,7 @@ inline Float<3> invert(const Float<3>& a) {
 
 
 // The square root, from the reciprocal of the root, as above.
-inline Float<3> root(const Float<3>& a) {
+SYMTOP_SET_UP inline Float<3> root(const Float<3>& a) {
   if (a.sign <= 0) return Float<3>();
   Float<3> mantissa = a;
   const int odd = a.exponent & 1;
@@ -54,7 +54,7 @@ inline Float<3> root(const Float<3>& a) {
 
 // The same with N limbs, from three: each step doubles the digits.
 template <int N>
-inline Float<N> invert(const Float<N>& a) {
+SYMTOP_SET_UP inline Float<N> invert(const Float<N>& a) {
   Float<N> result(invert(Float<3>(a)));
   const Float<N> one(1.0);
   for (int limbs = 3; limbs < N; limbs *= 2) result = result + result * (one - a * result);
@@ -62,7 +62,7 @@ inline Float<N> invert(const Float<N>& a) {
 }
 
 template <int N>
-inline Float<N> root(const Float<N>& a) {
+SYMTOP_SET_UP inline Float<N> root(const Float<N>& a) {
   if (a.sign <= 0) return Float<N>();
   Float<N> inverse(invert(root(Float<3>(a))));
   const Float<N> one(1.0);

@@ -19,7 +19,7 @@ Float<N> half_of_digits(int spare) {
   return Float<N>(1.0).scale(spare - 32 * N);
 }
 
-inline Precise precise(uint64_t high, uint64_t middle, uint64_t low, int exponent) {
+constexpr Precise precise(uint64_t high, uint64_t middle, uint64_t low, int exponent) {
   Precise result;
   result.sign = 1;
   result.exponent = exponent;
@@ -28,9 +28,9 @@ inline Precise precise(uint64_t high, uint64_t middle, uint64_t low, int exponen
 }
 
 // 2 pi, 1/(2 pi) and ln(2).
-const Precise TWO_PI = precise(0xc90fdaa22168c234, 0xc4c6628b80dc1cd1, 0x29024e088a67cc74, 3);
-const Precise PER_TURN = precise(0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, -2);
-const Precise LN2 = precise(0xb17217f7d1cf79ab, 0xc9e3b39803f2f6af, 0x40f343267298b62d, 0);
+constexpr Precise TWO_PI = precise(0xc90fdaa22168c234, 0xc4c6628b80dc1cd1, 0x29024e088a67cc74, 3);
+constexpr Precise PER_TURN = precise(0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, -2);
+constexpr Precise LN2 = precise(0xb17217f7d1cf79ab, 0xc9e3b39803f2f6af, 0x40f343267298b62d, 0);
 // The same numbers as sums of two doubles, the first of 26 bits.
 const double QUARTER_HIGH = 0x1.921fb50000000p+0;
 const double QUARTER_LOW = 0x1.110b4611a6263p-26;

@@ -6,6 +6,21 @@
 
 namespace symtop {
 
+// Below this share of the kinetic energy the weight changes no digit of any phase, and the largest
+// root of the cubic, of the order of 1/Mgl, would leave the range of doubles.
+const double WEIGHTLESS = 1e-200;
+
+// True if no torque turns the axis: for circular functions instead of elliptic ones. It is not omega_z
+// that counts, but Iz/Ix omega_z: a rod may spin fast.
+inline bool is_free(const Start& s) {
+  const bool is_vertical = (s.w == 0 && s.z == 0) || (s.x == 0 && s.y == 0);
+  if (s.wx == 0 && s.wy == 0 && is_vertical) return true;
+  const double weight = std::fabs(s.Mgl) / s.Ix;
+  for (double rate : {s.wx, s.wy, s.Iz / s.Ix * s.wz})
+    if (weight <= WEIGHTLESS * rate * rate) return true;
+  return false;
+}
+
 typedef double Triple[3];
 
 // The angle between a direction of the body and the vertical, by its sine and cosine: an arc cosine

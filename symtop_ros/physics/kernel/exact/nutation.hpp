@@ -40,11 +40,20 @@ struct Start {  // what a motion starts from; Mgl > 0 and the orientation as it 
   double wx, wy, wz;
 };
 
-const double EPS = 0x1p-52;
-const double NORM_ROUNDING = 4 * EPS;  // normalising a norm this close to 1 would only add rounding
+constexpr double EPS = 0x1p-52;
+constexpr double NORM_ROUNDING = 4 * EPS;  // normalising a norm this close to 1 would only add rounding
 // A sum of products of a start's doubles can be wrong by some tens of EPS of its largest term. A sum
 // below this share of its terms is treated as zero.
-const double START_ROUNDING = 64 * EPS;
+constexpr double START_ROUNDING = 64 * EPS;
+
+// The closed form wants Mgl > 0: a world turned by pi about x' has it. Returns true if it was turned.
+inline bool turn_over(Start& s) {
+  if (!(s.Mgl < 0)) return false;
+  const double w = s.w, y = s.y;
+  s.w = -s.x, s.x = w, s.y = -s.z, s.z = y;
+  s.Mgl = -s.Mgl;
+  return true;
+}
 
 // A quaternion that has norm 1 to rounding stays as it is, bit for bit.
 inline Start normalize(Start s) {
@@ -76,7 +85,7 @@ typedef NutationOf<3> Nutation;
 // The sums again, in integers: each times its denominators, so that nothing is divided before the
 // end. With beta = 2 Mgl/Ix and a = Iz wz/Ix.
 template <int N>
-inline void sum_exactly(const Start& start, NutationOf<N>& nutation) {
+SYMTOP_SET_UP inline void sum_exactly(const Start& start, NutationOf<N>& nutation) {
   typedef Float<N> Rounded;
   const Exact Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
       z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);

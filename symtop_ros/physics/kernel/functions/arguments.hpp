@@ -8,7 +8,7 @@
 
 #include <initializer_list>
 
-#include "../gravity.hpp"
+#include "../clock.hpp"
 #include "../rule/attitude.hpp"
 #include "../symtop.h"
 

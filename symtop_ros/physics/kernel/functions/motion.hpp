@@ -4,6 +4,7 @@
 #include <new>
 
 #include "../driven/motion.hpp"
+#include "../gravity.hpp"
 #include "arguments.hpp"
 
 struct symtop_motion {
