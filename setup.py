@@ -41,6 +41,11 @@ PLAYBACK = [
     # Layouts are of types that Rerun calls unstable: each release is tried before it is let in.
     "rerun-sdk>=0.38,<0.42",
 ]
+# Motions on an NVIDIA GPU: symtop_ros.physics.gpu. `ctk` brings NVRTC, which compiles the kernel.
+GPU = {
+    "gpu-cuda12": ["cupy-cuda12x[ctk]>=14"],
+    "gpu-cuda13": ["cupy-cuda13x[ctk]>=14"],
+}
 # Figures and tables: of top_judge, and of the workshop in a checkout.
 REPORT = [
     "matplotlib>=3.8",
@@ -159,6 +164,10 @@ setup(
             "physics/kernel/*.h*",
             "physics/kernel/*.cpp",
             "physics/kernel/*/*.hpp",
+            # the same on a GPU
+            "physics/gpu/*.npy",
+            "physics/gpu/device/*",
+            "physics/gpu/device/shim/*",
             "wording/*.json",
         ],
         f"{NAME}.testset": [
@@ -192,6 +201,7 @@ setup(
         "test": TEST,
         "lint": LINT,
         "docs": DOCS,
+        **GPU,
     },
     entry_points={
         "console_scripts": [

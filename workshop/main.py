@@ -27,6 +27,8 @@ def main(args: list[str] | None = None) -> int:
             folder.mkdir(parents=True, exist_ok=True)
         # Those that can fail return a status.
         return getattr(import_module(module), name)(**options) or 0
+    except BrokenPipeError:
+        raise
     except OSError as error:
         file = error.filename or options["folder"]
         print(f"workshop: {file}: {error.strerror or error}", file=sys.stderr)

@@ -2,6 +2,8 @@
 // rests on the vertical. The body turns about L by |L| t/Ix, and about its axis by c t.
 #pragma once
 
+#include <initializer_list>
+
 #include "kind.hpp"
 
 namespace symtop {
