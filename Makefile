@@ -44,7 +44,7 @@ $(addprefix test-,$(GROUPS)):
 	@$(BIN)/python test/groups.py $(@:test-%=%)
 
 test-long: test-keys test-elsewhere test-newcomer test-ubuntu test-kilted  ## trials that take longer (two hours), coverage, and the matrix
-	$(SET_UP) peers docs aarch64 wine zig
+	$(SET_UP) peers docs aarch64 wine zig gpu
 	@$(MAKE) --no-print-directory -C workshop coverage matrix
 	@$(BIN)/python -m pytest -m long test
 

@@ -100,6 +100,16 @@ SET_UPS = {
         packages=(ZIG, SETUPTOOLS),
         place="zig",
     ),
+    "gpu": SetUp(
+        "NVIDIA's compilers, to look at what they make, and MuJoCo Warp (1.5 GB, once)",
+        packages=(
+            *("nvidia-cuda-nvrtc==13.0.88", "nvidia-cuda-nvcc==13.0.88"),
+            *("nvidia-cuda-cuobjdump==13.5.37", "nvidia-cuda-nvdisasm==13.5.37"),
+            *("nvidia-cuda-nvrtc-cu12==12.9.86", "nvidia-cuda-nvcc-cu12==12.9.86"),
+            *("mujoco-warp>=4", "numpy>=2", "pyyaml", "scipy"),
+        ),
+        place="gpu",
+    ),
     "ubuntu": SetUp(
         "ROS 2 Jazzy, NumPy 1.26 and pytest 7.4 (about 300 MB, once)",
         extras=("jazzy",),

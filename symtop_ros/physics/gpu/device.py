@@ -23,8 +23,10 @@ SHIM = SOURCES / "shim"
 # Products are rounded before they are added, and what the headers define without a word of CUDA is
 # for the device. 177: functions of the kernel that are not used here.
 OPTIONS = ("-default-device", "-device-int128", "--fmad=false", "--std=c++17", "-diag-suppress=177")
-FUNCTIONS = ("prepare_motions", "prepare_free_motions", "read_states", "read_free_states")
-FUNCTIONS = (*FUNCTIONS, "read_statuses", "find_size_of_motion")
+FUNCTIONS = (
+    *("prepare_motions", "prepare_free_motions", "read_states", "read_free_states"),
+    *("read_statuses", "find_size_of_motion"),
+)
 BLOCK = 64  # threads
 PERIOD = 10.0  # s between two lines while the functions are compiled
 TRIAL = Path(__file__).with_name("trial.npy")  # rows of a start (15 numbers) and a time
@@ -180,7 +182,8 @@ def find_different(one: States, other: States) -> NDArray[np.bool_]:
     ]
     count = len(one[0])
     shaped = [(np.reshape(a, (count, -1)), np.reshape(b, (count, -1))) for a, b in pairs]
-    return np.any([(a != b).any(axis=1) for a, b in shaped], axis=0)
+    different: NDArray[np.bool_] = np.any([(a != b).any(axis=1) for a, b in shaped], axis=0)
+    return different
 
 
 def _read_bits(numbers: Real) -> NDArray[np.int64]:

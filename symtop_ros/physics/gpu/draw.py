@@ -128,7 +128,7 @@ def _free(d: Draw) -> None:
     d.Mgl = np.where(weightless, 0.0, d.Mgl)
     poles = np.where(upright[:, None], [1.0, 0, 0, 0], [0, 0.6, 0.8, 0])
     d.q = np.where(weightless[:, None], d.q, poles)
-    d.omega[~weightless, :2] = 0.0
+    d.omega[weightless == 0, :2] = 0.0
 
 
 def _refused(d: Draw) -> None:

@@ -187,7 +187,7 @@ def _to_device(given: Numbers) -> Array:
     cupy = open_cupy()
     if not isinstance(given, cupy.ndarray | np.ndarray) and hasattr(given, "__dlpack_device__"):
         given = cupy.from_dlpack(given)
-    return cupy.ascontiguousarray(cupy.asarray(given, dtype=np.float64))
+    return cupy.asarray(given, dtype=np.float64, order="C")
 
 
 def _demand_memory(name: str, count: int, size: int) -> None:

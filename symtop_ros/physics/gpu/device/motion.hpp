@@ -11,10 +11,10 @@
 
 namespace symtop {
 
-// A launch is about the motions that are free or about the others, never about both. Where one warp
-// has both, ptxas 13.0 and 13.5 keep an address of the stack in a uniform register and overwrite it in
-// the other arm of the branch: an illegal access (docs/many.md; test/physics/gpu/registers.py finds it
-// in the machine code).
+// A launch is about the motions that are free or about the others, never about both. Of a function
+// that had both, ptxas 13.0 and 13.5 kept an address of the stack in a uniform register and overwrote
+// it in the other arm of the branch: an illegal access where one warp took both arms. Whether it does
+// depends on the source around it; test/physics/gpu/registers.py looks for it in the machine code.
 struct DeviceMotion {
   ClosedForm closed;
   FreeMotion free;
