@@ -44,6 +44,7 @@ NOT_TYPED = {
         ("make", "-C", "workshop", name): "measures for minutes or hours; a part of make test-long"
         for name in ("report", "filters", "stress", "soak", "node-cost")
     },
+    ("pip", "install", "-e", ".[gpu-cuda13]"): "for a GPU, 2 GB",
     ("make", "test"): "typed in the README's order",
     ("top_judge", "--live", "--topic", "/imu/data"): "there is no such filter",
     (

@@ -171,7 +171,7 @@ def check_target(_, words):
 
 
 def check_extra(_, words):
-    (extra,) = re.findall(r"\[(\w+)\]", words[-1])
+    (extra,) = re.findall(r"\[([\w-]+)\]", words[-1])
     assert f'"{extra}": ' in (ROOT / "setup.py").read_text()
 
 

@@ -68,6 +68,7 @@ def make_cupy(library):
     runtime = SimpleNamespace(getDeviceCount=lambda: 1)
     return SimpleNamespace(
         ndarray=Array,
+        linspace=wrap(np.linspace),
         zeros=wrap(np.zeros),
         empty=wrap(np.empty),
         asarray=wrap(np.asarray),

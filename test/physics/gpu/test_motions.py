@@ -1,9 +1,12 @@
 """The device's source on the host, behind a stand-in for CuPy: bits, shapes and refusals."""
 
+import contextlib
+import io
 import sys
 
 import numpy as np
 import pytest
+from documents import ROOT, blocks
 from physics.gpu.host_device import MEMORY, compile_host, make_cupy
 from programs import find_fault, run_python
 
@@ -116,6 +119,13 @@ def test_arrays_of_other_libraries_are_read_by_dlpack(cupy):
     one = Motions((0.000228, 0.0000572, Foreign(weights)), START)
     other = Motions((0.000228, 0.0000572, weights), START)
     assert (one.at(10.0).orientation == other.at(10.0).orientation).all()
+
+
+def test_the_program_of_the_page_prints_what_the_page_shows(cupy):
+    ((code, output),) = blocks(ROOT / "docs/many.md", "py")
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        exec(code, {})
+    assert printed.getvalue() == output
 
 
 @pytest.mark.parametrize(
