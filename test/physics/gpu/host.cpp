@@ -9,6 +9,7 @@ struct Index {
 static Index blockIdx, blockDim, threadIdx;
 #define __global__
 #include "motions.cu"
+#include "rk4.cu"
 
 template <class Function, class... Arguments>
 static void launch(int64_t grid, int64_t block, Function function, Arguments... arguments) {
@@ -31,6 +32,10 @@ void run_prepare_free_motions(int64_t grid, int64_t block, const symtop_start* s
 }
 void run_read_statuses(int64_t grid, int64_t block, const DeviceMotion* m, int64_t n, int32_t* to) {
   launch(grid, block, read_statuses, m, n, to);
+}
+void run_integrate(int64_t grid, int64_t block, const symtop_start* s, int64_t n, double t,
+                   int64_t steps, double* q) {
+  launch(grid, block, integrate, s, n, t, steps, q);
 }
 void run_read_states(int64_t grid, int64_t block, const DeviceMotion* m, int64_t n, const double* t,
               int64_t each, int64_t stride, double* q, double* omega, uint8_t* status) {

@@ -40,11 +40,13 @@ def wrap(make):
 
 def launch(function, grid, block, arguments):
     """Run a function for all threads, as a RawKernel does."""
-    passed = [
-        ctypes.c_void_p(each.ctypes.data) if isinstance(each, np.ndarray) else ctypes.c_int64(each)
-        for each in arguments
-    ]
-    function(ctypes.c_int64(grid[0]), ctypes.c_int64(block[0]), *passed)
+    function(ctypes.c_int64(grid[0]), ctypes.c_int64(block[0]), *map(pass_on, arguments))
+
+
+def pass_on(argument):
+    if isinstance(argument, np.ndarray):
+        return ctypes.c_void_p(argument.ctypes.data)
+    return {np.int64: ctypes.c_int64, np.float64: ctypes.c_double}[type(argument)](argument)
 
 
 class RawModule:
@@ -53,7 +55,7 @@ class RawModule:
     library = None
 
     def __init__(self, code, options, backend):
-        assert code == device.MAIN.read_text()
+        assert code in {path.read_text() for path in device.SOURCES.glob("*.cu")}
         assert backend == "nvrtc"
         self.options = options
 
@@ -64,8 +66,13 @@ class RawModule:
 def make_cupy(library):
     """Return the module `cupy` of a device that is this host."""
     module = type("Module", (RawModule,), {"library": library})
-    memory = SimpleNamespace(id=0, mem_info=(MEMORY, MEMORY))
-    runtime = SimpleNamespace(getDeviceCount=lambda: 1)
+    memory = SimpleNamespace(id=0, mem_info=(MEMORY, MEMORY), synchronize=lambda: None)
+    runtime = SimpleNamespace(
+        getDeviceCount=lambda: 1,
+        getDeviceProperties=lambda _: {"name": b"host"},
+        runtimeGetVersion=lambda: 0,
+        driverGetVersion=lambda: 0,
+    )
     return SimpleNamespace(
         ndarray=Array,
         linspace=wrap(np.linspace),

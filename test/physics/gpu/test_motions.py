@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import re
 import sys
 
 import numpy as np
@@ -13,6 +14,7 @@ from programs import find_fault, run_python
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.physics import Motions as MotionsOfCpu
 from symtop_ros.physics.gpu import DeviceError, Motions, device
+from symtop_ros.physics.gpu import __main__ as program
 from symtop_ros.physics.gpu.draw import FAMILIES, draw_mixed
 
 COUNT = 100_000
@@ -186,6 +188,18 @@ def test_the_trial_has_all_families():
     refused = np.isnan(orientation[:, 0]).reshape(len(FAMILIES), -1).sum(axis=1)
     assert dict(zip(FAMILIES, refused, strict=True))["refused"] == 24
     assert (left != 0).sum() == refused.sum() < 40
+
+
+def test_the_program_prints_bits_speeds_and_the_errors_of_an_integrator(cupy, capsys, monkeypatch):
+    monkeypatch.setattr(program, "STEPS", 2000)
+    monkeypatch.setattr(program, "EACH", 5)
+    monkeypatch.setattr(sys, "argv", ["gpu", "--motions", "240"])
+    assert program.main() == 0
+    printed = capsys.readouterr().out
+    assert "device: host" in printed
+    assert "bits: 0 of 240 mixed motions differ" in printed
+    errors = re.findall(r"Runge-Kutta, 2000 steps to .*error: median (\S+) rad", printed)
+    assert len(errors) == 2
 
 
 def test_without_cupy_a_line_names_it():
