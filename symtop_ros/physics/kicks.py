@@ -40,6 +40,12 @@ def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rat
         The second quantity that is held: psi' (the article's comparison) or L_z = Iz omega_z (a
         push on the axle, which cannot change it; psi' then changes by -delta phi' cos(theta)).
 
+    Returns
+    -------
+    State
+        Its phi' is the new one to 5 eps of |omega_xy|/sin(theta), as exact as doubles of omega
+        have it: next to the vertical theta' can leave few digits of phi'.
+
     Raises
     ------
     ValueError
@@ -191,9 +197,8 @@ def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: s
 def _spread(parts: tuple[Real, ...], axes: int) -> tuple[Real, ...]:
     """Return copies of one shape of tops, orientations, angular velocities and amounts."""
     shapes = [part.shape[:-1] for part in parts[:3]] + [parts[3].shape[:axes]]
-    shape = fit_shapes(
-        "state and kick", *shapes, listed=f"{shapes[1]} and {shapes[3] or shapes[0]}"
-    )
+    given = dict.fromkeys(filter(None, shapes))  # those of more than one
+    shape = fit_shapes("state and kick", *shapes, listed=" and ".join(map(str, given)))
     widths = [part.shape[-1:] for part in parts[:3]] + [parts[3].shape[axes:]]
     return tuple(
         np.array(np.broadcast_to(part, shape + width))
