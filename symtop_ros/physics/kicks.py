@@ -43,8 +43,8 @@ def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rat
     Returns
     -------
     State
-        Its phi' is the new one to 5 eps of |omega_xy|/sin(theta), as exact as doubles of omega
-        have it: next to the vertical theta' can leave few digits of phi'.
+        Its phi' is the new one within 15 eps of the larger angular velocity, before or after, over
+        sin(theta): next to the vertical doubles of omega may have few digits of phi'.
 
     Raises
     ------
@@ -180,7 +180,9 @@ def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: s
     rows, orientation, omega, given = parts
     kicked, done, status = door.kick(rows, orientation, omega, kind, HOLDS.index(hold), given)
     if status == door.OK:
-        attitude = np.broadcast_to(state.given_orientation, orientation.shape)
+        attitude = state.given_orientation
+        if attitude.shape != orientation.shape:
+            attitude = np.broadcast_to(attitude, orientation.shape)
         return State.wrap(orientation, kicked, attitude)
     flat = [part.reshape(-1, width) for part, width in zip(parts[1:3], (4, 3), strict=True)]
     if status == door.VERTICAL:

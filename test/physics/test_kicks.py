@@ -64,15 +64,16 @@ def test_a_push_at_the_smallest_tilt_has_its_whole_size():
 
 
 @pytest.mark.parametrize("hold", ["spin_rate", "spin_momentum"])
-def test_a_new_rate_is_met_to_the_digits_that_omega_leaves(hold):
+def test_a_new_rate_is_met_as_closely_as_omega_has_it(hold):
     rng = Numbers(9)
     for _ in range(200):
         theta, theta_dot = rng.power(-9, 0), rng.choice((0.0, rng.power(-3, 3)))
         angles = {"theta": theta, "phi": rng.uniform(-3, 3), "psi": rng.uniform(-3, 3)}
         before = State.from_euler(**angles, theta_dot=theta_dot, psi_dot=200.0)
         kicked = set_precession_rate(before, 1e6, hold)
-        across = math.hypot(*kicked.angular_velocity[:2].tolist())
-        assert abs(kicked.euler_rates.phi - 1e6) <= 5 * EPS * across / math.sin(theta)
+        largest = max(math.hypot(*each.angular_velocity.tolist()) for each in (before, kicked))
+        # 15 eps of the kick, and 12 of the rate that is read
+        assert abs(kicked.euler_rates.phi - 1e6) <= 27 * EPS * largest / math.sin(theta)
 
 
 def test_a_kick_at_the_smallest_tilt_needs_no_division():
