@@ -111,13 +111,15 @@ def read_start(row: Real) -> tuple[Top, State, Friction, Vector]:
     return Top(Ix, Iz, Mgl), start, friction, (x, y, z)
 
 
-def fill_states(starts: Real, times: Real, orientation: Real, omega: Real) -> Mask:
-    """Write the states at times (m,) in s into (n, m, 4) and (n, m, 3).
+def fill_states(starts: Real, times: Real | ExactTimes, orientation: Real, omega: Real) -> Mask:
+    """Write the states at times (m,), in s or exact, into (n, m, 4) and (n, m, 3).
 
-    Returns (n, m), True for the states that are left: those of driven motions, and those from a
-    time on that is too far.
+    Returns (n, m), True for the states that are left: those of driven motions, those from a time on
+    that is too far, and all those at exact times.
     """
-    left = np.ones((len(starts), times.size), np.uint8)
+    left = np.ones((len(starts), math.prod(times.shape)), np.uint8)
+    if isinstance(times, ExactTimes):
+        return left.view(np.bool_)
     kept = np.flatnonzero(~starts[:, STARTS[2] :].any(axis=1))  # neither friction nor a torque
     rows = max(1, STATES // (times.size + STATES_OF_SETUP))
     for first in range(0, len(kept), rows):

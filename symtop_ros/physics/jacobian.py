@@ -21,6 +21,7 @@ import numpy as np
 from symtop_ros.arrays import Places, Real, compose, find_rotation_vectors, invert
 from symtop_ros.physics.arguments import STARTS, fill_states, read_start
 from symtop_ros.physics.kernel import door, states
+from symtop_ros.physics.times import ExactTimes, to_rough_seconds
 from symtop_ros.physics.values import EPS, refuse
 
 ORDER = 10  # of the derivatives, and as many nodes
@@ -69,28 +70,29 @@ ROWS = np.arange(2), np.arange(3)  # attitude and omega, and their components
 FIRSTS, COUNTS = (0, 1, 2, 3, 6), (1, 1, 1, 3, 3)
 
 
-def differentiate(motion: Any, times: Real) -> Real:
-    """Return the derivatives at times (n,) in s, (n, 6, 9).
+def differentiate(motion: Any, times: Real | ExactTimes) -> Real:
+    """Return the derivatives at times (n,), in s or exact, (n, 6, 9).
 
     Raises
     ------
     ValueError
         If the motion has no state at a time, or if no step resolves the derivatives there.
     """
-    if motion.is_driven and _changes_nothing(motion, times):
+    seconds = to_rough_seconds(times)
+    if motion.is_driven and _changes_nothing(motion, seconds):
         # Without its steps: their errors grow where the axis comes back to an unstable vertical.
         return differentiate(type(motion)(motion.top, motion.start), times)
     if motion.is_driven:
-        _limit(motion, times)
+        _limit(motion, seconds)
     elif motion.top.Iz > FLAT * motion.top.Ix:
         return _differentiate_disc(motion, times)
-    found = np.empty((len(times), 6, 9))
-    groups = [np.argsort(np.abs(times))] if len(times) else []
+    found = np.empty((len(seconds), 6, 9))
+    groups = [np.argsort(np.abs(seconds))] if len(seconds) else []
     while groups:
         group = groups.pop()
         found[group], left = _Starts(motion, times[group]).settle()
         if len(left) and len(group) == 1:
-            raise refuse("t", UNRESOLVED, float(times[group[0]]))
+            raise refuse("t", UNRESOLVED, float(seconds[group[0]]))
         # Few motions have times that need different steps.
         groups += [each for each in np.array_split(group[left], 2) if len(each)]
     return found
@@ -113,7 +115,7 @@ def _limit(motion: Any, times: Real) -> None:
         raise refuse("t", f"{within} for derivatives with friction or a torque", t)
 
 
-def _differentiate_disc(motion: Any, times: Real) -> Real:
+def _differentiate_disc(motion: Any, times: Real | ExactTimes) -> Real:
     """Return the derivatives for a body next to the flat disc, which has no larger Iz.
 
     A body with half of Iz and twice the spin has the same Iz omega_z, so that its axis moves in the
@@ -131,17 +133,19 @@ def _differentiate_disc(motion: Any, times: Real) -> Real:
         found[:, y] = 2 * w * z * across + (w * w - z * z) * along
     found[:, :, 1], found[:, :, 8] = found[:, :, 1] / 2, 2 * found[:, :, 8]
     wx, wy, _ = state.angular_velocity.T
-    found[:, 2:, 8] -= np.stack((times, times * wy, -times * wx, np.ones_like(times)), axis=-1)
+    t = to_rough_seconds(times)
+    found[:, 2:, 8] -= np.stack((t, t * wy, -t * wx, np.ones_like(t)), axis=-1)
     return found
 
 
 class _Starts:
     """Starts around that of a motion, and derivatives by them at times that share their steps."""
 
-    def __init__(self, motion: Any, times: Real) -> None:
+    def __init__(self, motion: Any, times: Real | ExactTimes) -> None:
         self._times, self._base = times, motion.at(times)
+        self._seconds = to_rough_seconds(times)
         self._start = np.frombuffer(motion.packed_start)
-        longest = float(np.abs(times).max())
+        longest = float(np.abs(self._seconds).max())
         nutation, fastest = _find_rates(motion)
         rate = fastest or (1 / longest if longest else 1.0)
         Ix, Iz, Mgl = motion.top.moments
@@ -163,7 +167,7 @@ class _Starts:
         self._counted = np.stack((np.ones(len(spins)), spins), axis=-1)[..., None]
         self._least, self._most = self._find_rounding(motion)
         self._remainders = DRIVEN_REMAINDERS if motion.is_driven else REMAINDERS
-        self._left = np.full((len(times), 2, 3, 9), np.inf)
+        self._left = np.full((len(self._seconds), 2, 3, 9), np.inf)
 
     def _find_rounding(self, motion: Any) -> tuple[Real, Real]:
         """Return the least and the largest sizes of what is rounded, (n, 2, 3, 1).
@@ -184,9 +188,9 @@ class _Starts:
 
     def settle(self) -> tuple[Real, Places]:
         """Return the derivatives (n, 6, 9), and the places of times at which they are not right."""
-        found = _Estimates(len(self._times))
+        found = _Estimates(len(self._seconds))
         last = np.zeros_like(found.derivatives)
-        left, columns = np.arange(len(self._times)), np.arange(9)
+        left, columns = np.arange(len(self._seconds)), np.arange(9)
         for _ in range(MOST_ROUNDS):
             part = np.ix_(left, *ROWS, columns)
             last[part], responses, curved, rough = self._differentiate(left, columns)
@@ -296,7 +300,7 @@ class _Starts:
         changes[6:, 7:10] = np.eye(3)
         changes *= self._steps[:, None]
         if (self._start + changes / 2 == self._start).all(axis=1).any():
-            raise refuse("t", UNRESOLVED, float(self._times[0]))
+            raise refuse("t", UNRESOLVED, float(self._seconds[0]))
         return np.asarray(self._start + self._list_nodes()[..., None] * changes[:, None])
 
     def _measure(self, starts: Real) -> Real:
@@ -310,7 +314,7 @@ class _Starts:
     def _follow(self, starts: Real, some: Places) -> Real:
         """Return how far the states of starts (c, 10, 15) are from its own, (c, 10, m, 2, 3)."""
         times, rows = self._times[some], starts.reshape(-1, STARTS[-1])
-        q, omega = np.empty((len(rows), len(times), 4)), np.empty((len(rows), len(times), 3))
+        q, omega = np.empty((len(rows), len(some), 4)), np.empty((len(rows), len(some), 3))
         left = fill_states(rows, times, q, omega)
         for k in np.flatnonzero(left.any(axis=1)):
             states.fill_states(door.KernelMotion(rows[k].tobytes()), times, q[k], omega[k])

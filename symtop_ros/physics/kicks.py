@@ -40,6 +40,12 @@ def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rat
         The second quantity that is held: psi' (the article's comparison) or L_z = Iz omega_z (a
         push on the axle, which cannot change it; psi' then changes by -delta phi' cos(theta)).
 
+    Returns
+    -------
+    State
+        Its phi' is the new one within 15 eps of the larger angular velocity, before or after, over
+        sin(theta): next to the vertical doubles of omega may have few digits of phi'.
+
     Raises
     ------
     ValueError
@@ -174,7 +180,9 @@ def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: s
     rows, orientation, omega, given = parts
     kicked, done, status = door.kick(rows, orientation, omega, kind, HOLDS.index(hold), given)
     if status == door.OK:
-        attitude = np.broadcast_to(state.given_orientation, orientation.shape)
+        attitude = state.given_orientation
+        if attitude.shape != orientation.shape:
+            attitude = np.broadcast_to(attitude, orientation.shape)
         return State.wrap(orientation, kicked, attitude)
     flat = [part.reshape(-1, width) for part, width in zip(parts[1:3], (4, 3), strict=True)]
     if status == door.VERTICAL:
@@ -191,9 +199,8 @@ def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: s
 def _spread(parts: tuple[Real, ...], axes: int) -> tuple[Real, ...]:
     """Return copies of one shape of tops, orientations, angular velocities and amounts."""
     shapes = [part.shape[:-1] for part in parts[:3]] + [parts[3].shape[:axes]]
-    shape = fit_shapes(
-        "state and kick", *shapes, listed=f"{shapes[1]} and {shapes[3] or shapes[0]}"
-    )
+    given = dict.fromkeys(filter(None, shapes))  # those of more than one
+    shape = fit_shapes("state and kick", *shapes, listed=" and ".join(map(str, given)))
     widths = [part.shape[-1:] for part in parts[:3]] + [parts[3].shape[axes:]]
     return tuple(
         np.array(np.broadcast_to(part, shape + width))

@@ -311,7 +311,7 @@ class Motion:
         return self._kernel.farthest_time
 
     @door.compute_soundly
-    def jacobian(self, t: ArrayLike) -> Real:
+    def jacobian(self, t: ArrayLike | ExactTimes) -> Real:
         """Return the derivatives of the state by the top and the start.
 
         Rows 0 to 2 are those of the attitude, as a small rotation vector d in the body frame: the
@@ -326,8 +326,8 @@ class Motion:
 
         Parameters
         ----------
-        t : float or array_like (...)
-            Time since the start in s.
+        t : float, array_like (...) or ExactTimes
+            Time since the start in s, or exact times in ns.
 
         Returns
         -------
@@ -355,7 +355,7 @@ class Motion:
         >>> round(float(motion.jacobian(10.0)[2, 8] * 1e-6), 10)
         9.9333e-06
         """
-        times = validate_array("t", t, unit="s")
+        times = t if isinstance(t, ExactTimes) else validate_array("t", t, unit="s")
         return differentiate(self, times.ravel()).reshape(*times.shape, 6, 9)
 
     @property

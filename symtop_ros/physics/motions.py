@@ -26,7 +26,7 @@ from symtop_ros.physics.arguments import (
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
-from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.times import ExactTimes, to_seconds
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import require, validate_array
 
@@ -154,22 +154,18 @@ class Motions:
         flat = np.array([times]) if isinstance(times, float) else times.ravel()
         count, many = math.prod(self.shape), math.prod(shape)
         orientation, omega = np.empty((count, many, 4)), np.empty((count, many, 3))
-        left = (
-            np.ones((count, many), np.bool_)
-            if isinstance(flat, ExactTimes)
-            else fill_states(self._starts, flat, orientation, omega)
-        )
+        left = fill_states(self._starts, flat, orientation, omega)
         for n in np.flatnonzero(left.any(axis=1)).tolist():
             self._find_member(n).fill(flat, orientation[n], omega[n])
         return wrap_states(orientation, omega, (*self.shape, *shape))
 
-    def at_each(self, times: ArrayLike) -> State:
+    def at_each(self, times: ArrayLike | ExactTimes) -> State:
         """Return the states of each motion at its own times.
 
         Parameters
         ----------
-        times : array_like (..., m, ...)
-            Times in s; the first axes are those of the motions.
+        times : array_like (..., m, ...) or ExactTimes
+            Times in s, or exact times in ns; the first axes are those of the motions.
 
         Returns
         -------
@@ -188,26 +184,27 @@ class Motions:
         >>> motions.at_each(motions.nutation_period).euler_angles.theta.round(9).tolist()
         [1.0, 1.0]
         """
-        t = validate_array("times", times, unit="s")
+        t = times if isinstance(times, ExactTimes) else validate_array("times", times, unit="s")
         require(
             t.shape[: len(self.shape)] == self.shape,
             "times",
             f"an array whose shape begins with that of the motions, {self.shape}",
             f"shape {t.shape}",
         )
-        rows = t.reshape(math.prod(self.shape), -1)
-        orientation, omega = np.empty((*rows.shape, 4)), np.empty((*rows.shape, 3))
-        for n, row in enumerate(rows):
-            self._find_member(n).fill(row, orientation[n], omega[n])
+        flat, shape = t.ravel(), (math.prod(self.shape), math.prod(t.shape[len(self.shape) :]))
+        places = np.arange(math.prod(t.shape)).reshape(shape)
+        orientation, omega = np.empty((*shape, 4)), np.empty((*shape, 3))
+        for n, row in enumerate(places):
+            self._find_member(n).fill(flat[row], orientation[n], omega[n])
         return wrap_states(orientation, omega, t.shape)
 
-    def table(self, times: ArrayLike) -> dict[str, Any]:
+    def table(self, times: ArrayLike | ExactTimes) -> dict[str, Any]:
         """Return the states at times as named columns, one row for each motion and time.
 
         Parameters
         ----------
-        times : array_like (m,)
-            Times in s, the same for all n motions.
+        times : array_like (m,) or ExactTimes (m,)
+            Times in s, or exact times in ns, the same for all n motions.
 
         Returns
         -------
@@ -221,20 +218,20 @@ class Motions:
         >>> motions.table([0.0, 0.5])["motion"].tolist()
         [0, 0, 1, 1]
         """
-        t = validate_array("times", times, unit="s")
-        require(t.ndim == 1, "times", "of shape (m,)", f"shape {t.shape}")
-        count, states = math.prod(self.shape), self.at(t)
+        given = times if isinstance(times, ExactTimes) else validate_array("times", times, unit="s")
+        require(len(given.shape) == 1, "times", "of shape (m,)", f"shape {given.shape}")
+        count, states, t = math.prod(self.shape), self.at(given), to_seconds(given)
         orientation, omega = (np.array(part) for part in states.parts)
         flat = wrap_states(orientation, omega, (count * len(t),))
         return {"motion": np.repeat(np.arange(count), len(t)), **flat.table(np.tile(t, count))}
 
-    def jacobian(self, t: ArrayLike) -> Real:
+    def jacobian(self, t: ArrayLike | ExactTimes) -> Real:
         """Return the derivatives of each motion's state, as `Motion.jacobian` does.
 
         Parameters
         ----------
-        t : float or array_like (...)
-            Times since the start in s, the same for all motions.
+        t : float, array_like (...) or ExactTimes
+            Times since the start in s, or exact times in ns, the same for all motions.
 
         Returns
         -------
@@ -243,7 +240,8 @@ class Motions:
         """
         count = math.prod(self.shape)
         found = np.array([self._find_member(n).jacobian(t) for n in range(count)])
-        return found.reshape(*self.shape, *np.shape(t), 6, 9)
+        shape = t.shape if isinstance(t, ExactTimes) else np.shape(t)
+        return found.reshape(*self.shape, *shape, 6, 9)
 
     def _spread(self, states: State) -> Top:
         """Return the tops in the shape of states of these motions."""

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real, rotate, split, stack
 from symtop_ros.physics.kernel import door
+from symtop_ros.physics.times import ExactTimes, to_seconds
 from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
@@ -364,13 +365,13 @@ class State:
         q = np.take_along_axis(rows, best[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
         return cls(q / np.linalg.norm(q, axis=-1, keepdims=True), angular_velocity)
 
-    def table(self, times: ArrayLike) -> dict[str, Real]:
+    def table(self, times: ArrayLike | ExactTimes) -> dict[str, Real]:
         """Return the states as named columns, for pandas, xarray, Polars or `numpy.savetxt`.
 
         Parameters
         ----------
-        times : array_like (n,)
-            Times of the states in s.
+        times : array_like (n,) or ExactTimes (n,)
+            Times of the states in s, or exact times in ns.
 
         Returns
         -------
@@ -394,7 +395,8 @@ class State:
 
         ``pandas.DataFrame(table)`` is a data frame of it.
         """
-        t, shape = validate_array("times", times, unit="s"), self.orientation.shape[:-1]
+        t = validate_array("times", to_seconds(times), unit="s")
+        shape = self.orientation.shape[:-1]
         require(len(shape) == 1, "states", "of shape (n,)", f"shape {shape}")
         require(
             t.shape == shape, "times", f"of shape {shape}, one for each state", f"shape {t.shape}"

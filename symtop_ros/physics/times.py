@@ -141,6 +141,11 @@ def to_rough_seconds(times: Any) -> Any:
     return times.rough_seconds if isinstance(times, ExactTimes) else times
 
 
+def to_seconds(times: Any) -> Any:
+    """Return times in s: the nearest doubles of exact times, others unchanged."""
+    return times.seconds if isinstance(times, ExactTimes) else times
+
+
 def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
     array = np.asarray(value)
     if array.dtype.kind in "iu":

@@ -11,7 +11,7 @@ from physics.exact_motions import read_motions
 from physics.tops import ARTICLE, CUSPS, DISC, SLOW, precess
 from trials import choose, seeds
 
-from symtop_ros.physics import Friction, Motion, Motions, State, Top
+from symtop_ros.physics import ExactTimes, Friction, Motion, Motions, State, Top
 from symtop_ros.physics.arguments import NO_FRICTION
 
 PROMISED = 1e-8  # docs/filters.md
@@ -143,6 +143,30 @@ def test_derivatives_after_a_million_nutations_are_exact(name):
     times = [1e3 * motion.nutation_period, 1.000000123e6 * motion.nutation_period]
     errors = find_errors(motion, motion.jacobian(times), differentiate(motion, times))
     assert errors.max() < PROMISED
+
+
+@pytest.mark.parametrize("friction", [Friction(), Friction(axial=1e-7)])
+def test_derivatives_at_exact_times_are_those_at_doubles_that_are_as_exact(friction):
+    motion = Motion(ARTICLE, CUSPS, friction)
+    stamps = np.array([0, 250_000_000, 5 * 10**8])  # whole eighths of a second
+    found = motion.jacobian(ExactTimes(stamps))
+    # The same states: the order of the sums is another, with some roundings.
+    assert found == pytest.approx(motion.jacobian(stamps * 1e-9), rel=1e-10, abs=1e-10)
+    assert motion.jacobian(ExactTimes(5 * 10**8)).shape == (6, 9)
+    many = Motions(Top(*ARTICLE.moments[:2], [0.068, 0.07]), CUSPS, friction)
+    assert many.jacobian(ExactTimes(stamps)).shape == (2, 3, 6, 9)
+
+
+def test_derivatives_at_late_exact_times_are_not_those_at_the_nearest_double():
+    # A ns more after a year, of which a double of s has 4 ns: the body has turned by 2e-7 rad.
+    motion, year = Motion(ARTICLE, CUSPS), 365 * 86_400 * 10**9
+    before, after = (motion.jacobian(ExactTimes(year + each)) for each in (0, 1))
+    turn = 1e-9 * motion.at(ExactTimes(year)).angular_velocity[2]
+    largest = np.abs(before[:2]).max()
+    expected = turn * np.stack((before[1], -before[0]))  # rows of a frame that has turned
+    change = after[:2] - before[:2]
+    assert np.abs(change - expected).max() < 0.3 * turn * largest
+    assert np.abs(expected).max() > 0.7 * turn * largest
 
 
 def test_at_the_start_they_are_the_identity():

@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+from drawn import Numbers
 from mpmath import mp, mpf
 from physics.tops import ARTICLE, EPS
 
@@ -60,6 +61,19 @@ def test_a_push_at_the_smallest_tilt_has_its_whole_size():
     start = State.from_euler(theta=1e-90, psi_dot=200.0)
     after = push_axle(ARTICLE, start, ARTICLE.Ix)
     assert np.hypot(*after.angular_velocity[:2]) == pytest.approx(1.0, rel=8 * EPS)
+
+
+@pytest.mark.parametrize("hold", ["spin_rate", "spin_momentum"])
+def test_a_new_rate_is_met_as_closely_as_omega_has_it(hold):
+    rng = Numbers(9)
+    for _ in range(200):
+        theta, theta_dot = rng.power(-9, 0), rng.choice((0.0, rng.power(-3, 3)))
+        angles = {"theta": theta, "phi": rng.uniform(-3, 3), "psi": rng.uniform(-3, 3)}
+        before = State.from_euler(**angles, theta_dot=theta_dot, psi_dot=200.0)
+        kicked = set_precession_rate(before, 1e6, hold)
+        largest = max(math.hypot(*each.angular_velocity.tolist()) for each in (before, kicked))
+        # 15 eps of the kick, and 12 of the rate that is read
+        assert abs(kicked.euler_rates.phi - 1e6) <= 27 * EPS * largest / math.sin(theta)
 
 
 def test_a_kick_at_the_smallest_tilt_needs_no_division():

@@ -110,6 +110,31 @@ def test_each_motion_has_states_at_its_own_times():
         motions.at_each([0.0, 1.0, 2.0])
 
 
+STAMPS = np.array([10**9 + 1, 3 * 10**15 + 7, 5])
+
+
+def test_each_motion_has_states_at_its_own_exact_times():
+    motions, exact = MANY[:3], ExactTimes(STAMPS, 0.5)
+    states = motions.at_each(exact)
+    for n, alone in enumerate(ALONE[:3]):
+        one = alone.at(ExactTimes(int(STAMPS[n]), 0.5))
+        assert states[n] == one
+    refusal = refused("times", "begins with that of the motions, (2,)", "shape (3,)")
+    with refusal:
+        MANY[:2].at_each(exact)
+
+
+def test_a_table_at_exact_times_has_their_states_and_the_nearest_seconds():
+    exact = ExactTimes(STAMPS, 0.5)
+    table = MANY[:2].table(exact)
+    assert table["t"].tolist() == 2 * exact.seconds.tolist()
+    for n, alone in enumerate(ALONE[:2]):
+        single = alone.at(exact).table(exact)
+        assert all(
+            np.array_equal(table[name].reshape(2, 3)[n], column) for name, column in single.items()
+        )
+
+
 def test_a_motion_of_arrays_warns_and_is_many():
     with pytest.warns(DeprecationWarning, match=r"Motion\(\.\.\.\) of arrays is Motions"):
         found = Motion(Top(1.0, 1.0, [1.0, 2.0]), CUSPS)

@@ -172,6 +172,7 @@ KICKS = [
     *((partial(f, x), "axis", TILTED, "theta = ") for f in RATE_KICKS for x in (UPRIGHT, HANGING)),
     (partial(hurry, BOTH[::-1]), "axis", TILTED, "theta = 3.14159 rad"),
     (partial(hurry, MANY.at(0.0), (1, 2, 3)), "state and kick", FIT, "(2,) and (3,)"),
+    (partial(push_axle, MANY.top, CUSPS, [1, 2, 3]), "state and kick", FIT, "(2,) and (3,)"),
     *((partial(hurry, START, hold=each), "hold", HOLD) for each in NO_HOLDS),
     *((partial(set_precession_rate, START, 9.0, each), "hold", HOLD) for each in NO_HOLDS),
     *((partial(perrys_rule, ARTICLE, START, 1.4, each), "hold", HOLD) for each in NO_HOLDS),

@@ -49,7 +49,7 @@ def facts(report):
 
 
 def test_our_errors_are_rounding_at_all_times_and_in_all_hard_cases(facts):
-    # As angles, twice the distances; promised are 10 eps.
+    # As angles, twice the distances, as promised.
     (growth,) = [each for each in facts["growth"] if each["peer"] == CLOSED_FORM]
     assert growth["times"][-1] == 1e6
     assert max(growth["errors"]) <= benchmarks.LARGEST_ERROR

@@ -1,7 +1,13 @@
 // What the page's modules say of cases, without the page: `kernel` and `phrase` are kept first.
 
-const toRecord = (value) =>
-  JSON.parse(JSON.stringify(value, (_, each) => (Object.is(each, -0) ? 0 : each)));
+/** A record as JSON has it, with null for NaN; but a zero keeps its sign. */
+const toRecord = (value) => {
+  if (typeof value === "number") return Number.isFinite(value) ? value : null;
+  if (value === null || typeof value !== "object") return value;
+  if (Array.isArray(value)) return value.map((each) => toRecord(each) ?? null);
+  const known = Object.entries(value).filter(([, each]) => each !== undefined);
+  return Object.fromEntries(known.map(([name, each]) => [name, toRecord(each)]));
+};
 
 /** Keep the kernel of these bytes, in base 64, and the texts of a language. */
 window.loadKernel = async ([module, templates]) => {
@@ -47,6 +53,16 @@ window.judgeCases = async (cases) => {
         potential: [...[0.3, 1.0, 2.5].map((tilt) => potential.at(tilt)), potential.energy],
       },
     });
+  });
+};
+
+/** What the page keeps of states that are given by their doubles. */
+window.takeStates = async (states) => {
+  const { State } = await import("/physics/state.js");
+  return states.map(([orientation, omega]) => {
+    const state = new State(kernel, orientation, omega);
+    const { angles, rates } = state;
+    return toRecord([state.given, state.orientation, state.omega, angles, rates]);
   });
 };
 

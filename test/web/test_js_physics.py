@@ -100,14 +100,43 @@ def draw_in_python(top, state):
 
 
 def to_json(value):
-    """Return a record in the form of the page's answer: lists, doubles, no NaN and one zero."""
+    """Return a record in the form of the page's answer: lists, bits of doubles, and no NaN."""
     if isinstance(value, dict):
         return {name: to_json(each) for name, each in value.items()}
     if isinstance(value, list | tuple):
         return [to_json(each) for each in value]
     if isinstance(value, bool) or not isinstance(value, int | float):
         return value
-    return None if math.isnan(value) else float(value) + 0.0
+    return float(value).hex() if math.isfinite(value) else None
+
+
+# Signs of zero, a norm that is not 1, one that is to rounding, and what is too small to be squared.
+ODD_STATES = [
+    ((-0.8, 0.6, 0.0, -0.0), (1.0, 2.0, 200.0)),
+    ((-0.8, -0.0, 0.6, 0.0), (-0.0, 0.0, -0.0)),
+    ((0.8 * 1.0005, 0.0, 0.6 * 1.0005, -0.0), (1.0, 2.0, 200.0)),
+    ((0.8, 0.6 + 2**-52, 0.0, 0.0), (1.0, 0.0, 200.0)),
+    ((-0.8, 0.6, 0.0, -1e-120), (-1e-130, 2.0, 200.0)),
+]
+
+
+def test_a_state_has_the_doubles_that_the_kernel_takes(tab):
+    for (q, omega), found in zip(ODD_STATES, tab.evaluate("takeStates", ODD_STATES), strict=True):
+        state = physics.State(q, omega)
+        angles, rates = state.euler_angles._asdict(), state.euler_rates._asdict()
+        wanted = [
+            list(q),
+            state.orientation.tolist(),
+            state.angular_velocity.tolist(),
+            angles,
+            rates,
+        ]
+        assert to_json(found) == to_json(wanted), q
+
+
+def test_a_state_without_norm_1_is_refused(tab):
+    with pytest.raises(Exception, match="orientation must be a quaternion of norm 1"):
+        tab.evaluate("takeStates", [((0.9, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))])
 
 
 @pytest.mark.parametrize("count", trials(100, 400))

@@ -206,7 +206,13 @@ typedef struct {
 SYMTOP_API symtop_status symtop_describe_many(const symtop_start* starts, size_t count,
                                               symtop_constants* constants, size_t* done);
 
-/* ---- Euler angles ---- */
+/* ---- States, and Euler angles ---- */
+
+/* States as all functions take them: orientations (count, 4) of norm 1, which those that have it to
+ * rounding already are, bit for bit; and in these and in angular velocities (count, 3) zeros, of the
+ * same sign, for numbers below 1e-100, whose squares would underflow. */
+SYMTOP_API symtop_status symtop_normalize(const double* orientation, const double* angular_velocity,
+                                          size_t count, double* normalized, double* rates);
 
 /* States of angles (count, 3) and rates (count, 3), each phi, theta, psi. Angles of any size: whole
  * turns are taken off exactly. */

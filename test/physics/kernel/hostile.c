@@ -279,6 +279,14 @@ static void try_orientations(void) {
   status = symtop_find_angle_rates(q, omega, count, room);
   CHECK(status, allow(good, count, &count));
   if (n < 2) ROOM(status, room, 3 * n);
+  good = count == n;
+  prepare();
+  q = take_orientations(n, &good), omega = take_omegas(n, &good);
+  double* unit = take_room(4 * n);
+  room = take_room(3 * n);
+  status = symtop_normalize(q, omega, count, unit, room);
+  CHECK(status, allow(good, count, &count));
+  if (n < 2) ROOM(status, unit, 4 * n), ROOM(status, room, 3 * n);
 }
 
 static void try_regular_rates(void) {

@@ -132,10 +132,13 @@ inline bool is_orientation(const double q[4]) {
 // root is less than 1 - 4 EPS by its last digits, and 1 - 8.5 EPS whose root rounds to another double.
 inline bool is_unit(double square) { return 1 - 8 * EPS <= square && square <= 1 + 9 * EPS; }
 
-// Sets to zero what is too small to be squared, and gives norm 1: the doubles of Python's State. Most
-// orientations have it already, and then keep their bits without a root and a quotient.
+// A number that is too small to be squared is zero, of its sign: angles on the vertical depend on it.
+inline double drop_tiny(double x) { return std::fabs(x) < SMALLEST ? std::copysign(0.0, x) : x; }
+
+// Drops what is tiny, and gives norm 1: the doubles of Python's State. Most orientations have it
+// already, and then keep their bits without a root and a quotient.
 inline symtop_status accept_orientation(const double given[4], double q[4]) {
-  for (int k = 0; k < 4; k++) q[k] = std::fabs(given[k]) < SMALLEST ? 0.0 : given[k];
+  for (int k = 0; k < 4; k++) q[k] = drop_tiny(given[k]);
   if (is_unit(square_norm(q))) return SYMTOP_OK;
   if (!is_orientation(q)) return SYMTOP_BAD_ORIENTATION;
   const Start unit = normalize(Start{1.0, 1.0, 0.0, q[0], q[1], q[2], q[3], 0.0, 0.0, 0.0});
@@ -146,9 +149,8 @@ inline symtop_status accept_orientation(const double given[4], double q[4]) {
 inline symtop_status accept_angular_velocity(const double given[3], double omega[3]) {
   bool are = true;
   for (int k = 0; k < 3; k++) {
-    const double size = std::fabs(given[k]);
-    are &= size <= LARGEST;
-    omega[k] = size < SMALLEST ? 0.0 : given[k];
+    are &= std::fabs(given[k]) <= LARGEST;
+    omega[k] = drop_tiny(given[k]);
   }
   return are ? SYMTOP_OK : SYMTOP_BAD_ANGULAR_VELOCITY;
 }

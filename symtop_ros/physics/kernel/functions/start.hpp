@@ -5,6 +5,22 @@
 #include "../rule/kicks.hpp"
 #include "arguments.hpp"
 
+symtop_status symtop_normalize(const double* orientation, const double* angular_velocity,
+                               size_t count, double* normalized, double* rates) {
+  using namespace symtop;
+  size_t done;
+  const Pointers arrays = {orientation, angular_velocity, normalized, rates};
+  return compute_each(count, ORIENTATION_BYTES, arrays, &done, [&](size_t i) {
+    double q[4], omega[3];
+    const symtop_status status =
+        accept_state(orientation + 4 * i, angular_velocity + 3 * i, q, omega);
+    if (status != SYMTOP_OK) return status;
+    std::memcpy(normalized + 4 * i, q, sizeof q);
+    std::memcpy(rates + 3 * i, omega, sizeof omega);
+    return status;
+  });
+}
+
 symtop_status symtop_from_angles(const double* angles, const double* rates, size_t count,
                                  double* orientation, double* angular_velocity, size_t* done) {
   using namespace symtop;

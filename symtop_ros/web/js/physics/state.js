@@ -5,27 +5,19 @@ import { room, VERTICAL } from "./kernel.js";
 /** @import { Kernel, Vector, Quaternion, Hold } from "./kernel.js" */
 /** @typedef {{phi: number, theta: number, psi: number}} Angles */
 
-const NORM_ROUNDING = 4 * 2 ** -52;
-const SMALLEST = 1e-100; // as of the kernel; what is smaller is 0
-
-/** @param {number} x */
-const flush = (x) => (Math.abs(x) < SMALLEST ? 0 : x);
-
 export class State {
   /**
    * @param {Kernel} kernel
-   * @param {ArrayLike<number>} given quaternion of norm 1 to some digits
+   * @param {ArrayLike<number>} given quaternion of norm 1 within 0.001; a motion starts from it
    * @param {ArrayLike<number>} omega
    */
   constructor(kernel, given, omega) {
     this.kernel = kernel;
-    this.given = /** @type {Quaternion} */ (Array.from(given, flush));
-    this.omega = /** @type {Vector} */ (Array.from(omega, flush));
-    const [w, x, y, z] = this.given;
-    const norm = Math.sqrt(w * w + z * z + (x * x + y * y));
-    const isUnit = Math.abs(norm - 1) <= NORM_ROUNDING;
-    /** @type {Quaternion} */
-    this.orientation = isUnit ? this.given : [w / norm, x / norm, y / norm, z / norm];
+    this.given = /** @type {Quaternion} */ (Array.from(given));
+    const taken = kernel.call("normalize", this.given, omega, 1, room(4), room(3));
+    const [orientation, rates] = taken.map((part) => [...part]);
+    this.orientation = /** @type {Quaternion} */ (orientation);
+    this.omega = /** @type {Vector} */ (rates);
     /** @type {{angles?: Angles, rates?: Angles}} */
     this.found = {};
   }
