@@ -22,10 +22,10 @@ from symtop_ros.physics.dynamics import (
     point_acceleration,
     specific_force,
 )
-from symtop_ros.physics.kernel.door import Kind, kernel_version
+from symtop_ros.physics.kernel.door import kernel_version
+from symtop_ros.physics.kernel.records import Direction, Hold, Kind
 from symtop_ros.physics.kicks import (
     HOLDS,
-    Hold,
     apply_impulse,
     hurry,
     precession_rate,
@@ -43,7 +43,7 @@ from symtop_ros.physics.precession import (
     theta_acceleration,
     theta_torque,
 )
-from symtop_ros.physics.rule.perry import Direction, KickVerdict, Lift, kick_verdict
+from symtop_ros.physics.rule.perry import KickVerdict, Lift, kick_verdict
 from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
 from symtop_ros.physics.state import Angles, State

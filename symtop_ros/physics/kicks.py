@@ -3,13 +3,14 @@
 The formulas are in the kernel (`kernel/rule/kicks.hpp`).
 """
 
-from typing import Any, Literal, get_args
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import door, records
+from symtop_ros.physics.kernel.records import Hold, KickKind
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
@@ -21,9 +22,7 @@ from symtop_ros.physics.values import (
     validate_vectors,
 )
 
-Hold = Literal["spin_rate", "spin_momentum"]
-HOLDS: tuple[Hold, ...] = get_args(Hold)  # in the order of `symtop_hold`
-NEW_RATE, FACTOR_OF_RATE, IMPULSE, AXLE_IMPULSE = 0, 2, 3, 4  # of `symtop_kick_kind`
+HOLDS: tuple[Hold, ...] = get_args(Hold)
 ANY_TOP = np.ones(3)  # a change of phi' asks for no top
 
 
@@ -60,7 +59,7 @@ def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rat
     (9.1, 200.0)
     """
     rate, hold = validate_rate("phi_dot", phi_dot), validate_hold(hold)
-    return _kick(ANY_TOP, state, NEW_RATE, hold, rate, "phi_dot")
+    return _kick(ANY_TOP, state, "rate", hold, rate, "phi_dot")
 
 
 def hurry(state: State, factor: ArrayLike = 1.4, hold: Hold = "spin_rate") -> State:
@@ -92,7 +91,7 @@ def hurry(state: State, factor: ArrayLike = 1.4, hold: Hold = "spin_rate") -> St
     [7.15, 7.8]
     """
     factor, hold = validate_numbers("factor", factor), validate_hold(hold)
-    return _kick(ANY_TOP, state, FACTOR_OF_RATE, hold, factor, "factor")
+    return _kick(ANY_TOP, state, "factor", hold, factor, "factor")
 
 
 def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
@@ -123,7 +122,7 @@ def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
     [1.0, 0.0, 200.0]
     """
     J = validate_vectors("impulse", impulse, "N m s, world frame")
-    return _kick(_stack_moments(top), state, IMPULSE, "spin_rate", J, "impulse")
+    return _kick(_stack_moments(top), state, "impulse", "spin_rate", J, "impulse")
 
 
 def push_axle(top: Top, state: State, impulse: ArrayLike) -> State:
@@ -160,34 +159,35 @@ def push_axle(top: Top, state: State, impulse: ArrayLike) -> State:
     np.True_
     """
     amount = validate_numbers("impulse", impulse, "N m s")
-    return _kick(_stack_moments(top), state, AXLE_IMPULSE, "spin_momentum", amount, "impulse")
+    return _kick(_stack_moments(top), state, "axle", "spin_momentum", amount, "impulse")
 
 
 def _stack_moments(top: Top) -> Real:
     return np.stack([np.asarray(each) for each in top.moments], axis=-1)
 
 
-def _kick(tops: Real, state: State, kind: int, hold: Hold, amounts: Any, name: str) -> State:
+def _kick(tops: Real, state: State, kind: KickKind, hold: Hold, amounts: Any, name: str) -> State:
     """Return states after kicks of one kind; tops, states and amounts are broadcast together.
 
     A kick leaves the attitude as it is, with the digits that were given.
     """
     given = np.asarray(amounts, np.float64)
-    axes = given.ndim - (kind == IMPULSE)
+    axes = given.ndim - (kind == "impulse")
     parts: tuple[Real, ...] = (tops, *state.parts, given)
     if axes or tops.ndim > 1 or state.orientation.ndim > 1:
         parts = _spread(parts, axes)
     rows, orientation, omega, given = parts
-    kicked, done, status = door.kick(rows, orientation, omega, kind, HOLDS.index(hold), given)
-    if status == door.OK:
+    how = records.KICK_KINDS.index(kind), records.HOLDS.index(hold)
+    kicked, done, status = door.kick(rows, orientation, omega, *how, given)
+    if status == records.OK:
         attitude = state.given_orientation
         if attitude.shape != orientation.shape:
             attitude = np.broadcast_to(attitude, orientation.shape)
         return State.wrap(orientation, kicked, attitude)
     flat = [part.reshape(-1, width) for part, width in zip(parts[1:3], (4, 3), strict=True)]
-    if status == door.VERTICAL:
+    if status == records.VERTICAL:
         raise _refuse_vertical(State.wrap(*(part[done].copy() for part in flat)))
-    if status == door.BAD_KICK:
+    if status == records.BAD_KICK:
         raise refuse(
             name,
             f"so small that rates stay within {LARGEST_ANGULAR_VELOCITY:g} rad/s",

@@ -23,6 +23,7 @@ from symtop_ros.physics.arguments import (
 )
 from symtop_ros.physics.jacobian import differentiate
 from symtop_ros.physics.kernel import door, states
+from symtop_ros.physics.kernel.records import Engine, Kind, RatesRecord
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -194,7 +195,7 @@ class Motion:
         return np.asarray(state.to_world(self.friction.torque(state)) + self.applied_torque)
 
     @property
-    def engine(self) -> door.Engine:
+    def engine(self) -> Engine:
         """Method of solution.
 
         Elliptic functions; circular functions if Mgl is 0 or if the axis rests on the vertical;
@@ -359,7 +360,7 @@ class Motion:
         return differentiate(self, times.ravel()).reshape(*times.shape, 6, 9)
 
     @property
-    def kind(self) -> door.Kind:
+    def kind(self) -> Kind:
         """Name of the motion, by phi' at the two turning angles.
 
         "regular" (the angles are equal), "unidirectional" (phi' has one sign), "cusps" (phi' is
@@ -371,7 +372,7 @@ class Motion:
         return self._kernel.kind
 
     @cached_property
-    def _rates(self) -> door.RatesRecord:
+    def _rates(self) -> RatesRecord:
         return self._kernel.rates
 
     @property

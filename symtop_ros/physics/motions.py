@@ -24,6 +24,7 @@ from symtop_ros.physics.arguments import (
     wrap_states,
 )
 from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel.records import ENGINES, KINDS
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes, to_seconds
@@ -302,7 +303,7 @@ class Motions:
     @property
     def engine(self) -> NDArray[np.str_]:
         """Methods of solution, as in `Motion.engine`."""
-        return np.take(door.ENGINES, self._constants["engine"]).reshape(self.shape)
+        return np.take(ENGINES, self._constants["engine"]).reshape(self.shape)
 
     @cached_property
     def _constants(self) -> NDArray[Any]:
@@ -315,7 +316,7 @@ class Motions:
     @property
     def kind(self) -> NDArray[np.str_]:
         """Names of the motions, as in `Motion.kind`."""
-        return np.take(door.KINDS, self._constants["kind"]).reshape(self.shape)
+        return np.take(KINDS, self._constants["kind"]).reshape(self.shape)
 
     @property
     def nutation_period(self) -> Real:

@@ -8,18 +8,37 @@ that threads may use one motion together. The library is loaded when it is first
 import ctypes
 import hashlib
 import sys
-from collections.abc import Callable
-from ctypes import POINTER, Structure, byref, c_double, c_int, c_size_t, c_uint, c_uint8
+from collections.abc import Callable, Iterable
+from ctypes import byref, c_double, c_size_t, c_uint8
 from functools import cache, wraps
 from pathlib import Path
 from struct import Struct
 from types import SimpleNamespace
-from typing import Any, ClassVar, Literal, ParamSpec, TypeVar, get_args
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics.kernel.records import (
+    BAD_ANGULAR_VELOCITY,
+    BAD_ARITHMETIC,
+    ENGINES,
+    FUNCTIONS,
+    KINDS,
+    NO_MEMORY,
+    OK,
+    RECORDS,
+    TOO_FAR,
+    ClockRecord,
+    ConstantsRecord,
+    Engine,
+    Kind,
+    RatesRecord,
+    StartRecord,
+    TopRecord,
+    VerdictRecord,
+)
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY, refuse
 
@@ -31,168 +50,23 @@ FILE = FOLDER / f"libsymtop{ {'win32': '.dll', 'darwin': '.dylib'}.get(sys.platf
 SOURCES = (".cpp", ".hpp", ".h")
 AGAIN = "install symtop_ros again, from a checkout by `pip install --editable .`"
 
-# Names in the order in which symtop.h has them.
-Kind = Literal[
-    "regular",
-    "unidirectional",
-    "cusps",
-    "looping",
-    "through the pole",
-    "asymptotic",
-    "sleeping",
-    "driven",
-]
-Engine = Literal["closed form", "free", "taylor"]
-KINDS: tuple[Kind, ...] = get_args(Kind)
-ENGINES: tuple[Engine, ...] = get_args(Engine)
-# Statuses of `symtop_status`.
-OK, NO_MEMORY, BAD_ANGULAR_VELOCITY, TOO_FAR, TOO_FAST, MORE_STEPS = 0, 1, 4, 8, 9, 11
-TOO_STIFF, BAD_ARITHMETIC, BAD_KICK, VERTICAL, TOO_LONG = 10, 12, 14, 15, 16
-START, STATE = 15, 7  # numbers of `symtop_start`, of an orientation and an angular velocity
-BEFORE_STATE, AFTER_STATE = 8 * 3, 8 * (3 + STATE)  # offsets in `symtop_start`
+STATE = 7  # numbers of an orientation and an angular velocity
+BEFORE_STATE = StartRecord.orientation.offset
+AFTER_STATE = StartRecord.friction.offset
+START = ctypes.sizeof(StartRecord) // 8  # numbers of `symtop_start`
 
 BLOCK = 256  # elements of a call that takes up to 0.1 ms for each
 
 INT64 = np.dtype(np.int64).char  # "l", or "q" where a long has 32 bits (Windows)
-Numbers = POINTER(c_double)
 State, Pair, Quaternion, Rates = (c_double * count for count in (STATE, 2, 4, 3))
-
-
-class ClockRecord(Structure):
-    """`symtop_clock`."""
-
-    _fields_: ClassVar = [("factor", c_double), ("elapsed", c_double * 4)]
-
-
-class RatesRecord(Structure):
-    """`symtop_rates`: what is the same in every nutation."""
-
-    _fields_: ClassVar = [
-        ("nutation_period", c_double),
-        ("mean_precession_rate", c_double),
-        ("mean_spin_rate", c_double),
-        ("precession_per_nutation", c_double),
-        ("spin_reverses", c_int),
-    ]
-
-
-class PlaceRecord(Structure):
-    """`symtop_place`."""
-
-    _fields_: ClassVar = [("kind", c_int), ("rate", c_double), ("regular_rates", Pair)]
-
-
-class ReasonRecord(Structure):
-    """`symtop_reason`."""
-
-    _fields_: ClassVar = [
-        ("kind", c_int),
-        ("rule", c_int),
-        ("before", c_double),
-        ("after", c_double),
-        ("theta_ddot_without", c_double),
-        ("theta_ddot", c_double),
-        ("place", PlaceRecord),
-    ]
-
-
-class AverageRecord(Structure):
-    """`symtop_average`."""
-
-    _fields_: ClassVar = [
-        ("rate", c_double),
-        ("turns", c_double),
-        ("fast_top_rate", c_double),
-        ("is_fast", c_int),
-        ("spin_reverses", c_int),
-    ]
-
-
-class LiftRecord(Structure):
-    """`symtop_lift`."""
-
-    _fields_: ClassVar = [("kind", c_int), ("amount", c_double)]
-
-
-class VerdictRecord(Structure):
-    """`symtop_verdict`."""
-
-    _fields_: ClassVar = [
-        ("subject", c_int),
-        ("direction", c_int),
-        ("turning_angles", Pair),
-        ("motion", c_int),
-        ("reason", ReasonRecord),
-        ("average", AverageRecord),
-        ("factor", c_double),
-        ("highest", LiftRecord),
-        ("lowest", LiftRecord),
-        ("contrary_facts", c_uint),
-    ]
-
-
 _unpack_start, _unpack_state = Struct(f"{START}d").unpack, Struct(f"{STATE}d").unpack
-
-
-class ConstantsRecord(Structure):
-    """`symtop_constants`."""
-
-    _fields_: ClassVar = [
-        ("kind", c_int),
-        ("engine", c_int),
-        ("turning_angles", Pair),
-        ("rates", RatesRecord),
-    ]
-
-
 CONSTANTS, VERDICTS = np.dtype(ConstantsRecord), np.dtype(VerdictRecord)  # of arrays
-# In the order of the header: start, clock, rates, constants, top, place, ...
-SIZES = (
-    *(8 * START, ctypes.sizeof(ClockRecord), ctypes.sizeof(RatesRecord), CONSTANTS.itemsize, 8 * 3),
-    *(ctypes.sizeof(each) for each in (PlaceRecord, ReasonRecord, AverageRecord, LiftRecord)),
-    VERDICTS.itemsize,
-)
-
-_HANDLE, _BYTES, _SIZE = ctypes.c_void_p, ctypes.c_char_p, c_size_t
-_DONE, _VERDICT = POINTER(c_size_t), POINTER(VerdictRecord)
-# Arguments of each function, without `symtop_`. Those that begin with "*" release Python's lock.
-_FUNCTIONS: dict[str, tuple[Any, ...]] = {
-    "new": (_BYTES, POINTER(_HANDLE)),
-    "make": (_BYTES,),
-    "free": (_HANDLE,),
-    "describe_status": (c_int,),
-    "version": (),
-    "check_arithmetic": (),
-    "read": (_HANDLE, POINTER(State)),
-    "find_kind": (_HANDLE,),
-    "find_engine": (_HANDLE,),
-    "find_turning_angles": (_HANDLE, POINTER(Pair)),
-    "find_rates": (_HANDLE, POINTER(RatesRecord)),
-    "find_farthest_time": (_HANDLE, POINTER(c_double)),
-    "*states": (_HANDLE, _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
-    "*states_of_clock": (
-        *(_HANDLE, POINTER(ClockRecord), _BYTES, _SIZE, c_double, Numbers, Numbers, _DONE),
-    ),
-    "*reach": (_HANDLE, c_double, c_double, Numbers),
-    "*states_of_many": (_BYTES, _SIZE, _BYTES, _SIZE, Numbers, Numbers, POINTER(c_uint8)),
-    "*describe_many": (_BYTES, _SIZE, POINTER(c_uint8), _DONE),
-    "*from_angles": (_BYTES, _BYTES, _SIZE, Numbers, Numbers, _DONE),
-    "*find_angles": (_BYTES, _SIZE, Numbers),
-    "*find_angle_rates": (_BYTES, _BYTES, _SIZE, Numbers),
-    "find_disc_top": (_BYTES, c_double, Numbers),
-    "find_disc": (_BYTES, c_double, Numbers),
-    "*find_regular_rates": (_BYTES, _BYTES, _BYTES, _SIZE, c_int, Numbers),
-    "*find_tilt_torques": (_BYTES, _BYTES, _BYTES, _BYTES, _SIZE, Numbers),
-    "*find_tilt_accelerations": (_BYTES, c_int, _BYTES, _SIZE, Numbers),
-    "*kick": (_BYTES, _BYTES, _BYTES, c_int, c_int, _BYTES, _SIZE, Numbers, _DONE),
-    "*judge": (_BYTES, _BYTES, _SIZE, c_int, _VERDICT, _DONE),
-    "*judge_kick": (_BYTES, _BYTES, c_int, _VERDICT),
-    "*compare_hurried": (
-        *(_BYTES, _BYTES, _BYTES, _BYTES, _SIZE, c_double, c_int, Numbers, POINTER(c_uint8)),
-    ),
+# These may take long, and release Python's lock.
+LONG = {
+    *("states", "states_of_clock", "reach", "states_of_many", "describe_many", "from_angles"),
+    *("find_angles", "find_angle_rates", "find_regular_rates", "find_tilt_torques"),
+    *("find_tilt_accelerations", "kick", "judge", "judge_kick", "compare_hurried"),
 }
-# of those that return no status
-_RESULTS = {"make": _HANDLE, "free": None, "describe_status": _BYTES, "version": _BYTES}
 
 
 def _load() -> ctypes.CDLL:
@@ -201,21 +75,30 @@ def _load() -> ctypes.CDLL:
     Raises
     ------
     ImportError
-        If it is missing, or was built from other sources.
+        If it is missing, was built from other sources, or has a record of another size.
     """
     digest = f"symtop {digest_sources()}".encode()
     try:
         library = ctypes.CDLL(str(FILE))
-        built_of = (ctypes.c_char * len(digest)).in_dll(library, "symtop_digest").value
-        sizes = (ctypes.c_uint32 * len(SIZES)).in_dll(library, "symtop_sizes")
-        is_own = (built_of, tuple(sizes)) == (digest, SIZES)
+        is_own = (ctypes.c_char * len(digest)).in_dll(library, "symtop_digest").value == digest
     except OSError:
         raise ImportError(f"the compiled kernel {FILE.name} cannot be loaded: {AGAIN}") from None
-    except ValueError:  # it has no such variables
+    except ValueError:  # it has no such variable
         is_own = False
     if not is_own:
         raise ImportError(f"the compiled kernel is of another version: {AGAIN}")
+    _demand_sizes((ctypes.c_uint32 * len(RECORDS)).in_dll(library, "symtop_sizes"))
     return library
+
+
+def _demand_sizes(sizes: Iterable[int]) -> None:
+    """Refuse a library whose records are not laid out as those of ctypes."""
+    for record, size in zip(RECORDS, sizes, strict=True):
+        if ctypes.sizeof(record) != size:
+            raise ImportError(
+                f"{record.__name__} must have the {size} bytes of the compiled kernel, got "
+                f"{ctypes.sizeof(record)}: run `python -m workshop.twins` if symtop.h has changed"
+            )
 
 
 def digest_sources() -> str:
@@ -231,11 +114,10 @@ def open_door() -> SimpleNamespace:
     """Return the functions of the library, which is loaded at the first call, by their names."""
     # Calls of the first release the interpreter's lock.
     released, locked, door = _load(), ctypes.PyDLL(str(FILE)), SimpleNamespace()
-    for starred, arguments in _FUNCTIONS.items():
-        name = starred.lstrip("*")
+    for name, (result, arguments) in FUNCTIONS.items():
         # By index: a function object that belongs to this door alone.
-        function = (locked if name == starred else released)[f"symtop_{name}"]
-        function.argtypes, function.restype = arguments, _RESULTS.get(name, c_int)
+        function = (released if name in LONG else locked)[f"symtop_{name}"]
+        function.argtypes, function.restype = arguments, result
         setattr(door, name, function)
     return door
 
@@ -327,7 +209,7 @@ class KernelMotion:
     def at(self, t: float | ExactTimes) -> tuple[float, ...] | None:
         """Return quaternion and angular velocity at one time, in s or exact; None if too far."""
         if isinstance(t, ExactTimes):
-            q, omega, clock = Quaternion(), Rates(), ClockRecord(*t.clock)
+            q, omega, clock = Quaternion(), Rates(), bytes(ClockRecord(*t.clock))
             stamp = int(t.nanoseconds).to_bytes(8, sys.byteorder, signed=True)
             given = clock, stamp, 1, 0.0
             status = self._door.states_of_clock(self._handle, *given, q, omega, c_size_t())
@@ -348,7 +230,7 @@ class KernelMotion:
         rest = count, steps, write_to(orientation, 4 * count), write_to(omega, 3 * count), done
         if isinstance(times, ExactTimes):
             stamps = read_from(np.asarray(times.nanoseconds), INT64)
-            clock = ClockRecord(*times.clock)
+            clock = bytes(ClockRecord(*times.clock))
             status = self._door.states_of_clock(self._handle, clock, stamps, *rest)
         else:
             status = self._door.states(self._handle, read_from(times), *rest)
@@ -414,7 +296,7 @@ def fill_many(starts: Real, times: Real, orientation: Real, omega: Real, left: A
 def describe_many(starts: Real) -> NDArray[Any]:
     """Return the constants of motions (n, 15), as records (n,) of `CONSTANTS`."""
     found, given = np.empty(len(starts), CONSTANTS), (read_from(starts), len(starts))
-    demand(open_door().describe_many(*given, _lend(found, c_uint8), c_size_t()))
+    demand(open_door().describe_many(*given, _lend(found, ConstantsRecord), c_size_t()))
     return found
 
 
@@ -467,9 +349,9 @@ def find_regular_rates(tops: Real, thetas: Real, spins: Real, hold: int) -> Real
 
 def find_disc_top(mass: float, radius: float, distance: float, gravity: float) -> Real:
     """Return Ix, Iz and Mgl of a flat disc on an axle."""
-    found, disc = np.empty(3), np.array([mass, radius, distance])
-    demand(open_door().find_disc_top(read_from(disc), gravity, write_to(found, 3)))
-    return found
+    found, disc = TopRecord(), np.array([mass, radius, distance])
+    demand(open_door().find_disc_top(read_from(disc), gravity, found))
+    return np.array([found.Ix, found.Iz, found.Mgl])
 
 
 def kick(

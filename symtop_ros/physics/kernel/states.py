@@ -3,16 +3,14 @@
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics.kernel.door import (
+from symtop_ros.physics.kernel.door import KernelMotion, demand, refuse_status
+from symtop_ros.physics.kernel.records import (
     MORE_STEPS,
     OK,
     TOO_FAR,
     TOO_FAST,
     TOO_LONG,
     TOO_STIFF,
-    KernelMotion,
-    demand,
-    refuse_status,
 )
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
 from symtop_ros.physics.values import refuse

@@ -144,7 +144,7 @@ typedef enum {
   SYMTOP_UNIDIRECTIONAL,   /* phi' has one sign */
   SYMTOP_CUSPS,            /* phi' is zero at one turning angle */
   SYMTOP_LOOPING,          /* phi' has opposite signs at the two turning angles */
-  SYMTOP_THROUGH_THE_POLE, /* the axis passes through the vertical */
+  SYMTOP_THROUGH_THE_POLE, /* "through the pole": the axis passes through the vertical */
   SYMTOP_ASYMPTOTIC,       /* the axis approaches the vertical for ever */
   SYMTOP_SLEEPING,         /* the axis rests on the vertical */
   SYMTOP_DRIVEN,           /* friction or a torque acts */
@@ -177,7 +177,7 @@ SYMTOP_API symtop_status symtop_find_farthest_time(symtop_motion* motion, double
 SYMTOP_API symtop_status symtop_find_nutation_rate(symtop_motion* motion, double rate[2]);
 
 typedef enum {
-  SYMTOP_CLOSED_FORM, /* elliptic functions */
+  SYMTOP_CLOSED_FORM, /* "closed form": elliptic functions */
   SYMTOP_FREE,        /* circular functions: Mgl is 0, or the axis rests on the vertical */
   SYMTOP_TAYLOR,      /* series in time: friction or a torque acts */
   SYMTOP_UNKNOWN_ENGINE /* the motion is null */
@@ -247,7 +247,7 @@ SYMTOP_API symtop_status symtop_find_disc(const symtop_top* top, double gravity,
 typedef enum {
   SYMTOP_SPIN_RATE,     /* psi': the article's comparison */
   SYMTOP_SPIN_MOMENTUM, /* Iz omega_z: a push on the axle, which cannot change it */
-  SYMTOP_NOTHING        /* by an impulse: for symtop_kick and symtop_judge_kick alone */
+  SYMTOP_NOTHING        /* "": by an impulse: for symtop_kick and symtop_judge_kick alone */
 } symtop_hold;
 
 /* Rates phi' at which the tilt is constant, (count, 2): slow and fast, NaN for what there is not.
@@ -271,12 +271,12 @@ SYMTOP_API symtop_status symtop_find_tilt_accelerations(const symtop_start* star
 /* ---- Kicks ---- */
 
 typedef enum {
-  SYMTOP_NEW_RATE,       /* amount: the new phi' in rad/s */
-  SYMTOP_CHANGE_OF_RATE, /* amount: what is added to phi' */
-  SYMTOP_FACTOR_OF_RATE, /* amount: what phi' is multiplied by */
+  SYMTOP_NEW_RATE,       /* "rate": amount: the new phi' in rad/s */
+  SYMTOP_CHANGE_OF_RATE, /* "change": amount: what is added to phi' */
+  SYMTOP_FACTOR_OF_RATE, /* "factor": amount: what phi' is multiplied by */
   SYMTOP_IMPULSE,        /* amount: an angular impulse (count, 3) in the world frame, N m s */
-  SYMTOP_AXLE_IMPULSE    /* amount: the angular impulse, N m s, of a horizontal push on the axle in the
-                            direction in which phi grows; theta' and Iz omega_z are held */
+  SYMTOP_AXLE_IMPULSE    /* "axle": amount: the angular impulse, N m s, of a horizontal push on the axle
+                            in the direction in which phi grows; theta' and Iz omega_z are held */
 } symtop_kick_kind;
 
 /* Angular velocities (count, 3) after kicks of one kind at fixed orientations (count, 4). An impulse
@@ -290,18 +290,22 @@ SYMTOP_API symtop_status symtop_kick(const symtop_top* tops, const double* orien
 
 typedef enum { SYMTOP_TOP, SYMTOP_AXIS } symtop_subject; /* the axis alone if Mgl < 0 */
 typedef enum { SYMTOP_RISES, SYMTOP_FALLS, SYMTOP_STAYS } symtop_direction;
-typedef enum { SYMTOP_RULE_SAYS_NOTHING, SYMTOP_RULE_HOLDS, SYMTOP_RULE_FAILS } symtop_rule;
+typedef enum {
+  SYMTOP_RULE_SAYS_NOTHING, /* "" */
+  SYMTOP_RULE_HOLDS,
+  SYMTOP_RULE_FAILS
+} symtop_rule;
 
 /* Place of a rate among the regular ones. */
 typedef enum {
-  SYMTOP_NO_REGULAR_RATE,
-  SYMTOP_AT_THE_ONLY_RATE,
-  SYMTOP_ABOVE_THE_ONLY_RATE,
-  SYMTOP_BELOW_THE_ONLY_RATE,
-  SYMTOP_AT_THE_SLOW_RATE,
-  SYMTOP_AT_THE_FAST_RATE,
-  SYMTOP_BETWEEN_THE_RATES,
-  SYMTOP_OUTSIDE_THE_RATES
+  SYMTOP_NO_REGULAR_RATE,     /* "none" */
+  SYMTOP_AT_THE_ONLY_RATE,    /* "only" */
+  SYMTOP_ABOVE_THE_ONLY_RATE, /* "above" */
+  SYMTOP_BELOW_THE_ONLY_RATE, /* "below" */
+  SYMTOP_AT_THE_SLOW_RATE,    /* "slow" */
+  SYMTOP_AT_THE_FAST_RATE,    /* "fast" */
+  SYMTOP_BETWEEN_THE_RATES,   /* "between" */
+  SYMTOP_OUTSIDE_THE_RATES    /* "outside" */
 } symtop_place_kind;
 
 typedef struct {
@@ -320,9 +324,9 @@ typedef enum {
   SYMTOP_UNCHANGED,       /* the factor is 1 */
   SYMTOP_REVERSED,        /* the factor is negative */
   SYMTOP_NO_EFFECT,       /* theta'' is the same with the kick as without it */
-  SYMTOP_VERTICAL_UNDEFINED, /* the axis passes the vertical */
-  SYMTOP_VERTICAL_STABLE,    /* it rests there, and stays near it */
-  SYMTOP_VERTICAL_UNSTABLE
+  SYMTOP_VERTICAL_UNDEFINED, /* "undefined": the axis passes the vertical */
+  SYMTOP_VERTICAL_STABLE,    /* "stable": it rests there, and stays near it */
+  SYMTOP_VERTICAL_UNSTABLE   /* "unstable" */
 } symtop_reason_kind;
 
 /* Why Perry's rule holds, fails or says nothing. On the vertical the numbers are NaN. */
@@ -342,7 +346,11 @@ typedef struct {
   int spin_reverses;
 } symtop_average;
 
-typedef enum { SYMTOP_AS_HIGH, SYMTOP_HIGHER, SYMTOP_LOWER } symtop_lift_kind;
+typedef enum {
+  SYMTOP_AS_HIGH, /* "unchanged" */
+  SYMTOP_HIGHER,
+  SYMTOP_LOWER
+} symtop_lift_kind;
 
 typedef struct {
   symtop_lift_kind kind;

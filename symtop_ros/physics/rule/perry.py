@@ -28,40 +28,38 @@ fails, and the reverse. The answer to a kick says so. The formulas are in the ke
 
 import math
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal
 
 from symtop_ros.physics.kernel import door
-from symtop_ros.physics.kicks import HOLDS, Hold, validate_hold
+from symtop_ros.physics.kernel.records import (
+    DIRECTIONS,
+    FACTS,
+    HOLDS,
+    KINDS,
+    LIFT_KINDS,
+    PLACE_KINDS,
+    REASON_KINDS,
+    RULES,
+    SUBJECTS,
+    AverageRecord,
+    Direction,
+    Fact,
+    Hold,
+    Kind,
+    LiftKind,
+    PlaceKind,
+    ReasonKind,
+    Rule,
+    Subject,
+    VerdictRecord,
+)
+from symtop_ros.physics.kicks import validate_hold
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import validate_one
 from symtop_ros.wording import write
 
-# Names in the order in which symtop.h has them.
-Direction = Literal["rises", "falls", "stays"]
-Rule = Literal["holds", "fails"]
-# What the words mean: the top, or for Mgl < 0 the axis, apart from the centre of mass.
-Subject = Literal["top", "axis"]
-PlaceKind = Literal["none", "only", "above", "below", "slow", "fast", "between", "outside"]
-RateChange = Literal["hurried", "delayed", "if_hurried", "if_delayed"]
-# Reasons why the rule says nothing about a change of phi', and about an axis on the vertical.
-Silence = Literal["angular_impulse", "no_precession", "unchanged", "reversed", "no_effect"]
-VerticalCase = Literal["undefined", "stable", "unstable"]
-ReasonKind = RateChange | Silence | VerticalCase
-LiftKind = Literal["unchanged", "higher", "lower"]
-Fact = Literal["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"]
-DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
-SUBJECTS: tuple[Subject, ...] = get_args(Subject)
-RULES: tuple[Rule | None, ...] = (None, *get_args(Rule))
-PLACES: tuple[PlaceKind, ...] = get_args(PlaceKind)
-REASONS: tuple[ReasonKind, ...] = (
-    *get_args(RateChange),
-    *get_args(Silence),
-    *get_args(VerticalCase),
-)
-LIFTS: tuple[LiftKind, ...] = get_args(LiftKind)
-FACTS: tuple[Fact, ...] = get_args(Fact)  # the bits of `symtop_fact`
-VERTICAL = len(REASONS) - len(get_args(VerticalCase))  # from here on the axis is on the vertical
+VERTICAL = REASON_KINDS.index("undefined")  # from here on the axis is on the vertical
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,7 +198,7 @@ class KickVerdict:
     factor: float | None
     before: float | None
     after: float | None
-    motion: door.Kind
+    motion: Kind
     subject: Subject
     direction: Direction
     turning_angles: tuple[float, float]
@@ -250,7 +248,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
     per nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
     """
     validate_one(motion, "motion")
-    held = len(HOLDS) if hold is None else HOLDS.index(validate_hold(hold))
+    held = HOLDS.index(hold if hold is None else validate_hold(hold))
     found = door.judge_kick(motion.pack_with("before", before), motion.packed_start, held)
     reason, (low, high) = read_reason(found, hold), found.turning_angles
     return KickVerdict(
@@ -259,27 +257,27 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
         factor=None if math.isnan(found.factor) else found.factor,
         before=reason.before,
         after=reason.after,
-        motion=door.KINDS[found.motion],
+        motion=KINDS[found.motion],
         subject=SUBJECTS[found.subject],
         direction=DIRECTIONS[found.direction],
         turning_angles=(low, high),
         driven=motion.is_driven,
         reason=reason,
-        highest=Lift(LIFTS[found.highest.kind], found.highest.amount),
-        lowest=Lift(LIFTS[found.lowest.kind], found.lowest.amount),
+        highest=Lift(LIFT_KINDS[found.highest.kind], found.highest.amount),
+        lowest=Lift(LIFT_KINDS[found.lowest.kind], found.lowest.amount),
         contradiction=_read_contradiction(found.contrary_facts, reason),
         average=read_average(found.average),
     )
 
 
-def read_reason(verdict: door.VerdictRecord, hold: Hold | None) -> Reason:
+def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
     """Return the reason from the kernel's record of a verdict.
 
     `hold` is None for an angular impulse: a push along the precession holds the spin momentum, and
     after any other the kernel finds the rates at the spin rate that it left.
     """
     found = verdict.reason
-    kind, rule, subject = REASONS[found.kind], RULES[found.rule], SUBJECTS[verdict.subject]
+    kind, rule, subject = REASON_KINDS[found.kind], RULES[found.rule], SUBJECTS[verdict.subject]
     if found.kind >= VERTICAL:
         return Reason(kind, rule, subject)
     rates = tuple(rate for rate in found.place.regular_rates if not math.isnan(rate))
@@ -292,11 +290,11 @@ def read_reason(verdict: door.VerdictRecord, hold: Hold | None) -> Reason:
         found.after,
         found.theta_ddot_without,
         found.theta_ddot,
-        Place(PLACES[found.place.kind], found.place.rate, rates, held),
+        Place(PLACE_KINDS[found.place.kind], found.place.rate, rates, held),
     )
 
 
-def read_average(found: door.AverageRecord) -> Average | None:
+def read_average(found: AverageRecord) -> Average | None:
     """Return mean precession and its approximation; None if the mean is undefined."""
     if not math.isfinite(found.turns):
         return None

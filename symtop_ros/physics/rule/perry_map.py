@@ -7,9 +7,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.arrays import Real
 from symtop_ros.physics.kernel import door
-from symtop_ros.physics.kicks import HOLDS, Hold, validate_hold
+from symtop_ros.physics.kernel.records import RULES, Hold
+from symtop_ros.physics.kicks import HOLDS, validate_hold
 from symtop_ros.physics.precession import spread_tops
-from symtop_ros.physics.rule.perry import RULES
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import validate_array, validate_number, validate_rate
 

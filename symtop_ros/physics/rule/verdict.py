@@ -9,19 +9,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.arrays import Real, split
 from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, list_starts
-from symtop_ros.physics.kernel import door
-from symtop_ros.physics.kicks import HOLDS, Hold, validate_hold
-from symtop_ros.physics.rule.perry import (
+from symtop_ros.physics.kernel import door, records
+from symtop_ros.physics.kernel.records import (
     DIRECTIONS,
     SUBJECTS,
-    VERTICAL,
-    Average,
     Direction,
-    Reason,
+    Hold,
     Subject,
-    read_average,
-    read_reason,
+    VerdictRecord,
 )
+from symtop_ros.physics.kicks import HOLDS, validate_hold
+from symtop_ros.physics.rule.perry import VERTICAL, Average, Reason, read_average, read_reason
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
@@ -172,7 +170,7 @@ def perrys_rule(
         return _judge_each(top, state, validate_array("factor", factor), hold)
     factor = validate_number("factor", factor)
     found: Any = _judge(top, state, np.array([factor]), (), hold)
-    return _read(door.VerdictRecord.from_buffer(found), hold)
+    return _read(VerdictRecord.from_buffer(found), hold)
 
 
 def _judge(
@@ -181,7 +179,7 @@ def _judge(
     """Return the kernel's verdicts (n,) on tops and states of a shape, and on factors (n,)."""
     starts = list_starts(top, state, NO_FRICTION, NO_TORQUE, shape)
     verdicts, status = door.judge(starts, factors, HOLDS.index(hold))
-    if status == door.BAD_KICK:
+    if status == records.BAD_KICK:
         raise refuse(
             "factor",
             f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s",
@@ -191,7 +189,7 @@ def _judge(
     return verdicts
 
 
-def _read(found: door.VerdictRecord, hold: Hold) -> Verdict:
+def _read(found: VerdictRecord, hold: Hold) -> Verdict:
     reason = read_reason(found, hold)
     low, high = found.turning_angles
     return Verdict(

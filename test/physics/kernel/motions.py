@@ -8,10 +8,7 @@ import numpy as np
 from physics.exact_motions import read_motions
 
 from symtop_ros.physics import ExactTimes, Motion
-from symtop_ros.physics.kernel import door
-from symtop_ros.physics.kernel.door import KINDS
-from symtop_ros.physics.kicks import FACTOR_OF_RATE
-from symtop_ros.physics.rule import perry
+from symtop_ros.physics.kernel import door, records
 
 MOTIONS = read_motions()
 # But for weights of 1e-100 J, of which short times are refused.
@@ -28,8 +25,17 @@ ELAPSED = Fraction(2**60 + 1, 2**30)  # ns
 LONGEST = 5.0  # s of a driven motion
 FACTOR = np.array([1.4])
 # Names of enums that programs are told.
-ENUMS = "subjects", "directions", "rules", "places", "reasons", "lifts", "facts"
-NAMES = {"kinds": KINDS, **{name: getattr(perry, name.upper()) for name in ENUMS}}
+NAMES = {
+    "kinds": records.KINDS,
+    "subjects": records.SUBJECTS,
+    "directions": records.DIRECTIONS,
+    "rules": records.RULES,
+    "places": records.PLACE_KINDS,
+    "reasons": records.REASON_KINDS,
+    "lifts": records.LIFT_KINDS,
+    "facts": records.FACTS,
+}
+FACTOR_OF_RATE = records.KICK_KINDS.index("factor")
 
 
 class Sample:
@@ -61,7 +67,7 @@ class Sample:
     def expect(self):
         """Return what the program writes, as doubles."""
         motion, rates = self.motion, self.motion._rates
-        kind = KINDS.index(motion.kind)
+        kind = records.KINDS.index(motion.kind)
         constants = [kind, *motion.turning_angles, *(getattr(rates, n) for n, _ in rates._fields_)]
         verdicts = list_verdicts(motion)
         one_by_one = [motion.at(float(t)) for t in self.times]
@@ -84,7 +90,7 @@ def list_verdicts(motion):
         one = top[None], angles[1:2], rates[2:3]
         yield door.find_regular_rates(*one, hold)[0]
         kicked, _, status = door.kick(top, q, omega, FACTOR_OF_RATE, hold, FACTOR)
-        if status == door.VERTICAL:
+        if status == records.VERTICAL:
             continue
         yield kicked
         (verdict,), _ = door.judge(start[None], FACTOR, hold)

@@ -12,6 +12,7 @@ from physics.tops import ARTICLE, EPS
 
 from symtop_ros.physics import Motion, State, hurry, set_precession_rate
 from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel.records import TopRecord
 
 DOOR = door.open_door()
 SPIN_RATE, SPIN_MOMENTUM, NOTHING = range(3)
@@ -155,11 +156,11 @@ def test_rates_and_amounts_that_are_not_finite_are_refused():
 
 
 def test_a_disc_has_a_mass_and_a_radius():
-    found = (c_double * 3)()
+    found = TopRecord()
     for disc in ((0.0, 0.1, 0.1), (1.0, -0.1, 0.1), (1.0, 0.1, NAN)):
         assert DOOR.find_disc_top(pack(*disc), 9.81, found) == DISC
     assert DOOR.find_disc_top(pack(1.0, 0.1, 0.1), NAN, found) == DISC
-    assert DOOR.find_disc(pack(*TOP_ROW), INF, found) == DISC
+    assert DOOR.find_disc(pack(*TOP_ROW), INF, (c_double * 3)()) == DISC
 
 
 def test_null_pointers_are_refused_and_arrays_without_elements_may_be_null():

@@ -15,8 +15,12 @@ from workshop.kernel_wasm import DIGEST, FUNCTIONS, MODULE, SOURCES, digest_sour
 ROOT = Path(__file__).parents[3]
 ZIG = ROOT / ".venv/zig/bin/python"
 SCRIPT = Path(__file__).with_name("print_motions.js").read_text()
-MODULE_OF_PAGE = ROOT / "symtop_ros/web/js/physics/kernel.js"
-KERNEL = MODULE_OF_PAGE.read_text() + "\nwindow.binding = { Kernel, pack };"
+# Two modules of the page, as one script.
+RECORDS, BINDING = (
+    (ROOT / f"symtop_ros/web/js/physics/{name}.js").read_text() for name in ("records", "kernel")
+)
+LINES = [line for line in BINDING.splitlines() if not line.startswith("import ")]
+KERNEL = "\n".join([RECORDS, *LINES, "window.binding = { Kernel, pack };"])
 
 
 @pytest.fixture(scope="module")

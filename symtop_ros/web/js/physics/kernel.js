@@ -1,5 +1,7 @@
 // The kernel in WebAssembly, by symtop.h: all physics of a page, with the bits of Python.
 
+import { NAMES, RECORDS, STATUS } from "./records.js";
+
 /** @typedef {[number, number, number]} Vector */
 /** @typedef {[number, number, number, number]} Quaternion */
 /** @typedef {{Ix: number, Iz: number, Mgl: number}} Top */
@@ -14,47 +16,6 @@
 /** @typedef {{writes: number | string}} Room for so many doubles, a handle, or a record */
 /** @typedef {{[name: string]: any}} Found a record of symtop.h, with names for the enums */
 
-/** The enums, in the order of symtop.h; a fact is a bit. @type {{[list: string]: any[]}} */
-export const NAMES = {
-  kinds: [
-    ...["regular", "unidirectional", "cusps", "looping", "through the pole", "asymptotic"],
-    ...["sleeping", "driven"],
-  ],
-  holds: ["spin_rate", "spin_momentum", null],
-  kicks: ["rate", "change", "factor", "impulse", "axle"],
-  subjects: ["top", "axis"],
-  directions: ["rises", "falls", "stays"],
-  rules: [null, "holds", "fails"],
-  places: ["none", "only", "above", "below", "slow", "fast", "between", "outside"],
-  reasons: [
-    ...["hurried", "delayed", "if_hurried", "if_delayed", "angular_impulse", "no_precession"],
-    ...["unchanged", "reversed", "no_effect", "undefined", "stable", "unstable"],
-  ],
-  lifts: ["unchanged", "higher", "lower"],
-  facts: [
-    ...["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"],
-  ],
-};
-
-/**
- * Records as in symtop.h: a type and a field in turn. A type is a list of names or a record, too.
- * @type {{[record: string]: string}}
- */
-const RECORDS = {
-  rates: `double nutation_period, double mean_precession_rate, double mean_spin_rate,
-    double precession_per_nutation, flag spin_reverses`,
-  place: "places kind, double rate, pair regular_rates",
-  reason: `reasons kind, rules rule, double before, double after, double theta_ddot_without,
-    double theta_ddot, place place`,
-  average: "double rate, double turns, double fast_top_rate, flag is_fast, flag spin_reverses",
-  lift: "lifts kind, double amount",
-  verdict: `subjects subject, directions direction, pair turning_angles, kinds motion,
-    reason reason, average average, double factor, lift highest, lift lowest,
-    facts contrary_facts`,
-};
-
-const MORE_STEPS = 11; // of symtop_status
-export const VERTICAL = 15;
 const LARGEST = 1024; // bytes of a record
 const GRAVITY = 9.81; // m/s^2, as in Python
 
@@ -76,19 +37,20 @@ class Reader {
   /** @param {string} type @returns {any} */
   read(type) {
     if (type === "double") return this.view.getFloat64(this.skip(8), true);
-    if (type === "pair") return [this.read("double"), this.read("double")];
-    if (type in RECORDS) {
+    const [kind, more] = type.split(" ");
+    if (more && more !== "bits") return Array.from({ length: Number(more) }, () => this.read(kind));
+    if (kind in RECORDS) {
       this.skip(0, 8);
-      const fields = [...RECORDS[type].matchAll(/(\w+) (\w+)/g)];
-      const found = Object.fromEntries(fields.map(([, each, name]) => [name, this.read(each)]));
+      const found = Object.fromEntries(
+        RECORDS[kind].map(([each, name]) => [name, this.read(each)]),
+      );
       this.skip(0, 8);
       return found;
     }
     const number = this.view.getInt32(this.skip(4), true);
-    if (type === "handle") return number;
-    if (type === "flag") return number !== 0;
-    if (type === "facts") return NAMES.facts.filter((_, bit) => (number >> bit) & 1);
-    return NAMES[type][number];
+    if (kind === "handle") return number;
+    if (kind === "flag") return number !== 0;
+    return more ? NAMES[kind].filter((_, bit) => (number >> bit) & 1) : NAMES[kind][number];
   }
 }
 
@@ -163,7 +125,7 @@ export class Kernel {
       return begin;
     });
     const status = this.exports[`symtop_${name}`](...taken); // nothing if it cannot refuse
-    if (status && status !== MORE_STEPS) throw new RangeError(this.describe(status));
+    if (status && status !== STATUS.MORE_STEPS) throw new RangeError(this.describe(status));
     return rooms.map((read) => read());
   }
 
@@ -202,7 +164,7 @@ export class Kernel {
    * @returns {number[]}
    */
   findRegularRates({ Ix, Iz, Mgl }, theta, spin, hold = "spin_rate") {
-    const given = [[Ix, Iz, Mgl], [theta], [spin], 1, NAMES.holds.indexOf(hold)];
+    const given = [[Ix, Iz, Mgl], [theta], [spin], 1, NAMES.hold.indexOf(hold)];
     const [rates] = this.call("find_regular_rates", ...given, room(2));
     return [...rates].filter((rate) => !Number.isNaN(rate));
   }
@@ -229,20 +191,20 @@ export class Kernel {
    * @returns {Vector}
    */
   kick({ Ix, Iz, Mgl }, { orientation, omega }, kind, amount, hold) {
-    const how = [NAMES.kicks.indexOf(kind), NAMES.holds.indexOf(hold)];
+    const how = [NAMES.kick_kind.indexOf(kind), NAMES.hold.indexOf(hold)];
     const given = [[Ix, Iz, Mgl], orientation, omega, ...how, amount, 1];
     return this.call("kick", ...given, room(3), room(1))[0];
   }
 
   /** @param {number[]} start @param {number} factor @param {Hold} hold @returns {Found} */
   judge(start, factor, hold) {
-    const given = [start, [factor], 1, NAMES.holds.indexOf(hold)];
+    const given = [start, [factor], 1, NAMES.hold.indexOf(hold)];
     return this.call("judge", ...given, room("verdict"), room(1))[0];
   }
 
   /** @param {number[]} before @param {number[]} after @param {Hold | null} hold @returns {Found} */
   judgeKick(before, after, hold) {
-    return this.call("judge_kick", before, after, NAMES.holds.indexOf(hold), room("verdict"))[0];
+    return this.call("judge_kick", before, after, NAMES.hold.indexOf(hold), room("verdict"))[0];
   }
 }
 
@@ -273,7 +235,7 @@ export class Motion {
 
   /** @returns {string} */
   get kind() {
-    return NAMES.kinds[this.kernel.exports.symtop_find_kind(this.handle)];
+    return NAMES.kind[this.kernel.exports.symtop_find_kind(this.handle)];
   }
 
   /** The smallest and the largest theta in rad. @returns {[number, number]} */

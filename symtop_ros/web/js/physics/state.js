@@ -1,6 +1,7 @@
 // A state: quaternion (w, x, y, z), body to world, and the angular velocity in the body frame.
 
-import { room, VERTICAL } from "./kernel.js";
+import { room } from "./kernel.js";
+import { STATUS } from "./records.js";
 
 /** @import { Kernel, Vector, Quaternion, Hold } from "./kernel.js" */
 /** @typedef {{phi: number, theta: number, psi: number}} Angles */
@@ -76,7 +77,7 @@ export class State {
    */
   kick(top, kind, amount, hold = "spin_rate") {
     if (this.isVertical && kind !== "impulse") {
-      const sentence = this.kernel.describe(VERTICAL);
+      const sentence = this.kernel.describe(STATUS.VERTICAL);
       throw new RangeError(`${sentence}, got theta = ${this.angles.theta < 1 ? 0 : "pi"}`);
     }
     const { kernel, orientation } = this;

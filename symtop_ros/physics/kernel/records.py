@@ -1,0 +1,363 @@
+"""Enums, records and functions of symtop.h, for ctypes.
+
+Written by `python -m workshop.twins`: change the header, and not this file.
+"""
+
+from ctypes import (
+    POINTER,
+    Structure,
+    c_char_p,
+    c_double,
+    c_int,
+    c_size_t,
+    c_uint,
+    c_uint8,
+    c_void_p,
+)
+from typing import Any, ClassVar, Literal
+
+# symtop_status
+OK = 0
+NO_MEMORY = 1
+BAD_TOP = 2
+BAD_ORIENTATION = 3
+BAD_ANGULAR_VELOCITY = 4
+BAD_FRICTION = 5
+BAD_TORQUE = 6
+BAD_TIME = 7
+TOO_FAR = 8
+TOO_FAST = 9
+TOO_STIFF = 10
+MORE_STEPS = 11
+BAD_ARITHMETIC = 12
+BAD_ANGLES = 13
+BAD_KICK = 14
+VERTICAL = 15
+TOO_LONG = 16
+BAD_POINTER = 17
+BAD_COUNT = 18
+BAD_HOLD = 19
+BAD_KICK_KIND = 20
+BAD_RATE = 21
+BAD_STEPS = 22
+BAD_DISC = 23
+
+Kind = Literal[
+    "regular",
+    "unidirectional",
+    "cusps",
+    "looping",
+    "through the pole",
+    "asymptotic",
+    "sleeping",
+    "driven",
+]
+KINDS: tuple[Kind, ...] = (
+    "regular",
+    "unidirectional",
+    "cusps",
+    "looping",
+    "through the pole",
+    "asymptotic",
+    "sleeping",
+    "driven",
+)
+
+Engine = Literal["closed form", "free", "taylor"]
+ENGINES: tuple[Engine, ...] = ("closed form", "free", "taylor")
+
+Hold = Literal["spin_rate", "spin_momentum"]
+HOLDS: tuple[Hold | None, ...] = ("spin_rate", "spin_momentum", None)
+
+KickKind = Literal["rate", "change", "factor", "impulse", "axle"]
+KICK_KINDS: tuple[KickKind, ...] = ("rate", "change", "factor", "impulse", "axle")
+
+Subject = Literal["top", "axis"]
+SUBJECTS: tuple[Subject, ...] = ("top", "axis")
+
+Direction = Literal["rises", "falls", "stays"]
+DIRECTIONS: tuple[Direction, ...] = ("rises", "falls", "stays")
+
+Rule = Literal["holds", "fails"]
+RULES: tuple[Rule | None, ...] = (None, "holds", "fails")
+
+PlaceKind = Literal["none", "only", "above", "below", "slow", "fast", "between", "outside"]
+PLACE_KINDS: tuple[PlaceKind, ...] = (
+    "none",
+    "only",
+    "above",
+    "below",
+    "slow",
+    "fast",
+    "between",
+    "outside",
+)
+
+ReasonKind = Literal[
+    "hurried",
+    "delayed",
+    "if_hurried",
+    "if_delayed",
+    "angular_impulse",
+    "no_precession",
+    "unchanged",
+    "reversed",
+    "no_effect",
+    "undefined",
+    "stable",
+    "unstable",
+]
+REASON_KINDS: tuple[ReasonKind, ...] = (
+    "hurried",
+    "delayed",
+    "if_hurried",
+    "if_delayed",
+    "angular_impulse",
+    "no_precession",
+    "unchanged",
+    "reversed",
+    "no_effect",
+    "undefined",
+    "stable",
+    "unstable",
+)
+
+LiftKind = Literal["unchanged", "higher", "lower"]
+LIFT_KINDS: tuple[LiftKind, ...] = ("unchanged", "higher", "lower")
+
+Fact = Literal["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"]
+FACTS: tuple[Fact, ...] = (
+    "rises",
+    "falls",
+    "highest_higher",
+    "highest_lower",
+    "lowest_higher",
+    "lowest_lower",
+)
+
+
+class StartRecord(Structure):
+    """`symtop_start`."""
+
+    _fields_: ClassVar = [
+        ("Ix", c_double),
+        ("Iz", c_double),
+        ("Mgl", c_double),
+        ("orientation", c_double * 4),
+        ("angular_velocity", c_double * 3),
+        ("friction", c_double * 2),
+        ("torque", c_double * 3),
+    ]
+
+
+class ClockRecord(Structure):
+    """`symtop_clock`."""
+
+    _fields_: ClassVar = [("factor", c_double), ("elapsed", c_double * 4)]
+
+
+class RatesRecord(Structure):
+    """`symtop_rates`."""
+
+    _fields_: ClassVar = [
+        ("nutation_period", c_double),
+        ("mean_precession_rate", c_double),
+        ("mean_spin_rate", c_double),
+        ("precession_per_nutation", c_double),
+        ("spin_reverses", c_int),
+    ]
+
+
+class ConstantsRecord(Structure):
+    """`symtop_constants`."""
+
+    _fields_: ClassVar = [
+        ("kind", c_int),
+        ("engine", c_int),
+        ("turning_angles", c_double * 2),
+        ("rates", RatesRecord),
+    ]
+
+
+class TopRecord(Structure):
+    """`symtop_top`."""
+
+    _fields_: ClassVar = [("Ix", c_double), ("Iz", c_double), ("Mgl", c_double)]
+
+
+class PlaceRecord(Structure):
+    """`symtop_place`."""
+
+    _fields_: ClassVar = [("kind", c_int), ("rate", c_double), ("regular_rates", c_double * 2)]
+
+
+class ReasonRecord(Structure):
+    """`symtop_reason`."""
+
+    _fields_: ClassVar = [
+        ("kind", c_int),
+        ("rule", c_int),
+        ("before", c_double),
+        ("after", c_double),
+        ("theta_ddot_without", c_double),
+        ("theta_ddot", c_double),
+        ("place", PlaceRecord),
+    ]
+
+
+class AverageRecord(Structure):
+    """`symtop_average`."""
+
+    _fields_: ClassVar = [
+        ("rate", c_double),
+        ("turns", c_double),
+        ("fast_top_rate", c_double),
+        ("is_fast", c_int),
+        ("spin_reverses", c_int),
+    ]
+
+
+class LiftRecord(Structure):
+    """`symtop_lift`."""
+
+    _fields_: ClassVar = [("kind", c_int), ("amount", c_double)]
+
+
+class VerdictRecord(Structure):
+    """`symtop_verdict`."""
+
+    _fields_: ClassVar = [
+        ("subject", c_int),
+        ("direction", c_int),
+        ("turning_angles", c_double * 2),
+        ("motion", c_int),
+        ("reason", ReasonRecord),
+        ("average", AverageRecord),
+        ("factor", c_double),
+        ("highest", LiftRecord),
+        ("lowest", LiftRecord),
+        ("contrary_facts", c_uint),
+    ]
+
+
+RECORDS: tuple[type[Structure], ...] = (
+    StartRecord,
+    ClockRecord,
+    RatesRecord,
+    ConstantsRecord,
+    TopRecord,
+    PlaceRecord,
+    ReasonRecord,
+    AverageRecord,
+    LiftRecord,
+    VerdictRecord,
+)
+
+# The result and the arguments of each; an array that is read is given as bytes.
+FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
+    "version": (c_char_p, ()),
+    "describe_status": (c_char_p, (c_int,)),
+    "new": (c_int, (c_char_p, POINTER(c_void_p))),
+    "free": (None, (c_void_p,)),
+    "continue": (c_int, (c_void_p, c_double, c_char_p, POINTER(c_void_p))),
+    "state": (c_int, (c_void_p, c_double, POINTER(c_double), POINTER(c_double))),
+    "states": (
+        c_int,
+        (
+            c_void_p,
+            c_char_p,
+            c_size_t,
+            c_double,
+            POINTER(c_double),
+            POINTER(c_double),
+            POINTER(c_size_t),
+        ),
+    ),
+    "states_of_clock": (
+        c_int,
+        (
+            c_void_p,
+            c_char_p,
+            c_char_p,
+            c_size_t,
+            c_double,
+            POINTER(c_double),
+            POINTER(c_double),
+            POINTER(c_size_t),
+        ),
+    ),
+    "reach": (c_int, (c_void_p, c_double, c_double, POINTER(c_double))),
+    "find_kind": (c_int, (c_void_p,)),
+    "find_turning_angles": (c_int, (c_void_p, POINTER(c_double))),
+    "find_rates": (c_int, (c_void_p, POINTER(RatesRecord))),
+    "find_farthest_time": (c_int, (c_void_p, POINTER(c_double))),
+    "find_nutation_rate": (c_int, (c_void_p, POINTER(c_double))),
+    "find_engine": (c_int, (c_void_p,)),
+    "states_of_many": (
+        c_int,
+        (
+            c_char_p,
+            c_size_t,
+            c_char_p,
+            c_size_t,
+            POINTER(c_double),
+            POINTER(c_double),
+            POINTER(c_uint8),
+        ),
+    ),
+    "describe_many": (c_int, (c_char_p, c_size_t, POINTER(ConstantsRecord), POINTER(c_size_t))),
+    "normalize": (c_int, (c_char_p, c_char_p, c_size_t, POINTER(c_double), POINTER(c_double))),
+    "from_angles": (
+        c_int,
+        (c_char_p, c_char_p, c_size_t, POINTER(c_double), POINTER(c_double), POINTER(c_size_t)),
+    ),
+    "find_angles": (c_int, (c_char_p, c_size_t, POINTER(c_double))),
+    "find_angle_rates": (c_int, (c_char_p, c_char_p, c_size_t, POINTER(c_double))),
+    "find_disc_top": (c_int, (c_char_p, c_double, POINTER(TopRecord))),
+    "find_disc": (c_int, (c_char_p, c_double, POINTER(c_double))),
+    "find_regular_rates": (
+        c_int,
+        (c_char_p, c_char_p, c_char_p, c_size_t, c_int, POINTER(c_double)),
+    ),
+    "find_tilt_torques": (
+        c_int,
+        (c_char_p, c_char_p, c_char_p, c_char_p, c_size_t, POINTER(c_double)),
+    ),
+    "find_tilt_accelerations": (c_int, (c_char_p, c_int, c_char_p, c_size_t, POINTER(c_double))),
+    "kick": (
+        c_int,
+        (
+            c_char_p,
+            c_char_p,
+            c_char_p,
+            c_int,
+            c_int,
+            c_char_p,
+            c_size_t,
+            POINTER(c_double),
+            POINTER(c_size_t),
+        ),
+    ),
+    "judge": (
+        c_int,
+        (c_char_p, c_char_p, c_size_t, c_int, POINTER(VerdictRecord), POINTER(c_size_t)),
+    ),
+    "compare_hurried": (
+        c_int,
+        (
+            c_char_p,
+            c_char_p,
+            c_char_p,
+            c_char_p,
+            c_size_t,
+            c_double,
+            c_int,
+            POINTER(c_double),
+            POINTER(c_uint8),
+        ),
+    ),
+    "judge_kick": (c_int, (c_char_p, c_char_p, c_int, POINTER(VerdictRecord))),
+    "make": (c_void_p, (c_char_p,)),
+    "read": (c_int, (c_void_p, POINTER(c_double))),
+    "check_arithmetic": (c_int, ()),
+}
