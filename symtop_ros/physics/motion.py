@@ -273,7 +273,8 @@ class Motion:
         t : float
             Time in s.
         steps : float
-            Largest number of integration steps; the exact engines need none.
+            Largest number of integration steps, of which a call takes ten million at most; the
+            exact engines need none.
 
         Returns
         -------
@@ -293,7 +294,7 @@ class Motion:
         """
         t = validate_number("t", t, "s")
         require(steps >= 0, "steps", ">= 0", steps)
-        return states.reach(self._kernel, t, steps)
+        return states.reach(self._kernel, t, min(steps, states.LONGEST_WAY))
 
     @cached_property
     def farthest_time(self) -> float:

@@ -194,7 +194,14 @@ def draw_driven(rng: Numbers) -> Genes:
     drive = [rng.choice((0.0, rng.power(-6, 0))) for _ in range(5)]
     angles = [rng.uniform(0.05, 3.0), rng.uniform(-3, 3), rng.uniform(-3, 3)]
     rates = [rng.uniform(-3, 3) for _ in range(3)]
-    return [rng.uniform(0.05, 1.9), rng.uniform(-3, 3), *angles, *rates, *drive, rng.uniform(-1, 2)]
+    return [
+        rng.uniform(0.05, 1.9),
+        rng.uniform(-3, 3),
+        *angles,
+        *rates,
+        *drive,
+        rng.uniform(-0.5, 1),
+    ]
 
 
 def measure_driven(genes: Genes) -> float:

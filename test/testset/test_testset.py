@@ -83,10 +83,10 @@ def test_the_package_has_the_same_forces_energies_accelerations_and_states_in_th
     local = np.cross(exact["angular_accelerations"], p) + np.cross(omega, np.cross(omega, p))
     ours = point_acceleration(motion, states, p)
     assert ours == pytest.approx(local, abs=8 * EPS * fastest**2)
-    # the world frame: an attitude within 10 eps, and products of it with the arm and the rates
+    # the world frame: an attitude within 20 eps, and products of it with the arm and the rates
     position, velocity, rate = (np.array(facts[name], dtype=float) for name in WORLD)
-    assert position == pytest.approx(states.to_world([0, 0, body.arm]), abs=3e-15 * arm)
-    assert rate == pytest.approx(states.to_world(omega), abs=16 * EPS * fastest)
+    assert position == pytest.approx(states.to_world([0, 0, body.arm]), abs=24 * EPS * arm)
+    assert rate == pytest.approx(states.to_world(omega), abs=24 * EPS * fastest)
     found = np.cross(rate, position)
     assert velocity == pytest.approx(found, abs=16 * EPS * fastest * arm)
 
