@@ -48,7 +48,7 @@ class Simulation:
         self._lock = threading.RLock()
         self._waiting: deque[None] = deque()  # one for each turn that waits for the lock
         self._failures: dict[str, Failure] = {}  # by the name of the turn
-        self._events = 0  # events so far
+        self.event_number = 0  # of the latest event
         self._jumped_to: int | None = None  # ns
         self.ticker = Ticker(settings.publish_rate, self.now)
         self.last = self.now  # stamp of the last sample
@@ -299,7 +299,7 @@ class Simulation:
     def apply(self, change: Change) -> str:
         """Continue with the timeline of a change and announce it; return the verdict."""
         self.timeline = change.following
-        return self._announce(change.event(self._events + 1))
+        return self._announce(change.event(self.event_number + 1))
 
     def apply_at_once(self, change: Change) -> str:
         """Like `apply`, but publish samples that are due before the event is written, and after it.
@@ -309,12 +309,12 @@ class Simulation:
         self.timeline = change.following
         with self._sink.put_events_first():
             self.publish()
-            event = change.event(self._events + 1)
+            event = change.event(self.event_number + 1)
             self.publish()
             return self._announce(event)
 
     def _announce(self, event: Event) -> str:
-        self._events += 1
+        self.event_number += 1
         self._sink.send_event(event)
         return event.verdict
 
