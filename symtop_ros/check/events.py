@@ -199,7 +199,7 @@ class TextCheck:
             DESCRIPTION.name: self._judge_description,
             TF_STATIC.name: self._judge_frames,
             DIAGNOSTICS.name: self._judge_diagnostics,
-            **({} if account.is_guessed else {CLOCK.name: self._judge_clock}),
+            **({} if account.guess else {CLOCK.name: self._judge_clock}),
         }
         self._kinds = list(dict.fromkeys(map(_kind, account.events)))
         # Of a run with an event that is missing, the top of a description may not be known.

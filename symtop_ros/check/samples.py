@@ -81,13 +81,20 @@ class LogCheck:
         owners = self._course.find_owners(columns.stamps, columns.places)
         follows = owners >= 0
         deviation.unchecked += int((~follows).sum())
-        left, owners = columns.select(follows), owners[follows]
+        unknown = find_unknown(self._unknown, columns.stamps, columns.places) & follows
+        # Where the motion is not known, a sample that is exactly that of an event is one of it.
+        left, _ = self._take_agreeing(
+            deviation, name, columns.select(unknown), owners[unknown], 0.0
+        )
+        deviation.unjudged += len(left.stamps)
+        known = follows & ~unknown
+        self._add_known(deviation, name, columns.select(known), owners[known])
+
+    def _add_known(self, deviation: Deviation, name: str, left: Columns, owners: Places) -> None:
+        """Compare samples that follow from an event that is there."""
         # Where stamps are repeated two events may agree up to rounding: the exact one holds.
         for bound in [BOUND] if self._course.is_ordered else [0.0, BOUND]:
             left, owners = self._take_agreeing(deviation, name, left, owners, bound)
-        unknown = find_unknown(self._unknown, left.stamps, left.places)
-        deviation.unjudged += int(unknown.sum())
-        left, owners = left.select(~unknown), owners[~unknown]
         for number in np.unique(owners).tolist():
             self._take_all(deviation, name, left.select(owners == number), number)
 

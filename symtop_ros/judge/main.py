@@ -10,7 +10,7 @@ from symtop_ros.command import positive, tell_failures
 from symtop_ros.judge.clock import format_clocks, measure_clock
 from symtop_ros.judge.judgement import Judgement, format_judgements, judge, tell_limit
 from symtop_ros.judge.problems import run_testset
-from symtop_ros.judge.runs import ATTITUDES, Run, Source, read_run, read_sources, report_problems
+from symtop_ros.judge.runs import ATTITUDES, Run, Source, read_run, read_sources, report_faults
 from symtop_ros.judge.search import MODELS
 from symtop_ros.simulation.validation import one_line
 
@@ -131,7 +131,7 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
         _read_clock(options)
     run = read_run(options)
     sources = read_sources(options, run)
-    status = report_problems(run, sources)
+    status = report_faults(run, sources)
     found = (_measure_clocks if options.clock else _judge)(options, run, sources)
     return max(status, found)
 

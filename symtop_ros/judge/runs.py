@@ -51,6 +51,7 @@ def read_run(options: argparse.Namespace) -> Run:
     from symtop_ros.log.top_log import TopLog
 
     account = TopLog(open_run(options.files), options.node).account
+    print_problems(account)
     if not account.events:
         raise RefusedError(f"{account.path} must have the events of a top (~/events), got none")
     return Run(Truth.of(account), account)
@@ -69,6 +70,8 @@ def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
 
     file = open_run([other] if other else options.files)
     account = read_account(file, Names(file)) if other else run.account
+    if account and other:
+        print_problems(account)
     found = ((topic, read_topic(file, topic, options.frame)) for topic in options.topic)
     return [Source(n, _choose_frame(each, options.attitude_of), account) for n, each in found]
 
@@ -77,12 +80,17 @@ def _choose_frame(estimates: Estimates, attitude_of: str | None) -> Estimates:
     return replace(estimates, of_sensor=attitude_of == SENSOR) if attitude_of else estimates
 
 
-def report_problems(run: Run, sources: list[Source]) -> int:
-    """Print the problems of all logs and estimates; return 1 if these are concerned, else 0."""
-    accounts = (run.account, *(each.account for each in sources))
-    lines = [line for each in accounts if each for line in each.lines if line not in each.notes]
+def print_problems(account: Account) -> None:
+    """Print what is wrong with a log, before anything else."""
+    for line in account.problem_lines:
+        print(f"top_judge: {line}", file=sys.stderr)
+
+
+def report_faults(run: Run, sources: list[Source]) -> int:
+    """Print what is wrong with the estimates; return 1 if anything is, else 0."""
     faults = [f"{each.name}: {text}" for each in sources for text in _list_faults(each, run)]
-    for line in dict.fromkeys([*lines, *faults]):
+    guessed = [run.account.guess] if run.account and run.account.guess else []
+    for line in [*faults, *guessed]:
         print(f"top_judge: {line}", file=sys.stderr)
     return 1 if faults else 0
 

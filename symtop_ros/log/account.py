@@ -32,7 +32,7 @@ from symtop_ros.log.stretches import (
     find_missing,
 )
 from symtop_ros.log.writer import ENDING, METADATA
-from symtop_ros.simulation.events import WHOLE, Event
+from symtop_ros.simulation.events import MOTION, WHOLE, Event
 from symtop_ros.simulation.topics import DESCRIPTION, DIAGNOSTICS, EVENTS, STATE_TOPICS
 
 GUESSED = (
@@ -61,7 +61,7 @@ class Account:
     path: Path
     node: str | None  # full name; None: the log has no top
     topics: Mapping[str, TopicAccount]  # those of the top that the log has, by our names
-    is_guessed: bool  # True if the log does not name the topics of the top
+    guess: str  # what is said if the log does not name the topics of the top; else empty
     others: Mapping[str, str]  # types of the other topics of the log, by their full names
     ordered: Ordered  # its events
     stretches: tuple[Stretch, ...]  # in the order of the run
@@ -86,6 +86,21 @@ class Account:
         """The stretches of which the motion is not known."""
         return tuple(each for each in self.stretches if each.event is None)
 
+    def list_continuous(self) -> list[Stretch]:
+        """Return the stretches with motions up to where another one may have been.
+
+        What is not known before the first event, and between two events of one motion, is passed
+        over.
+        """
+        found: list[Stretch] = []
+        is_open = False  # True after a stretch of which the motion is not known
+        for each in self.stretches:
+            if each.event and is_open and found and not _is_same(found[-1].event, each.event):
+                break
+            is_open = each.event is None
+            found += [each] if each.event else []
+        return found
+
     @property
     def has_top(self) -> bool:
         """True if the log has messages of a top."""
@@ -93,13 +108,22 @@ class Account:
 
     @property
     def lines(self) -> list[str]:
-        """The first problems, then notes, each in one line: what a program prints first."""
-        lines = [*list_problems(self.problems), *list_problems(self.notes)]
-        return [*lines, *([GUESSED] if self.is_guessed else [])]
+        """The problems, then notes, each in one line: what a program prints first."""
+        return [*self.problem_lines, *list_problems(self.notes), *filter(None, [self.guess])]
+
+    @property
+    def problem_lines(self) -> list[str]:
+        """The first problems, each in one line, and the number of the others."""
+        return list_problems(self.problems)
 
     def find_topic(self, full: str) -> TopicAccount | None:
         """Return what the log has of a topic of the top, by its full name."""
         return next((each for each in self.topics.values() if each.name == full), None)
+
+
+def _is_same(before: Event | None, after: Event) -> bool:
+    """Return True if two events say the same of the motion itself."""
+    return before is not None and all(before.values.get(k) == after.values.get(k) for k in MOTION)
 
 
 def read_account(file: MessageSource, names: Names) -> Account:
@@ -144,7 +168,7 @@ class _Conclusions:
             path=file.path,
             node=names.node,
             topics=self._topics,
-            is_guessed=names.is_guessed,
+            guess=GUESSED if names.is_guessed else "",
             others=others,
             ordered=self._ordered,
             stretches=self._stretches,

@@ -31,7 +31,8 @@ class TopLog:
             topics = sorted(channel.topic for channel in self.file.channels.values())
             known = ", ".join(topics[:20]) or "none"
             asked = f" {self._names.node}" if self._asked else ""
-            raise LogError(f"no run of a top{asked} in {self.file.path}: topics {known}")
+            damage = "".join(f"; {text}" for text in found.problems[:1])
+            raise LogError(f"no run of a top{asked} in {self.file.path}: topics {known}{damage}")
         return found
 
     def batches(self) -> Iterator[Batch]:

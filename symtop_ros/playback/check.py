@@ -85,7 +85,7 @@ def _describe_text(name: str, count: int, found: Findings) -> str:
     if not compared:
         return f" not compared: {reason or 'no message is of this node'}"
     left = f"; {count - compared} not compared: {reason}" if reason and count > compared else ""
-    return f"{compared:9} messages agree or are named above{left}"
+    return f"{compared:9} messages compared{left}"
 
 
 def _row(topic: str, deviation: Deviation) -> str:

@@ -188,12 +188,15 @@ def _open_file(paths: Sequence[Path], node: str | None) -> Iterator[TopLog]:
 def _save_page(log: TopLog, path: Path) -> None:
     """Write the page with the run of a log in it."""
     account = log.account
-    known = [each for each in account.stretches if each.event]
-    if not known:
+    shown = account.list_continuous()
+    if not shown:
         raise LogError(f"{log.file.path}: a run must have an event to be saved")
-    # Where the motion is not known the run ends, but for an event that says how it continues.
-    end = 0 if account.end is None else account.end
-    run, reached = record_run(account.events, min(end, known[-1].end))
+    last = 0 if account.end is None else account.end
+    end = min(last, shown[-1].end)
+    if end < last and shown[-1] is not account.stretches[-1]:
+        text = f"the page ends at {end} ns: how the top moved then is not known"
+        print(f"top_replay: {text}", file=sys.stderr)
+    run, reached = record_run((each.event for each in shown if each.event), end)
     with log_errors("write", path):
         path.write_text(write_file(run=write_run(run, reached)), encoding="utf-8")
 
