@@ -302,8 +302,16 @@ class TextCheck:
         stamps, places = np.array([stamp]), np.array([place], dtype=np.intp)
         owner = int(self._course.find_owners(stamps, places)[0])
         latest = int(self._course.find_latest(places)[0])
-        # What takes effect at the stamp itself may have come after the diagnostics.
-        return [each for each in dict.fromkeys((latest, owner, owner - 1)) if each >= 0]
+        # What takes effect at the stamp itself may have come after the diagnostics, and an event
+        # may come late.
+        found = dict.fromkeys((latest, owner, owner - 1, latest + 1))
+        return [each for each in found if self._may_hold(each, stamp)]
+
+    def _may_hold(self, number: int, stamp: int) -> bool:
+        events = self._account.events
+        return 0 <= number < len(events) and stamp >= min(
+            events[number].stamp, events[number].previous_end
+        )
 
 
 def _kind(event: Event) -> Described:

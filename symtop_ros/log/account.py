@@ -211,6 +211,7 @@ class _Conclusions:
         found = self._found.get(self._main, GridFindings())
         if found.missing > self._counted:
             yield from (gap.place for gap in found.gaps)
+        yield from found.returns
         places = (each.place for each in self._file.losses if each.place is not None)
         # after the last message nothing is judged
         yield from (place for place in places if place < self._file.count)
@@ -242,9 +243,9 @@ class _Conclusions:
     def _list_gaps(self, name: str) -> list[Gap]:
         """Return the gaps of a topic, but for those that an event may explain that is lost."""
         gaps = self._found.get(name, GridFindings()).gaps
-        unknown = [each for each in self._stretches if each.event is None]
+        unknown = [each.places for each in self._stretches if each.event is None]
         return [
-            *(g for g in gaps if not any(u.begin < g.after and g.before < u.end for u in unknown)),
+            *(g for g in gaps if not any(begin <= g.place <= end for begin, end in unknown)),
             *self._list_absent(name),
         ]
 

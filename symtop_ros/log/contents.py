@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 
+import numpy as np
 from mcap.records import Message
 
 from symtop_ros.log.batch import BatchReader
@@ -75,9 +76,11 @@ def _find_frame(file: MessageSource, names: Names) -> str | None:
 def _add_samples(found: Contents, reader: BatchReader, chosen: Sequence[Chosen]) -> None:
     data = [(name, each.data) for _, name, each in chosen]
     batch = reader.read(data, [place for place, *_ in chosen])
+    before, places = len(found.events), [place for place, _ in batch.events]
     found.events.extend(batch.events)
     for name, columns in batch.columns.items():
-        found.rows.setdefault(name, StampRows()).add(columns.stamps, columns.places)
+        events = before + np.searchsorted(places, columns.places)
+        found.rows.setdefault(name, StampRows()).add(columns.stamps, columns.places, events)
 
 
 def _add_diagnostics(found: Contents, owner: str, place: int, message: Message) -> None:

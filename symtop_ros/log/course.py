@@ -76,16 +76,24 @@ def _begins_run(event: Event, run: dict[object, Placed]) -> bool:
     return is_first and all(each.previous_end <= event.stamp for _, each in run.values())
 
 
+def _find_end(event: Event, after: Event) -> int:
+    """Return the stamp (ns) up to which an event holds; any, if others may be in between."""
+    is_next = after.number <= event.number + 1  # a smaller number is that of another run
+    return after.previous_end if is_next else MAX_STAMP
+
+
 class Course:
     """The events of a run in their order, with their places in the log."""
 
     def __init__(self, events: Sequence[Event], places: Sequence[int]) -> None:
         self._places = np.array(places, dtype=np.int64)
         self._by_place = np.argsort(self._places, kind="stable")
+        # True if the log has the events in their order
+        self.is_in_log_order = bool((np.diff(self._places) > 0).all())
         # Kept, because a driven motion is integrated from its start.
         self.segment = lru_cache(MAX_SEGMENTS)(lambda number: events[number].segment())
         self._begins = np.array([event.stamp for event in events], dtype=np.int64)
-        ends = [*(event.previous_end for event in events[1:]), MAX_STAMP]
+        ends = [*map(_find_end, events, events[1:]), MAX_STAMP]
         self._ends = np.array(ends[: len(events)], dtype=np.int64)
         # True if no stamp is repeated, so that the stamps alone decide.
         follows, lasts = self._begins[1:] >= self._ends[:-1], self._begins <= self._ends

@@ -5,13 +5,15 @@ neighbours that are further apart than a period have lost those between them: in
 counts them as missed, or afterwards.
 """
 
-from collections.abc import Iterator, Sequence
+import math
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
-from symtop_ros.arrays import Mask, Places, Real, Stamps
+from symtop_ros.arrays import Places, Real, Stamps
 from symtop_ros.log.batch import TF
 from symtop_ros.log.course import Course, Ordered
 from symtop_ros.log.source import MessageSource
@@ -20,9 +22,10 @@ from symtop_ros.log.writer import BEGUN_ENTRY, METADATA
 from symtop_ros.simulation.events import MAX_STAMP, WHOLE, Event
 from symtop_ros.wire.layout import NANOSECONDS
 
-Interval = tuple[int, int]  # two stamps in ns
+Empty = tuple[int, int, int]  # number of an event, and two stamps in ns
 MIN_RATE, MAX_RATE = 1e-3, 1e6  # Hz; a log may be hostile
-RATE, TF_SWITCH = "publish_rate", "publish_tf"
+RATE, TF_SWITCH, OWN_TIME = "publish_rate", "publish_tf", "publish_clock"
+BEGUN = "begun"  # the outcome of an event with which a recording begins
 WIDE = 1.5  # periods: neighbours that are further apart have lost samples
 
 
@@ -32,7 +35,7 @@ class Gap:
 
     before: int  # stamps in ns
     after: int
-    place: int  # of the later one in the log
+    place: int  # in the log, right behind the earlier one
     missing: int  # samples
 
 
@@ -42,6 +45,8 @@ class GridFindings:
 
     gaps: tuple[Gap, ...] = ()
     repeated: int = 0
+    # places in the log at which time goes back without an event that says so
+    returns: tuple[int, ...] = ()
     rate: float | None = None  # samples per s, of the first ones
 
     @property
@@ -57,6 +62,7 @@ class Recording:
     place: int  # of its first message in the log
     rate: str = ""  # parameter publish_rate, as the metadata has it
     missed: str = ""  # samples that the node had missed at its begin
+    is_own_time: bool = False  # True if the run has its own time, which a pause stops
 
 
 def list_recordings(file: MessageSource) -> list[Recording]:
@@ -64,7 +70,12 @@ def list_recordings(file: MessageSource) -> list[Recording]:
     found: dict[str, Recording] = {}
     for place, each in zip(file.begins, file.files, strict=False):
         values = each.metadata.get(METADATA, {})
-        recording = Recording(place, values.get(f"parameter.{RATE}", ""), values.get("missed", ""))
+        recording = Recording(
+            place,
+            values.get(f"parameter.{RATE}", ""),
+            values.get("missed", ""),
+            values.get(f"parameter.{OWN_TIME}") == str(True),
+        )
         found.setdefault(values.get(BEGUN_ENTRY, ""), recording)
     return list(found.values())
 
@@ -72,51 +83,84 @@ def list_recordings(file: MessageSource) -> list[Recording]:
 class Grid:
     """The grid of stamps of a log."""
 
-    def __init__(
-        self, ordered: Ordered, recordings: Sequence[Recording], unknown: Sequence[Interval] = ()
-    ) -> None:
+    def __init__(self, ordered: Ordered, recordings: Sequence[Recording]) -> None:
         self._course = Course(ordered.events, ordered.places)
         self._periods = np.array([*_list_periods(ordered, recordings)])  # first before all events
-        empty = [*_list_jumps(ordered.events), *unknown]
-        self._empty = merge(empty)
-        self._empty_of_tf = merge([*empty, *_list_times_without_tf(ordered.events)])
+        is_own_time = any(each.is_own_time for each in recordings)
+        # Times without samples, each with the number of the event that says so.
+        empty = [
+            *_list_jumps(ordered.events),
+            *_list_pauses(ordered.events),
+            *(_list_resumptions(ordered.events, self._periods[1:]) if is_own_time else ()),
+        ]
+        self._jumps = _find_jumps(ordered)
+        self._empty = sorted(empty)
+        self._empty_of_tf = sorted([*empty, *_list_times_without_tf(ordered.events)])
 
     def judge(self, name: str, rows: StampRows) -> GridFindings:
         """Return what is missing and repeated in a topic."""
         if not rows.rows:
             return GridFindings()
-        stamps, places = rows.expand()
+        stamps, places = samples = rows.expand()
         # In time that went back, a stamp may be there once for each event that holds at it.
         repeated = rows.count_repeated(self._course.count_holding)
         if self._course.is_ordered:  # whatever the order of the chunks of a file is
             order = np.argsort(stamps, kind="stable")
             stamps, places = stamps[order], places[order]
-        usual = _find_usual_period(rows)
-        periods = self._find_periods(stamps, places, usual)
-        gaps = self._find_gaps(name, stamps, places, periods)
-        rate = float(NANOSECONDS / periods[0]) if periods[0] else None
-        return GridFindings(tuple(gaps), repeated, rate)
-
-    def _find_periods(self, stamps: Stamps, places: Places, usual: float) -> Real:
-        """Return the period (ns) of the grid at each stamp."""
         owners = self._course.find_owners(stamps, places)
+        periods = self._find_periods(owners, _find_usual_period(rows))
+        gaps = self._find_gaps(name, (stamps, places, owners), periods)
+        rate = float(NANOSECONDS / periods[0]) if periods[0] else None
+        return GridFindings(tuple(gaps), repeated, tuple(self._list_returns(*samples)), rate)
+
+    def _list_returns(self, stamps: Stamps, places: Places) -> Iterator[int]:
+        if not self._course.is_in_log_order:  # chunks or messages are in another order
+            return
+        latest = self._course.find_latest(places)
+        for k in np.flatnonzero(stamps[1:] <= stamps[:-1]).tolist():
+            # An event may come late.
+            if not self._explains_return(range(int(latest[k]) + 1, int(latest[k + 1]) + 2)):
+                yield int(places[k]) + 1
+
+    def _explains_return(self, numbers: range) -> bool:
+        """Return True if one of some events sets the clock, or begins another run."""
+        return any(number in self._jumps for number in numbers)
+
+    def _find_periods(self, owners: Places, usual: float) -> Real:
+        """Return the period (ns) of the grid at each sample, of which the owners are the events."""
         periods = self._periods[owners + 1]
         if not self._course.is_ordered:  # the next event may have come late
             following = np.minimum(owners + 2, len(self._periods) - 1)
             periods = np.fmax(periods, self._periods[following])
         return np.where(np.isnan(periods), usual, periods)
 
-    def _find_gaps(self, name: str, stamps: Stamps, places: Places, periods: Real) -> Iterator[Gap]:
+    def _find_gaps(
+        self, name: str, samples: tuple[Stamps, Places, Places], periods: Real
+    ) -> Iterator[Gap]:
+        stamps, places, owners = samples
         before, after = stamps[:-1], stamps[1:]
         period = np.maximum(periods[:-1], periods[1:])
-        is_wide = (period > 0) & (after - before > WIDE * period)
-        before, after, period, place = (e[is_wide] for e in (before, after, period, places[1:]))
-        empty = self._empty_of_tf if name == TF else self._empty
-        lost = after - before - measure_overlap(empty, before, after)
-        missing = np.maximum(np.rint(lost / period) - 1, 0).astype(np.int64)
-        some: Mask = missing > 0
-        columns = (each[some].tolist() for each in (before, after, place, missing))
-        return map(Gap, *columns)
+        wide = np.flatnonzero((period > 0) & (after - before > WIDE * period))
+        columns = before, after, owners[:-1], owners[1:], period, places[:-1] + 1
+        for begin, end, owner, next_owner, step, place in zip(
+            *(each[wide].tolist() for each in columns), strict=True
+        ):
+            # An event that came late is the next one.
+            last = next_owner + (not self._course.is_ordered)
+            empty = self._empty_of_tf if name == TF else self._empty
+            numbers = slice(*(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, last)))
+            lost = end - begin - _measure(empty[numbers], begin, end)
+            if (missing := round(lost / step) - 1) > 0:
+                yield Gap(begin, end, place, missing)
+
+
+def _measure(intervals: Iterable[Empty], begin: int, end: int) -> int:
+    """Return how much (ns) of a stretch is in intervals, which may overlap."""
+    covered, reached = 0, begin
+    for first, last in sorted((first, min(last, end)) for _, first, last in intervals):
+        covered += max(0, last - max(first, reached))
+        reached = max(reached, last)
+    return covered
 
 
 def _find_usual_period(rows: StampRows) -> float:
@@ -152,48 +196,48 @@ def _read_period(text: str) -> float:
     return NANOSECONDS / rate if MIN_RATE <= rate <= MAX_RATE else float("nan")
 
 
-def _list_jumps(events: Sequence[Event]) -> Iterator[Interval]:
-    """Yield the times in which a run has no samples: jumps, steps, and pauses of a recording."""
-    for event in events:
+def _find_jumps(ordered: Ordered) -> set[int]:
+    """Return the numbers of events at which time may go back: jumps, and the first of each run."""
+    firsts = {ordered.runs.index(run) for run in set(ordered.runs)}
+    return firsts | {k for k, event in enumerate(ordered.events) if event.name == "clock"}
+
+
+def _list_jumps(events: Sequence[Event]) -> Iterator[Empty]:
+    """Yield the times that a clock or a step has passed over."""
+    for number, event in enumerate(events):
         if event.name == "clock":
-            yield event.previous_end, event.stamp
+            yield number, event.previous_end, event.stamp
         to = event.request.get("to", "")
         if event.name == "step" and WHOLE.fullmatch(to):
-            yield event.stamp, min(int(to), MAX_STAMP)
-    for before, after in pairwise(event for event in events if event.name == "record"):
-        if after.values.get("outcome.kind") == "begun":
-            yield before.stamp, after.stamp
+            yield number, event.stamp, min(int(to), MAX_STAMP)
 
 
-def _list_times_without_tf(events: Sequence[Event]) -> Iterator[Interval]:
+def _list_pauses(events: Sequence[Event]) -> Iterator[Empty]:
+    """Yield the pauses of a recording."""
+    records = ((number, event) for number, event in enumerate(events) if event.name == "record")
+    for (_, before), (number, after) in pairwise(records):
+        if after.values.get("outcome.kind") == BEGUN:
+            yield number, before.stamp, after.stamp
+
+
+def _list_resumptions(events: Sequence[Event], periods: Real) -> Iterator[Empty]:
+    """Yield the times after a pause in which a recording began, of a run in its own time.
+
+    The sample at the beginning of the pause is then not recorded, and the next one comes a period
+    after its end.
+    """
+    is_begun = False
+    for number, (event, period) in enumerate(zip(events, periods.tolist(), strict=True)):
+        if event.name == "resume":
+            if is_begun and not math.isnan(period):
+                yield number, event.stamp, event.stamp + int(period)
+            is_begun = False
+        is_begun |= event.values.get("outcome.kind") == BEGUN
+
+
+def _list_times_without_tf(events: Sequence[Event]) -> Iterator[Empty]:
     """Yield the times in which /tf was switched off: only a log of the node has its samples."""
-    changes = [event for event in events if TF_SWITCH in event.request]
-    for before, after in pairwise([*changes, None]):
+    changes = [(number, event) for number, event in enumerate(events) if TF_SWITCH in event.request]
+    for (number, before), (_, after) in pairwise([*changes, (-1, None)]):
         if before and before.request[TF_SWITCH] == "false":
-            yield before.stamp, after.stamp if after else MAX_STAMP
-
-
-def merge(intervals: Sequence[Interval]) -> Stamps:
-    """Return disjoint intervals (n, 2) in their order, that cover the same stamps."""
-    merged: list[list[int]] = []
-    for begin, end in sorted(intervals):
-        if merged and begin <= merged[-1][1]:
-            merged[-1][1] = max(merged[-1][1], end)
-        elif begin < end:
-            merged.append([begin, end])
-    return np.array(merged, dtype=np.int64).reshape(-1, 2)
-
-
-def measure_overlap(intervals: Stamps, begins: Stamps, ends: Stamps) -> Stamps:
-    """Return how much (ns) of each stretch between two stamps is in disjoint intervals."""
-    lengths = np.concatenate(([0], np.cumsum(intervals[:, 1] - intervals[:, 0])))
-
-    def measure_before(stamps: Stamps) -> Stamps:
-        """Return how much of all time before some stamps is in the intervals."""
-        place = np.searchsorted(intervals[:, 1], stamps)  # of the first that ends later
-        inside = np.zeros_like(stamps)
-        is_open = place < len(intervals)
-        inside[is_open] = np.maximum(stamps[is_open] - intervals[place[is_open], 0], 0)
-        return np.asarray(lengths[place] + inside)
-
-    return measure_before(ends) - measure_before(begins)
+            yield number, before.stamp, after.stamp if after else MAX_STAMP

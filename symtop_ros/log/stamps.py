@@ -14,7 +14,7 @@ ROUNDING = 1  # ns by which steps of one grid differ: stamps are rounded
 
 
 class Row(NamedTuple):
-    """Consecutive messages with equal steps."""
+    """Consecutive messages with equal steps, and no event between them."""
 
     first: int  # stamp in ns
     last: int
@@ -29,16 +29,19 @@ class StampRows:
 
     rows: list[Row] = field(default_factory=list)
     count: int = 0
+    _events: int = 0  # before the last of them
 
-    def add(self, stamps: Stamps, places: Places) -> None:
-        """Add the next stamps (n,) in ns with their places (n,) in the log."""
-        begins = [0, *self._find_cuts(stamps), len(stamps)]
+    def add(self, stamps: Stamps, places: Places, events: Places) -> None:
+        """Add stamps (n,) in ns, with their places (n,) and the numbers of events before them."""
+        is_open = self._events == int(events[0])
+        self._events = int(events[-1])
+        begins = [0, *self._find_cuts(stamps, events), len(stamps)]
         self.count += len(stamps)
         for begin, end in itertools.pairwise(begins):
             ends = [begin, end - 1]
             (first, last), (at, until) = stamps[ends].tolist(), places[ends].tolist()
             row = Row(first, last, at, until, end - begin)
-            if begin == 0 and self.rows and self._continues(stamps, end):
+            if begin == 0 and self.rows and is_open and self._continues(stamps, end):
                 row = _join(self.rows.pop(), row)
             self.rows.append(row)
 
@@ -51,14 +54,15 @@ class StampRows:
         return step > 0 and abs(step - own) <= ROUNDING and abs(step - following) <= ROUNDING
 
     @staticmethod
-    def _find_cuts(stamps: Stamps) -> list[int]:
-        """Return the places at which rows begin, but for the first: steps that differ."""
+    def _find_cuts(stamps: Stamps, events: Places) -> list[int]:
+        """Return the places at which rows begin, but for the first: other steps, and events."""
         steps = np.diff(stamps)
         differs = np.abs(np.diff(steps, prepend=steps[:1])) > ROUNDING
+        must = (steps <= 0) | (np.diff(events) > 0)
         cuts: list[int] = []
-        for place in (np.flatnonzero(differs | (steps <= 0)) + 1).tolist():
+        for place in (np.flatnonzero(differs | must) + 1).tolist():
             # The step after one that differs begins a grid, and differs from that one as well.
-            if steps[place - 1] <= 0 or cuts[-1:] != [place - 1]:
+            if must[place - 1] or cuts[-1:] != [place - 1]:
                 cuts.append(place)
         return cuts
 
