@@ -8,7 +8,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
+from itertools import groupby, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -320,9 +320,10 @@ class _Conclusions:
                     f"the beginning is missing: {early} samples are before the first event, "
                     f"which is number {ordered.events[0].number}"
                 )
-        for each in self._stretches:
-            if each.reason.startswith(NO_PROOF):
-                yield f"from {each.begin} ns on the motion is not known: {each.reason}"
+        unproved = (each for each in self._stretches if each.reason.startswith(NO_PROOF))
+        for _, parts in groupby(unproved, key=lambda each: each.places):
+            first = next(parts)
+            yield f"from {first.begin} ns on the motion is not known: {first.reason}"
 
     def _describe_samples(self) -> Iterator[str]:
         """Yield what is missing and repeated; topics of which the same is said share a line."""

@@ -8,9 +8,11 @@ import struct
 import zlib
 from collections import defaultdict
 from dataclasses import dataclass, field
+from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO
 
+from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Chunk, DataEnd, Footer, MessageIndex
 
@@ -96,14 +98,21 @@ class Walk:
 
     def pass_over(self, opcode: int, head: bytes, file: BinaryIO, length: int) -> None:
         """Take a large record piece by piece, such as an attachment."""
-        self._compare_indexes(file.tell() - len(head))
+        begin = file.tell()
+        self._compare_indexes(begin - len(head))
         self.add(head)
-        own, left = 0, length - CHECKSUM.size
-        while left and (piece := file.read(min(PIECE, left))):
-            self.add(piece)
-            own, left = zlib.crc32(piece, own), left - len(piece)
-        self.add(last := file.read(CHECKSUM.size))
-        if opcode == Opcode.ATTACHMENT and last not in (bytes(CHECKSUM.size), CHECKSUM.pack(own)):
+        own, left, last = 0, length, b""
+        content = _measure(file.read(PIECE)) if opcode == Opcode.ATTACHMENT else length
+        file.seek(begin)
+        while left:
+            at = file.tell() - begin
+            size = min(PIECE, content - at) if at < content else CHECKSUM.size
+            self.add(piece := file.read(min(size, left)))
+            left -= len(piece)
+            if at < content:
+                own = zlib.crc32(piece, own)
+            last = last or (piece if at == content else b"")
+        if last not in (b"", bytes(CHECKSUM.size), CHECKSUM.pack(own)):
             self.problems.append(f"the attachment before byte {file.tell()} is damaged")
 
     def _judge(self, opcode: int, data: bytes, end: int) -> None:
@@ -128,7 +137,9 @@ class Walk:
     def _compare_indexes(self, end: int) -> None:
         """Compare the indexes behind a chunk, if it has any, with its messages."""
         expected, self._expected = self._expected, None
-        if expected is not None and self._found and self._found != expected:
+        # Writers differ in whether a channel without messages has an index, and in the order.
+        found = {channel: sorted(index) for channel, index in self._found.items() if index}
+        if expected is not None and found and found != expected:
             self.problems.append(f"the index of messages before byte {end} is damaged")
 
     def _judge_footer(self, footer: Footer, length: int) -> None:
@@ -156,4 +167,15 @@ def _index(data: bytes) -> Index | None:
                 index[channel].append((log_time, begin - RECORD_START.size))
     except DAMAGE:  # `McapFile` reports it
         return None
-    return dict(index)
+    return {channel: sorted(places) for channel, places in index.items()}
+
+
+def _measure(head: bytes) -> int:
+    """Return the bytes of an attachment before its checksum, from its beginning."""
+    stream = BytesIO(head)
+    reader = ReadDataStream(stream)
+    reader.read(16)  # the times
+    reader.read_prefixed_string()
+    reader.read_prefixed_string()
+    size: int = reader.read8()
+    return stream.tell() + size

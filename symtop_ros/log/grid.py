@@ -117,7 +117,7 @@ class Grid:
         if not self._course.is_in_log_order:  # chunks or messages are in another order
             return
         latest = self._course.find_latest(places)
-        for k in np.flatnonzero(stamps[1:] <= stamps[:-1]).tolist():
+        for k in np.flatnonzero(stamps[1:] < stamps[:-1]).tolist():
             # An event may come late.
             if not self._explains_return(range(int(latest[k]) + 1, int(latest[k + 1]) + 2)):
                 yield int(places[k]) + 1

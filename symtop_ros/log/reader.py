@@ -59,7 +59,7 @@ PARSED: dict[int, Parse] = {**PARSED_IN_CHUNK, Opcode.METADATA: Metadata.read}
 SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX, Opcode.METADATA_INDEX)
 # Records whose content is read; the others may have any length that the file has.
 HELD = frozenset((*PARSED, Opcode.MESSAGE, Opcode.MESSAGE_INDEX, Opcode.CHUNK))
-CHECKSUM = struct.Struct("<I")  # at the end of an attachment; 0: there is none
+CHECKSUM = struct.Struct("<I")  # behind the bytes of an attachment; 0: there is none
 INDEX_HEAD = struct.Struct("<HI")  # channel, and bytes of the entries of 16 bytes each
 MAX_DESCRIPTIONS = 64 * 2**20  # bytes of schemas, channels and metadata in memory
 MAX_PROBLEMS = 20  # problems that are listed
@@ -355,11 +355,12 @@ def open_stream(data: bytes) -> ReadDataStream:
 
 def read_attachment(data: bytes) -> Attachment:
     """Return the attachment of a record; DamageError if it has another checksum than its bytes."""
-    content = memoryview(data)[: -CHECKSUM.size]
-    (checksum,) = CHECKSUM.unpack(data[-CHECKSUM.size :])
-    if checksum and checksum != zlib.crc32(content):
+    stream = BytesIO(data)
+    attachment: Attachment = Attachment.read(ReadDataStream(stream))
+    end = stream.tell() - CHECKSUM.size  # there may be further bytes behind it
+    (checksum,) = CHECKSUM.unpack_from(data, end)
+    if checksum and checksum != zlib.crc32(memoryview(data)[:end]):
         raise DamageError("CRC")
-    attachment: Attachment = Attachment.read(open_stream(data))
     return attachment
 
 

@@ -62,6 +62,8 @@ def _copy(file: McapFile, writer: Writer, losses: Sequence[Loss]) -> Repaired:
             )
         else:
             left_out.append(place)
+    for number in file.channels:  # those without messages as well
+        register(number)
     attachments = 0
     for attachments, each in enumerate(file.attachments(), start=1):  # noqa: B007 - the count
         writer.add_attachment(
