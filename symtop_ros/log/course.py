@@ -70,8 +70,8 @@ def _begins_run(event: Event, run: dict[object, Placed]) -> bool:
     if not event.number:
         return False
     known = run.get(event.number)
-    if known is not None:
-        return known[1].stamp != event.stamp
+    if known is not None:  # simulated time may begin at 0 each time
+        return known[1].stamp != event.stamp or (event.number == 1 and known[1] != event)
     is_first = event.number == 1 and event.name in RESTARTS
     return is_first and all(each.previous_end <= event.stamp for _, each in run.values())
 
