@@ -1,4 +1,4 @@
-"""What `top_judge` is given: a run with its exact motion, and the estimates of some sources.
+"""The input of `top_judge`: a run with its exact motion, and the estimates of some sources.
 
 Problems of the logs are printed first. The status is 1 if estimates may be missing, or if some
 cannot be judged.

@@ -43,7 +43,7 @@ GUESSED = (
 
 @dataclass(frozen=True, slots=True)
 class TopicAccount:
-    """What a log has of a topic of the top."""
+    """The account of a topic of the top."""
 
     name: str  # full name
     type: str
@@ -65,7 +65,7 @@ class Account:
     others: Mapping[str, str]  # types of the other topics of the log, by their full names
     ordered: Ordered  # its events
     stretches: tuple[Stretch, ...]  # in the order of the run
-    end: int | None  # stamp (ns) of the last sample; None: there are none
+    end: int | None  # stamp (ns) of the last sample; None without samples
     losses: tuple[Loss, ...]  # as reading the files has found them
     never_recorded: tuple[str, ...]  # topics that the node has and the log lacks, by our names
     problems: tuple[str, ...]  # everything that is damaged, missing or there twice
@@ -87,7 +87,7 @@ class Account:
         return tuple(each for each in self.stretches if each.event is None)
 
     def list_continuous(self) -> list[Stretch]:
-        """Return the stretches with motions up to where another one may have been.
+        """Return the stretches with motions, up to where the motion may have changed.
 
         What is not known before the first event, and between two events of one motion, is passed
         over.
@@ -133,7 +133,7 @@ def read_account(file: MessageSource, names: Names) -> Account:
 
 
 class _Conclusions:
-    """What follows from the contents of a log."""
+    """The conclusions from the contents of a log."""
 
     def __init__(self, file: MessageSource, names: Names, contents: Contents) -> None:
         self._file, self._names, self._contents = file, names, contents

@@ -14,16 +14,18 @@ from typing import BinaryIO
 
 from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
-from mcap.records import Chunk, DataEnd, Footer, MessageIndex
+from mcap.records import Chunk, DataEnd, Footer
 
 from symtop_ros.log.reader import (
     CHECKSUM,
     DAMAGE,
     HELD,
+    INDEX_HEAD,
     MAGIC,
     MESSAGE_START,
     PIECE,
     RECORD_START,
+    DamageError,
     McapFile,
     Places,
     fits,
@@ -35,6 +37,7 @@ from symtop_ros.log.reader import (
 from symtop_ros.log.source import MessageSource
 
 Index = dict[int, list[tuple[int, int]]]  # log time and offset of each message, by channel
+ENTRY = struct.Struct("<QQ")  # of an index: log time and offset
 FOOTER_HEAD = struct.Struct("<BQQQ")  # of which the checksum of the summary is taken, too
 
 
@@ -122,8 +125,11 @@ class Walk:
             case Opcode.CHUNK:
                 self._found, self._expected = {}, _index(data)
             case Opcode.MESSAGE_INDEX:
-                index = MessageIndex.read(open_stream(data))
-                self._found[index.channel_id] = [(time, place) for time, place in index.records]
+                channel, size = INDEX_HEAD.unpack_from(data)
+                if size > len(data) - INDEX_HEAD.size:
+                    raise DamageError("the entries are more than the record has")
+                entries = memoryview(data)[INDEX_HEAD.size : INDEX_HEAD.size + size]
+                self._found[channel] = [*ENTRY.iter_unpack(entries)]
             case Opcode.ATTACHMENT:
                 read_attachment(data)
             case Opcode.DATA_END:

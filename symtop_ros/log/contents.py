@@ -27,7 +27,7 @@ Chosen = tuple[int, str, Message]  # a message of the top, with its place and ou
 
 @dataclass(frozen=True)
 class Contents:
-    """What the messages of a log say, with their places in the log."""
+    """The contents of all messages of a log, with their places in it."""
 
     counts: Counter[str] = field(default_factory=Counter)  # messages by our names of topics
     channels: Counter[int] = field(default_factory=Counter)  # messages by channels, of all topics

@@ -41,7 +41,7 @@ class Gap:
 
 @dataclass(frozen=True, slots=True)
 class GridFindings:
-    """What is missing of the samples of a topic, or there too often."""
+    """Samples of a topic that are missing or repeated."""
 
     gaps: tuple[Gap, ...] = ()
     repeated: int = 0
@@ -188,7 +188,7 @@ def _list_periods(ordered: Ordered, recordings: Sequence[Recording]) -> Iterator
 
 
 def _read_period(text: str) -> float:
-    """Return the period in ns of a rate; nan if it is none."""
+    """Return the period in ns of a rate; nan if the text is no rate."""
     try:
         rate = float(text)
     except ValueError:

@@ -1,4 +1,4 @@
-"""Which topic of which top each channel of a log is.
+"""The topics of a top in a log: which channel each of them is.
 
 A log of the node has the full names of its topics, which may be remapped, in its metadata. In logs
 of other recorders, and in those of before, topics are recognised by the last part of their names
@@ -38,7 +38,7 @@ class GivenNames:
 
 
 def read_names(metadata: Mapping[str, str]) -> GivenNames | None:
-    """Return the names of topics in the metadata of the node; None if it has none."""
+    """Return the names of topics in the metadata of the node; None without them."""
     with suppress(KeyError, ValueError, RecursionError):
         found = json.loads(metadata[TOPICS_ENTRY])
         if isinstance(found, dict) and all(type(each) is str for each in found.values()):
@@ -64,7 +64,7 @@ class Names:
             self.node = self._find_node()
 
     def find_given(self, name: str) -> str:
-        """Return the full name of a topic that the metadata of the log has; "" if it has none."""
+        """Return the full name of a topic that the metadata of the log has; "" without it."""
         found = filter(None, map(self._read_given, self._file.files))
         of_node = (each.topics for each in found if each.node == self.node)
         return next((full for each in of_node for full, ours in each.items() if ours == name), "")

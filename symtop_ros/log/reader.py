@@ -59,7 +59,7 @@ PARSED: dict[int, Parse] = {**PARSED_IN_CHUNK, Opcode.METADATA: Metadata.read}
 SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX, Opcode.METADATA_INDEX)
 # Records whose content is read; the others may have any length that the file has.
 HELD = frozenset((*PARSED, Opcode.MESSAGE, Opcode.MESSAGE_INDEX, Opcode.CHUNK))
-CHECKSUM = struct.Struct("<I")  # behind the bytes of an attachment; 0: there is none
+CHECKSUM = struct.Struct("<I")  # behind the bytes of an attachment; 0: without it
 INDEX_HEAD = struct.Struct("<HI")  # channel, and bytes of the entries of 16 bytes each
 MAX_DESCRIPTIONS = 64 * 2**20  # bytes of schemas, channels and metadata in memory
 MAX_PROBLEMS = 20  # problems that are listed
@@ -187,7 +187,7 @@ class McapFile(MessageSource):
 
     @cached_property
     def _is_sound(self) -> bool | None:
-        """True if the checksum of the data is that of its bytes; None if there is none."""
+        """True if the checksum of the data is that of its bytes; None without a checksum."""
         with self.path.open("rb") as file:
             for record in self._records_at(file, len(MAGIC), Opcode.DATA_END):
                 with suppress(*DAMAGE):

@@ -22,7 +22,7 @@ from symtop_ros.log.writer import REPAIR, REPAIR_LOSSES
 
 @dataclass(frozen=True, slots=True)
 class Repaired:
-    """What was written to a new log."""
+    """Numbers of what was written to a new log."""
 
     messages: int
     attachments: int

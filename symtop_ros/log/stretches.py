@@ -80,7 +80,7 @@ class MissingEvents:
 
 
 class Proofs:
-    """What diagnostics, and events that are repeated, show of the latest event at their places."""
+    """Numbers of the latest event that diagnostics and repeated events show at their places."""
 
     def __init__(self, ordered: Ordered, marks: Sequence[Mark]) -> None:
         self._ordered = ordered
