@@ -185,10 +185,11 @@ def _list_pieces(
 
     There are several if an event that was lost is a jump of the clock.
     """
-    inside = [r for r in rows.rows if places[0] <= r.first_place and r.last_place < places[1]]
     pieces = [[begin, begin]]
-    for row in inside:
-        if row.first < pieces[-1][1]:
+    for row in rows.rows:
+        if row.last_place < places[0] or places[1] <= row.first_place:
+            continue
+        if places[0] <= row.first_place and row.first < pieces[-1][1]:
             pieces.append([row.first, row.first])
         pieces[-1][1] = row.last + 1
     pieces[-1][1] = max(end, pieces[-1][1])
