@@ -19,7 +19,7 @@ from symtop_ros import __version__
 from symtop_ros.log.account import Account
 from symtop_ros.log.contents import LATEST
 from symtop_ros.log.course import Course
-from symtop_ros.log.stretches import NO_BEGINNING, NOT_RECORDED, find_unknown
+from symtop_ros.log.stretches import NO_BEGINNING, NOT_RECORDED, Unknown
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Top
 from symtop_ros.session.diagnostics import balance_status, motion_status
@@ -194,6 +194,7 @@ class TextCheck:
         self.compared: Counter[str] = Counter()  # messages by our names of topics
         self.reasons = dict(REASONS)  # why others were not compared
         self._account, self._budget = account, StepBudget(SPARE_STEPS)
+        self._unknown = Unknown(account.unknown)
         self._course = Course(account.events, account.ordered.places)
         self._judges: dict[str, Callable[[str, Message, int], Found]] = {
             DESCRIPTION.name: self._judge_description,
@@ -293,7 +294,7 @@ class TextCheck:
             found.append(list(compare_fields(name, status.stamp, right, _texts(status))))
         wrong = min(found, key=len, default=[])
         where = np.array([status.stamp]), np.array([place])
-        if wrong and find_unknown(self._account.unknown, *where).any():
+        if wrong and self._unknown.find(*where).any():
             return self._leave(DIAGNOSTICS.name)
         return wrong
 

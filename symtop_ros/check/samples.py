@@ -8,7 +8,7 @@ from symtop_ros.arrays import Places, Real
 from symtop_ros.log.account import Account
 from symtop_ros.log.batch import Batch, Columns
 from symtop_ros.log.course import Course
-from symtop_ros.log.stretches import find_unknown
+from symtop_ros.log.stretches import Unknown
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
@@ -67,7 +67,7 @@ class LogCheck:
     def __init__(self, account: Account) -> None:
         self.deviations: dict[str, Deviation] = {}
         self._course = Course(account.events, account.ordered.places)
-        self._unknown, self._budget = account.unknown, StepBudget(SPARE_STEPS)
+        self._unknown, self._budget = Unknown(account.unknown), StepBudget(SPARE_STEPS)
 
     def add_batch(self, batch: Batch) -> None:
         """Compare the samples of a batch."""
@@ -81,7 +81,7 @@ class LogCheck:
         owners = self._course.find_owners(columns.stamps, columns.places)
         follows = owners >= 0
         deviation.unchecked += int((~follows).sum())
-        unknown = find_unknown(self._unknown, columns.stamps, columns.places) & follows
+        unknown = self._unknown.find(columns.stamps, columns.places) & follows
         # Where the motion is not known, a sample that is exactly that of an event is one of it.
         left, _ = self._take_agreeing(
             deviation, name, columns.select(unknown), owners[unknown], 0.0

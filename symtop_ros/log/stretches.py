@@ -5,7 +5,7 @@ among them, and another motion may have followed. Events are numbered, and diagn
 number of the latest one: they prove that none was lost, or that one was.
 """
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from symtop_ros.arrays import Mask, Places, Stamps
 from symtop_ros.log.course import Ordered
-from symtop_ros.log.stamps import StampRows
+from symtop_ros.log.stamps import Row, StampRows
 from symtop_ros.simulation.events import MAX_STAMP, Event
 from symtop_ros.simulation.segment import Segment
 
@@ -186,14 +186,17 @@ def _list_pieces(
     There are several if an event that was lost is a jump of the clock.
     """
     pieces = [[begin, begin]]
-    for row in rows.rows:
-        if row.last_place < places[0] or places[1] <= row.first_place:
-            continue
+    first, last = (bisect_left(rows.rows, place, key=_find_last_place) for place in places)
+    for row in rows.rows[first:last]:
         if places[0] <= row.first_place and row.first < pieces[-1][1]:
             pieces.append([row.first, row.first])
         pieces[-1][1] = row.last + 1
     pieces[-1][1] = max(end, pieces[-1][1])
-    return [(first, last) for first, last in pieces if first < last]
+    return [(since, until) for since, until in pieces if since < until]
+
+
+def _find_last_place(row: Row) -> int:
+    return row.last_place
 
 
 def _next_of_run(ordered: Ordered, k: int) -> Event | None:
@@ -207,11 +210,31 @@ def _ends_recording(event: Event) -> bool:
     return event.name == "record" and event.values.get("outcome.kind") == "ended"
 
 
-def find_unknown(stretches: Iterable[Stretch], stamps: Stamps, places: Places) -> Mask:
-    """Return the mask of the samples, by stamps and places in the log, of which none is known."""
-    found = np.zeros(len(stamps), dtype=np.bool_)
-    for each in stretches:
-        if each.event is None:
-            found |= (stamps >= each.begin) & (stamps < each.end)
-            found |= (places >= each.places[0]) & (places < each.places[1])
-    return found
+class Unknown:
+    """Samples of which the motion is not known, by their stamps or by their places in the log."""
+
+    def __init__(self, stretches: Iterable[Stretch]) -> None:
+        unknown = [each for each in stretches if each.event is None]
+        self._stamps = _merge([(each.begin, each.end) for each in unknown])
+        self._places = _merge([each.places for each in unknown])
+
+    def find(self, stamps: Stamps, places: Places) -> Mask:
+        """Return the mask of some samples, (n,)."""
+        return _is_inside(self._stamps, stamps) | _is_inside(self._places, places)
+
+
+def _merge(intervals: Sequence[tuple[int, int]]) -> Stamps:
+    """Return disjoint intervals (n, 2) in their order, that cover the same numbers."""
+    merged: list[list[int]] = []
+    for begin, end in sorted(intervals):
+        if merged and begin <= merged[-1][1]:
+            merged[-1][1] = max(merged[-1][1], end)
+        elif begin < end:
+            merged.append([begin, end])
+    return np.array(merged, dtype=np.int64).reshape(-1, 2)
+
+
+def _is_inside(intervals: Stamps, numbers: Stamps | Places) -> Mask:
+    """Return the mask of the numbers (n,) that are in one of some disjoint intervals."""
+    begun = np.searchsorted(intervals[:, 0], numbers, side="right")
+    return np.asarray(begun > np.searchsorted(intervals[:, 1], numbers, side="right"))

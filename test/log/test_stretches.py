@@ -15,8 +15,8 @@ from symtop_ros.log.stretches import (
     Finder,
     Mark,
     Proofs,
+    Unknown,
     find_missing,
-    find_unknown,
 )
 
 STAMPS = range(60)  # ns; each has its place in the log, with events between them
@@ -99,4 +99,4 @@ def test_samples_are_unknown_by_their_stamps_and_by_their_places():
     proofs = Proofs(ordered, [])
     stretches = list(Finder(ordered, proofs, [41], rows_of(STAMPS)).list_stretches())
     stamps, places = np.array([39, 40, 5, 50]), np.array([40, 40, 45, NOWHERE])
-    assert find_unknown(stretches, stamps, places).tolist() == [False, True, True, True]
+    assert Unknown(stretches).find(stamps, places).tolist() == [False, True, True, True]
