@@ -12,9 +12,14 @@ from symtop_ros.simulation.validation import one_line, plain
 
 
 def tell_failures(name: str, act: Callable[[], int]) -> int:
-    """Return the status of an action; refusals and failing files are printed in one line."""
+    """Return the status of an action; refusals and failing files are printed in one line.
+
+    That the output is no longer read is no failure of it: the program ends as by that signal.
+    """
     try:
         return act()
+    except BrokenPipeError:
+        raise
     except ValueError as error:
         text = one_line(error)
     except OSError as error:

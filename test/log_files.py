@@ -1,5 +1,6 @@
 """Logs as the node writes them, without waiting for a node."""
 
+import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -11,7 +12,7 @@ from mcap.writer import Writer
 from symtop_ros.arrays import Real
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.log.writer import LogFile
+from symtop_ros.log.writer import NODE_ENTRY, TOPICS_ENTRY, LogFile
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict, regular_precession_rates
 from symtop_ros.simulation.changes.outcomes import Start
@@ -105,7 +106,9 @@ class Run:
     def write(self, folder: Path) -> Path:
         """Write the log, with a chunk for each half second, and return its path."""
         channels = [replace(each, ros_name=each.resolve("/top")) for each in TOPICS]
-        log = LogFile(folder, channels, {"version": "test"}, {})
+        names = {each.name: each.resolve("/top") for each in TOPICS}
+        about = {"version": "test", NODE_ENTRY: "/top", TOPICS_ENTRY: json.dumps(names)}
+        log = LogFile(folder, channels, about, {})
         flushed = BEGIN
         if self.described:
             urdf = encode_string(robot_description(self.top, "world", "top"))

@@ -94,7 +94,7 @@ def test_other_folders_import_physics_by_its_public_names_only():
 
 
 # They count, or keep what was computed; every other record stays what it was when it was made.
-CHANGING = {"Draw", "Markers", "Tables", "Fit", "StepBudget", "Deviation", "Gaps", "Walk"}
+CHANGING = {"Draw", "Markers", "Tables", "Fit", "StepBudget", "Deviation", "StampRows", "Walk"}
 
 
 def test_records_are_frozen_but_for_those_that_count():

@@ -1,14 +1,14 @@
 """Events, each compared with what follows from its act on the segment of the event before it.
 
-Descriptions, fixed frames and diagnostics are compared with what the events give. Of the
+Descriptions, fixed frames, diagnostics and the clock are compared with what the events give. Of the
 diagnostics those of the motion and of balances are computed again. Pace, log and duplicates
 describe the machine.
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, pairwise
 from typing import Any
 from xml.sax.saxutils import unescape
 
@@ -16,8 +16,10 @@ import numpy as np
 from mcap.records import Message
 
 from symtop_ros import __version__
-from symtop_ros.check.course import Course
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.log.account import Account
+from symtop_ros.log.contents import LATEST
+from symtop_ros.log.course import Course
+from symtop_ros.log.stretches import NO_BEGINNING, NOT_RECORDED, Unknown
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Top
 from symtop_ros.session.diagnostics import balance_status, motion_status
@@ -26,10 +28,18 @@ from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.follow import RULES, Act, Following, follow
 from symtop_ros.simulation.changes.outcomes import Start
 from symtop_ros.simulation.changes.requests import read_kick
-from symtop_ros.simulation.events import KICKS, RESTARTS, Event, decode_events
+from symtop_ros.simulation.events import KICKS, RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor.imu import Rig, find_body
-from symtop_ros.simulation.topics import DIAGNOSTICS, EVENTS, TF_STATIC, choose_description
+from symtop_ros.simulation.topics import (
+    APPLIED_TORQUE,
+    CLOCK,
+    DESCRIPTION,
+    DIAGNOSTICS,
+    EVENTS,
+    MARKERS,
+    TF_STATIC,
+)
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.diagnostics import Status, decode_statuses
 from symtop_ros.wire.layout import DecodeError, Reader
@@ -38,7 +48,17 @@ from symtop_ros.wire.messages import encode_transforms
 NOTHING = "nothing"
 BEFORE = ("before.orientation", "before.angular_velocity", "before.pushes")
 Described = tuple[Top, Rig, str]  # what a description depends on: top, gravity and sensor, frame
-STATUSES = {"motion": motion_status, "balance": balance_status}
+Found = list["Mismatch"] | None  # in a message; None: it was not compared
+STATUSES: dict[str, Callable[[Segment, int, int], Status]] = {
+    "motion": motion_status,
+    "balance": lambda segment, stamp, _: balance_status(segment, stamp),
+}
+OTHER_VERSION = "it is of another version"
+REASONS = {
+    CLOCK.name: "a recorder gets it at other times than those that it names",
+    MARKERS.name: "markers are drawings of the samples before them",
+    APPLIED_TORQUE.name: "it was received, and not computed",
+}
 # What is left of a balance is rounding, and the order of its sums is that of the linear algebra of
 # the machine.
 ROUNDING = ("energy.balance", "angular_momentum.balance")
@@ -169,34 +189,51 @@ def _is_near(previous: Segment, act: Act, budget: StepBudget) -> bool:
 class TextCheck:
     """The messages of one node that are neither events nor samples."""
 
-    def __init__(self, node: str, events: Sequence[Event], all_readable: bool = True) -> None:
-        self._node, self._events = node, events
-        self._course, self._budget = Course(events, all_readable), StepBudget(SPARE_STEPS)
-        self._names = {
-            choose_description(node).resolve(node): self._judge_description,
-            TF_STATIC.resolve(node): self._judge_frames,
-            DIAGNOSTICS.resolve(node): self._judge_diagnostics,
+    def __init__(self, account: Account) -> None:
+        self.mismatches: list[Mismatch] = []
+        self.compared: Counter[str] = Counter()  # messages by our names of topics
+        self.reasons = dict(REASONS)  # why others were not compared
+        self._account, self._budget = account, StepBudget(SPARE_STEPS)
+        self._unknown = Unknown(account.unknown)
+        self._course = Course(account.events, account.ordered.places)
+        self._judges: dict[str, Callable[[str, Message, int], Found]] = {
+            DESCRIPTION.name: self._judge_description,
+            TF_STATIC.name: self._judge_frames,
+            DIAGNOSTICS.name: self._judge_diagnostics,
+            **({} if account.guess else {CLOCK.name: self._judge_clock}),
         }
-        self._kinds = list(dict.fromkeys(map(_kind, events)))
-        numbers = [event.number for event in events]
+        self._kinds = list(dict.fromkeys(map(_kind, account.events)))
         # Of a run with an event that is missing, the top of a description may not be known.
-        self._is_whole = (
-            all_readable
-            and all(map(is_of_this_version, events))
-            and all(after <= before + 1 for before, after in pairwise(numbers))
-        )
+        harmless = NOT_RECORDED, NO_BEGINNING
+        self._is_whole = all(each.reason in harmless for each in account.unknown)
+        if not account.events:
+            self._judges.clear()
+        if not all(map(is_of_this_version, account.events)):
+            for name in (DESCRIPTION.name, TF_STATIC.name):
+                self._judges.pop(name, None)
+                self.reasons[name] = OTHER_VERSION
 
-    def judge(self, name: str, message: Message, place: int) -> Iterator[Mismatch]:
-        """Yield what is wrong in a message; `place` is the number of events before it."""
-        if name in self._names:
+    def add(self, place: int, name: str, message: Message) -> None:
+        """Compare a message, given with its place in the log and our name of its topic."""
+        if name in self._judges:
+            topic = self._account.topics[name].name
             try:
-                yield from self._names[name](name, message, place)
+                found = self._judges[name](topic, message, place)
+                self.compared[name] += found is not None
+                self.mismatches += found or []
             except DecodeError as error:
-                yield Mismatch(name, message.log_time, "message", "readable", str(error))
+                self.mismatches.append(
+                    Mismatch(topic, message.log_time, "message", "readable", str(error))
+                )
 
-    def _judge_description(self, name: str, message: Message, _: int) -> Iterator[Mismatch]:
+    def _leave(self, name: str) -> Found:
+        """Note that a message of a topic is not compared, as an event may be missing."""
+        self.reasons.setdefault(name, "events may be missing")
+        return None
+
+    def _judge_description(self, name: str, message: Message, _: int) -> Found:
         if not self._is_whole:
-            return
+            return self._leave(DESCRIPTION.name)
         text = Reader(message.data).string()
         link = re.search(r'<link name="([^"]*)"/>', text)  # the first is that of the world
         world = unescape(link[1], {"&quot;": '"'}) if link else ""
@@ -207,50 +244,75 @@ class TextCheck:
             for top, rig, frame in self._kinds
             for moves in (True, False)
         ]
-        if text not in right:
-            yield Mismatch(name, message.log_time, "text", "that of a top of the run", "another")
+        wrong = Mismatch(name, message.log_time, "text", "that of a top of the run", "another")
+        return [] if text in right else [wrong]
 
-    def _judge_frames(self, name: str, message: Message, _: int) -> Iterator[Mismatch]:
+    def _judge_frames(self, name: str, message: Message, _: int) -> Found:
         reader = Reader(message.data)
         reader.count()
         stamp = reader.stamp()
-        child = self._kinds[0][2].encode()
-        if not self._is_whole or child not in message.data:
-            return  # of another node
+        if not self._is_whole:
+            return self._leave(TF_STATIC.name)
+        if self._kinds[0][2].encode() not in message.data:
+            return None  # of another node
         right = [
             encode_transforms(stamp, list_fixed_frames(frame, rig.imu, body))
             for top, rig, frame in self._kinds
             for body in (None, find_body(top, rig.gravity))
         ]
-        if message.data not in right:
-            yield Mismatch(name, message.log_time, "frames", "those of the run", "others")
+        wrong = Mismatch(name, message.log_time, "frames", "those of the run", "others")
+        return [] if message.data in right else [wrong]
 
-    def _judge_diagnostics(self, name: str, message: Message, place: int) -> Iterator[Mismatch]:
+    def _judge_clock(self, name: str, message: Message, _: int) -> Found:
+        """Compare a time with that at which the node logged it."""
+        stamp = Reader(message.data).stamp()
+        wrong = Mismatch(name, message.log_time, "clock", str(message.log_time), str(stamp))
+        return [] if stamp == message.log_time else [wrong]
+
+    def _judge_diagnostics(self, name: str, message: Message, place: int) -> Found:
+        found: list[Found] = []
         for status in decode_statuses(message.data):
             owner, _, kind = status.name.rpartition(": ")
-            if owner == self._node.lstrip("/") and kind in STATUSES:
-                yield from self._judge_status(name, status, kind, place)
+            if owner == (self._account.node or "").lstrip("/") and kind in STATUSES:
+                found.append(self._judge_status(name, status, kind, place))
+        judged = [each for each in found if each is not None]
+        return [one for each in judged for one in each] if judged else None
 
-    def _judge_status(self, name: str, status: Status, kind: str, place: int) -> Iterator[Mismatch]:
-        """Yield the fields of a status that are those of no event that can hold."""
+    def _judge_status(self, name: str, status: Status, kind: str, place: int) -> Found:
+        """Return the fields of a status that are those of no event that can hold."""
         found: list[list[Mismatch]] = []
-        owners = self._list_owners(status.stamp, place)
-        if self._course.has_gap[owners].any():
-            return
-        for number in owners:
-            segment, is_own = self._course.segment(number), is_of_this_version(self._events[number])
-            if not is_own or not self._budget.reach_stamps(segment, np.array([status.stamp])):
-                return
-            right = STATUSES[kind](segment, status.stamp)
-            found.append(list(compare_fields(name, status.stamp, _texts(right), _texts(status))))
-        yield from min(found, key=len, default=[])
+        for number in self._list_owners(status.stamp, place):
+            event, segment = self._account.events[number], self._course.segment(number)
+            if not is_of_this_version(event):
+                self.reasons.setdefault(DIAGNOSTICS.name, OTHER_VERSION)
+                return None
+            if not self._budget.reach_stamps(segment, np.array([status.stamp])):
+                return None
+            right = _texts(STATUSES[kind](segment, status.stamp, event.number))
+            if LATEST not in status.values:  # a log of before
+                right.pop(LATEST, None)
+            found.append(list(compare_fields(name, status.stamp, right, _texts(status))))
+        wrong = min(found, key=len, default=[])
+        where = np.array([status.stamp]), np.array([place])
+        if wrong and self._unknown.find(*where).any():
+            return self._leave(DIAGNOSTICS.name)
+        return wrong
 
     def _list_owners(self, stamp: int, place: int) -> list[int]:
         """Return the events that can hold at a stamp: by their place in the log, and by stamps."""
         stamps, places = np.array([stamp]), np.array([place], dtype=np.intp)
         owner = int(self._course.find_owners(stamps, places)[0])
-        # What takes effect at the stamp itself may have come after the diagnostics.
-        return [each for each in dict.fromkeys((place - 1, owner, owner - 1)) if each >= 0]
+        latest = int(self._course.find_latest(places)[0])
+        # What takes effect at the stamp itself may have come after the diagnostics, and an event
+        # may come late.
+        found = dict.fromkeys((latest, owner, owner - 1, latest + 1))
+        return [each for each in found if self._may_hold(each, stamp)]
+
+    def _may_hold(self, number: int, stamp: int) -> bool:
+        events = self._account.events
+        return 0 <= number < len(events) and stamp >= min(
+            events[number].stamp, events[number].previous_end
+        )
 
 
 def _kind(event: Event) -> Described:
@@ -261,24 +323,3 @@ def _kind(event: Event) -> Described:
 def _texts(status: Status) -> dict[str, str]:
     kept = {key: value for key, value in status.values.items() if key not in ROUNDING}
     return {**kept, "message": status.message, "level": str(status.level)}
-
-
-def _count_events(data: bytes) -> int:
-    """Return how many events of a message can be read: the others are not among those of a log."""
-    try:
-        return len(decode_events(data))
-    except ValueError:
-        return 0
-
-
-def find_wrong_texts(log: TopLog, events: Sequence[Event]) -> Iterator[Mismatch]:
-    """Yield what is wrong in the texts of a log that has been read."""
-    if not events or log.node is None:
-        return
-    check, place = TextCheck(log.node, events, log.has_readable_events), 0
-    own = EVENTS.resolve(log.node)
-    for message in chain.from_iterable(log.file.chunks()):
-        channel = log.file.channels.get(message.channel_id)
-        name = channel.topic if channel else ""
-        place += _count_events(message.data) if name == own else 0
-        yield from check.judge(name, message, place)

@@ -1,22 +1,17 @@
 """Check of a log: the whole run is computed again from its events and compared."""
 
-import itertools
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from symtop_ros.arrays import Places, Real
-from symtop_ros.check.course import Course, Grid
-from symtop_ros.log.batch import Columns
-from symtop_ros.log.reader import LogError
-from symtop_ros.log.top_log import TopLog
-from symtop_ros.log.writer import METADATA
+from symtop_ros.log.account import Account
+from symtop_ros.log.batch import Batch, Columns
+from symtop_ros.log.course import Course
+from symtop_ros.log.stretches import Unknown
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
-from symtop_ros.simulation.events import FORMAT, LAST_WITHOUT_FIELDS, WITHOUT_FIELDS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
-from symtop_ros.simulation.validation import one_line
 
 # Under gravity alone a state has the same bits on every machine, and so has what follows from it by
 # products, sums and the arc tangent of this package: no difference is accepted there. The noise of
@@ -41,10 +36,8 @@ class Deviation:
     unchecked: int = 0  # samples before the first event
     # samples of a motion that is too fast or too long to be integrated for a check
     unreached: int = 0
-    # samples that follow from an event that is missing
+    # samples where the motion is not known, and which do not agree with an event that is there
     unjudged: int = 0
-    # samples that agree with an event, although the order of the messages names a different one
-    unordered: int = 0
 
     @property
     def is_rounding(self) -> bool:
@@ -71,23 +64,37 @@ def _largest(numbers: Real) -> float:
 class LogCheck:
     """The samples of a log, compared with what its events say."""
 
-    def __init__(self, events: Sequence[Event], all_readable: bool = True) -> None:
+    def __init__(self, account: Account) -> None:
         self.deviations: dict[str, Deviation] = {}
-        self._course, self._budget = Course(events, all_readable), StepBudget(SPARE_STEPS)
+        self._course = Course(account.events, account.ordered.places)
+        self._unknown, self._budget = Unknown(account.unknown), StepBudget(SPARE_STEPS)
 
-    def add(self, name: str, columns: Columns, places: Places) -> None:
-        """Compare samples of a topic; `places` (n,) are the numbers of events before them."""
+    def add_batch(self, batch: Batch) -> None:
+        """Compare the samples of a batch."""
+        for name, columns in batch.columns.items():
+            with np.errstate(all="ignore"):
+                self.add(name, columns)
+
+    def add(self, name: str, columns: Columns) -> None:
+        """Compare samples of a topic."""
         deviation = self.deviations.setdefault(name, Deviation())
-        owners = self._course.find_owners(columns.stamps, places)
+        owners = self._course.find_owners(columns.stamps, columns.places)
         follows = owners >= 0
         deviation.unchecked += int((~follows).sum())
-        left, owners = columns.select(follows), owners[follows]
+        unknown = self._unknown.find(columns.stamps, columns.places) & follows
+        # Where the motion is not known, a sample that is exactly that of an event is one of it.
+        left, _ = self._take_agreeing(
+            deviation, name, columns.select(unknown), owners[unknown], 0.0
+        )
+        deviation.unjudged += len(left.stamps)
+        known = follows & ~unknown
+        self._add_known(deviation, name, columns.select(known), owners[known])
+
+    def _add_known(self, deviation: Deviation, name: str, left: Columns, owners: Places) -> None:
+        """Compare samples that follow from an event that is there."""
         # Where stamps are repeated two events may agree up to rounding: the exact one holds.
-        repeated = itertools.product((0.0, BOUND), (True, False))
-        for bound, in_order in [(BOUND, True)] if self._course.is_ordered else repeated:
-            before = len(left.stamps)
-            left, owners = self._take_agreeing(deviation, name, left, owners, in_order, bound)
-            deviation.unordered += 0 if in_order else before - len(left.stamps)
+        for bound in [BOUND] if self._course.is_ordered else [0.0, BOUND]:
+            left, owners = self._take_agreeing(deviation, name, left, owners, bound)
         for number in np.unique(owners).tolist():
             self._take_all(deviation, name, left.select(owners == number), number)
 
@@ -97,14 +104,13 @@ class LogCheck:
         name: str,
         left: Columns,
         owners: Places,
-        in_order: bool,
         bound: float,
     ) -> tuple[Columns, Places]:
         """Take the samples that agree with an event within a bound; return the others."""
         if not len(owners):
             return left, owners
-        for number in self._course.candidates(left.stamps, owners, in_order):
-            chosen = self._course.holds(number, left.stamps, in_order)
+        for number in self._course.candidates(left.stamps, owners):
+            chosen = self._course.holds(number, left.stamps)
             segment, part = self._course.segment(number), left.select(chosen)
             if not chosen.any() or not self._budget.reach_stamps(segment, part.stamps):
                 continue
@@ -122,42 +128,7 @@ class LogCheck:
             deviation.unreached += len(part.stamps)
             return
         difference, scale = _compare(name, part, segment)
-        if self._course.has_gap[number]:
-            known = (difference <= BOUND * scale).all(axis=1)
-            deviation.unjudged += int((~known).sum())
-            difference, scale = difference[known], scale[known]
         deviation.add(difference, scale, _is_exact(name, segment))
-
-
-def check_log(log: TopLog, grid: Grid | None = None) -> dict[str, Deviation]:
-    """Return the deviation of each topic in a log, by its name in `simulation.topics`.
-
-    A grid is given the stamps of all samples.
-
-    Raises
-    ------
-    LogError
-        If the log has events without fields: the version that wrote them checks it.
-    """
-    events = list(log.events())
-    if not all(event.has_fields for event in events):
-        own = log.file.metadata.get(METADATA, {}).get("version", "")
-        version = one_line(own or LAST_WITHOUT_FIELDS, 20)
-        raise LogError(
-            f"format of events must be {FORMAT} for a check, got {WITHOUT_FIELDS}: symtop_ros "
-            f"{version} has recorded {log.file.path} and checks it"
-        )
-    check, seen = LogCheck(events, log.has_readable_events), 0
-    for batch in log.batches():
-        begins = [place for place, _ in batch.events]
-        for name, columns in batch.columns.items():
-            places = seen + np.searchsorted(begins, columns.places, side="right")
-            with np.errstate(all="ignore"):
-                check.add(name, columns, places)
-            if grid:
-                grid.add(name, columns.stamps)
-        seen += len(begins)
-    return check.deviations
 
 
 def _is_exact(name: str, segment: Segment) -> bool:

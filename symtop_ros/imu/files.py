@@ -113,16 +113,18 @@ def _write_csv(
 def write_log(record: ImuRecord, path: Path) -> None:
     """Write the topics of a record in the order of their stamps."""
     from symtop_ros.log.reader import log_errors  # only logs need mcap
-    from symtop_ros.log.writer import LogFile
+    from symtop_ros.log.writer import NODE_ENTRY, TOPICS_ENTRY, LogFile
 
     contents = [*_contents(record)]
     topics = [("events", EVENTS), *(content[:2] for content in contents)]
     channels = [replace(topic, ros_name=f"{NODE}/{name}") for name, topic in topics]
+    names = {name: f"{NODE}/{name}" for name, topic in topics if name == topic.name}
+    metadata = {"program": "top_imu", NODE_ENTRY: NODE, TOPICS_ENTRY: json.dumps(names)}
     layouts = [topic.format.layout(*frames) for _, topic, frames, _ in contents]
     rows = [numbers.tolist() for *_, numbers in contents]
     parent = path.absolute().parent
     with log_errors("write", path), tempfile.TemporaryDirectory(dir=parent) as folder:
-        log = LogFile(Path(folder), channels, {"program": "top_imu"}, {})
+        log = LogFile(Path(folder), channels, metadata, {})
         log.write(0, 0, record.event.encode(WORLD, NODE))
         for place, stamp in enumerate(record.stamps.tolist()):
             for channel, (layout, table) in enumerate(zip(layouts, rows, strict=True), start=1):

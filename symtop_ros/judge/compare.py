@@ -77,9 +77,10 @@ class Errors:
     tilt: Real  # its part that turns the vertical (swing), in rad
     heading: Real  # its part about the vertical (twist), in rad, with its sign
     rate: Real | None  # |omega_est - omega| in rad/s
-    unknown: int  # estimates at stamps of which the exact motion is not known
+    unknown: int  # estimates out of reach of the integration of the run
     late: int = 0  # estimates after the last sample of the run
     early: int = 0  # estimates before the run
+    unjudged: int = 0  # estimates where the log does not say which motion holds
 
     @property
     def seconds(self) -> Real:
@@ -124,8 +125,9 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
         else np.linalg.norm(to_rotation(body).apply(chosen.angular_velocities) - rates, axis=1)
     )
     early, late = truth.count_outside(stamps)
-    unknown = int((~known).sum()) - late - early
-    return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late, early)
+    unjudged = int(truth.find_unjudged(stamps).sum())
+    unknown = int((~known).sum()) - late - early - unjudged
+    return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late, early, unjudged)
 
 
 def to_rotation(q: Real) -> Rotation:

@@ -38,6 +38,7 @@ class Estimates:
     orientations: Real  # unit quaternions w, x, y, z, frame of body or sensor to world
     angular_velocities: Real | None  # in that frame, in rad/s
     left_out: int = 0  # messages without an attitude, or which could not be read
+    unreadable: int = 0  # those which could not be read
     of_sensor: bool = False  # True: of the mounted sensor, not of the body
     notes: tuple[str, ...] = ()  # what was odd about the file, in sentences
 
@@ -128,7 +129,8 @@ def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = N
     covariance, rates = find("orientation_covariance"), find("angular_velocity", "angular")
     if covariance is not None:
         q[covariance[:, 0] == -1.0] = 0.0  # an Imu without an orientation, says sensor_msgs
-    return replace(Estimates.of(stamps, q, rates, len(refused)), of_sensor=kind == IMU.type)
+    found = Estimates.of(stamps, q, rates, len(refused))
+    return replace(found, of_sensor=kind == IMU.type, unreadable=len(refused))
 
 
 def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimates:
@@ -144,7 +146,8 @@ def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimate
     if frame is None and len(found) > 1:
         raise RefusedError(f"--frame must be one of {', '.join(sorted(found)[:20])}, got none")
     chosen = found.get(frame, []) if frame else next(iter(found.values()), [])
-    return Estimates.of([stamp for stamp, _ in chosen], [q for _, q in chosen], None, refused)
+    estimates = Estimates.of([stamp for stamp, _ in chosen], [q for _, q in chosen], None, refused)
+    return replace(estimates, unreadable=refused)
 
 
 def _read_transforms(reader: Reader) -> Iterator[tuple[str, int, tuple[float, ...]]]:

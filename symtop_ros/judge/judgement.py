@@ -48,6 +48,7 @@ class Judgement:
             "source": self.source,
             "estimates": len(errors.total),
             "unknown": errors.unknown,
+            "not_judged": errors.unjudged,
             "before_the_run": errors.early,
             "after_the_run": errors.late,
             "left_out": self.left_out,
@@ -98,6 +99,7 @@ class Judgement:
     def _remarks(self) -> list[str]:
         counts = (
             (self.errors.early, "before the run"),
+            (self.errors.unjudged, "where the log does not say which motion holds"),
             (self.errors.unknown, "out of reach of the integration of the run"),
             (self.errors.late, "after the last sample of the run"),
             (self.left_out, "without a readable attitude"),
@@ -211,6 +213,11 @@ def _describe_absence(estimates: Estimates, truth: Truth, source: str) -> str:
     notes = "".join(f"; {note}" for note in estimates.notes)
     if not len(estimates):
         return f"{source} must have an attitude, got none of {estimates.left_out}{notes}"
+    if unjudged := int(truth.find_unjudged(estimates.stamps).sum()):
+        return (
+            f"{source} must have estimates where the log says which motion holds, got {unjudged} "
+            f"where it does not{notes}"
+        )
     times = [estimates.stamps[0], estimates.stamps[-1], truth.begin or 0, truth.end]
     first, last, begin, end = (
         None if t is None else f"{int(t) / NANOSECONDS:.3f} s" for t in times

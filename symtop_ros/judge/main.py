@@ -3,24 +3,20 @@
 import argparse
 import json
 import sys
-from collections.abc import Iterable
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 
 from symtop_ros.command import new_parser, positive, tell_failures
 from symtop_ros.judge.clock import format_clocks, measure_clock
-from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.judgement import Judgement, format_judgements, judge, tell_limit
 from symtop_ros.judge.problems import run_testset
+from symtop_ros.judge.runs import ATTITUDES, Run, Source, read_run, read_sources, report_faults
 from symtop_ros.judge.search import MODELS
-from symtop_ros.judge.tables import TABLES, read_table
-from symtop_ros.judge.truth import Truth, read_events, read_truth, scene_truth
-from symtop_ros.simulation.validation import RefusedError, one_line
+from symtop_ros.simulation.validation import one_line
 
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
 top at the estimates' own stamps. The run must be in the log with its ~/events, or be a scene that
 starts at the stamp 0."""
-SENSOR, BODY = "sensor", "body"
 
 
 def main(args: list[str] | None = None) -> int:
@@ -71,7 +67,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--frame", help="child frame of the estimates, for /tf")
     parser.add_argument(
         "--attitude-of",
-        choices=(BODY, SENSOR),
+        choices=ATTITUDES,
         help="what the estimates turn; default: the sensor for Imu messages, else the body",
     )
     parser.add_argument("--scene", help="a scene that starts at the stamp 0, in place of LOG")
@@ -132,36 +128,33 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
         from symtop_ros.judge.live import judge_live
 
         return judge_live(options, ["top_judge", *rest])
-    truth = _read_run(options)
     if options.clock:
         _read_clock(options)
-        sources, model = _read_estimates(options), options.aligned or "none"
-        clocks = [measure_clock(each, truth, name, model) for name, each in sources]
-        facts = json.dumps([asdict(each) for each in clocks], indent=1)
-        print(facts if options.json else format_clocks(clocks))
-        return 0
+    run = read_run(options)
+    sources = read_sources(options, run)
+    status = report_faults(run, sources)
+    found = (_measure_clocks if options.clock else _judge)(options, run, sources)
+    return max(status, found)
+
+
+def _measure_clocks(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:
+    model = options.aligned or "none"
+    clocks = [measure_clock(each.estimates, run.truth, each.name, model) for each in sources]
+    facts = json.dumps([asdict(each) for each in clocks], indent=1)
+    print(facts if options.json else format_clocks(clocks))
+    return 0
+
+
+def _judge(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:
     judgements = [
-        judge(estimates, truth, source, tuple(options.remove), options.aligned)
-        for source, estimates in _read_estimates(options)
+        judge(each.estimates, run.truth, each.name, tuple(options.remove), options.aligned)
+        for each in sources
     ]
     print(_dump(judgements) if options.json else format_judgements(judgements))
     if options.output:
         _write(judgements, options.output)
     largest = max(float(each.errors.total.max()) for each in judgements)
     return tell_limit(largest, options.max_error)
-
-
-def _read_run(options: argparse.Namespace) -> Truth:
-    if options.scene:
-        return scene_truth(options.scene)
-    if [path.suffix for path in options.files] == [".json"]:  # as top_imu writes them
-        return read_events(options.files[0])
-    from symtop_ros.log.top_log import (
-        TopLog,
-        open_run,  # logs need mcap
-    )
-
-    return read_truth(TopLog(open_run(options.files), options.node))
 
 
 def _read_clock(options: argparse.Namespace) -> None:
@@ -190,21 +183,3 @@ def _write(judgements: list[Judgement], folder: Path) -> None:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
     else:
         write_figures({"judge": lambda: draw_errors(judgements[0].errors)}, folder)
-
-
-def _read_estimates(options: argparse.Namespace) -> Iterable[tuple[str, Estimates]]:
-    """Return the sources and their estimates."""
-    other: Path | None = options.estimates
-    if other and other.suffix.lower() in TABLES:
-        return [(str(other), _choose_frame(read_table(other), options.attitude_of))]
-    if not options.topic:
-        raise RefusedError(f"--topic must name the estimates in {other}, got none")
-    from symtop_ros.log.top_log import open_run  # logs need mcap
-
-    paths = [other] if other else options.files
-    found = ((topic, read_topic(open_run(paths), topic, options.frame)) for topic in options.topic)
-    return ((topic, _choose_frame(each, options.attitude_of)) for topic, each in found)
-
-
-def _choose_frame(estimates: Estimates, attitude_of: str | None) -> Estimates:
-    return replace(estimates, of_sensor=attitude_of == SENSOR) if attitude_of else estimates

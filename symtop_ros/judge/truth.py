@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symtop_ros.arrays import Mask, Real, Stamps, compose
+from symtop_ros.arrays import Mask, Places, Real, Stamps, compose
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.requests import start_motion
@@ -20,7 +20,7 @@ from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.validation import RefusedError
 
 if TYPE_CHECKING:  # logs need mcap
-    from symtop_ros.log.top_log import TopLog
+    from symtop_ros.log.account import Account
 
 
 class Truth:
@@ -28,48 +28,81 @@ class Truth:
 
     Each stamp belongs to the last event up to it, so that kicks, pauses and changes of the
     real-time factor are followed at their very instants. If the clock of the run jumped back, the
-    later run replaces what it repeats.
+    later run replaces what it repeats. Where events are lost no state is known.
     """
 
     def __init__(self, events: Sequence[Event] = (), end: int | None = None) -> None:
         self.end = end  # stamp of the last sample in ns; None: the run has no known end
-        self._events: list[Event] = []
-        self._segments: list[Callable[[], Segment]] = []  # of the events
+        self._begins: list[int] = []  # stamps in ns from which on each of the following holds
+        # the motion after an event; None where it is not known
+        self._segments: list[Callable[[], Segment] | None] = []
         self._budget = StepBudget(SPARE_STEPS)
         for event in events:
             self.add(event)
 
     def add(self, event: Event) -> None:
         """Add the next event of the run."""
-        while self._events and self._events[-1].stamp > event.stamp:
-            self._events.pop()
+        self._add(event.stamp, cache(event.segment))
+
+    def _add(self, begin: int, segment: Callable[[], Segment] | None) -> None:
+        while self._begins and self._begins[-1] > begin:
+            self._begins.pop()
             self._segments.pop()
-        self._events.append(event)
-        self._segments.append(cache(event.segment))
+        self._begins.append(begin)
+        self._segments.append(segment)
+
+    @classmethod
+    def of(cls, account: Account) -> Truth:
+        """Return what the account of a log knows, up to its last sample."""
+        truth = cls(end=account.end)
+        for each in account.stretches:
+            truth._add(each.begin, cache(each.event.segment) if each.event else None)
+        return truth
 
     @property
     def begin(self) -> int | None:
-        """Stamp of the first event in ns, or None."""
-        return self._events[0].stamp if self._events else None
+        """Stamp at which the run begins in ns, or None."""
+        return self._begins[0] if self._begins else None
+
+    @property
+    def _only(self) -> Segment | None:
+        """The segment of a run of one motion; None for several."""
+        first = self._segments[0] if len(self._segments) == 1 else None
+        return first() if first else None
 
     @property
     def is_driven(self) -> bool:
         """True if friction or a torque acts at the start: no motion repeats."""
-        return bool(self._events) and self._segments[0]().motion.is_driven
+        first = next(filter(None, self._segments), None)
+        return first is not None and first().motion.is_driven
 
     @property
     def kind(self) -> str:
         """Kind of the motion of a run of one motion; empty for several."""
-        return self._segments[0]().motion.kind if len(self._events) == 1 else ""
+        return self._only.motion.kind if self._only else ""
 
     @property
     def period(self) -> float | None:
         """Nutation period under gravity of a run of one motion in s of its clock, or None."""
-        if len(self._events) != 1:
+        segment = self._only
+        if segment is None:
             return None
-        segment = self._segments[0]()
         period = segment.motion.nutation_period / segment.factor
         return float(period) if np.isfinite(period) and period > 0 else None
+
+    def find_unjudged(self, stamps: Stamps) -> Mask:
+        """Return the mask of the stamps within the run at which the motion is not known."""
+        owners = self._find_owners(stamps)
+        unknown = np.array([each is None for each in self._segments], dtype=bool)
+        is_there = owners >= 0
+        is_there[is_there] = unknown[owners[is_there]]
+        return is_there
+
+    def _find_owners(self, stamps: Stamps) -> Places:
+        """Return the number of what holds at each stamp; -1: nothing, outside of the run."""
+        owners = np.searchsorted(self._begins, stamps, side="right") - 1
+        end = np.iinfo(np.int64).max if self.end is None else self.end
+        return np.where(stamps <= end, owners, -1)
 
     def count_outside(self, stamps: Stamps) -> tuple[int, int]:
         """Return how many stamps are before the run, and how many after its last sample."""
@@ -85,12 +118,11 @@ class Truth:
         orientations, rates = np.zeros((len(stamps), 4)), np.zeros((len(stamps), 3))
         orientations[:, 0] = 1.0
         known = np.zeros(len(stamps), dtype=bool)
-        inside = stamps <= (np.iinfo(np.int64).max if self.end is None else self.end)
-        owners = np.searchsorted([each.stamp for each in self._events], stamps, side="right") - 1
-        for number in np.unique(owners[inside & (owners >= 0)]).tolist():
-            chosen = inside & (owners == number)
-            segment = self._segments[number]()
-            if self._budget.reach_stamps(segment, stamps[chosen]):
+        owners = self._find_owners(stamps)
+        for number in np.unique(owners[owners >= 0]).tolist():
+            chosen, find_segment = owners == number, self._segments[number]
+            segment = find_segment() if find_segment else None
+            if segment and self._budget.reach_stamps(segment, stamps[chosen]):
                 q, omega = segment.state_at(stamps[chosen]).parts
                 if of_sensor and (imu := segment.rig.imu):
                     q, omega = compose(q, imu.mount.orientation), imu.mount.to_body(omega)
@@ -101,18 +133,6 @@ class Truth:
     def select(self, estimates: Estimates) -> Estimates:
         """Return the estimates at stamps of which the exact motion is known."""
         return estimates.select(self.states_at(estimates.stamps, estimates.of_sensor)[2])
-
-
-def read_truth(log: TopLog) -> Truth:
-    """Return the exact motion of the run in a log, up to its last sample."""
-    events: list[Event] = []
-    ends: list[int] = []
-    for batch in log.batches():
-        events += (event for _, event in batch.events)
-        ends += (int(columns.stamps.max()) for columns in batch.columns.values())
-    if not events:
-        raise RefusedError(f"{log.file.path} must have the events of a top (~/events), got none")
-    return Truth(events, max(ends, default=None))
 
 
 def scene_truth(name: str) -> Truth:

@@ -20,7 +20,7 @@ class Columns:
 
     stamps: NDArray[np.int64]  # in ns
     numbers: NDArray[np.float64]  # the doubles of the messages, as in `simulation.topics`
-    places: NDArray[np.int64]  # their places among the messages of the batch
+    places: NDArray[np.int64]  # their places in the log, or among the messages of the batch
 
     def select(self, chosen: NDArray[np.bool_]) -> "Columns":
         """Return the samples for which `chosen` (n,) is True."""
@@ -32,7 +32,7 @@ class Batch:
     """Consecutive messages."""
 
     columns: dict[str, Columns] = field(default_factory=dict)  # by the names of the topics
-    # with their places among the messages of the batch
+    # with their places, as in the columns
     events: list[tuple[int, Event]] = field(default_factory=list)
 
     def stretches(self) -> Iterator[tuple[Event | None, dict[str, Columns]]]:
@@ -70,19 +70,22 @@ class BatchReader:
     def __init__(self) -> None:
         # reason why messages of a topic could not be decoded, by the name of the topic
         self.unreadable: dict[str, str] = {}
+        self.lost_events: list[int] = []  # places of messages whose events could not be decoded
         self.frame: str | None = None  # child frame of the top on /tf, if it is known
         self._names: dict[str, tuple[str, ...]] = {}  # frames or joints of each topic
 
-    def read(self, messages: Sequence[tuple[str, bytes]]) -> Batch:
-        """Decode messages, given with the names of their topics."""
-        places: dict[str, list[int]] = {}
-        for place, (name, _) in enumerate(messages):
-            places.setdefault(name, []).append(place)
+    def read(
+        self, messages: Sequence[tuple[str, bytes]], places: Sequence[int] | None = None
+    ) -> Batch:
+        """Decode messages, given with the names of their topics, and with their places in a log."""
+        found: dict[str, list[int]] = {}
+        for number, (name, _) in enumerate(messages):
+            found.setdefault(name, []).append(number)
         batch = Batch()
         # Events come first: they say which frame on /tf belongs to the top.
-        for name in sorted(places, key=lambda name: name != EVENTS.name):
-            where = places[name]
-            data = [messages[place][1] for place in where]
+        for name in sorted(found, key=lambda name: name != EVENTS.name):
+            data = [messages[number][1] for number in found[name]]
+            where = found[name] if places is None else [places[number] for number in found[name]]
             if name == EVENTS.name:
                 batch.events.extend(self._events(data, where))
             else:
@@ -117,6 +120,7 @@ class BatchReader:
                 self.frame = found[-1][1].values.get("top_frame", self.frame)
             except ValueError as error:
                 self.unreadable[EVENTS.name] = one_line(error)
+                self.lost_events.append(place)
         return found
 
     def _select_frame(self, parts: list[Decoded]) -> list[Decoded]:

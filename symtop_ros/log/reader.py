@@ -4,15 +4,18 @@ A file that was cut, a damaged chunk or a nonsensical length loses only what it 
 stays bounded by the largest chunk. The readers of the mcap package stop at the first of these.
 """
 
+import json
 import struct
 import zlib
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from functools import cached_property
 from io import BytesIO
 from itertools import islice
 from pathlib import Path
+from types import NoneType
 from typing import Any, BinaryIO, NamedTuple
 
 import lz4.frame
@@ -21,22 +24,28 @@ from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.records import (
+    Attachment,
     Channel,
     Chunk,
     ChunkIndex,
+    DataEnd,
     Footer,
     Header,
     Message,
     Metadata,
+    MetadataIndex,
     Schema,
 )
 
-from symtop_ros.log.source import MessageSource, decompress
-from symtop_ros.log.writer import ENDING, METADATA
+from symtop_ros.log.source import Loss, MessageSource, decompress, name_kind
+from symtop_ros.log.writer import ENDING, METADATA, REPAIR, REPAIR_LOSSES
 from symtop_ros.simulation.validation import one_line
 
 MAGIC = b"\x89MCAP0\r\n"
-MAX_RECORD = 256 * 2**20  # bytes of a chunk, compressed or not; the recorder writes up to 4 MiB
+# Bytes of a chunk, compressed or not, and of any record that is held in memory; the recorder writes
+# chunks of up to 4 MiB.
+MAX_RECORD = 256 * 2**20
+PIECE = 2**20  # bytes of a file that are read at once
 RECORD_START = struct.Struct("<BQ")  # opcode and length of a record
 FOOTER_SIZE = RECORD_START.size + 20 + len(MAGIC)  # at the end of a complete file
 MESSAGE_START = struct.Struct("<HIQQ")  # channel, sequence, log and publish time of a message
@@ -47,9 +56,14 @@ Span = tuple[int, int, int]
 Contents = tuple[list[Description], Iterator[Message]]  # of a record
 PARSED_IN_CHUNK: dict[int, Parse] = {Opcode.SCHEMA: Schema.read, Opcode.CHANNEL: Channel.read}
 PARSED: dict[int, Parse] = {**PARSED_IN_CHUNK, Opcode.METADATA: Metadata.read}
-SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX)
+SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX, Opcode.METADATA_INDEX)
+# Records whose content is read; the others may have any length that the file has.
+HELD = frozenset((*PARSED, Opcode.MESSAGE, Opcode.MESSAGE_INDEX, Opcode.CHUNK))
+CHECKSUM = struct.Struct("<I")  # behind the bytes of an attachment; 0: without it
+INDEX_HEAD = struct.Struct("<HI")  # channel, and bytes of the entries of 16 bytes each
 MAX_DESCRIPTIONS = 64 * 2**20  # bytes of schemas, channels and metadata in memory
 MAX_PROBLEMS = 20  # problems that are listed
+LOST_BEFORE = "lost before a repair: "
 
 
 class LogError(ValueError):
@@ -74,10 +88,11 @@ DAMAGE = (
 
 
 class FileRecord(NamedTuple):
-    """A record of the file and the offset of its end."""
+    """A record of the file, with its offset and that of its end."""
 
     opcode: int
-    data: bytes
+    data: bytes  # empty for the kinds that are not held
+    start: int
     end: int
 
 
@@ -110,46 +125,75 @@ class McapFile(MessageSource):
             self.size = file.seek(0, 2)
             file.seek(0)
             if file.read(len(MAGIC)) != MAGIC:
-                raise LogError(f"cannot open {path}: not an MCAP file")
+                raise LogError(f"cannot open {path}: {name_kind(path, 'not an MCAP file')}")
             self._read_summary(file)
+
+    def attachments(self) -> Iterator[Attachment]:
+        """Yield the attachments that can be read, one at a time in memory."""
+        with log_errors("read", self.path), self.path.open("rb") as file:
+            for record in self._records_at(file, len(MAGIC), Opcode.ATTACHMENT):
+                with suppress(*DAMAGE):
+                    yield read_attachment(record.data)
 
     def _read(self) -> Iterator[list[Message]]:
         """Yield messages in the order of the file, those of a chunk together."""
         with log_errors("read", self.path), self.path.open("rb") as file:
             file.seek(len(MAGIC))
             damaged: list[Chunk] = []
-            lost, chunked = 0, False
+            lost = 0
             for record in self._records(file):
                 self.offset = record.end
                 if damaged and record.opcode == Opcode.MESSAGE_INDEX:
-                    # of 16 bytes each, after channel and size
-                    lost += max(0, len(record.data) - 6) // 16
+                    lost += max(0, len(record.data) - INDEX_HEAD.size) // 16
                     continue
                 self._report_damage(damaged, lost)
                 lost = 0
-                if record.opcode == Opcode.MESSAGE and chunked:
-                    # Recorders that write chunks put every message into one, under its checksum. A
-                    # flipped bit can turn an index into a message that no checksum would catch.
-                    self.problems.append("a record between chunks is damaged")
+                if problem := self._find_fault(record):
+                    self.report(problem)
                     continue
-                start = record.end - len(record.data) - RECORD_START.size
-                if record.opcode != Opcode.CHUNK and start in self._chunk_offsets:
-                    # A flipped bit in its type makes it a record that readers pass over.
-                    self.problems.append(f"the chunk before byte {record.end} is damaged")
-                    continue
-                chunked = chunked or record.opcode == Opcode.CHUNK
                 try:
                     descriptions, messages = _contents(record)
                 except DAMAGE:
                     chunk = _chunk_of(record)
                     damaged += chunk
                     if not chunk:  # its times are not readable either
-                        self.problems.append(f"the record before byte {record.end} is damaged")
+                        self.report(f"the record before byte {record.end} is damaged")
                     continue
                 self._describe(descriptions)
                 yield from self._runs(messages)
             self._report_damage(damaged, lost)
         self._report_ending()
+
+    def _find_fault(self, record: FileRecord) -> str:
+        """Return what is wrong in a record whose type a flipped bit may have changed."""
+        if record.opcode != Opcode.CHUNK and record.start in self._chunk_offsets:
+            # Readers would pass over it.
+            return f"the chunk before byte {record.end} is damaged"
+        is_between = record.opcode == Opcode.MESSAGE and self._chunk_offsets
+        if is_between and not self._is_message(record.data):
+            return "a record between chunks is damaged"
+        return ""
+
+    def _is_message(self, data: bytes) -> bool:
+        """Return False for a record between chunks that is no message for certain.
+
+        A flipped bit turns an index, or metadata, into a message. The checksum of all data decides;
+        without one the form of an index does.
+        """
+        if self._is_sound is None and len(data) >= INDEX_HEAD.size:
+            entries = len(data) - INDEX_HEAD.size
+            return bool(entries % 16) or INDEX_HEAD.unpack_from(data)[1] != entries
+        return self._is_sound is not False
+
+    @cached_property
+    def _is_sound(self) -> bool | None:
+        """True if the checksum of the data is that of its bytes; None without a checksum."""
+        with self.path.open("rb") as file:
+            for record in self._records_at(file, len(MAGIC), Opcode.DATA_END):
+                with suppress(*DAMAGE):
+                    checksum = DataEnd.read(open_stream(record.data)).data_section_crc
+                    return checksum in _checksums(file, record.start) if checksum else None
+        return None
 
     def since_start(self, log_time: int) -> float:
         """Return the seconds between the first message and a log time in ns."""
@@ -168,26 +212,34 @@ class McapFile(MessageSource):
 
     def _read_index(self, file: BinaryIO, start: int) -> None:
         """Read descriptions and places of chunks from an offset on; 0: the file lacks them."""
+        metadata: list[int] = []
         if 0 < start < self.size:
             for record in self._records_at(file, start, *SUMMARY):
+                stream = open_stream(record.data)
                 if record.opcode == Opcode.CHUNK_INDEX:
-                    self._chunk_offsets.append(
-                        ChunkIndex.read(open_stream(record.data)).chunk_start_offset
-                    )
+                    self._chunk_offsets.append(ChunkIndex.read(stream).chunk_start_offset)
+                elif record.opcode == Opcode.METADATA_INDEX:
+                    metadata.append(MetadataIndex.read(stream).offset)
                 else:
                     self._describe(_contents(record)[0])
+        for offset in metadata:
+            for record in islice(self._records_at(file, offset, Opcode.METADATA), 1):
+                self._describe(_contents(record)[0])
 
     def _records_at(self, file: BinaryIO, offset: int, *wanted: int) -> Iterator[FileRecord]:
         """Yield the readable records with some opcodes from an offset on."""
-        file.seek(offset)
-        while len(head := file.read(RECORD_START.size)) == RECORD_START.size:
-            opcode, length = RECORD_START.unpack(head)
-            if not fits(length, file, self.size):
+        place = min(offset, self.size)  # offsets in a damaged index may be any
+        while True:
+            file.seek(place)
+            head = file.read(RECORD_START.size)
+            if len(head) < RECORD_START.size:
                 return
-            end = file.tell() + length
+            opcode, length = RECORD_START.unpack(head)
+            if not self._fits(opcode, length, file.tell()):
+                return
+            start, place = place, file.tell() + length
             if opcode in wanted:
-                yield FileRecord(opcode, file.read(length), end)
-            file.seek(end)
+                yield FileRecord(opcode, file.read(length), start, place)
 
     def _records(self, file: BinaryIO) -> Iterator[FileRecord]:
         """Yield all records of the data; damaged bytes are skipped with the help of the index."""
@@ -197,7 +249,7 @@ class McapFile(MessageSource):
             opcode, length = RECORD_START.unpack(head) if len(head) == RECORD_START.size else (0, 0)
             if opcode in (Opcode.DATA_END, Opcode.FOOTER):
                 return
-            if not opcode or not fits(length, file, self.size):
+            if not opcode or not self._fits(opcode, length, file.tell()):
                 place = bisect_right(self._chunk_offsets, start)
                 following = self._chunk_offsets[place : place + 1]
                 self._report_gap(start, *following)
@@ -205,7 +257,19 @@ class McapFile(MessageSource):
                     return
                 file.seek(following[0])
             else:
-                yield FileRecord(opcode, file.read(length), file.tell())
+                end = file.tell() + length
+                data = file.read(length) if opcode in HELD else b""
+                file.seek(end)
+                yield FileRecord(opcode, data, start, end)
+
+    def _fits(self, opcode: int, length: int, begin: int) -> bool:
+        """Return True if a record of a length in bytes may begin at an offset with its content."""
+        if not fits(opcode, length, self.size - begin):
+            return False
+        # A damaged length of what is passed over would lead over chunks.
+        place = bisect_right(self._chunk_offsets, begin)
+        following = self._chunk_offsets[place : place + 1]
+        return opcode in HELD or not following or begin + length <= following[0]
 
     def _describe(self, descriptions: Iterable[Description]) -> None:
         """Keep descriptions, within a limit: a small chunk may decompress to a lot of them."""
@@ -236,9 +300,7 @@ class McapFile(MessageSource):
                 self._span = chunk.message_start_time, chunk.message_start_time
             first, last = map(self.since_start, (chunk.message_start_time, chunk.message_end_time))
             count = f"{lost} messages" if lost else "all messages"
-            self.problems.append(
-                f"a chunk is damaged: {count} of {first:.3f} .. {last:.3f} s are lost"
-            )
+            self.report(f"a chunk is damaged: {count} of {first:.3f} .. {last:.3f} s are lost")
         damaged.clear()
 
     def _report_gap(self, start: int, onward: int | None = None) -> None:
@@ -248,24 +310,58 @@ class McapFile(MessageSource):
             if onward is None
             else f"bytes {start} to {onward} are damaged"
         )
-        self.problems.append(f"{where}: messages after {latest:.3f} s are lost")
+        self.report(f"{where}: messages after {latest:.3f} s are lost")
 
     def _report_ending(self) -> None:
-        """Report what the recorder noted itself, if symtop_ros wrote the log."""
+        """Report what the recorder noted itself, if symtop_ros wrote the log, and what a repair."""
         ending = self.metadata.get(ENDING, {})
         dropped = ending.get("dropped", "0")
         if dropped != "0":
-            self.problems.append(f"{dropped} messages were dropped: the disk was too slow")
-        if METADATA in self.metadata and not ending and not self.problems:
+            self.report(f"{dropped} messages were dropped: the disk was too slow", is_place=False)
+        self.losses += _read_repair(self.metadata.get(REPAIR, {}))
+        if METADATA in self.metadata and not ending and not self.losses:
             latest = self.since_start(self._span[1]) if self._span else 0.0
-            self.problems.append(
+            self.report(
                 f"the recording was not finished: messages after {latest:.3f} s are missing"
             )
+
+
+def _read_repair(values: Mapping[str, str]) -> list[Loss]:
+    """Return what a repair has noted as lost; nothing that is no list of losses."""
+    with suppress(KeyError, ValueError, TypeError, RecursionError):
+        found = [Loss(**each) for each in json.loads(values[REPAIR_LOSSES])]
+        if all(type(each.text) is str and type(each.place) in (int, NoneType) for each in found):
+            return [Loss(f"{LOST_BEFORE}{each.text}", each.place) for each in found]
+    return []
+
+
+def _checksums(file: BinaryIO, end: int) -> tuple[int, int]:
+    """Return the checksums of the bytes before an offset, with and without the first of the file.
+
+    Writers differ in whether the first bytes of the file belong to the data.
+    """
+    file.seek(0)
+    head = file.read(len(MAGIC))
+    whole, rest = zlib.crc32(head), 0
+    while part := file.read(min(PIECE, end - file.tell())):
+        whole, rest = zlib.crc32(part, whole), zlib.crc32(part, rest)
+    return whole, rest
 
 
 def open_stream(data: bytes) -> ReadDataStream:
     """Return the content of a record, as the records of mcap read it."""
     return ReadDataStream(BytesIO(data))
+
+
+def read_attachment(data: bytes) -> Attachment:
+    """Return the attachment of a record; DamageError if it has another checksum than its bytes."""
+    stream = BytesIO(data)
+    attachment: Attachment = Attachment.read(ReadDataStream(stream))
+    end = stream.tell() - CHECKSUM.size  # there may be further bytes behind it
+    (checksum,) = CHECKSUM.unpack_from(data, end)
+    if checksum and checksum != zlib.crc32(memoryview(data)[:end]):
+        raise DamageError("CRC")
+    return attachment
 
 
 def _size(description: Description) -> int:
@@ -329,9 +425,9 @@ def _parse(data: bytes, places: Iterable[Span], parsed: Mapping[int, Parse]) -> 
     return descriptions, _messages(data, places)
 
 
-def fits(length: int, file: BinaryIO, size: int) -> bool:
-    """Return True if the rest of a file of a size may begin with a record of a length, in bytes."""
-    return length <= min(MAX_RECORD, size - file.tell())
+def fits(opcode: int, length: int, rest: int) -> bool:
+    """Return True if a record of a length may begin the rest of a file, both in bytes."""
+    return length <= (min(rest, MAX_RECORD) if opcode in HELD else rest)
 
 
 def _messages(data: bytes, places: Iterable[Span]) -> Iterator[Message]:

@@ -4,6 +4,7 @@ The caller never waits: messages that do not fit into the queue are dropped and 
 begins with the current latched messages, so that it can be read alone.
 """
 
+import json
 import threading
 import time
 from collections import deque
@@ -37,12 +38,14 @@ class Recorder:
     def __init__(self, settings: RecordSettings) -> None:
         self.settings = settings  # its limits may be changed while a recording runs
         self._channels: list[Topic] = []  # with their full names
+        self._names: dict[str, str] = {}  # the full names of topics, by ours
         self.latched: dict[int, bytes] = {}  # last messages of latched topics, for later files
         self._queue: deque[Queued] = deque()
         # While one channel is put first: its index, and the messages of all others.
         self._ahead: int | None = None
         self._held: list[Queued] = []
         self._file: LogFile | None = None  # the last file that was opened
+        self._number = 0  # of that file in its recording
         self._thread: threading.Thread | None = None
         self._ending = threading.Event()
         # returns the samples that were missed, which no message shows
@@ -54,6 +57,7 @@ class Recorder:
     def add_channel(self, name: str, topic: Topic) -> int:
         """Add a topic before the first recording; return the index of its channel."""
         self._channels.append(replace(topic, ros_name=name))
+        self._names[topic.name] = name
         return len(self._channels) - 1
 
     @property
@@ -65,6 +69,7 @@ class Recorder:
         """Begin a recording and return the path of its first file."""
         self.stop()
         latched = dict(self.latched)
+        self._number = 0
         self._file = file = self._open(metadata, latched)
         self.dropped, self.failure = 0, ""
         self._queue.clear()
@@ -78,9 +83,11 @@ class Recorder:
 
     def _open(self, metadata: Mapping[str, str], latched: Mapping[int, bytes]) -> "LogFile":
         # It needs mcap, without which a top moves and is published, but not recorded.
-        from symtop_ros.log.writer import LogFile
+        from symtop_ros.log.writer import FILE_ENTRY, TOPICS_ENTRY, LogFile
 
-        return LogFile(Path(self.settings.directory), self._channels, metadata, latched)
+        self._number += 1
+        own = {TOPICS_ENTRY: json.dumps(self._names), FILE_ENTRY: str(self._number)}
+        return LogFile(Path(self.settings.directory), self._channels, {**metadata, **own}, latched)
 
     def add(self, channel: int, stamp: int, data: bytes) -> None:
         """Queue a message with its stamp (ns), while a recording runs."""

@@ -1,9 +1,9 @@
 """Sources of messages: what all kinds of logs have in common."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
 
@@ -12,12 +12,32 @@ from mcap.records import Channel, Message, Schema
 
 ZSTD_START = b"\x28\xb5\x2f\xfd"  # of a zstd frame; a CDR message begins with 0
 MAX_MESSAGE = 16 * 2**20  # bytes; those of a top have some kB
+HEAD = 64  # bytes by which other kinds of files are known
+OTHER_KINDS = {
+    b"version https://git-lfs": "a pointer of Git LFS and not the file: git lfs pull fetches it",
+    b"#ROSBAG V": "a bag of ROS 1: rosbags-convert --src FILE --dst FOLDER makes it one of ROS 2",
+}
+
+
+def name_kind(path: Path, expected: str) -> str:
+    """Return the kind of a file that is not of the expected kind."""
+    with path.open("rb") as file:
+        head = file.read(HEAD)
+    return next((text for start, text in OTHER_KINDS.items() if head.startswith(start)), expected)
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """Something of a log that is damaged or lost."""
+
+    text: str
+    place: int | None = None  # messages of the log before it; None: no message is lost there
 
 
 class MessageSource(ABC):
     """Messages of a log, in the order of their arrival, with the descriptions of their channels.
 
-    Descriptions, metadata and problems are complete when all chunks are read.
+    Descriptions, metadata and losses are complete when all chunks are read.
     """
 
     def __init__(self, path: Path) -> None:
@@ -25,7 +45,8 @@ class MessageSource(ABC):
         self.schemas: dict[int, Schema] = {}  # by their ids
         self.channels: dict[int, Channel] = {}  # by their ids
         self.metadata: dict[str, dict[str, str]] = {}  # metadata records by name
-        self.problems: list[str] = []  # everything that is missing or damaged
+        self.losses: list[Loss] = []  # everything that reading has found to be damaged or lost
+        self.count = 0  # messages that were read
         self.size, self.offset = 0, 0  # bytes of the file, and those that were read
         self.is_packed = False  # True if each message was compressed by itself (rosbag2)
 
@@ -33,16 +54,41 @@ class MessageSource(ABC):
     def _read(self) -> Iterator[list[Message]]:
         """Yield lists of messages in the form in which the log has them."""
 
+    @property
+    def problems(self) -> list[str]:
+        """The texts of the losses."""
+        return [each.text for each in self.losses]
+
+    @property
+    def files(self) -> Sequence["MessageSource"]:
+        """The files of which the log consists, in the order in which they are read."""
+        return [self]
+
+    @property
+    def begins(self) -> Sequence[int]:
+        """The number of messages before each file; complete when all chunks are read."""
+        return [0]
+
+    def find_file(self, channel: int) -> "MessageSource":
+        """Return the file that has a channel."""
+        del channel
+        return self
+
+    def report(self, text: str, is_place: bool = True) -> None:
+        """Add a loss; `is_place` if messages are lost between the last one and the next."""
+        self.losses.append(Loss(text, self.count if is_place else None))
+
     def chunks(self) -> Iterator[list[Message]]:
         """Yield messages in the order of the log, those of a chunk together."""
-        self.problems.clear()
-        lost = 0
+        self.losses.clear()
+        self.count = lost = 0
         for messages in self._read():
             unpacked = [*_unpack(messages)] if self.is_packed else messages
             lost += len(messages) - len(unpacked)
+            self.count += len(unpacked)
             yield unpacked
         if lost:
-            self.problems.append(f"messages that cannot be decompressed: {lost}")
+            self.losses.append(Loss(f"messages that cannot be decompressed: {lost}", 0))
 
 
 def _unpack(messages: list[Message]) -> Iterator[Message]:

@@ -22,6 +22,10 @@ MAGIC = b"\x89MCAP0\r\n"
 CHUNK_SIZE = 4 * 2**20  # bytes; at 1 kHz the flush every half second closes chunks earlier
 METADATA = "symtop_ros"  # name of the metadata record written at the start
 ENDING = "symtop_ros.end"  # name of the metadata record written at the end
+REPAIR, REPAIR_LOSSES = "symtop_ros.repair", "losses"  # that of a repair, and what it has lost
+# Entries of the metadata: JSON of the topics' full names by ours, the full name of the node, the
+# host's time at the beginning of a recording, and the number of a file in it.
+TOPICS_ENTRY, NODE_ENTRY, BEGUN_ENTRY, FILE_ENTRY = "topics", "node", "clock.host", "file"
 
 
 class LogFile:

@@ -55,6 +55,11 @@ class NodeClock:
         """True if the time comes from /clock."""
         return self._clock.ros_time_is_active
 
+    @property
+    def steady(self) -> int:
+        """Time in ns that nobody sets."""
+        return time.monotonic_ns()
+
 
 class SteadyClock:
     """The real time of a run that publishes /clock: it cannot be set."""
@@ -65,6 +70,11 @@ class SteadyClock:
     def now(self) -> int:
         """Current time in ns."""
         return time.monotonic_ns()
+
+    @property
+    def steady(self) -> int:
+        """The same time."""
+        return self.now
 
 
 class TopNode(Node):

@@ -7,19 +7,19 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from symtop_ros.check.events import Mismatch
-from symtop_ros.check.run import check_run
-from symtop_ros.check.samples import Deviation
 from symtop_ros.command import has_screen, tell_failures
-from symtop_ros.log.reader import LogError, McapFile, list_problems, log_errors
+from symtop_ros.log.account import Account, read_account
+from symtop_ros.log.bags import open_run
+from symtop_ros.log.names import Names
+from symtop_ros.log.reader import LogError, McapFile, log_errors
 from symtop_ros.log.repair import repair
-from symtop_ros.log.top_log import TopLog, open_run
+from symtop_ros.log.top_log import TopLog
+from symtop_ros.playback.check import check
 from symtop_ros.playback.options import make_parser, view_options
 from symtop_ros.session.run_log import write_run_log
 from symtop_ros.simulation.run_file import RATE, RunEvent, read_run, record_run, write_run
 from symtop_ros.simulation.settings import MAX_PUBLISH_RATE
-from symtop_ros.simulation.topics import EVENTS
-from symtop_ros.simulation.validation import number, one_line
+from symtop_ros.simulation.validation import number
 from symtop_ros.web.join import write_file
 
 
@@ -29,6 +29,8 @@ def main(args: list[str] | None = None) -> int:
     options = parser.parse_args(args)
     if options.rate is not None and not options.mcap:
         parser.error("--rate goes with --mcap")
+    if options.strict and not options.check:
+        parser.error("--strict goes with --check")
     return tell_failures("top_replay", lambda: _run(options))
 
 
@@ -40,59 +42,17 @@ def _run(options: argparse.Namespace) -> int:
     if options.repair:
         if len(options.files) > 1:
             raise LogError(f"--repair must be given one log, got {len(options.files)}")
-        file = McapFile(options.files[0])
-        count = repair(file, options.repair)
-        _print_problems(file.problems)
-        print(f"wrote {count} messages to {options.repair}")
-        return 0
+        return _repair(McapFile(options.files[0]), options.repair)
     with _open_file(options.files, options.node) as log:
-        return _check(log) if options.check else _show(log, options)
+        _print_problems(log.account)
+        return check(log, options.strict) if options.check else _show(log, options)
 
 
-def _check(log: TopLog) -> int:
-    found = check_run(log)
-    _print_problems(log.problems + found.damage + found.missing)
-    for name, deviation in found.deviations.items():
-        print(_row(log.topics[name], deviation))
-    unreached = sum(each.unreached for each in found.deviations.values())
-    if unreached:
-        raise LogError(
-            f"{unreached} samples cannot be checked: "
-            "the motion is too fast or too long to integrate"
-        )
-    if not any(each.samples for each in found.deviations.values()):
-        raise LogError("nothing can be checked: no sample follows an event")
-    _print_problems([_describe(log, each) for each in found.mismatches])
-    print(f"the samples {'agree' if found.samples_agree else 'DO NOT agree'} with the events")
-    if found.mismatches:
-        print("events or descriptions of the motion DO NOT agree with the computation")
-    if found.first > 1:
-        print(f"the log begins with event {found.first} of the run")
-    if found.foreign:
-        by = f"symtop_ros {', '.join(found.versions)}" if found.versions else "another engine"
-        print(f"{found.foreign} events are of {by}: their words and verdicts are not judged")
-    is_whole = not (log.damage or found.damage or found.missing)
-    if found.samples_agree and not is_whole:
-        print("the log is damaged or incomplete")
-    return 0 if found.samples_agree and not found.mismatches and is_whole else 1
-
-
-def _describe(log: TopLog, mismatch: Mismatch) -> str:
-    topic = EVENTS.resolve(log.node or "") if mismatch.topic == EVENTS.name else mismatch.topic
-    right, got = one_line(mismatch.expected, 100), one_line(mismatch.got, 100)
-    return f"{topic} at {mismatch.stamp} ns: {mismatch.field} must be {right}, got {got}"
-
-
-def _row(topic: str, deviation: Deviation) -> str:
-    row = f"{topic:28}{deviation.samples:9} samples, largest difference {deviation.largest:g}"
-    if deviation.largest:
-        row += f" ({deviation.relative:.1e} of its size)"
-    notes = {
-        "before the first event not checked": deviation.unchecked,
-        "after missing events not judged": deviation.unjudged,
-        "agree with an event, but the order of messages is not known": deviation.unordered,
-    }
-    return row + "".join(f"; {count} {text}" for text, count in notes.items() if count)
+def _repair(file: McapFile, target: Path) -> int:
+    account = read_account(file, Names(file))
+    _print_problems(account)
+    print(f"wrote {repair(file, target, account)} to {target}")
+    return 0
 
 
 def _show(log: TopLog, options: argparse.Namespace) -> int:
@@ -108,7 +68,6 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
             viewer.replay(log, save, drawn)
         else:
             raise LogError(f"--save must be a name that ends in .rrd or .html, got {save}")
-        _print_problems(log.problems)
         program = "in a browser" if save.suffix == ".html" else f"with: rerun {save}"
         print(f"wrote {save}; open it {program}")
         return 0
@@ -120,13 +79,13 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
     with tempfile.TemporaryDirectory() as folder:
         recording = Path(folder, f"{log.file.path.stem}.rrd")
         viewer.replay(log, recording, drawn)
-        _print_problems(log.problems)
         return viewer.show(recording, options.web)
 
 
-def _print_problems(problems: list[str]) -> None:
-    for problem in list_problems(problems):
-        print(f"top_replay: {problem}", file=sys.stderr)
+def _print_problems(account: Account) -> None:
+    """Print what is wrong with a log, before anything else."""
+    for line in account.lines:
+        print(f"top_replay: {line}", file=sys.stderr)
 
 
 def _read_run(paths: Sequence[Path]) -> tuple[list[RunEvent], int]:
@@ -151,10 +110,16 @@ def _open_file(paths: Sequence[Path], node: str | None) -> Iterator[TopLog]:
 
 def _save_page(log: TopLog, path: Path) -> None:
     """Write the page with the run of a log in it."""
-    stamps = (int(each.stamps[-1]) for batch in log.batches() for each in batch.columns.values())
-    run, reached = record_run(log.events(), max([0, *stamps]))
-    if not run:
+    account = log.account
+    shown = account.list_continuous()
+    if not shown:
         raise LogError(f"{log.file.path}: a run must have an event to be saved")
+    last = 0 if account.end is None else account.end
+    end = min(last, shown[-1].end)
+    if end < last and shown[-1] is not account.stretches[-1]:
+        text = f"the page ends at {end} ns: how the top moved then is not known"
+        print(f"top_replay: {text}", file=sys.stderr)
+    run, reached = record_run((each.event for each in shown if each.event), end)
     with log_errors("write", path):
         path.write_text(write_file(run=write_run(run, reached)), encoding="utf-8")
 

@@ -76,6 +76,11 @@ def make_parser() -> argparse.ArgumentParser:
         help="write the log that a node would have written of run.json",
     )
     parser.add_argument(
+        "--strict",
+        action="store_true",
+        help="with --check: status 1 as well if topics of the node were never recorded",
+    )
+    parser.add_argument(
         "--rate", type=decimal, help=f"samples per second for --mcap (default {RATE:g})"
     )
     return parser

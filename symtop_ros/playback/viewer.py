@@ -19,7 +19,7 @@ from pathlib import Path
 import rerun as rr
 import rerun_cli
 
-from symtop_ros.log.reader import LogError, list_problems
+from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback.view.view import DEFAULT_OPTIONS, View, ViewOptions
 
@@ -157,7 +157,7 @@ def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) ->
     for batch in log.batches():
         view.send(batch)
         _show_progress(log.file.offset, log.file.size)
-    for problem in list_problems(log.problems):
+    for problem in log.account.lines:
         view.log_text(problem)
     recording.flush()
     view.close()

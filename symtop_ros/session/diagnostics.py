@@ -16,15 +16,18 @@ MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very 
 def collect_statuses(simulation: Simulation, recorder: Recorder) -> list[Status]:
     """Return the statuses of a simulation at its next stamp."""
     return [
-        motion_status(simulation.segment, simulation.stamp),
+        motion_status(simulation.segment, simulation.stamp, simulation.event_number),
         _pace_status(simulation),
         _log_status(recorder),
         balance_status(simulation.segment, simulation.stamp),
     ]
 
 
-def motion_status(segment: Segment, stamp: int) -> Status:
-    """Return the state of the motion in numbers and words."""
+def motion_status(segment: Segment, stamp: int, event: int) -> Status:
+    """Return the state of the motion in numbers and words, and the number of the latest event.
+
+    From a log in which messages are lost the number says whether an event is among them.
+    """
     segment = segment.without_pushes(stamp)
     motion, state = segment.motion, segment.state_at(stamp)
     now = constants_of_motion(motion.top, state)
@@ -40,6 +43,7 @@ def motion_status(segment: Segment, stamp: int) -> Status:
             **summarize_motion(motion, state),
             "regular_precession_rates": list(verdict.regular_rates),
             "running": segment.running,
+            "event": event,
         },
     )
 

@@ -32,7 +32,8 @@ ROUNDING, HALF_NANOSECOND = 1e-9, 0.5e-9
 class SetClock:
     """The time of the run, which the writer sets."""
 
-    now, is_simulated = 0, True
+    now = steady = 0
+    is_simulated = True
 
 
 class Silent:

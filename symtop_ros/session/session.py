@@ -53,7 +53,8 @@ class Session:
         self._recorder.count_missed = lambda: self.simulation.ticker.missed
         first = self.simulation.timeline.announce(self.simulation.stamp, scene)
         verdict = self.simulation.apply(first)
-        self.recording = Recording(self._recorder, self.simulation, {"scene": scene, **environment})
+        about = {"node": name, "scene": scene, **environment}
+        self.recording = Recording(self._recorder, self.simulation, about)
         self._requests = Requests(self.simulation, self.recording.switch)
         if settings.record.enabled:
             self.recording.begin()

@@ -20,6 +20,10 @@ class Clock(Protocol):
     def is_simulated(self) -> bool:
         """True if the time is set from outside (use_sim_time)."""
 
+    @property
+    def steady(self) -> int:
+        """Time in ns that nobody sets: it shows when this clock was set."""
+
 
 class Host(Protocol):
     """The program around a run: the node, or the page."""

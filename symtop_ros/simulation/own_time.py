@@ -36,6 +36,11 @@ class RunClock:
         passed = self._real.now - self._since if self.is_running else 0
         return self._time + int(passed * self.factor)
 
+    @property
+    def steady(self) -> int:
+        """The same time: no other program sets it."""
+        return self.now
+
     def set_factor(self, factor: float) -> None:
         """Continue at another pace."""
         self.set(self.now)

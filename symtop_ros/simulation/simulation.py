@@ -48,7 +48,7 @@ class Simulation:
         self._lock = threading.RLock()
         self._waiting: deque[None] = deque()  # one for each turn that waits for the lock
         self._failures: dict[str, Failure] = {}  # by the name of the turn
-        self._events = 0  # events so far
+        self.event_number = 0  # of the latest event
         self._jumped_to: int | None = None  # ns
         self.ticker = Ticker(settings.publish_rate, self.now)
         self.last = self.now  # stamp of the last sample
@@ -57,6 +57,7 @@ class Simulation:
         # stamp of the last warning (ns), and samples that were missed since then
         self._gap_reported: int | None = None
         self._unreported = 0
+        self._published = clock.now, clock.steady  # both times (ns) when samples were last sent
         self._block = Block(self.segment, [], sink.encode)
         self._later: Block | None = None  # the next one, as far as it is computed
         sink.send_description(self.stamp, settings)
@@ -176,6 +177,7 @@ class Simulation:
                     break
             if self.ticker.missed > missed:
                 self._report_gap(self.ticker.missed - missed)
+            self._published = self.now, self._clock.steady
         return ready
 
     @property
@@ -237,11 +239,19 @@ class Simulation:
             return
         since = "" if last is None else " since the last warning of this kind"
         self.host.warn(
-            f"no samples for {seconds:.3g} s ({self._unreported} missed){since}: the process was "
-            "stopped, has too little CPU time or waited for its middleware; the motion follows the "
-            f"clock ({self.ticker.missed} missed in all)"
+            f"no samples for {seconds:.3g} s ({self._unreported} missed){since}: "
+            f"{self._explain_gap()}; the motion follows the clock ({self.ticker.missed} missed in "
+            "all)"
         )
         self._gap_reported, self._unreported = self.now, 0
+
+    def _explain_gap(self) -> str:
+        """Return why samples are missing: the clock was set forward, or nobody sent them."""
+        before, steady = self._published
+        step = (self.now - before - (self._clock.steady - steady)) / NANOSECONDS
+        if step > GAP and not self._clock.is_simulated:
+            return f"the clock of the system was set forward by {step:.3g} s"
+        return "the process was stopped, has too little CPU time or waited for its middleware"
 
     # The compute budget of driven motions
 
@@ -299,7 +309,7 @@ class Simulation:
     def apply(self, change: Change) -> str:
         """Continue with the timeline of a change and announce it; return the verdict."""
         self.timeline = change.following
-        return self._announce(change.event(self._events + 1))
+        return self._announce(change.event(self.event_number + 1))
 
     def apply_at_once(self, change: Change) -> str:
         """Like `apply`, but publish samples that are due before the event is written, and after it.
@@ -309,12 +319,12 @@ class Simulation:
         self.timeline = change.following
         with self._sink.put_events_first():
             self.publish()
-            event = change.event(self._events + 1)
+            event = change.event(self.event_number + 1)
             self.publish()
             return self._announce(event)
 
     def _announce(self, event: Event) -> str:
-        self._events += 1
+        self.event_number += 1
         self._sink.send_event(event)
         return event.verdict
 

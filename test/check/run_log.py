@@ -5,6 +5,7 @@ from pathlib import Path
 from session.test_outputs import Program, advance, start
 
 from symtop_ros.log.reader import McapFile
+from symtop_ros.log.source import MessageSource
 
 WRENCH = (1e-4, 0.0, 2e-4)  # N m
 
@@ -51,19 +52,17 @@ def write_log(folder: Path, **changes: object) -> Path:
     return path
 
 
-class Memory:
-    """A `MessageSource` of which the messages can be changed."""
-
-    size = offset = 0
+class Memory(MessageSource):
+    """A source of messages that can be changed."""
 
     def __init__(self, path: Path) -> None:
+        super().__init__(path)
         file = McapFile(path)
-        self.path, self.problems = path, file.problems
         self.messages = [message for chunk in file.chunks() for message in chunk]
         self.schemas, self.channels, self.metadata = file.schemas, file.channels, file.metadata
         assert not file.problems
 
-    def chunks(self):
+    def _read(self):
         """Yield the messages."""
         yield list(self.messages)
 

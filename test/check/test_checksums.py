@@ -7,7 +7,8 @@ import pytest
 from mcap.opcode import Opcode
 from trials import seeds
 
-from symtop_ros.check.run import check_run, find_damage
+from symtop_ros.check.run import check_run
+from symtop_ros.log.checksums import read_damage
 from symtop_ros.log.reader import MAGIC, McapFile
 from symtop_ros.log.top_log import TopLog
 
@@ -36,7 +37,7 @@ def find_all(path):
     file = McapFile(path)
     for _ in file.chunks():
         pass
-    return file.problems + find_damage(path)
+    return file.problems + read_damage(path)
 
 
 @pytest.mark.parametrize("seed", seeds(3, 30))
@@ -59,7 +60,7 @@ def test_a_flipped_bit_in_each_kind_of_record_is_found(log, tmp_path, opcode):
     for _ in range(20):
         place = rng.randrange(*rng.choice(records))
         path.write_bytes(flip(log, place, rng.randrange(8)))
-        assert find_damage(path), place
+        assert read_damage(path), place
 
 
 def test_indexes_are_verified_without_a_checksum_of_the_data(log, tmp_path):
@@ -67,13 +68,13 @@ def test_indexes_are_verified_without_a_checksum_of_the_data(log, tmp_path):
     ((begin, end),) = ((b, e) for kind, b, e in list_records(log) if kind == Opcode.DATA_END)
     unsigned = log[:begin] + bytes(end - begin) + log[end:]
     path.write_bytes(unsigned)
-    assert find_damage(path) == []
+    assert read_damage(path) == []
     first = next(b for kind, b, _ in list_records(log) if kind == Opcode.MESSAGE_INDEX)
     path.write_bytes(flip(unsigned, first + 6, 3))
-    (problem,) = find_damage(path)
+    (problem,) = read_damage(path)
     assert problem.startswith("the index of messages before byte ")
     path.write_bytes(flip(log, first + 5, 6))  # the number of its entries
-    problem, *_ = find_damage(path)
+    problem, *_ = read_damage(path)
     assert problem.startswith("the record before byte ")
 
 
@@ -81,10 +82,11 @@ def test_a_check_of_a_run_names_the_damage(log, tmp_path):
     path = tmp_path / "run.mcap"
     begin = next(b for kind, b, _ in list_records(log) if kind == Opcode.MESSAGE_INDEX)
     path.write_bytes(flip(log, begin + 6, 3))
-    findings = check_run(TopLog(McapFile(path)))
+    log = TopLog(McapFile(path))
+    findings = check_run(log)
     assert findings.samples_agree
     assert findings.mismatches == []
     assert not findings.foreign
-    first, second = findings.damage
+    first, second = log.account.problems
     assert "index of messages" in first
     assert "checksum of the data" in second

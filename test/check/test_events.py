@@ -11,9 +11,9 @@ from symtop_ros.check.events import (
     NOTHING,
     Mismatch,
     find_mismatches,
-    find_wrong_texts,
     is_of_this_version,
 )
+from symtop_ros.check.run import check_messages
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.wire.diagnostics import decode_statuses
@@ -30,7 +30,7 @@ FREE = (
 
 @pytest.fixture(scope="module")
 def events(path):
-    return list(TopLog(McapFile(path)).events())
+    return list(TopLog(McapFile(path)).account.events)
 
 
 def alter(rng, text):
@@ -124,8 +124,7 @@ def test_events_of_another_version_are_not_judged(events):
 
 
 def mismatches(memory):
-    log = TopLog(memory)
-    return list(find_wrong_texts(log, list(log.events())))
+    return check_messages(TopLog(memory))[1].mismatches
 
 
 def swap(memory, place, data):

@@ -7,11 +7,11 @@ import pytest
 from log_files import Run
 from trials import choose
 
-from symtop_ros.check.course import Course, _list_jumps, _list_times_without_tf, count_missed
 from symtop_ros.check.run import check_run
 from symtop_ros.log.top_log import TopLog
-from symtop_ros.playback.main import _check, main
-from symtop_ros.simulation.events import MAX_STAMP, decode_events
+from symtop_ros.playback.check import check
+from symtop_ros.playback.main import main
+from symtop_ros.simulation.events import decode_events
 from symtop_ros.simulation.topics import SAMPLE_TOPICS
 from symtop_ros.wire.diagnostics import decode_statuses, encode_statuses
 
@@ -27,17 +27,18 @@ def without_events(memory, *numbers):
 
 def judge(memory):
     """What a check finds in a log in which all that is there agrees."""
-    findings = check_run(TopLog(memory))
+    log = TopLog(memory)
+    findings = check_run(log)
     assert findings.samples_agree
     assert findings.mismatches == []
-    return findings
+    return log.account, findings
 
 
 @pytest.mark.parametrize("lost", [(3,), (4, 5, 6), (9,), (12, 13)])
 def test_missing_events_are_named_and_what_follows_from_them_is_not_judged(memory, lost):
     stamps = without_events(memory, *lost)
-    findings = judge(memory)
-    (text,) = findings.missing
+    account, findings = judge(memory)
+    (text,) = account.problems
     which = f"event {lost[0]} is" if len(lost) == 1 else f"events {lost[0]} to {lost[-1]} are"
     before, after = stamps[lost[0] - 2], stamps[lost[-1]]
     assert text.startswith(f"{which} missing, between {before} and {after} ns; ")
@@ -55,9 +56,9 @@ def test_a_wrong_sample_before_the_gap_of_another_event_is_found(memory):
 def test_a_log_of_an_earlier_version_opens_and_its_samples_agree(capsys):
     # Recorded by 0.3.0: every kind of event, a sensor, friction and an applied torque.
     assert main([str(Path(__file__).with_name("run_0.3.0.mcap")), "--check"]) == 0
-    *rows, agree, words = capsys.readouterr().out.splitlines()
-    assert len(rows) == len(SAMPLE_TOPICS) - 1  # a magnetometer came later
-    assert all(row.endswith(" 38 samples, largest difference 0") for row in rows)
+    agree, words, *rows = capsys.readouterr().out.splitlines()
+    exact = [row for row in rows if row.endswith(" 38 samples, largest difference 0")]
+    assert len(exact) == len(SAMPLE_TOPICS) - 1  # a magnetometer came later
     assert agree == "the samples agree with the events"
     assert words == "15 events are of symtop_ros 0.3.0: their words and verdicts are not judged"
 
@@ -68,13 +69,15 @@ def test_an_event_that_cannot_be_read_is_named_and_the_status_is_1(memory, numbe
     message = memory.messages[memory.places("/top/events")[number]]
     (event,) = decode_events(message.data)
     message.data = replace(event, values={**event.values, field: "x"}).encode("world")
-    assert _check(TopLog(memory)) == 1
-    assert "top_replay: events: " in capsys.readouterr().err
+    log = TopLog(memory)
+    assert check(log) == 1
+    assert any(text.startswith("events: ") for text in log.account.problems)
+    assert "DO NOT" not in capsys.readouterr().out
 
 
 def test_every_message_twice_is_said_of_samples_and_events(memory):
     memory.messages = [each for message in memory.messages for each in (message, message)]
-    events, *samples = judge(memory).missing
+    events, *samples = judge(memory)[0].problems
     count = len(memory.places("/top/events")) // 2
     assert events == f"{count} events are repeated"
     assert all(" samples are repeated" in text for text in samples)
@@ -85,23 +88,7 @@ def test_every_message_twice_is_said_of_samples_and_events(memory):
 def test_an_event_twice_is_said(memory, number):
     place = memory.places("/top/events")[number]
     memory.messages.insert(place, replace(memory.messages[place]))
-    assert judge(memory).missing == ["1 events are repeated"]
-
-
-def test_only_an_event_right_after_itself_may_be_the_first_of_another_file(memory):
-    first, second, *_ = TopLog(memory).events()
-    assert list(Course([first, first, second]).list_repeated(allowed=1)) == []
-    apart = Course([first, second, first])
-    assert list(apart.list_repeated(allowed=1)) == ["1 events are repeated"]
-
-
-def test_where_events_are_missing_anything_may_hold(memory):
-    events = list(TopLog(memory).events())
-    assert list(Course(events).list_unknown()) == []
-    unknown = [(events[-1].stamp, MAX_STAMP)]
-    assert list(Course(events, all_readable=False).list_unknown()) == unknown
-    missing = [(events[2].stamp, events[4].stamp)]
-    assert list(Course([*events[:3], *events[4:]]).list_unknown()) == missing
+    assert judge(memory)[0].problems == ("1 events are repeated",)
 
 
 def test_a_beginning_that_is_missing_is_said_with_its_samples(tmp_path, capsys):
@@ -132,24 +119,14 @@ def test_samples_that_the_node_has_counted_as_missed_are_no_error(memory, counte
     memory.messages = [each for k, each in enumerate(memory.messages) if k not in lost]
     expected = "orientation: 20 samples are missing, most of them between "
     expected += f"{before - PERIOD} and {after + PERIOD} ns; the node has counted 19 as missed"
-    assert judge(memory).missing == ([expected] if counted == 19 else [])
-
-
-@pytest.mark.parametrize(("begin", "missed"), [(0, 27), (1, 20)])
-def test_what_was_missed_before_a_log_that_begins_later_is_not_of_it(memory, begin, missed):
-    memory.metadata.clear()  # an older log, which does not say what was missed at its beginning
-    places = memory.places("/diagnostics")
-    for place, count in zip(places, (7, *[27] * len(places[1:])), strict=True):
-        memory.messages[place].data = set_missed(memory.messages[place].data, count)
-    log = TopLog(memory)
-    assert count_missed(log, list(log.events())[begin:]) == missed
+    assert judge(memory)[0].problems == ((expected,) if counted == 19 else ())
 
 
 def test_in_a_log_that_names_no_rate_the_first_samples_say_the_period(tmp_path):
     run = Run(hurried=False)
     lost = run.places("torque")[30:50]
     run.messages = [each for k, each in enumerate(run.messages) if k not in lost]
-    (found,) = check_run(run.open(tmp_path)).missing
+    (found,) = run.open(tmp_path).account.problems
     assert found.startswith("torque: 20 samples are missing, ")
 
 
@@ -159,33 +136,6 @@ def set_missed(data, count):
     pace = statuses["top: pace"]
     statuses["top: pace"] = pace._replace(values={**pace.values, "missed": str(count)})
     return encode_statuses(pace.stamp, "world", [*statuses.values()])
-
-
-KINDS = (1, "ended"), (3, "begun"), (13, "ended")
-
-
-def test_pauses_of_a_recording_have_no_samples(memory):
-    """Random sessions have jumps and steps."""
-    first = replace(next(TopLog(memory).events()), name="record")
-    told = ((at, {"format": "3", "outcome.kind": kind}) for at, kind in KINDS)
-    events = [replace(first, stamp=at, values=values) for at, values in told]
-    assert list(_list_jumps(events)) == [(1, 3)]
-
-
-def test_events_that_are_missing_are_named_by_their_numbers_also_by_hostile_ones(memory):
-    first = next(TopLog(memory).events())
-    later = [replace(first, values={"number": str(number)}) for number in (3, 10**12)]
-    one, many = Course([first, *later]).list_missing()
-    assert one.startswith("event 2 is missing, between ")
-    assert many.startswith("events 4 to 999999999999 are missing, between ")
-
-
-def test_tf_has_no_samples_while_it_is_switched_off(memory):
-    first = replace(next(TopLog(memory).events()), name="parameters")
-    switch, form = "request.publish_tf", {"format": "3"}
-    told = ((1, {switch: "false"}), (2, {}), (3, {switch: "true"}), (4, {switch: "false"}))
-    events = [replace(first, stamp=at, values={**form, **values}) for at, values in told]
-    assert [*_list_times_without_tf(events)] == [(1, 3), (4, MAX_STAMP)]
 
 
 def test_two_files_of_one_run_share_an_event_and_lose_nothing(tmp_path):

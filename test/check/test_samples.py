@@ -1,24 +1,38 @@
 """A correct log agrees with its events to the last bit, and a wrong log is detected."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
+from exact_log import compare_samples
 from log_files import ARTICLE, LAYOUTS, Run
 
-from symtop_ros.check.samples import LogCheck, check_log
+from symtop_ros.check.run import check_run
+from symtop_ros.check.samples import LogCheck
+from symtop_ros.log.account import Account
 from symtop_ros.log.batch import Columns
+from symtop_ros.log.course import Ordered
 from symtop_ros.log.reader import LogError, McapFile
+from symtop_ros.log.stretches import Stretch
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.playback.main import main
-from symtop_ros.simulation.events import Event, start_event
+from symtop_ros.simulation.events import MAX_STAMP, Event, start_event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS, Samples
 
 EPS = np.finfo(float).eps
 
 
+def make_account(events, places, stretches=()):
+    """The account of a log that has some events, all of one run."""
+    ordered = Ordered(tuple(events), tuple(places), (0,) * len(events))
+    others = dict.fromkeys((field.name for field in fields(Account)), ())
+    return Account(**others | {"ordered": ordered, "stretches": tuple(stretches)})
+
+
 def deviations_of(run, folder):
-    return check_log(TopLog(McapFile(run.write(folder))))
+    return compare_samples(TopLog(McapFile(run.write(folder))))
 
 
 RUNS = [
@@ -93,8 +107,7 @@ def test_a_message_with_another_frame_is_damage(tmp_path):
     _, stamp, data = run.messages[k]
     run.messages[k] = "torque", stamp, data.replace(b"world", b"vorld")
     log = TopLog(McapFile(run.write(tmp_path)))
-    check_log(log)
-    (damage,) = log.damage
+    (damage,) = log.account.problems
     assert damage.startswith("torque: 1 ")
     assert "vorld" in damage
 
@@ -106,7 +119,7 @@ def test_a_log_without_fields_is_read_and_left_to_its_version(tmp_path, monkeypa
     log = TopLog(McapFile(path))
     assert sum(len(batch.columns["orientation"].stamps) for batch in log.batches()) > 10
     with pytest.raises(LogError, match=r"format of events must be 3 for a check, got 2: symtop"):
-        check_log(TopLog(McapFile(path)))
+        check_run(TopLog(McapFile(path)))
     assert main([str(path), "--check"]) == 1
     assert f"symtop_ros test has recorded {path} and checks it" in capsys.readouterr().err
 
@@ -124,17 +137,18 @@ def test_a_sample_that_agrees_with_two_events_belongs_to_the_exact_one():
     topic = SAMPLE_TOPICS["orientation"]
     numbers = topic.compute(Samples.at(before, stamps))
     assert (numbers != topic.compute(Samples.at(after, stamps))).any()
-    check = LogCheck([first, back])
-    check.add("orientation", Columns(stamps, numbers, np.arange(len(stamps))), np.full(160, 2))
+    check = LogCheck(make_account([first, back], places=[0, 1]))
+    check.add("orientation", Columns(stamps, numbers, np.arange(2, 162)))
     found = check.deviations["orientation"]
     assert (found.samples, found.differing) == (len(stamps), 0)
 
 
-def test_after_a_gap_a_number_is_that_of_an_event_by_its_own_size():
+def test_where_the_motion_is_not_known_a_number_is_that_of_an_event_by_its_own_size():
     event = start_event(Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0)))
     stamps = np.arange(10) * 5_000_000
     numbers = SAMPLE_TOPICS["torque"].compute(Samples.at(event.segment(), stamps)).copy()
     numbers[3, 3] += 1e-14  # N m of 0.03, of which it is far above the rounding; of 1 it is not
-    check = LogCheck([event], all_readable=False)
-    check.add("torque", Columns(stamps, numbers, np.arange(10)), np.ones(10, np.intp))
+    stretches = [Stretch(0, 1, event), Stretch(1, MAX_STAMP, None, "lost", (1, 100))]
+    check = LogCheck(make_account([event], places=[0], stretches=stretches))
+    check.add("torque", Columns(stamps, numbers, np.arange(1, 11)))
     assert check.deviations["torque"].unjudged == 1

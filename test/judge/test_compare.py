@@ -18,9 +18,11 @@ from symtop_ros.judge.judgement import judge
 from symtop_ros.judge.search import explain
 from symtop_ros.judge.truth import Truth, read_events, scene_truth
 from symtop_ros.physics import Motion
+from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.events import Event, start_event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor.imu import Imu, Rig
+from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
 from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.messages import IMU
@@ -111,6 +113,7 @@ def test_a_delay_that_noise_hides_is_not_removed(noise, delay):
     assert found.offset.delay == pytest.approx(delay, abs=1e-4)
 
 
+CUSPS_EVENT = start_event(start_motion(Settings.from_scene("cusps")))
 INSTANTS = np.arange(0, SECOND, SECOND // 50)
 
 
@@ -133,7 +136,7 @@ def test_the_mount_of_the_sensor_is_applied_to_its_messages():
 
 def test_stamps_after_the_last_sample_are_counted_apart():
     whole = scene_truth("cusps")
-    judgement = judge(make_estimates(whole, INSTANTS), Truth(whole._events, end=SECOND // 2), "x")
+    judgement = judge(make_estimates(whole, INSTANTS), Truth([CUSPS_EVENT], end=SECOND // 2), "x")
     assert judgement.errors.late == 24  # the stamp of the end itself is judged
     assert judgement.errors.unknown == 0
     assert " 24 estimates " in judgement.format()
@@ -141,7 +144,7 @@ def test_stamps_after_the_last_sample_are_counted_apart():
 
 def test_a_refusal_has_both_spans_of_time():
     begin = 1_700_000_000 * SECOND
-    events = [replace(event, stamp=begin) for event in scene_truth("cusps")._events]
+    events = [replace(CUSPS_EVENT, stamp=begin)]
     estimates = make_estimates(scene_truth("cusps"), INSTANTS)
     with pytest.raises(RefusedError, match=r"within the run, 17.* s to 17.* s, got 0\.0"):
         judge(estimates, Truth(events, begin + SECOND), "x")

@@ -3,16 +3,22 @@
 import errno
 import json
 import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
 from judge.cases import encode, make_estimates, truth_and_stamps, write_log, write_rows
+from log.damaged import zero_chunk
+from log_files import write_mcap
 from scipy.spatial.transform import Rotation
 from testset.test_scorers import make_table, write
 
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.main import main
 from symtop_ros.judge.truth import scene_truth
+from symtop_ros.log.reader import McapFile
+from symtop_ros.programs import BROKEN_PIPE
 
 IMU = "sensor_msgs/msg/Imu"
 HEADER = "stamp", "w", "x", "y", "z"
@@ -58,6 +64,36 @@ def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
     path.write_text(write_rows(exact, header=HEADER, seconds=False))
     assert main([str(log), "--estimates", str(path), "--max-error", "1e-15"]) == 0
     assert main([str(log), "--estimates", str(log), "--topic", "/imu/data"]) == 0
+
+
+def test_an_output_that_is_no_longer_read_is_no_failure(log):
+    command = "import sys; from symtop_ros.programs import top_judge; sys.exit(top_judge())"
+    words = [sys.executable, "-c", command, str(log), "--topic", "/filter", "--json"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()  # as `| head -0` does it
+        error = process.stderr.read().decode()
+    assert (process.returncode, "Broken pipe" in error) == (BROKEN_PIPE, False)
+
+
+def test_what_is_lost_in_a_log_of_estimates_is_told(log, tmp_path, capsys):
+    other = tmp_path / "estimates.mcap"
+    file = McapFile(log)
+    topics = {file.channels[m.channel_id].topic: [] for chunk in file.chunks() for m in chunk}
+    for chunk in file.chunks():
+        for message in chunk:
+            topics[file.channels[message.channel_id].topic].append(
+                (message.log_time, bytes(message.data))
+            )
+    write_mcap(other, [("/filter", IMU, topics["/filter"])], chunk_size=5000)
+    whole = [str(log), "--estimates", str(other), "--topic", "/filter", "--aligned", "none"]
+    assert main(whole) == 0
+    capsys.readouterr()
+    zero_chunk(other, topics["/filter"][100][0])
+    for reader in (whole, [str(log), "--estimates", str(other), "--clock", "/filter"]):
+        assert main(reader) == 1
+        lines = capsys.readouterr().err.splitlines()
+        assert lines[0].startswith("top_judge: a chunk is damaged: ")
+        assert "top_judge: /filter: estimates may be missing: the log is damaged" in lines
 
 
 REFUSED = [

@@ -11,7 +11,7 @@ import lz4.frame
 import numpy as np
 import pytest
 import zstandard
-from exact_log import STATES
+from exact_log import STATES, compare_samples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from log_files import BEGIN, Run, topic, write_mcap
@@ -19,9 +19,8 @@ from mcap.data_stream import RecordBuilder
 from mcap.records import Chunk
 from mcap.writer import CompressionType
 
-from symtop_ros.check.run import find_damage
-from symtop_ros.check.samples import check_log
 from symtop_ros.log import reader
+from symtop_ros.log.checksums import read_damage
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.topics import EVENTS, STATE_TOPICS
@@ -137,7 +136,7 @@ def test_files_of_other_writers_are_read(chunked, compression, tmp_path):
     path = write_mcap(tmp_path / "other.mcap", topics, enable_data_crcs=True, **options)
     file, messages = read(path)
     assert messages == [("words", k, b"%d" % k) for k in range(100)]
-    assert file.problems == find_damage(path) == []
+    assert file.problems == read_damage(path) == []
 
 
 @settings(max_examples=200)
@@ -179,16 +178,16 @@ def test_topics_are_found_in_any_namespace_and_between_others(tmp_path):
     ]
     log = write(tmp_path, {"/lab/one/top": SECOND_RUN}, others=others)
     columns = columns_of(log)
-    assert log.node == "/lab/one/top"
+    assert log.account.node == "/lab/one/top"
     assert len(columns["orientation"]) == 200
-    assert log.problems == []
+    assert (log.account.problems, log.account.notes) == ((), ())
 
 
 def test_of_several_tops_one_is_chosen_and_the_others_are_listed(tmp_path):
     slow = Run(seconds=1.0, rate=50.0)
     log = write(tmp_path, {"/a": SECOND_RUN, "/b": slow})
     assert len(columns_of(log)["torque"]) == 200
-    (note,) = log.problems
+    (note,) = log.account.notes
     assert "/a;" in note
     assert note.endswith("--node: /b")
     assert len(columns_of(TopLog(log.file, "b"))["torque"]) == 50  # the slash may be left out
@@ -197,13 +196,12 @@ def test_of_several_tops_one_is_chosen_and_the_others_are_listed(tmp_path):
 def test_the_top_of_a_file_that_has_lost_its_index_is_found_in_its_chunks(good, tmp_path):
     log = TopLog(McapFile(save(tmp_path, good.read_bytes()[:-20])))
     assert len(columns_of(log)["torque"]) == 200
-    assert log.node == "/top"
+    assert log.account.node == "/top"
 
 
 def test_of_several_tops_that_of_the_default_name_is_chosen(tmp_path):
     log = write(tmp_path, {"/a": SECOND_RUN, "/top": SECOND_RUN})
-    next(log.events())
-    assert log.node == "/top"
+    assert log.account.node == "/top"
 
 
 @pytest.mark.parametrize("shift", [1, 60, -60])
@@ -224,7 +222,7 @@ def test_missing_topics_are_listed(tmp_path):
     log = write(tmp_path, {"/top": part})
     assert set(columns_of(log)) == {"orientation"}
     missing = ", ".join(f"no {name}" for name in STATES[1:])
-    assert log.problems == [f"the log has {missing}"]
+    assert log.account.notes == (f"the log has {missing}",)
 
 
 def test_a_log_without_a_top_is_refused_with_a_list_of_its_topics(tmp_path):
@@ -247,7 +245,7 @@ def test_messages_that_cannot_be_decoded_are_reported_and_the_others_used(cut, t
         run.messages[place] = name, stamp, data[:-3]
     log = write(tmp_path, {"/top": run})
     assert len(columns_of(log)["torque"]) == 200 - cut
-    (problem,) = log.problems
+    (problem,) = log.account.problems
     assert problem.startswith(f"torque: {cut} messages: ")
     assert "are not a geometry_msgs/msg/WrenchStamped" in problem
 
@@ -279,6 +277,6 @@ def test_transforms_of_another_top_before_the_first_event_are_not_those_of_this_
     one, other = Run(seconds=1.0), Run(seconds=1.0, rate=2000.0, frame="gyro")
     one.messages = [each for each in one.messages if each[1] >= one.messages[0][1] + 5 * 10**8]
     assert one.messages[0][0] == "events"  # the kick
-    deviations = check_log(write(tmp_path, {"/top": other, "/one": one}, "/one"))
+    deviations = compare_samples(write(tmp_path, {"/top": other, "/one": one}, "/one"))
     for each in deviations.values():
         assert (each.samples, each.largest, each.unchecked) == (100, 0.0, 0)

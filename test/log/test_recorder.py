@@ -17,6 +17,8 @@ from rosbags.interfaces import QosDurability, QosReliability
 from waiting import until
 
 from symtop_ros.log import recorder as module
+from symtop_ros.log.account import read_account
+from symtop_ros.log.names import Names
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.log.repair import repair
@@ -207,6 +209,10 @@ def test_a_log_without_any_message_is_removed(tmp_path):
 RUN = Run()
 
 
+def account_of(file):
+    return read_account(file, Names(file))
+
+
 @pytest.fixture
 def cut(tmp_path):
     whole = RUN.write(tmp_path / "logs").read_bytes()
@@ -218,7 +224,7 @@ def cut(tmp_path):
 def test_the_readable_messages_become_a_complete_file_for_every_reader(cut, tmp_path):
     target = tmp_path / "whole.mcap"
     file = McapFile(cut)
-    count = repair(file, target)
+    count = repair(file, target, account_of(file)).messages
     assert 0 < count < len(RUN.messages)
     assert "messages after" in file.problems[0]
     assert [data for *_, data in contents(target)] == [data for *_, data in RUN.messages[:count]]
@@ -234,13 +240,13 @@ def test_the_target_is_never_overwritten(cut, tmp_path):
     target = tmp_path / "there.mcap"
     target.write_text("mine")
     with pytest.raises(LogError, match=r"there\.mcap must not exist \(nothing is overwritten\)"):
-        repair(McapFile(cut), target)
+        repair(file := McapFile(cut), target, account_of(file))
     assert target.read_text() == "mine"
 
 
 def test_a_target_that_cannot_be_written_is_reported(cut, tmp_path):
     with pytest.raises(LogError, match=os.strerror(errno.ENOENT)):
-        repair(McapFile(cut), tmp_path / "none" / "whole.mcap")
+        repair(file := McapFile(cut), tmp_path / "none" / "whole.mcap", account_of(file))
 
 
 def test_messages_of_a_channel_without_a_description_are_omitted_and_reported(tmp_path):
@@ -253,6 +259,7 @@ def test_messages_of_a_channel_without_a_description_are_omitted_and_reported(tm
         writer.add_message(known + 1, 2, b"whose", 2)
         writer.finish()
     file = McapFile(path)
-    assert repair(file, tmp_path / "whole.mcap") == 1
-    assert any(each.startswith(f"channel {known + 1} ") for each in file.problems)
+    account = account_of(file)
+    assert str(repair(file, tmp_path / "whole.mcap", account)) == "1 messages"
+    assert account.problems == (f"channel {known + 1} is not described: its messages are lost",)
     assert [data for *_, data in contents(tmp_path / "whole.mcap")] == [b"mine"]

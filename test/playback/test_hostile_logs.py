@@ -10,7 +10,7 @@ import zlib
 import numpy as np
 import pytest
 import zstandard
-from exact_log import STATES
+from exact_log import STATES, compare_samples
 from hypothesis import given
 from hypothesis import strategies as st
 from log_files import LAYOUTS, Run, write_mcap
@@ -19,8 +19,7 @@ from mcap.records import Channel, Chunk, Message, Schema
 from odd_values import CONTROL, assert_one_sentence, deterministic
 from trials import trials
 
-from symtop_ros.check.samples import check_log
-from symtop_ros.log.reader import MAGIC, McapFile, list_problems
+from symtop_ros.log.reader import MAGIC, McapFile
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import Friction
 from symtop_ros.playback import main as module
@@ -88,10 +87,10 @@ def test_an_event_of_absurd_numbers_is_told_in_one_sentence(change, tmp_path, ca
     status, lines = asked(capsys, path, "--check")
     assert status == 1
     assert sum(sentence in line for line in lines) == 1
-    assert asked(capsys, path, "--repair", tmp_path / "whole.mcap") == (0, [])
-    status, lines = asked(capsys, path, "--save", tmp_path / "run.rrd")
-    assert status == 0
-    assert len(lines) <= 1
+    for way in (("--repair", tmp_path / "whole.mcap"), ("--save", tmp_path / "run.rrd")):
+        status, lines = asked(capsys, path, *way)
+        assert status == 0
+        assert sentence in "".join(lines[:1] or [sentence])  # an account computes no motion
 
 
 @pytest.mark.parametrize("examples", trials(30, 100))
@@ -102,8 +101,8 @@ def test_any_numbers_in_an_event_are_checked_or_refused(examples, tmp_path_facto
     @given(changes=st.dictionaries(st.sampled_from(ALL_KEYS), values, max_size=3))
     def check(changes):
         log = TopLog(McapFile(with_event(tmp_path_factory.mktemp("odd"), changes)))
-        check_log(log)
-        assert all(map(str.isprintable, list_problems(log.problems)))
+        compare_samples(log)
+        assert all(map(str.isprintable, log.account.lines))
 
     check()
 
@@ -228,7 +227,7 @@ def test_joints_that_are_not_three_are_not_those_of_a_top(tmp_path, capsys):
     log = TopLog(McapFile(path))
     (batch,) = log.batches()
     assert batch.columns["euler_angles"].numbers.shape == (1, 6)
-    assert "euler_angles: 3 messages: JointState must have 3 joints, got 0" in log.problems
+    assert "euler_angles: 3 messages: JointState must have 3 joints, got 0" in log.account.problems
     assert asked(capsys, path, "--save", tmp_path / "run.rrd")[0] == 0
 
 

@@ -4,6 +4,8 @@ import pytest
 from log_files import LAYOUTS, Run, topic
 from programs import execute
 
+from symtop_ros.log.account import read_account
+from symtop_ros.log.names import Names
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.repair import repair
 from symtop_ros.playback import viewer
@@ -15,7 +17,8 @@ def test_rerun_finds_no_fault_in_a_log_that_is_complete_or_repaired(part, tmp_pa
     (path := tmp_path / "cut.mcap").write_bytes(content[: round(part * len(content))])
     if part < 1:
         assert execute([viewer.PROGRAM, "mcap", "check", path]).returncode == 1
-        repair(McapFile(path), path := tmp_path / "repaired.mcap")
+        file = McapFile(path)
+        repair(file, path := tmp_path / "repaired.mcap", read_account(file, Names(file)))
     done = execute([viewer.PROGRAM, "mcap", "check", "--full", path])
     assert done.returncode == 0, done.stdout
     assert all(topic(name) in done.stdout for name in LAYOUTS)

@@ -13,7 +13,8 @@ from simulation.page_runs import START, make_run, to_json
 from trials import seeds
 
 from symtop_ros.check.run import check_run
-from symtop_ros.log.top_log import TopLog, open_run
+from symtop_ros.log.bags import open_run
+from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import ExactTimes, Motion, State
 from symtop_ros.session.run_log import write_run_log
 from symtop_ros.simulation.run_file import RunEvent, read_run, record_run, write_run
@@ -46,10 +47,11 @@ def test_of_acts_at_one_time_only_the_last_has_a_sample_and_what_is_undone_is_no
     path = tmp_path / "run.mcap"
     write_run_log(run, END, path)
     assert (np.diff(stamps_of(path)) > 0).all()
-    found = check_run(read(path))
+    log = read(path)
+    found = check_run(log)
     assert found.samples_agree
-    assert (found.mismatches, found.missing) == ([], [])
-    events, _ = record_run(read(path).events(), END)
+    assert (found.mismatches, log.account.problems) == ([], ())
+    events, _ = record_run(log.account.events, END)
     assert [event.kind for event in events] == ["start", "start", "kick", "torque"]
 
 
@@ -174,8 +176,8 @@ def check(path):
     found = check_run(log)
     assert found.mismatches == []
     assert all(each.differing == 0 for each in found.deviations.values())
-    assert (found.missing, found.damage) == ([], [])
-    return list(log.events())
+    assert log.account.problems == ()
+    return list(log.account.events)
 
 
 def list_exact(event):

@@ -19,6 +19,11 @@ class HandClock:
 
     def __init__(self) -> None:
         self.now, self.is_simulated = 0, True
+        self.set_forward = 0  # ns by which it was set
+
+    @property
+    def steady(self) -> int:
+        return self.now - self.set_forward
 
 
 class ListSink:

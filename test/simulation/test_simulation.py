@@ -144,6 +144,22 @@ def test_as_many_samples_are_caught_up_as_are_kept_and_half_a_second_at_most(rat
     assert run.simulation.ticker.missed == rate - 1 - caught_up
 
 
+@pytest.mark.parametrize(
+    ("forward", "why"),
+    [(0, "the process was stopped, "), (700 * MS, "the clock of the system was ")],
+)
+def test_a_gap_is_explained_by_a_clock_that_was_set(forward, why):
+    run = Run(publish_rate=200.0)
+    run.clock.is_simulated = False
+    run.tick()
+    run.clock.now += 1000 * MS
+    run.clock.set_forward += forward
+    run.tick()
+    (text,) = run.sink.warnings
+    assert f": {why}" in text
+    assert ("set forward by 0.7 s; " in text) == bool(forward)
+
+
 def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_second():
     run = Run(publish_rate=1000.0)
     run.clock.is_simulated = False

@@ -10,7 +10,8 @@ from simulation.page_runs import change, find_refusal, list_hostile_runs
 from trials import choose, seeds
 from web.opened import USUAL
 
-from symtop_ros.log.top_log import TopLog, open_run
+from symtop_ros.log.bags import open_run
+from symtop_ros.log.top_log import TopLog
 from symtop_ros.simulation.run_file import record_run, write_run
 from symtop_ros.web.join import write_file
 
@@ -100,7 +101,7 @@ def test_the_page_reads_the_runs_of_sessions_as_python_wrote_them(opened, tmp_pa
         folder = tmp_path / str(seed)
         folder.mkdir()
         path, stamp = move(Numbers(seed), folder)
-        content = write_run(*record_run(TopLog(open_run([path])).events(), stamp))
+        content = write_run(*record_run(TopLog(open_run([path])).account.events, stamp))
         content = json.loads(json.dumps(content))
         opened.drop(content)
         opened.until(partial(has_read, opened, content))

@@ -5,7 +5,7 @@ import pytest
 from log_files import ARTICLE, BEGIN, Run
 from playback.view.rows import arrows, entities_of, record, recording_to, rows, strict
 
-from symtop_ros.log.batch import Batch, Columns
+from symtop_ros.log.batch import Batch, BatchReader, Columns
 from symtop_ros.physics import ExactTimes, Motion, specific_force
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.view import View
@@ -94,7 +94,7 @@ def test_a_scene_is_made_of_what_there_is(missing, tmp_path):
     log, target = Run().without(missing).open(tmp_path), tmp_path / "part.rrd"
     with strict():
         replay(log, target)
-    assert f"the log has no {missing}" in log.problems
+    assert any(missing in problem for problem in log.account.problems)
     assert len(rows(target, entities.BODY, "Transform3D:quaternion")[0]) == 400
 
 
@@ -109,7 +109,7 @@ def test_a_gap_in_the_log_is_not_drawn_across(tmp_path):
 
 def test_samples_that_come_one_by_one_make_the_same_recording_as_all_at_once(tmp_path):
     run = Run(seconds=0.5)
-    reader = run.open(tmp_path)._reader
+    reader = BatchReader()
     with recording_to(tmp_path / "live.rrd") as recording:
         view = View(recording, live=True)
         for name, _, data in run.messages:
