@@ -21,7 +21,6 @@ from pathlib import Path
 from typing import Any
 
 sys.path.append(str(Path(__file__).parents[1]))
-import lint
 from processors import old_processor
 
 from workshop.load.endings import bound
@@ -137,7 +136,10 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         "judge": [run(*JUDGE)],
         "lint": [  # early, because its tools come from a registry that may be slow
             *fetch("js"),
-            *(Command((*words,), ()) for words in lint.list_commands()),
+            *(
+                Command((str(BIN / "python"), "test/lint.py", name), ())
+                for name in ("style", "types")
+            ),
         ],
         "plain": [*fetch("chromium"), run(*PLAIN, *WITH_ROS)],
         "physics": [run("test/physics")],

@@ -1,6 +1,6 @@
 """Random tops, starts and times of all families, easy and hard, for comparisons with the CPU."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,7 +38,12 @@ class Draw:
 
     def sign(self) -> Real:
         """Return 1 and -1."""
-        return self.random.choice([-1.0, 1.0], self.count)
+        return self.choose((-1.0, 1.0))
+
+    def choose(self, values: Sequence[float], *more: int) -> Real:
+        """Return some of the values, (count, ...)."""
+        places = self.random.integers(0, len(values), (self.count, *more))
+        return np.asarray(values, np.float64)[places]
 
     def happens(self, share: float) -> Real:
         """Return what is True in a share of the cases."""
@@ -109,11 +114,10 @@ def _regular(d: Draw) -> None:
 
 
 def _short(d: Draw) -> None:
-    choose = d.random.choice
-    d.Ix, d.ratio = choose([0.001, 0.5, 1.0, 2.0], d.count), choose([0.25, 0.5, 1.0, 2.0], d.count)
-    d.Mgl = choose([0.1, 1.0, -1.0, 2.0, 5.0], d.count)
+    d.Ix, d.ratio = d.choose((0.001, 0.5, 1.0, 2.0)), d.choose((0.25, 0.5, 1.0, 2.0))
+    d.Mgl = d.choose((0.1, 1.0, -1.0, 2.0, 5.0))
     d.q = np.array(EXACT)[d.random.integers(0, len(EXACT), d.count)]
-    d.omega = choose([0.0, 0.0, 1.0, -1.0, 2.0, 3.0, 10.0], (d.count, 3))
+    d.omega = d.choose((0.0, 0.0, 1.0, -1.0, 2.0, 3.0, 10.0), 3)
 
 
 def _extreme(d: Draw) -> None:
