@@ -192,6 +192,7 @@ def measure_tilt_at_a_pole(genes: Genes) -> float:
 def draw_driven(rng: Numbers) -> Genes:
     """Ratio, weight, angles, rates, friction, torque and time of some rad."""
     drive = [rng.choice((0.0, rng.power(-6, 0))) for _ in range(5)]
+    drive[rng.randrange(5)] = rng.power(-6, 0)  # without any it is a motion under gravity alone
     angles = [rng.uniform(0.05, 3.0), rng.uniform(-3, 3), rng.uniform(-3, 3)]
     rates = [rng.uniform(-3, 3) for _ in range(3)]
     return [
@@ -389,7 +390,7 @@ PROMISES = {
     "attitude": Promise(draw_motion, measure_attitude),
     "angular velocity": Promise(draw_motion, measure_angular_velocity),
     "tilt at a pole": Promise(draw_passage, measure_tilt_at_a_pole),
-    "friction and torques": Promise(draw_driven, measure_driven),
+    "friction and torques": Promise(draw_driven, measure_driven, 4000),  # some minutes
     "theta": Promise(draw_state, measure_theta),
     "phi and psi": Promise(draw_state, measure_phi_and_psi),
     "Euler rates": Promise(draw_state, measure_euler_rates),
