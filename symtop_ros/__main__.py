@@ -1,4 +1,4 @@
-"""What a report of a fault needs: python -m symtop_ros.
+"""Versions and settings for the report of a fault: python -m symtop_ros.
 
 Each line is found for itself, so that one that fails says so and the others are there.
 """

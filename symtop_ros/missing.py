@@ -1,4 +1,4 @@
-"""What to install where a module is missing: the same words for programs and for `~/record`."""
+"""Advice if a module is missing, the same for programs and for `~/record`."""
 
 from importlib import metadata
 

@@ -17,7 +17,7 @@ FOLDERS = (*FOLDERS, "workshop")
 TOP = ("*.py", "*.md", "*.rst", "*.toml", "*.cfg", "*.xml", "*.cff", "*.in", "Makefile")
 BUILT = ("*.pyc", "*.so", "*.dylib", "*.dll")
 TYPED = ("symtop_ros/*", "workshop/*", "examples/*", "design/*")
-# A page as it is shipped: data that are packed, and modules that are checked where they are.
+# A shipped page: packed data, and modules that are checked in the package.
 GENERATED = "docs/top.html"
 
 

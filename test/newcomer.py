@@ -7,7 +7,7 @@ documents    the set-up of the README, then every shell line of all documents, t
 pythonX.Y    the set-up of the README with that Python, where there is one
 later        a pull of Python, of the kernel, a moved folder, another Python, without a network
 
-A user is not root, if this machine has a Python for nobody. A line must end with status 0; what
+The user is not root if the account nobody can run this machine's Python. A line must end with status 0; what
 runs until it is stopped is stopped by Ctrl-C. What is not typed is listed with its reason.
 """
 
@@ -259,7 +259,7 @@ def try_python(user: User) -> None:
 
 
 def try_later(user: User) -> None:
-    """Go on after the set-up: each time it works, or a line says what to do."""
+    """Change things after the set-up: each time it works, or a line says what to do."""
     clone(user)
     user.type("make panel")
     user.type("make demo")
@@ -277,7 +277,7 @@ def try_later(user: User) -> None:
         user.type("git pull --quiet")
 
     def demand(line: str, *said: str, expected: tuple[int, ...] = (0,), **variables: str) -> None:
-        """Type a line of make, of which these lines and no other tell of a set-up."""
+        """Type a line of make, which prints these lines on set-ups and no other."""
         text = user.type(line, expected=expected, **variables)
         told = [each for each in text.splitlines() if each.startswith(("make: ", "Setting up"))]
         found = [each for each in told if not each.startswith("make: ***")]
@@ -311,7 +311,7 @@ def try_later(user: User) -> None:
 
 
 def find_python(version: str) -> str:
-    """Return an interpreter of a version: on PATH, or of pyenv; "" if there is none."""
+    """Return an interpreter of a version: on PATH, or of pyenv; "" without one."""
     found = sorted(Path.home().glob(f".pyenv/versions/{version}.*/bin/python"))
     return str(found[-1]) if found else shutil.which(f"python{version}") or ""
 
@@ -321,7 +321,7 @@ def run_trial(name: str) -> list[str]:
     version = name.removeprefix("python")
     python = find_python(version) if name != version else ""
     if name == "later":
-        python = find_python(PYTHONS[0])  # beside the one that it changes to
+        python = find_python(PYTHONS[0])  # not the one that it changes to
     if name != version and not python:
         print(f"{name}: there is no such Python here: not tried", flush=True)
         return []

@@ -45,14 +45,14 @@ PERIOD = 10.0  # s between two lines: pip may be silent for minutes
 
 @dataclass(frozen=True)
 class SetUp:
-    """What some targets of make need."""
+    """Packages, or the results of a script, that targets of make need."""
 
     what: str  # said while it is fetched
     extras: tuple[str, ...] = ()  # of setup.py, with which the package is installed
     packages: tuple[str, ...] = ()  # of PyPI
     script: tuple[str, ...] = ()  # a command in the checkout
     made_of: tuple[str, ...] = ()  # files that decide what the script makes
-    place: str = ""  # the folder in .venv of an environment of its own
+    place: str = ""  # folder of a separate environment in .venv
     needs: tuple[str, ...] = ()  # other set-ups
 
 
@@ -239,7 +239,7 @@ def _install(place: str, *words: str) -> None:
 
 
 def _has_compiler(python: str) -> bool:
-    """Return False where the build has to fetch a compiler, into an environment of its own."""
+    """Return False where the build has to fetch a compiler, into a separate environment."""
     code = "import sys, build_kernel; sys.exit(not build_kernel.find_compiler())"
     done = subprocess.run(
         [python, "-c", code], cwd=ROOT, env=_environment(), capture_output=True, check=False

@@ -46,7 +46,7 @@ ARGUMENT = re.compile(r"(const )?([\w ]+?)\s*(\**)\s*(\w+)(?:\[\d+\])?$")
 class Field:
     """A field of a record: the C type without `symtop_`, the length of an array or 0, and an enum.
 
-    The enum is that whose values are the bits of the field, "" if there is none.
+    The enum is that whose values are the bits of the field, or "".
     """
 
     kind: str
@@ -57,7 +57,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Header:
-    """What the header defines."""
+    """Enums, records and functions of the header."""
 
     enums: dict[str, tuple[str | None, ...]]
     records: dict[str, tuple[Field, ...]]
@@ -174,7 +174,7 @@ def _write_functions(header: Header) -> str:
 
 
 def _wrap_arguments(words: Sequence[str]) -> str:
-    """Return a tuple that stands in a line of its own."""
+    """Return a tuple that stands in a separate line."""
     line = f"({', '.join(words)})"
     if len(line) + len("        ,") <= WIDTH:
         return line

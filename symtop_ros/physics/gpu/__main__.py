@@ -1,8 +1,8 @@
 """Bits and speeds of this machine's GPU: python -m symtop_ros.physics.gpu [--motions N].
 
 Random motions of all families are compared with the CPU, state by state and bit by bit. Then the
-times are printed, of the device and of the processor beside it, and what the usual integrator makes
-of the same tops.
+times of the device and of the processor are printed, and the errors of the usual integrator for the
+same tops.
 """
 
 import argparse

@@ -112,7 +112,7 @@ def _open(_: int) -> Functions:
 
 
 def list_options() -> tuple[str, ...]:
-    """Return the options of NVRTC. The digest tells CuPy's cache of a header that has changed."""
+    """Return the options of NVRTC. By the digest CuPy's cache knows a changed header."""
     folders = (SHIM, SOURCES, door.FOLDER)
     digest = hashlib.sha256()
     for folder in folders:
