@@ -129,13 +129,18 @@ class Finder:
     """Finds the stretches of a log."""
 
     def __init__(
-        self, ordered: Ordered, proofs: Proofs, breaks: Iterable[int], rows: StampRows
+        self,
+        ordered: Ordered,
+        proofs: Proofs,
+        breaks: Iterable[int],
+        rows: StampRows,
+        end: int | None = None,  # stamp (ns) of the last sample
     ) -> None:
         self._ordered, self._proofs, self._rows = ordered, proofs, rows
         self._breaks = sorted(breaks)  # places of the log at which messages are lost
         self._missing = find_missing(ordered, proofs)
-        stamps = [stamp for row in rows.rows for stamp in (row.first, row.last)]
-        self._begin, self._end = min(stamps, default=None), max(stamps, default=MAX_STAMP - 1) + 1
+        self._begin = min((row.first for row in rows.rows), default=None)
+        self._end = MAX_STAMP if end is None else end + 1
 
     def list_stretches(self) -> Iterator[Stretch]:
         """Yield the stretches in the order of the run."""
@@ -192,7 +197,8 @@ def _list_pieces(
             pieces.append([row.first, row.first])
         pieces[-1][1] = row.last + 1
     pieces[-1][1] = max(end, pieces[-1][1])
-    return [(since, until) for since, until in pieces if since < until]
+    found = [(since, until) for since, until in pieces if since < until]
+    return found or [(begin, begin)]  # which has messages of other topics
 
 
 def _find_last_place(row: Row) -> int:
