@@ -15,7 +15,6 @@ from symtop_ros.arrays import Mask, Places, Stamps
 from symtop_ros.log.course import Ordered
 from symtop_ros.log.stamps import Row, StampRows
 from symtop_ros.simulation.events import MAX_STAMP, Event
-from symtop_ros.simulation.segment import Segment
 
 NOT_RECORDED = "the recording was off"
 NO_BEGINNING = "the beginning is missing"
@@ -31,13 +30,10 @@ class Stretch:
 
     begin: int  # stamps in ns, from the first on and before the second
     end: int
-    event: Event | None  # the last one, from which the motion follows; None: it is not known
+    # the last one, whose segment is the motion and its times; None: the motion is not known
+    event: Event | None
     reason: str = ""  # why it is not known
     places: tuple[int, int] = (0, 0)  # of what is not known: the messages from the first to before
-
-    def segment(self) -> Segment | None:
-        """Return the motion, and which of its times belongs to a stamp; None if it is not known."""
-        return self.event.segment() if self.event else None
 
 
 @dataclass(frozen=True, slots=True)
