@@ -150,13 +150,15 @@ class _Conclusions:
         self._rows = contents.rows.get(self._main, StampRows())
         self._counted = self._count_missed()
         self._proofs = Proofs(self._ordered, [*contents.marks, *self._list_repeated()])
-        finder = Finder(self._ordered, self._proofs, [*self._list_breaks()], self._rows)
+        ends = [row.last for rows in contents.rows.values() for row in rows.rows]
+        self._end = max(ends, default=None)
+        breaks = [*self._list_breaks()]
+        finder = Finder(self._ordered, self._proofs, breaks, self._rows, self._end)
         self._stretches = tuple(finder.list_stretches())
         self._topics = self._list_topics()
 
     def conclude(self) -> Account:
         """Return the account."""
-        ends = [row.last for rows in self._contents.rows.values() for row in rows.rows]
         file, names = self._file, self._names
         others = {
             channel.topic: schema.name if (schema := file.schemas.get(channel.schema_id)) else ""
@@ -172,7 +174,7 @@ class _Conclusions:
             others=others,
             ordered=self._ordered,
             stretches=self._stretches,
-            end=max(ends, default=None),
+            end=self._end,
             losses=tuple(file.losses),
             never_recorded=lacking,
             problems=tuple(self._list_problems()),
@@ -216,6 +218,11 @@ class _Conclusions:
         # after the last message nothing is judged
         yield from (place for place in places if place < self._file.count)
         yield from self._contents.lost_events
+        # The node begins each file with its latest event.
+        heads = {place for place, _ in self._contents.events}
+        for begin, file in zip(self._file.begins, self._file.files, strict=False):
+            if METADATA in file.metadata and begin not in heads:
+                yield begin
 
     # Topics
 

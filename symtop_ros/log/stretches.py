@@ -15,7 +15,6 @@ from symtop_ros.arrays import Mask, Places, Stamps
 from symtop_ros.log.course import Ordered
 from symtop_ros.log.stamps import Row, StampRows
 from symtop_ros.simulation.events import MAX_STAMP, Event
-from symtop_ros.simulation.segment import Segment
 
 NOT_RECORDED = "the recording was off"
 NO_BEGINNING = "the beginning is missing"
@@ -31,13 +30,10 @@ class Stretch:
 
     begin: int  # stamps in ns, from the first on and before the second
     end: int
-    event: Event | None  # the last one, from which the motion follows; None: it is not known
+    # the last one, whose segment is the motion and its times; None: the motion is not known
+    event: Event | None
     reason: str = ""  # why it is not known
     places: tuple[int, int] = (0, 0)  # of what is not known: the messages from the first to before
-
-    def segment(self) -> Segment | None:
-        """Return the motion, and which of its times belongs to a stamp; None if it is not known."""
-        return self.event.segment() if self.event else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,13 +125,18 @@ class Finder:
     """Finds the stretches of a log."""
 
     def __init__(
-        self, ordered: Ordered, proofs: Proofs, breaks: Iterable[int], rows: StampRows
+        self,
+        ordered: Ordered,
+        proofs: Proofs,
+        breaks: Iterable[int],
+        rows: StampRows,
+        end: int | None = None,  # stamp (ns) of the last sample
     ) -> None:
         self._ordered, self._proofs, self._rows = ordered, proofs, rows
         self._breaks = sorted(breaks)  # places of the log at which messages are lost
         self._missing = find_missing(ordered, proofs)
-        stamps = [stamp for row in rows.rows for stamp in (row.first, row.last)]
-        self._begin, self._end = min(stamps, default=None), max(stamps, default=MAX_STAMP - 1) + 1
+        self._begin = min((row.first for row in rows.rows), default=None)
+        self._end = MAX_STAMP if end is None else end + 1
 
     def list_stretches(self) -> Iterator[Stretch]:
         """Yield the stretches in the order of the run."""
@@ -192,7 +193,8 @@ def _list_pieces(
             pieces.append([row.first, row.first])
         pieces[-1][1] = row.last + 1
     pieces[-1][1] = max(end, pieces[-1][1])
-    return [(since, until) for since, until in pieces if since < until]
+    found = [(since, until) for since, until in pieces if since < until]
+    return found or [(begin, begin)]  # which has messages of other topics
 
 
 def _find_last_place(row: Row) -> int:

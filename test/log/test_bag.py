@@ -81,6 +81,18 @@ def test_the_default_node_does_not_depend_on_the_order_of_files(tmp_path):
         assert note.endswith(": /b")
 
 
+def test_topics_that_were_never_recorded_are_named_and_only_strict_readers_mind(tmp_path, capsys):
+    some = [each for each in RUN.messages if each[0] in ("events", "orientation")]
+    folder = str(write(tmp_path / "bag", some))
+    assert module.main([folder, "--check"]) == 0
+    assert module.main([folder, "--check", "--strict"]) == 1
+    out, err = capsys.readouterr()
+    assert "/top/torque                  not compared: it has no messages\n" in out
+    assert "/diagnostics                 not compared: it was never recorded\n" in out
+    said = "topics are recognised by their types and the ends of their names: "
+    assert f"top_replay: {said}" in err
+
+
 def test_damage_is_reported_with_the_name_of_its_file(tmp_path):
     first, second = parts(tmp_path, 2)
     second.write_bytes(second.read_bytes()[: second.stat().st_size // 2])

@@ -28,7 +28,7 @@ def find(events, marks=(), breaks=(), stamps=STAMPS, places=None):
     places = places or [each.stamp for each in events]
     ordered = order_at(events, places)
     proofs = Proofs(ordered, [Mark(place, place, number) for place, number in marks])
-    found = list(Finder(ordered, proofs, breaks, rows_of(stamps)).list_stretches())
+    found = list(Finder(ordered, proofs, breaks, rows_of(stamps), max(stamps)).list_stretches())
     return [
         (each.begin, each.end, each.event.number if each.event else each.reason) for each in found
     ]
@@ -97,6 +97,6 @@ def test_a_jump_that_is_lost_leaves_two_stretches_that_are_not_known():
 def test_samples_are_unknown_by_their_stamps_and_by_their_places():
     ordered = order_at([START], [0])
     proofs = Proofs(ordered, [])
-    stretches = list(Finder(ordered, proofs, [41], rows_of(STAMPS)).list_stretches())
+    stretches = list(Finder(ordered, proofs, [41], rows_of(STAMPS), 59).list_stretches())
     stamps, places = np.array([39, 40, 5, 50]), np.array([40, 40, 45, NOWHERE])
     assert Unknown(stretches).find(stamps, places).tolist() == [False, True, True, True]
