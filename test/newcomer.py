@@ -7,9 +7,9 @@ documents    the set-up of the README, then every shell line of all documents, t
 pythonX.Y    the set-up of the README with that Python, where there is one
 later        a pull of Python, of the kernel, a moved folder, another Python, without a network
 
-The user is not root if the account nobody can run this machine's Python. A line must end with status
-0; what
-runs until it is stopped is stopped by Ctrl-C. What is not typed is listed with its reason.
+The user is not root if the account nobody can run this machine's Python. A line must end with the
+status 0; what runs until it is stopped is stopped by Ctrl-C. What is not typed is listed with its
+reason.
 """
 
 import argparse
