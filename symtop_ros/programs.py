@@ -51,7 +51,9 @@ def run(name: str, package: str, interruptible: bool = False) -> int:
         main = importlib.import_module(f"{package}.main").main
         if interruptible:
             _set_signals(signal.default_int_handler)
-        return int(main())
+        status = int(main())
+        sys.stdout.flush()  # or else Python would fail at its exit if the output is closed
+        return status
     except ModuleNotFoundError as error:
         missing = find_package(str(error.name)) or str(error.name).partition(".")[0]
         print(f"{name}: {missing} is missing: {name_remedy(str(error.name))}", file=sys.stderr)
