@@ -47,13 +47,32 @@ def test_a_checkout_that_is_not_installed_names_its_extra(monkeypatch):
     assert missing.name_remedy("rclpy").endswith("pip install -e '.[ros]' in the checkout")
 
 
-@pytest.mark.parametrize("program", PROGRAMS)
-def test_help_and_version_need_neither_ros_nor_rerun_nor_mcap(program, tmp_path):
-    code = write_without(HEAVY, program)
-    answers = [run_python(code, each, cwd=tmp_path) for each in ("--help", "-h", "--version")]
-    assert [done.returncode for done in answers] == [0, 0, 0], answers
-    assert answers[0].stdout.startswith(f"usage: {program} ")
-    assert answers[2].stdout == f"{program} {__version__}\n"
+# Each program is asked in turn, in a process without what they need.
+ASK = f"""
+import sys
+sys.modules.update(dict.fromkeys({HEAVY}))
+from symtop_ros import programs
+for name in {PROGRAMS}:
+    for word in ("--help", "-h", "--version"):
+        sys.argv = [name, word]
+        try:
+            getattr(programs, name)()
+        except SystemExit as end:
+            print(f"status {{end.code}}")
+"""
+
+
+def test_help_and_version_need_neither_ros_nor_rerun_nor_mcap(tmp_path):
+    done = run_python(ASK, cwd=tmp_path)
+    answers = done.stdout.split("status 0\n")
+    assert (done.stderr, answers.pop()) == ("", "")
+    assert len(PROGRAMS) == 8
+    for program, full, short, version in zip(
+        PROGRAMS, *(answers[k::3] for k in range(3)), strict=True
+    ):
+        assert full.startswith(f"usage: {program} ")
+        assert short == full
+        assert version == f"{program} {__version__}\n"
 
 
 def test_help_after_the_arguments_of_ros_is_theirs(monkeypatch, capsys):
