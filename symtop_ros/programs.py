@@ -29,10 +29,6 @@ def top_ctl() -> int:
 def _leave(status: int) -> NoReturn:
     """End the process at once: to unload Fast DDS and NumPy takes 0.2 s, a fourth of a call."""
     gc.collect()  # destroys the ROS node, and so Fast DDS announces its end
-    try:
-        sys.stdout.flush()
-    except OSError:
-        status = status or BROKEN_PIPE
     os._exit(status)
 
 
@@ -52,8 +48,7 @@ def run(name: str, package: str, interruptible: bool = False) -> int:
         if interruptible:
             _set_signals(signal.default_int_handler)
         status = int(main())
-        sys.stdout.flush()  # or else Python would fail at its exit if the output is closed
-        return status
+        return _write_out(name) or status
     except ModuleNotFoundError as error:
         missing = find_package(str(error.name)) or str(error.name).partition(".")[0]
         print(f"{name}: {missing} is missing: {name_remedy(str(error.name))}", file=sys.stderr)
@@ -61,11 +56,28 @@ def run(name: str, package: str, interruptible: bool = False) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:
-        # What is left of the output goes nowhere; else Python would report it at the exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _drop_output()
         return BROKEN_PIPE
     finally:
         _set_signals(signal.SIG_IGN)
+
+
+def _write_out(name: str) -> int:
+    """Write what is left of the output; return 0, or 1 and a line if there is no room for it."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        print(f"{name}: output: {error.strerror}", file=sys.stderr)
+        _drop_output()
+        return 1
+    return 0
+
+
+def _drop_output() -> None:
+    """Let what is left of the output go nowhere; else Python would report it at the exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _answer_without_the_program(options: str) -> None:

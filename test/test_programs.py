@@ -1,4 +1,7 @@
 import os
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
 from documents import ROOT
@@ -109,6 +112,20 @@ def test_programs_use_udp_unless_the_user_has_chosen(chosen, transports, monkeyp
         monkeypatch.setenv(name, value)
     assert programs.run("top_ctl", "a module that is missing") == 1
     assert os.environ[programs.TRANSPORTS] == transports
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@pytest.mark.parametrize("words", ["top_model --format urdf", "top_judge --testset"])
+def test_an_output_without_room_is_a_line_and_status_1(words):
+    name, *options = words.split()
+    code = f"import sys; from symtop_ros import programs; sys.exit(programs.{name}())"
+    buffered = {key: text for key, text in os.environ.items() if key != "PYTHONUNBUFFERED"}
+    with open("/dev/full", "w") as full:
+        command = [sys.executable, "-c", code, *options]
+        done = subprocess.run(
+            command, stdout=full, stderr=subprocess.PIPE, text=True, env=buffered, check=False
+        )
+    assert (done.returncode, done.stderr) == (1, f"{name}: output: No space left on device\n")
 
 
 def test_a_program_has_no_threads_of_linear_algebra():
