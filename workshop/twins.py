@@ -105,7 +105,7 @@ def write_python(header: Header) -> str:
         "Written by `python -m workshop.twins`: change the header, and not this file.\n"
         '"""\n',
         _wrap("from ctypes import (", IMPORTED, ")")
-        + "\nfrom typing import Any, ClassVar, Literal\n",
+        + "\nfrom typing import Any, ClassVar, Literal, get_args\n",
         *(_write_enum(*each) for each in header.enums.items()),
         *(_write_record(header, *each) for each in header.records.items()),
         "\n"
@@ -122,15 +122,13 @@ def _write_enum(enum: str, names: Sequence[str | None]) -> str:
         numbers = "\n".join(f"{str(name).upper()} = {k}" for k, name in enumerate(names))
         return f"# symtop_{enum}\n{numbers}\n"
     title = "".join(part.title() for part in enum.split("_"))
-    named = [f'"{name}"' for name in names if name]
-    every = [f'"{name}"' if name else "None" for name in names]
-    kind = f"{title} | None" if None in names else title
-    return (
-        _wrap(f"{title} = Literal[", named, "]")
-        + "\n"
-        + _wrap(f"{enum.upper()}S: tuple[{kind}, ...] = (", every, ")")
-        + "\n"
-    )
+    kind, every = title, f"get_args({title})"
+    if None in names:  # of which a type has no name
+        kind = f"{title} | None"
+        words = [f'"{name}"' if name else "None" for name in names]
+        every = f"({', '.join(words)})"
+    listed = _wrap(f"{title} = Literal[", [f'"{name}"' for name in names if name], "]")
+    return f"{listed}\n{enum.upper()}S: tuple[{kind}, ...] = {every}\n"
 
 
 def _wrap(head: str, parts: Sequence[str], tail: str, indent: str = "") -> str:

@@ -14,7 +14,7 @@ from ctypes import (
     c_uint8,
     c_void_p,
 )
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, get_args
 
 # symtop_status
 OK = 0
@@ -52,46 +52,28 @@ Kind = Literal[
     "sleeping",
     "driven",
 ]
-KINDS: tuple[Kind, ...] = (
-    "regular",
-    "unidirectional",
-    "cusps",
-    "looping",
-    "through the pole",
-    "asymptotic",
-    "sleeping",
-    "driven",
-)
+KINDS: tuple[Kind, ...] = get_args(Kind)
 
 Engine = Literal["closed form", "free", "taylor"]
-ENGINES: tuple[Engine, ...] = ("closed form", "free", "taylor")
+ENGINES: tuple[Engine, ...] = get_args(Engine)
 
 Hold = Literal["spin_rate", "spin_momentum"]
 HOLDS: tuple[Hold | None, ...] = ("spin_rate", "spin_momentum", None)
 
 KickKind = Literal["rate", "change", "factor", "impulse", "axle"]
-KICK_KINDS: tuple[KickKind, ...] = ("rate", "change", "factor", "impulse", "axle")
+KICK_KINDS: tuple[KickKind, ...] = get_args(KickKind)
 
 Subject = Literal["top", "axis"]
-SUBJECTS: tuple[Subject, ...] = ("top", "axis")
+SUBJECTS: tuple[Subject, ...] = get_args(Subject)
 
 Direction = Literal["rises", "falls", "stays"]
-DIRECTIONS: tuple[Direction, ...] = ("rises", "falls", "stays")
+DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 
 Rule = Literal["holds", "fails"]
 RULES: tuple[Rule | None, ...] = (None, "holds", "fails")
 
 PlaceKind = Literal["none", "only", "above", "below", "slow", "fast", "between", "outside"]
-PLACE_KINDS: tuple[PlaceKind, ...] = (
-    "none",
-    "only",
-    "above",
-    "below",
-    "slow",
-    "fast",
-    "between",
-    "outside",
-)
+PLACE_KINDS: tuple[PlaceKind, ...] = get_args(PlaceKind)
 
 ReasonKind = Literal[
     "hurried",
@@ -107,33 +89,13 @@ ReasonKind = Literal[
     "stable",
     "unstable",
 ]
-REASON_KINDS: tuple[ReasonKind, ...] = (
-    "hurried",
-    "delayed",
-    "if_hurried",
-    "if_delayed",
-    "angular_impulse",
-    "no_precession",
-    "unchanged",
-    "reversed",
-    "no_effect",
-    "undefined",
-    "stable",
-    "unstable",
-)
+REASON_KINDS: tuple[ReasonKind, ...] = get_args(ReasonKind)
 
 LiftKind = Literal["unchanged", "higher", "lower"]
-LIFT_KINDS: tuple[LiftKind, ...] = ("unchanged", "higher", "lower")
+LIFT_KINDS: tuple[LiftKind, ...] = get_args(LiftKind)
 
 Fact = Literal["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"]
-FACTS: tuple[Fact, ...] = (
-    "rises",
-    "falls",
-    "highest_higher",
-    "highest_lower",
-    "lowest_higher",
-    "lowest_lower",
-)
+FACTS: tuple[Fact, ...] = get_args(Fact)
 
 
 class StartRecord(Structure):
