@@ -18,6 +18,7 @@ PACKAGE = ("setup.py", "setup.cfg", "build_kernel.py", "package.xml", "symtop_ro
 NEEDED = ("Makefile", "workshop/environment.mk", "workshop/set_up.py", *PACKAGE)
 HEADER = "symtop_ros/physics/kernel/symtop.h"
 LIBRARY = "symtop_ros/physics/kernel/libsymtop.so"
+RECORD = ".venv/lib/python*/site-packages/symtop*/direct_url.json"
 # Writes down what it is asked for, and what an editable installation leaves.
 PIP = """
 import json, pathlib, sys
@@ -122,16 +123,23 @@ def test_one_extra_more_has_those_before(checkout):
     assert set_up(checkout, "ros", "report", "panel") == (0, [], [])
 
 
-@pytest.mark.parametrize("change", [HEADER, "symtop_ros/__init__.py", LIBRARY])
-def test_the_package_is_built_anew_where_its_sources_have_changed(checkout, change):
-    path = checkout / change
-    if change == LIBRARY:
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        (HEADER, "sources of the package have changed"),
+        ("symtop_ros/__init__.py", "sources of the package have changed"),
+        (LIBRARY, "the compiled kernel is missing"),
+        (RECORD, "the package is not installed"),
+    ],
+)
+def test_the_package_is_built_anew_for_a_reason(checkout, change, reason):
+    (path,) = checkout.glob(change)
+    if change in (LIBRARY, RECORD):
         path.unlink()
     else:
         path.write_text(path.read_text() + "\n")
     status, printed, asked = set_up(checkout)
-    said = "make: sources of the package have changed: it is built anew"
-    assert (status, printed) == (0, [said])
+    assert (status, printed) == (0, [f"make: {reason}: it is built anew"])
     assert [line.split()[-3:] for line in asked] == [["--no-deps", "--editable", "."]]
     (checkout / LIBRARY).touch()
     (checkout / "asked").unlink()
@@ -144,7 +152,7 @@ def test_python_that_has_changed_needs_no_build(checkout):
 
 
 def test_a_copy_that_pip_has_put_in_its_place_goes(checkout):
-    (record,) = checkout.glob(".venv/lib/python*/site-packages/symtop*/direct_url.json")
+    (record,) = checkout.glob(RECORD)
     record.write_text('{"dir_info": {}, "url": ""}')
     status, (line,), asked = set_up(checkout, "ros")
     assert status == 0

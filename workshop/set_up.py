@@ -211,9 +211,14 @@ def _find_fault_of_environment(is_asked: bool) -> str:
 def _find_fault_of_package(place: str) -> str:
     """Return why the package must be built anew: pip may have put a copy in its place."""
     files = _folder(place).glob("lib/python*/site-packages/symtop_ros-*/direct_url.json")
-    if [json.loads(path.read_text())["dir_info"] for path in files] != [{"editable": True}]:
+    found = [json.loads(path.read_text())["dir_info"] for path in files]
+    if not found:
+        return "the package is not installed"
+    if {"editable": True} not in found:
         return "the package was installed as a copy, which changes of the checkout do not reach"
-    if _read(_package_of(place)) != _stamp(_package_of(place)) or not [*ROOT.glob(LIBRARY)]:
+    if not [*ROOT.glob(LIBRARY)]:
+        return "the compiled kernel is missing"
+    if _read(_package_of(place)) != _stamp(_package_of(place)):
         return "sources of the package have changed"
     return ""
 
@@ -234,7 +239,7 @@ def _install(place: str, *words: str) -> None:
     options = ["--no-compile", "--disable-pip-version-check"]  # 0.1 GB less than with all compiled
     if "--editable" in words and _has_compiler(python):
         options.append("--no-build-isolation")
-    advice = "pip could not install what is missing (its reason is above): try again with a network"
+    advice = "pip could not install what is missing (its reason is above; it may need a network)"
     _run((python, "-m", "pip", "install", *options, *words), advice)
 
 
