@@ -1,7 +1,5 @@
 """Advice if a module is missing, the same for programs and for `~/record`."""
 
-from importlib import metadata
-
 NAME = "symtop_ros"
 # Packages of PyPI by the modules that are imported, where the names differ; mcap brings its codecs.
 PACKAGES = {"lz4": "mcap", "zstandard": "mcap", "yaml": "pyyaml", "PIL": "pillow"}
@@ -25,6 +23,8 @@ def name_remedy(module: str) -> str:
     """
     if package := find_package(module):
         return f"pip install {package}, on Debian and Ubuntu into a venv"
+    from importlib import metadata  # here: every program would wait 15 ms for it
+
     try:
         metadata.distribution(NAME)
     except metadata.PackageNotFoundError:  # a checkout, as `make panel` runs it

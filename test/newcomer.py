@@ -31,6 +31,8 @@ sys.path.append(str(Path(__file__).parents[1]))
 from documents import FIRST, blocks, commands
 from elsewhere import NOBODY, give_up_rights
 
+from workshop.matrix import find_python
+
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = [path.relative_to(ROOT) for path in sorted(ROOT.glob("docs/*.md"))]
 PYTHONS = ("3.11", "3.13", "3.14")
@@ -311,23 +313,17 @@ def try_later(user: User) -> None:
         demand("make panel")
 
 
-def find_python(version: str) -> str:
-    """Return an interpreter of a version: on PATH, or of pyenv; "" without one."""
-    found = sorted(Path.home().glob(f".pyenv/versions/{version}.*/bin/python"))
-    return str(found[-1]) if found else shutil.which(f"python{version}") or ""
-
-
 def run_trial(name: str) -> list[str]:
     """Run a trial; return the lines that failed."""
     version = name.removeprefix("python")
-    python = find_python(version) if name != version else ""
+    python = find_python(version) if name != version else None
     if name == "later":
         python = find_python(PYTHONS[0])  # not the one that it changes to
     if name != version and not python:
         print(f"{name}: there is no such Python here: not tried", flush=True)
         return []
     trials = {"documents": try_documents, "later": try_later}
-    with new_user(python) as user:
+    with new_user(python or "") as user:
         trials.get(name, try_python)(user)
         print(f"{name}: {user.typed - len(user.failures)} passed, {len(user.failures)} failed")
     return [f"{name}: {each}" for each in user.failures]

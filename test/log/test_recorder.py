@@ -14,7 +14,7 @@ from mcap.reader import make_reader
 from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
-from waiting import until
+from waiting import TIMEOUT, until
 
 from symtop_ros.log import recorder as module
 from symtop_ros.log.account import read_account
@@ -26,7 +26,6 @@ from symtop_ros.log.writer import MAGIC, LogFile
 from symtop_ros.simulation.settings import RecordSettings
 from symtop_ros.simulation.topics import EVENTS, TOPICS, Topic
 
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 LATCHED = Topic("/latched", "std_msgs/msg/String", latched=True)
 PLAIN = Topic("/plain", "std_msgs/msg/String")
 

@@ -18,6 +18,7 @@ from rclpy.clock_type import ClockType
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.time import Time
+from waiting import TIMEOUT
 
 from symtop_ros.client.connection import Connection
 from symtop_ros.node.top_node import TopNode
@@ -26,7 +27,6 @@ from symtop_ros.simulation.segment import Segment
 from workshop.load.domains import claim_domain, release_domain
 
 LATCHED = QoSProfile(depth=100, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 TURN = 0.002  # s of real time between two advances of the simulated clock, at least
 STEP = 5_000_000  # ns; an advance of the simulated clock
 

@@ -5,10 +5,9 @@ import threading
 
 import pytest
 from geometry_msgs.msg import QuaternionStamped
+from waiting import TIMEOUT
 
 from symtop_ros.node.host import Pacer
-
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 
 
 class Ticks:

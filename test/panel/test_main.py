@@ -12,13 +12,11 @@ from urllib.parse import urlsplit
 import pytest
 from documents import ROOT
 from programs import command, running
+from waiting import TIMEOUT
 
 from symtop_ros.panel import main as module
 from symtop_ros.panel.server import LOCAL_HOST
 from symtop_ros.web.join import write_file
-
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
-
 
 pytestmark = pytest.mark.usefixtures("signals_as_before")
 

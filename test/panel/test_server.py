@@ -11,10 +11,10 @@ import time
 import pytest
 from listening import tcp_addresses
 from serving import serving
+from waiting import TIMEOUT
 
 from symtop_ros.panel.server import LOCAL_HOST, MAX_REQUEST
 
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 PORTS = ("", ":{port}")
 PAGE = "<!doctype html><title>Heavy symmetric top</title>"
 

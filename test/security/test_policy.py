@@ -12,7 +12,7 @@ from node.running_top import RunningTop
 from programs import command, running, running_node
 from rclpy.node import NodeNameNonExistentError
 from security.policy import allowed, used
-from waiting import until
+from waiting import TIMEOUT, until
 
 from symtop_ros.playback import viewer
 from symtop_ros.simulation.topics import STATE_TOPICS
@@ -20,7 +20,6 @@ from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 COMMANDS = {name: (name,) for name in ("hurry", "reset", "pause", "state", "watch")}
 COMMANDS |= {"start": ("start", "theta=0.5"), "kick": ("kick", "precession_rate=9")}
 COMMANDS |= {"step": ("step", "duration=0.01"), "record": ("record", "on")}

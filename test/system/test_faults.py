@@ -21,7 +21,7 @@ from node.running_top import facts, stamp_of
 from programs import command, running, running_node, set_parameters
 from sensor_msgs.msg import JointState
 from trials import trials
-from waiting import until
+from waiting import TIMEOUT, until
 
 from symtop_ros.log.reader import McapFile
 from symtop_ros.log.top_log import TopLog
@@ -31,7 +31,6 @@ from workshop.load.domains import claim_domain
 pytestmark = pytest.mark.untraced
 
 DOMAIN = claim_domain()
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 SILENT = {-signal.SIGINT, -signal.SIGTERM}  # ended before there was anything to put in order
 RECORDING = ("publish_rate:=1000", "record.enabled:=true")
 SECONDS, ATTEMPTS = 1.0, 2

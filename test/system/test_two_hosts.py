@@ -11,7 +11,7 @@ import pytest
 from documents import ROOT
 from programs import LOSSY_PROFILES, command, set_parameters
 from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
-from waiting import until
+from waiting import TIMEOUT, until
 
 from symtop_ros.node.host import VARIABLES, distribution_name
 from workshop.load.endings import bound
@@ -35,7 +35,6 @@ DISCOVERIES = [
     ({**OFF, PEERS: ADDRESSES[1]}, {**OFF, **TO_THE_TOP}, False),
 ]
 BAD = Weather(loss=0.05, delay=0.020, jitter=0.005, reorder=0.10)
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 
 
 @pytest.fixture(scope="module")

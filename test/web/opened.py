@@ -4,9 +4,10 @@ import json
 import time
 from pathlib import Path
 
+from waiting import TIMEOUT
+
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
 NO_REQUESTS = "file:", "blob:", "data:"
 FILES = (Path(__file__).with_name(f"{name}.js") for name in ("acts", "looks", "patches"))
 FUNCTIONS = "".join(path.read_text() for path in FILES)

@@ -130,7 +130,7 @@ def _compile() -> Any:
     module = open_cupy().RawModule(
         code=MAIN.read_text(encoding="utf-8"), options=list_options(), backend="nvrtc"
     )
-    with _telling("compiling the kernel for this GPU (about 35 s, once: CuPy keeps it)"):
+    with _telling("compiling the kernel for this GPU (once, up to a minute: CuPy keeps it)"):
         module.get_function(FUNCTIONS[0])  # the first one compiles all
     return module
 
@@ -169,8 +169,8 @@ def try_bits(functions: Functions) -> None:
     if different.any():
         raise DeviceError(
             f"the GPU must have the bits of the CPU, got others in {different.sum()} of "
-            f"{len(rows)} motions of the trial (the first: {int(np.argmax(different))}); this "
-            "driver's compiler was not tried, please report it"
+            f"{len(rows)} motions of the trial (the first: {int(np.argmax(different))}); please "
+            "report it with what `python -m symtop_ros.physics.gpu` prints"
         )
 
 

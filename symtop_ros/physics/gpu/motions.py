@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, find_shape, list_starts, read_start
+from symtop_ros.physics.arguments import read_start
 from symtop_ros.physics.gpu.device import open_cupy, open_functions
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
@@ -146,9 +146,6 @@ class Motions:
 
 def _list_columns(top: Any, start: Any) -> list[Array]:
     """Return the numbers of the starts in the order of `symtop_start`, as arrays (n or 1, k)."""
-    if isinstance(top, Top) and isinstance(start, State):
-        shape = find_shape(top, start, NO_FRICTION, np.array(NO_TORQUE))
-        return [_to_device(list_starts(top, start, NO_FRICTION, NO_TORQUE, shape))]
     moments = top.moments if isinstance(top, Top) else top
     if isinstance(start, State):
         start = start.given_orientation, start.angular_velocity
