@@ -42,11 +42,11 @@ FAILED = {
     "--rate nan -o x.csv | --rate 1e6 --seconds 1e6 -o x.csv | --seconds -1 -o x.csv | "
     "--position 1e999 0 0 -o x.csv | --orientation 0 0 0 0 -o x.csv | "
     "--seconds 1 -o /dev/null/x.csv | --seconds 1 -o aNULb | --magnetic-field=1,2 -o x.csv | "
-    "--magnetic-field=1,2,nan -o x.csv | --rate 0 -o x.csv",
+    "--magnetic-field=1,2,nan -o x.csv | --rate 0 -o x.csv | -o x.txt",
 }
 MISUSED = {"top_ctl": "kick CONTROL | kick LONG | kick =3 | kick CONTROL=1 CONTROL=2"}
 UNREADABLE = {
-    "top_ctl": " | CONTROL | --timeout nan hurry | --timeout -inf hurry | watch --seconds 0",
+    "top_ctl": " | kick | step | CONTROL | --timeout nan hurry | --timeout -inf hurry | watch --seconds 0",
     "top_live": "--port 65536 | --port -1 | --port NINES",
     "top_panel": "--port 65536 | --port CONTROL | --host | --no-such-option | "
     "--node /top --no-such-option",
