@@ -46,7 +46,8 @@ FAILED = {
 }
 MISUSED = {"top_ctl": "kick CONTROL | kick LONG | kick =3 | kick CONTROL=1 CONTROL=2"}
 UNREADABLE = {
-    "top_ctl": " | kick | step | CONTROL | --timeout nan hurry | --timeout -inf hurry | watch --seconds 0",
+    "top_ctl": " | kick | step | CONTROL | --timeout nan hurry | --timeout -inf hurry | "
+    "watch --seconds 0",
     "top_live": "--port 65536 | --port -1 | --port NINES",
     "top_panel": "--port 65536 | --port CONTROL | --host | --no-such-option | "
     "--node /top --no-such-option",
