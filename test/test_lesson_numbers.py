@@ -5,10 +5,17 @@ import re
 import numpy as np
 import pytest
 
-from symtop_ros.physics import Body, Motion, State, hurry, precessing_frame_torques, push_axle
+from symtop_ros.physics import (
+    Body,
+    Motion,
+    Pushes,
+    State,
+    hurry,
+    precessing_frame_torques,
+    push_axle,
+)
 from symtop_ros.physics import regular_precession_rates as find_roots
 from symtop_ros.simulation.changes.outcomes import Pushed
-from symtop_ros.simulation.segment import PushedMotion, Pushes
 from workshop.article.answers.impulses import find_impulses, torques_at
 from workshop.article.answers.ledger import hurry_ledger
 from workshop.article.motions import FAST, HANGING_DISC, HURRIED, SLOW, TOP
@@ -154,8 +161,8 @@ def precession_energy(state):
 def pushed_along():
     numbers, pushes = [f"{precession_energy(SLOW_STATE):.2f}"], Pushes(5e-5, 20.0, 20)
     for state, form in ((SLOW_STATE, ".2f"), (FAST_STATE, ".1f")):
-        motion = PushedMotion(TOP, push_axle(TOP, state, pushes.impulse), pushes)
-        found, last = Pushed.of(motion, state), motion.pieces[-1]
+        motion = Motion(TOP, push_axle(TOP, state, pushes.impulse), pushes=pushes)
+        found, last = Pushed.of(motion, pushes, state), motion.piece_at(1.0).motion
         numbers += [f"{angle:.3f}" for angle in (*found.turning_angles, THETA)]
         numbers += [f"{found.work:.3g}", f"{found.weight.amount:.2f}"]
         numbers += [f"{rate:{form}}" for rate in (found.means.before, found.means.after)]

@@ -21,7 +21,7 @@ def test_a_twin_is_current(path):
 def test_every_enum_record_and_function_of_the_header_is_there():
     text = twins.HEADER.read_text(encoding="utf-8")
     assert len(HEADER.enums) == len(re.findall(r"^typedef enum", text, re.MULTILINE)) == 12
-    assert len(HEADER.records) == len(re.findall(r"^typedef struct {", text, re.MULTILINE)) == 10
+    assert len(HEADER.records) == len(re.findall(r"^typedef struct {", text, re.MULTILINE)) == 12
     own = {"make", "read", "check_arithmetic"}  # of the library alone
     assert HEADER.functions.keys() == {*EXPORTED} | own
 
@@ -46,4 +46,4 @@ def test_a_record_of_another_size_is_called_that():
     right = [ctypes.sizeof(record) for record in records.RECORDS]
     door._demand_sizes(right)
     with pytest.raises(ImportError, match=r"^RatesRecord must have the 48 bytes .* got 40: run"):
-        door._demand_sizes([*right[:2], 48, *right[3:]])
+        door._demand_sizes([*right[:4], 48, *right[5:]])

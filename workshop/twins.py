@@ -27,6 +27,7 @@ CTYPES = {
     "unsigned char": "c_uint8",
     "size_t": "c_size_t",
     "uint8_t": "c_uint8",
+    "int64_t": "c_int64",
 }
 IMPORTED = ("POINTER", "Structure", "c_char_p", *sorted({*CTYPES.values()}), "c_void_p")
 SCRIPT = {"double": "double", "int": "flag"}

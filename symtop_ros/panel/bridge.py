@@ -28,7 +28,10 @@ from symtop_ros.simulation.validation import RefusedError, choice, to_double, ve
 
 DRAWN = "orientation"  # topic of the samples that are drawn
 PARAMETERS = "set_parameters_atomically"
-SERVICES = ("set_initial_conditions", "kick", "step", "reset", "pause", "record", PARAMETERS)
+SERVICES = (
+    *("set_initial_conditions", "kick", "release", "step", "reset", "pause", "record"),
+    PARAMETERS,
+)
 TIMEOUT = 3.0  # s for an answer
 SILENCE = 2.0  # s without samples after which the page says so
 PERIOD = 1 / 60  # s between two messages to a page

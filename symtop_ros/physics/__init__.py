@@ -43,6 +43,7 @@ from symtop_ros.physics.precession import (
     theta_acceleration,
     theta_torque,
 )
+from symtop_ros.physics.pushes import MOST_PUSHES, PUSH_RATES, Piece, Pushes
 from symtop_ros.physics.rule.perry import KickVerdict, Lift, kick_verdict
 from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
@@ -52,6 +53,8 @@ from symtop_ros.physics.top import Friction, Top
 
 __all__ = [
     "HOLDS",
+    "MOST_PUSHES",
+    "PUSH_RATES",
     "STANDARD_GRAVITY",
     "Angles",
     "Balance",
@@ -68,6 +71,8 @@ __all__ = [
     "Lift",
     "Motion",
     "Motions",
+    "Piece",
+    "Pushes",
     "State",
     "Top",
     "Verdict",

@@ -13,6 +13,7 @@ from symtop_ros.arrays import Real, split, stack
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import (
+    require,
     validate_number,
     validate_one,
     validate_positive,
@@ -191,7 +192,7 @@ def balance(motion: Motion, end: float, longest: float) -> Balance:
     Raises
     ------
     ValueError
-        If a time is refused.
+        If a time is refused, or if the motion gets pushes: each changes both at once.
 
     Examples
     --------
@@ -203,6 +204,7 @@ def balance(motion: Motion, end: float, longest: float) -> Balance:
     True
     """
     validate_one(motion, "motion")
+    require(not motion.pushes, "pushes", "none for a balance: take a piece", repr(motion.pushes))
     end, longest = validate_number("end", end, "s"), validate_positive("longest", longest, "s")
     begin = end - min(longest, STRETCH / _fastest_rate(motion, end))
     points, weights = np.polynomial.legendre.leggauss(NODES)

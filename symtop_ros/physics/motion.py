@@ -3,6 +3,8 @@
 import math
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -16,6 +18,7 @@ from symtop_ros.physics.arguments import (
     TORQUE_UNIT,
     find_shape,
     pack_start,
+    read_start,
     validate_times,
     validate_torque,
     validate_types,
@@ -23,11 +26,13 @@ from symtop_ros.physics.arguments import (
 )
 from symtop_ros.physics.jacobian import differentiate
 from symtop_ros.physics.kernel import door, states
-from symtop_ros.physics.kernel.records import Engine, Kind, RatesRecord
+from symtop_ros.physics.kernel.records import Engine, Kind, PieceRecord, RatesRecord
+from symtop_ros.physics.pushes import Piece, Pushes
 from symtop_ros.physics.state import State
-from symtop_ros.physics.times import ExactTimes
+from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import (
+    refuse,
     require,
     validate_array,
     validate_number,
@@ -54,6 +59,10 @@ class Motion:
         Friction at the pivot and in the air.
     torque : array_like (3,)
         Applied torque in the world frame, constant, in N m.
+    pushes : Pushes, optional
+        Pushes on the axle. The first one is at t = 0: `start` is the state that it leaves. The kind
+        is "driven" then, and what is constant is that of the start, up to the second push;
+        `piece_at` has the motion between two pushes.
 
     Attributes
     ----------
@@ -62,6 +71,7 @@ class Motion:
     friction : Friction
     applied_torque : (float, float, float)
         In the world frame, in N m.
+    pushes : Pushes or None
 
     Raises
     ------
@@ -90,11 +100,15 @@ class Motion:
         start: State,
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
+        pushes: Pushes | None = None,
     ) -> "Motion":
         """Return the motion; for arrays warn, and return `Motions`."""
         validate_types(top, start, friction)
-        if not find_shape(top, start, friction, validate_torque(torque)):
+        shape = find_shape(top, start, friction, validate_torque(torque))
+        if not shape:
             return object.__new__(cls)
+        if pushes:
+            raise refuse("top and start", "those of one motion, if there are pushes", str(shape))
         text = "Motion(...) of arrays is Motions(...) from 0.5 on: use that"
         warnings.warn(text, DeprecationWarning, stacklevel=2)
         many: Motion = cls.make_many(top, start, friction, torque)
@@ -106,15 +120,25 @@ class Motion:
         start: State,
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
+        pushes: Pushes | None = None,
     ) -> None:
         validate_types(top, start, friction)
-        self.top, self.start, self.friction = top, start, friction
+        require(pushes is None or isinstance(pushes, Pushes), "pushes", "Pushes", repr(pushes))
+        self.top, self.start, self.friction, self.pushes = top, start, friction, pushes
         self.applied_torque = validate_vector("torque", torque, TORQUE_UNIT)
         self.packed_start = pack_start(top, start, friction, self.applied_torque)
-        self._kernel = door.KernelMotion(self.packed_start)
+        self._open()
+
+    def _open(self) -> None:
+        """Make the motion in the kernel."""
+        packed = self.pushes.packed if self.pushes else b""
+        self._kernel = door.KernelMotion(self.packed_start, packed)
+        self._piece: Piece | None = None  # the last one that was asked for
 
     def restart(self, start: State) -> "Motion":
         """Return the motion of the same top from another state, under the same friction and torque.
+
+        It gets no pushes.
 
         Parameters
         ----------
@@ -138,8 +162,8 @@ class Motion:
         motion = object.__new__(Motion)
         motion.top, motion.start = self.top, start
         motion.friction, motion.applied_torque = self.friction, self.applied_torque
-        motion.packed_start = self.pack_with("start", start)
-        motion._kernel = door.KernelMotion(motion.packed_start)
+        motion.packed_start, motion.pushes = self.pack_with("start", start), None
+        motion._open()
         return motion
 
     def pack_with(self, name: str, state: Any) -> bytes:
@@ -151,12 +175,13 @@ class Motion:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integration."""
-        return Motion, (self.top, self.start, self.friction, self.applied_torque)
+        return Motion, (self.top, self.start, self.friction, self.applied_torque, self.pushes)
 
     def __repr__(self) -> str:
         """Return the call that makes the motion; without friction and torque, if none acts."""
         drive = (self.friction, self.applied_torque) if self.is_driven else ()
-        return f"Motion({', '.join(map(repr, (self.top, self.start, *drive)))})"
+        pushes = [f"pushes={self.pushes!r}"] if self.pushes else []
+        return f"Motion({', '.join([*map(repr, (self.top, self.start, *drive)), *pushes])})"
 
     @cached_property
     def is_driven(self) -> bool:
@@ -296,11 +321,88 @@ class Motion:
         require(steps >= 0, "steps", ">= 0", steps)
         return states.reach(self._kernel, t, min(steps, states.LONGEST_WAY))
 
+    def piece_at(self, t: float | ExactTimes) -> Piece:
+        """Return what moves at a time: the motion since the last push.
+
+        Parameters
+        ----------
+        t : float or ExactTimes
+            One time in s, or an exact one.
+
+        Returns
+        -------
+        Piece
+            Its `motion`, which starts at the last push up to then (before the second one with the
+            start of this motion), the time `begin` of that push in ns, and the `number` of pushes
+            up to then. Without pushes that is this motion itself, 0 and 0.
+
+        Raises
+        ------
+        ValueError
+            If there is no state at the time.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, Pushes, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> start = State.from_euler(theta=0.5, phi_dot=7.0, psi_dot=200.0)
+        >>> piece = Motion(top, start, pushes=Pushes(5e-5, 20.0, 20)).piece_at(0.12)
+        >>> piece.begin, piece.number
+        (100000000, 3)
+        >>> piece.motion.kind
+        'unidirectional'
+        """
+        if not self.pushes:
+            return Piece(self, 0, 0)
+        if not isinstance(t, ExactTimes):
+            t = ExactTimes(0, elapsed=Fraction(validate_number("t", t, "s")) * SECOND)
+        require(not t.shape, "t", "one time", f"{t.shape}")
+        found = states.find_piece(self._kernel, t)
+        piece = self._piece
+        if piece is None or piece.number != found.number:
+            piece = self._piece = self._make_piece(found)
+        return piece
+
+    def _make_piece(self, found: PieceRecord) -> Piece:
+        """Return a piece, which is kept: a driven one is integrated from its start on."""
+        _, start, *_ = read_start(np.frombuffer(found.start))
+        motion = self.restart(self.start if found.number == 1 else start)
+        return Piece(motion, int(found.begin), int(found.number))
+
+    def end_pushes(self, number: int) -> "Motion":
+        """Return the motion that gets only so many of its pushes.
+
+        Parameters
+        ----------
+        number : int
+            At least 1: the start is the state that the first one leaves.
+
+        Raises
+        ------
+        ValueError
+            If the motion has no pushes, or not so many.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, Pushes, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> start = State.from_euler(theta=0.5, phi_dot=7.0, psi_dot=200.0)
+        >>> pushed = Motion(top, start, pushes=Pushes(5e-5, 20.0, 20))
+        >>> pushed.end_pushes(3).piece_at(1.0).begin
+        100000000
+        """
+        if not self.pushes or number > self.pushes.number:
+            given = self.pushes.number if self.pushes else 0
+            raise refuse("number", f"at most the {given} pushes of the motion", number)
+        pushes = replace(self.pushes, number=number)
+        return Motion(self.top, self.start, self.friction, self.applied_torque, pushes)
+
     @cached_property
     def farthest_time(self) -> float:
         """Time in s at which the fastest phase has made 1e15 turns: later states are refused.
 
-        It is infinite with friction or an applied torque.
+        Or that of a push that cannot be made: the axis is vertical then, or the top would be too
+        fast. It is infinite with friction or an applied torque.
 
         Examples
         --------
@@ -358,6 +460,8 @@ class Motion:
         9.9333e-06
         """
         times = t if isinstance(t, ExactTimes) else validate_array("t", t, unit="s")
+        if self.pushes:
+            raise refuse("pushes", "none for derivatives: take a piece", repr(self.pushes))
         return differentiate(self, times.ravel()).reshape(*times.shape, 6, 9)
 
     @property
@@ -368,7 +472,7 @@ class Motion:
         zero at one angle), "looping" (phi' has opposite signs), "through the pole", "asymptotic"
         (the axis approaches the vertical for ever; the separatrix) or "sleeping" (it rests on the
         vertical). The article calls a unidirectional motion spiralling. With friction or an applied
-        torque it is "driven": the angles then change, and phi' at them.
+        torque or pushes it is "driven": the angles then change, and phi' at them.
         """
         return self._kernel.kind
 

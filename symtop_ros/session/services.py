@@ -26,6 +26,7 @@ SERVICES: dict[str, Service] = {
         "named", "kick", "precession_rate=9 hold=spin_momentum, or angular_impulse=0,0,1e-4"
     ),
     "step": Service("named", "step", "while paused: duration=0.01"),
+    "release": Service("plain", "release", "end a series of pushes that is under way"),
     "hurry_precession": Service(
         "plain", "hurry", "multiply the precession rate by the parameter hurry_factor"
     ),

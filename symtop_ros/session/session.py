@@ -1,6 +1,6 @@
 """A session: a simulation with its outputs, its requests, its recording and its upkeep.
 
-The node and the page are hosts of a session. They translate: ROS, or what is pressed in a browser.
+A host of a session translates: the node between it and ROS, a run of the page into its log.
 """
 
 import json
@@ -145,6 +145,12 @@ class Requests:
         """Kick by named values; see `plan_kick` and `plan_pushes`."""
         simulation = self._simulation
         act = Act(name_kick(values), simulation.stamp, values)
+        return simulation.apply_at_once(simulation.timeline.follow(act))
+
+    def release(self) -> str:
+        """End the pushes that the motion would still get."""
+        simulation = self._simulation
+        act = Act("release", simulation.stamp, {})
         return simulation.apply_at_once(simulation.timeline.follow(act))
 
     def hurry_precession(self) -> str:

@@ -8,13 +8,12 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import astuple, dataclass
 from fractions import Fraction
-from functools import lru_cache
 from typing import Any, TypeVar
 
 from symtop_ros import __version__
-from symtop_ros.physics import Friction, Motion, State, Top, kernel_version
+from symtop_ros.physics import Friction, Motion, Pushes, State, Top, kernel_version
 from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, Start
-from symtop_ros.simulation.segment import NO_RIG, PushedMotion, Pushes, Segment
+from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor.imu import Rig
 from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.diagnostics import (
@@ -30,6 +29,7 @@ from symtop_ros.wording import write
 
 RESTARTS = ("start", "reset")  # names of events after which nothing of the run before counts
 KICKS = ("kick", "push")  # names of events by ~/kick
+RELEASE = "release"  # name of the event after which pushes no longer follow
 PREFIX = "top: "  # of the name of an event as a diagnostic status
 FORMAT = "3"  # version of the values of an event
 # Events of this format have their request in one text, no number and no outcome. Their motions are
@@ -40,7 +40,6 @@ WITHOUT_FIELDS, LAST_WITHOUT_FIELDS = "2", "0.2.0"
 MAX_STAMP = 2**62  # ns; ROS has 32 bits of seconds
 MAX_ELAPSED = 1e18  # s of the motion
 EXACT = re.compile(r"-?\d{1,400}(/\d{1,400})?")  # a time in ns; doubles need 324 digits
-MAX_PUSHED = 16  # motions with pushes that are kept: each takes up to 0.1 s to compute
 MIN_FACTOR, MAX_FACTOR = 1e-300, 1e6
 WHOLE = re.compile(r"-?\d{1,19}")  # a stamp
 
@@ -55,7 +54,7 @@ MOTION: dict[str, Callable[[Motion], Any]] = {
     "motion.orientation": lambda motion: motion.start.given_orientation.tolist(),
     "motion.angular_velocity": lambda motion: motion.start.angular_velocity.tolist(),
     # impulse, rate and number of the pushes that it gets from its start on
-    "motion.pushes": lambda motion: motion.pushes if isinstance(motion, PushedMotion) else (),
+    "motion.pushes": lambda motion: astuple(motion.pushes) if motion.pushes else (),
 }
 SEGMENT: dict[str, Callable[[Segment], Any]] = {
     "motion.stamp": lambda segment: segment.stamp,
@@ -71,8 +70,8 @@ class Event:
     """A change of a run."""
 
     stamp: int  # stamp from which the new segment holds, in ns
-    # start, kick, push, reset, pause, resume, step, parameters, torque, pace, clock, record,
-    # failure
+    # start, kick, push, release, reset, pause, resume, step, parameters, torque, pace, clock,
+    # record, failure
     name: str
     verdict: str  # the outcome in a sentence
     # number, request, outcome, the state before and after, and the segment that holds from then on
@@ -231,17 +230,11 @@ def decode_events(data: bytes) -> list[Event]:
 
 def _read_motion(values: Mapping[str, str]) -> Motion:
     body = values["top"], values["motion.orientation"], values["motion.angular_velocity"]
-    if pushes := values.get("motion.pushes"):
-        return _read_pushed(*body, pushes)
     top, orientation, omega = map(_numbers, body)
     friction, torque = Friction(*_numbers(values["friction"])), _numbers(values["applied_torque"])
-    return Motion(Top(*top), State(orientation, omega), friction, torque)
-
-
-@lru_cache(MAX_PUSHED)
-def _read_pushed(*texts: str) -> PushedMotion:
-    top, orientation, omega, pushes = map(_numbers, texts)
-    return PushedMotion(Top(*top), State(orientation, omega), Pushes.read(*pushes))
+    given: Any = _numbers(values.get("motion.pushes", ""))  # none in a log of before
+    pushes = Pushes(*given) if given else None
+    return Motion(Top(*top), State(orientation, omega), friction, torque, pushes)
 
 
 def _read_elapsed(text: str) -> Fraction:

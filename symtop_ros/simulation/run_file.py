@@ -12,10 +12,15 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.physics import HOLDS, Friction, Motion, State, Top
-from symtop_ros.simulation.changes.requests import KICK_FIELDS, read_kick, read_pushes
-from symtop_ros.simulation.events import KICKS, MOTION, RESTARTS, Event
-from symtop_ros.simulation.segment import PushedMotion, Segment
+from symtop_ros.physics import HOLDS, ExactTimes, Friction, Motion, State, Top
+from symtop_ros.simulation.changes.requests import (
+    KICK_FIELDS,
+    name_pushes,
+    read_kick,
+    read_pushes,
+)
+from symtop_ros.simulation.events import KICKS, MOTION, RELEASE, RESTARTS, Event
+from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import PARAMETERS
 from symtop_ros.simulation.validation import (
     RefusedError,
@@ -42,17 +47,18 @@ RATE: float = PARAMETERS["publish_rate"].default  # Hz, of the log that is writt
 class RunEvent:
     """An event of a run, and the motion that follows it."""
 
-    kind: str  # one of `KINDS`
+    kind: str  # one of `KINDS`, or `RELEASE`
     time: int  # ns of the run
     motion: Motion
     act: Mapping[str, Any]  # of a kick or a push, the fields of ~/kick; else empty
 
     def end_pushes(self, time: int) -> "RunEvent":
         """Return the event with the pushes that were given up to a time in ns of the run."""
-        if not isinstance(self.motion, PushedMotion):
+        if not self.motion.pushes:
             return self
-        motion = self.motion.cut(time - self.time)
-        return replace(self, motion=motion, act=motion.pushes.request)
+        given = self.motion.piece_at(ExactTimes(time - self.time)).number
+        motion = self.motion.end_pushes(given)
+        return replace(self, motion=motion, act={**self.act, "number": given})
 
     def to_json(self) -> dict[str, Any]:
         """Return the event as it stands in run.json."""
@@ -82,7 +88,13 @@ class RunRecorder:
         self._begin = Fraction(0)  # time of the run (ns) at which the present motion began
 
     def add(self, event: Event) -> RunEvent | None:
-        """Follow an event; None if it changes no motion, such as a pause."""
+        """Follow an event; None if it changes no motion, such as a pause.
+
+        An end of pushes is no event of a run, but a number of that before it (`end_pushes`).
+        """
+        if event.name == RELEASE and self._segment:
+            self._segment, self._values = event.segment(), event.values
+            return RunEvent(RELEASE, self.time_at(event.stamp), self._segment.motion, {})
         segment, previous, values = event.segment(), self._segment, event.values
         is_new = event.name in RESTARTS or any(values.get(k) != self._values.get(k) for k in MOTION)
         if previous and is_new:
@@ -104,8 +116,8 @@ class RunRecorder:
 
 def _read_act(event: Event, motion: Motion) -> dict[str, Any]:
     """Return the fields of a kick; none if a log has some that cannot be read."""
-    if isinstance(motion, PushedMotion):
-        return motion.pushes.request
+    if motion.pushes:
+        return name_pushes(motion.pushes)
     given = event.request.items()
     try:
         return read_kick({name: text for name, text in given if name in KICK_FIELDS and text})
@@ -119,6 +131,8 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
     for event in filter(None, map(recorder.add, events)):
         kind = event.kind
         found[-1:] = [each.end_pushes(event.time) for each in found[-1:]]
+        if kind == RELEASE:
+            continue
         # A change of several parameters at once is a sequence of events; the last one holds.
         if len(found) > 1 and found[-1].time == event.time and found[-1].kind not in ACTS:
             kind = kind if found.pop().kind == kind or kind in ACTS else "change"
@@ -184,11 +198,9 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
         raise reject("time", "that of the event before it or later", values["time"])
     act = _read_kick(given.get("act")) if kind in KICKS else {}
     top, start = Top(*values["top"]), State(values["orientation"], values["angular_velocity"])
-    motion = Motion(top, start, Friction(*values["friction"]), values["torque"])
-    if kind == "push":
-        motion = PushedMotion(top, start, read_pushes(act, motion))
-        act = motion.pushes.request
-    return RunEvent(kind, time, motion, act)
+    pushes = read_pushes(act) if kind == "push" else None
+    motion = Motion(top, start, Friction(*values["friction"]), values["torque"], pushes)
+    return RunEvent(kind, time, motion, name_pushes(pushes) if pushes else act)
 
 
 def _read_kick(given: Any) -> Mapping[str, Any]:

@@ -43,11 +43,12 @@ def ask(rng, recorded):
     service, value = {
         "kick": ("kick", {"precession_rate_factor": rng.uniform(0.5, 1.5)}),
         "push": ("kick", {"axle_impulse": rng.uniform(-1e-5, 1e-5), "rate": 50.0, "number": 20}),
+        "release": ("release", None),
         "pause": ("pause", recorded.session.simulation.segment.running),
         "step": ("step", {"duration": rng.uniform(0.0, 0.3)}),
         "reset": ("reset", None),
         "start": ("set_initial_conditions", {"theta": rng.uniform(0.1, 1.0), "psi_dot": 150.0}),
-    }[rng.choice(("kick", "push", "pause", "pause", "step", "reset", "start"))]
+    }[rng.choice(("kick", "push", "release", "pause", "pause", "step", "reset", "start"))]
     recorded.session.answer(service, lambda: value)  # what is refused changes nothing
 
 

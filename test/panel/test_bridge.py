@@ -14,7 +14,7 @@ from waiting import until
 from web.opened import UNDRAWN
 
 from symtop_ros.panel.bridge import KEPT, SILENCE, Bridge
-from symtop_ros.physics import Motion, State
+from symtop_ros.physics import State
 from symtop_ros.web.join import write_file
 from workshop.load.domains import claim_domain
 
@@ -271,13 +271,12 @@ def test_a_held_button_pushes_the_node_until_it_is_released(node, browser):
         button.dispatch_event("pointerdown")
         until(lambda: re.search(r"sideways \d+ times", tab.text_content("#headline")), look)
         button.dispatch_event("pointerup")
-        until(lambda: bridge._last.request.get("axle_impulse") == "0.0", look)
-        motion = running.top.simulation.segment.motion
-        assert type(motion) is Motion
-        last = motion.start.given_orientation.tolist()
+        until(lambda: bridge._last.name == "release", look)
+        given = int(bridge._last.values["before.pushes"])
+        assert running.top.simulation.segment.motion.pushes.number == given > 0
         events = partial(tab.evaluate, "window.symtop.run().events")
-        until(lambda: events()[-1]["orientation"] == last, look)
-        *_, pushes, _ = events()  # a page that is held up for long lets go, and pushes anew
-        assert (pushes["kind"], pushes["act"]["rate"]) == ("push", 20)
-        assert pushes["act"]["number"] == int(bridge._last.values["before.pushes"]) > 0
+        until(lambda: events()[-1]["act"]["number"] == given, look)
+        assert (events()[-1]["kind"], events()[-1]["act"]["rate"]) == ("push", 20)
+        until(lambda: f"sideways {given} times" in tab.text_content("#headline"), look)
+        assert bridge._last.verdict.startswith(f"Pushed sideways {given} times in ")
         tab.close()

@@ -124,7 +124,7 @@ def draw_changes(rng):
 
 def act(rng, session, clock):
     """Do something; what is refused changes nothing."""
-    kinds = "start", "kick", "kick", "change", "pause", "step", "torque", "jump", "reset"
+    kinds = "start", "kick", "kick", "release", "change", "pause", "step", "torque", "jump", "reset"
     kind = rng.choice(kinds)
     if kind == "change":
         try:
@@ -141,6 +141,7 @@ def act(rng, session, clock):
         service, argument = {
             "start": ("set_initial_conditions", draw_values(rng)),
             "kick": ("kick", draw_kick(rng)),
+            "release": ("release", None),
             "pause": ("pause", session.simulation.segment.running),
             "step": ("step", {"duration": rng.uniform(0.0, 0.1)}),
             "reset": ("reset", None),

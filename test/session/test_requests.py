@@ -144,7 +144,7 @@ REFUSED = [
     ({}, "kick", {**PUSHES, "rate": 0.0}, "rate must be 0.01 to 1000 pushes per s of the motion,"),
     ({}, "kick", {**PUSHES, "axle_impulse": 1e9}, "axle_impulse must be such that the top stays "),
     ({}, "kick", {"axle_impulse": 1e-5, "hold": "spin_rate"}, "hold must be given without axle_"),
-    (DRIVEN, "kick", PUSHES, "friction and torque must be 0 for a series of pushes, got ["),
+    ({}, "release", None, "release must follow pushes that have not ended, got none"),
     (SLEEPING, "kick", PUSHES, "axis must be tilted (phi' is undefined on the vertical"),
     ({}, "step", {"duration": 1.0, "speed": 2.0}, "field name must be one of duration, got "),
     ({}, "step", {}, "duration must be 0 to 1e+09 s, got none"),

@@ -9,7 +9,7 @@ import pytest
 from log_files import ARTICLE, BEGIN, CUSPS
 from simulation.runs import Run
 
-from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.physics import Friction, Motion, Pushes, State, Top
 from symtop_ros.simulation.changes import outcomes
 from symtop_ros.simulation.changes.outcomes import OUTCOMES, Setting
 from symtop_ros.simulation.events import Event, decode_events
@@ -45,6 +45,7 @@ def make(kind, **given):
 
 def test_every_number_of_a_motion_and_of_its_sensor_comes_back_from_its_event():
     parts = {"top": make(Top), "start": make(State), "friction": make(Friction)}
+    parts["pushes"] = make(Pushes, rate=20.0, number=7)
     motion = make(Motion, **parts, torque=(1e-5, 2e-5, 3e-5))
     rig = make(Rig, gravity=9.7, imu=make(Imu, magnetometer=make(Magnetometer, seed=7)))
     fields = {"stamp": BEGIN, "elapsed": Fraction(7, 4), "factor": 0.7, "running": False}
@@ -89,6 +90,7 @@ def _run():
     run.ask("kick", {"precession_rate_factor": 1.4, "hold": "spin_momentum"})
     run.ask("kick", {"angular_impulse": (0.0, 0.0, 1e-5)})
     run.ask("kick", {"axle_impulse": 1e-6, "rate": 50.0, "number": 20})
+    run.ask("release")
     run.ask("pause", True)
     run.ask("step", {"duration": 0.01})
     run.ask("pause", False)

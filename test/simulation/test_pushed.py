@@ -1,19 +1,17 @@
-"""A hand that pushes along finds no speed, only height; its pushes are exact."""
-
-import copy
-from fractions import Fraction
+"""A hand that pushes along finds no speed, only height."""
 
 import numpy as np
 import pytest
 from physics.tops import ARTICLE, CUSPS, FAST, SLOW, precess
 
-from symtop_ros.physics import ExactTimes, Motion, push_axle
+from symtop_ros.physics import ExactTimes, Friction, Motion, Pushes, push_axle
 from symtop_ros.simulation.changes.outcomes import Pushed
-from symtop_ros.simulation.segment import PushedMotion, Pushes
+from symtop_ros.wording import write
 
-START = push_axle(ARTICLE, CUSPS, 2.0**-15)
-PUSHES = Pushes(2.0**-15, 30.0, 7)  # a third of a second is no whole number of ns
-MOTION = PushedMotion(ARTICLE, START, PUSHES)
+
+def push(before, pushes, *forces):
+    """The motion that a state is pushed to."""
+    return Motion(ARTICLE, push_axle(ARTICLE, before, pushes.impulse), *forces, pushes=pushes)
 
 
 PUSHED = [
@@ -28,37 +26,26 @@ PUSHED = [
 def test_the_numbers_of_the_article_s_top_pushed_for_a_second(root, numbers):
     before = precess((SLOW, FAST)[root])
     pushes = Pushes(2.5e-6, 400.0, 400)  # 1e-3 N m for 1 s
-    motion = PushedMotion(ARTICLE, push_axle(ARTICLE, before, pushes.impulse), pushes)
+    motion = push(before, pushes)
     states = motion.at(ExactTimes(np.arange(1, 401) * 2_500_000 - 1))  # each before a push
     rates, tilt = states.euler_rates.phi, states.euler_angles.theta[-40:]
     found = [f"{each.mean():#.3g}" for each in (rates[:40], rates[-40:], tilt)]
     weight = 1e3 * ARTICLE.Mgl * (np.cos(tilt) - np.cos(0.5)).mean()
-    told = Pushed.of(motion, before)
+    told = Pushed.of(motion, pushes, before)
     assert (*found, f"{told.work:.3g}", f"{weight:.2f}", told.weight.kind) == numbers
 
 
-def test_states_at_any_stamps_are_those_of_one_push_after_the_other():
-    """At a stamp of a push, it has been given."""
-    stamps = np.array([0, 7, 33_333_332, 33_333_333, 66_666_667, 100_000_000, 199_999_999, 10**9])
-    found = MOTION.at(ExactTimes(stamps))
-    for place, stamp in enumerate(stamps.tolist()):
-        motion, begin = Motion(ARTICLE, START), 0
-        for k in range(1, PUSHES.number):
-            if PUSHES.time(k) > stamp:
-                break
-            state = motion.at(ExactTimes(PUSHES.time(k) - begin))
-            motion, begin = Motion(ARTICLE, push_axle(ARTICLE, state, 2.0**-15)), PUSHES.time(k)
-        expected = motion.at(ExactTimes(stamp - begin))
-        assert found[place] == expected == MOTION.at(ExactTimes(stamp))
-        slow = (np.array([4 * stamp - 4]), 0.25)
-        own = motion.at(ExactTimes(*slow, Fraction(1 - begin)))
-        assert MOTION.at(ExactTimes(*slow, Fraction(1))) == own
-    assert copy.copy(MOTION).at(0.19) == MOTION.at(0.19) == MOTION.at([0.19])[0]
+def test_the_work_of_pushes_is_what_the_energy_gains_and_a_release_says_the_same():
+    pushes = Pushes(2.0**-15, 30.0, 7)
+    motion = push(CUSPS, pushes)
+    last = motion.piece_at(1.0).motion.start
+    told = Pushed.of(motion, pushes, CUSPS)
+    assert told.work == 1e3 * float(ARTICLE.energy(last) - ARTICLE.energy(CUSPS)) > 0
+    assert write("push", Pushed.of_given(motion, pushes)) == write("push", told)
 
 
-def test_pushes_hold_the_spin_momentum_and_do_the_work_that_the_energy_gains():
-    momenta = {float(ARTICLE.axial_momentum(piece.start)) for piece in MOTION.pieces}
-    assert max(momenta) - min(momenta) <= 8 * 2**-52 * max(momenta)
-    last = MOTION.pieces[-1].start
-    gained = 1e3 * float(ARTICLE.energy(last) - ARTICLE.energy(CUSPS))
-    assert Pushed.of(MOTION, CUSPS).work == gained > 0
+def test_where_friction_acts_too_nothing_is_said_of_work():
+    pushes = Pushes(2.0**-15, 30.0, 7)
+    told = Pushed.of(push(CUSPS, pushes, Friction(2.0**-20)), pushes, CUSPS)
+    text = "Pushed sideways 7 times in 0.2 s, while friction or a torque acts."
+    assert (write("push", told), told.work) == (text, None)

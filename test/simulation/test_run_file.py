@@ -92,6 +92,19 @@ def test_pushes_have_the_number_that_was_given_until_something_else_was_done():
     assert events[1].act == pushes
 
 
+def test_a_release_is_no_event_of_a_run_but_the_number_of_its_pushes():
+    told = Told()
+    told.act("push", 2 * SECOND, {"axle_impulse": 1e-6, "rate": 20.0, "number": 20})
+    told.act("release", 2 * SECOND + SECOND // 3, {})
+    told.act("kick", 4 * SECOND, KICK)
+    events, end = record_run(told.events, 7 * SECOND)
+    assert [(event.kind, event.time) for event in events[1:]] == [
+        ("push", SECOND),
+        ("kick", 3 * SECOND),
+    ]
+    assert (events[1].act["number"], end) == (7, 6 * SECOND)
+
+
 def test_a_log_that_begins_in_the_middle_of_a_run_begins_with_a_start():
     told = Told()
     told.act("kick", 2 * SECOND, KICK)

@@ -7,12 +7,11 @@ import pytest
 from simulation.page_runs import to_json
 from web.opened import find_time, read_motion, read_state
 
-from symtop_ros.physics import Body, ExactTimes, Top, apply_impulse
+from symtop_ros.physics import Body, ExactTimes, Motion, Pushes, Top, apply_impulse
 from symtop_ros.simulation.changes.outcomes import Pushed
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.presets import scene_names
 from symtop_ros.simulation.run_file import RunEvent, read_run, write_run
-from symtop_ros.simulation.segment import PushedMotion, Pushes
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.wording import write
 
@@ -124,7 +123,7 @@ def read_pushed(event):
     """The pushed motion of an event of a run."""
     act = event["act"]
     pushes = Pushes(act["axle_impulse"], act["rate"], act["number"])
-    return PushedMotion(Top(*event["top"]), read_state(event), pushes)
+    return Motion(Top(*event["top"]), read_state(event), pushes=pushes)
 
 
 def test_a_held_button_pushes_as_python_does_to_the_last_bit_and_letter(opened):
@@ -144,7 +143,7 @@ def test_a_held_button_pushes_as_python_does_to_the_last_bit_and_letter(opened):
     begun = read_pushed(former) if former["kind"] == "push" else read_motion(former)
     motion, before = read_pushed(event), begun.at(find_time(former, event))
     opened.seek(after["time"] - 0.02)
-    assert opened.say("why") == write("push", Pushed.of(motion, before))
+    assert opened.say("why") == write("push", Pushed.of(motion, motion.pushes, before))
     reached = motion.at(find_time(event, after))
     assert after["orientation"] == reached.given_orientation.tolist()
 
@@ -153,7 +152,7 @@ def test_what_is_done_during_the_pushes_of_a_run_ends_them(open_page, tmp_path):
     opened = open_page()
     start = read_motion(opened.read_events()[0])
     before = start.at(ExactTimes(SECOND))
-    pushed = PushedMotion(start.top, before, Pushes(2.0**-14, 20.0, 20))
+    pushed = Motion(start.top, before, pushes=Pushes(2.0**-14, 20.0, 20))
     run = [RunEvent("start", 0, start, {}), RunEvent("push", SECOND, pushed, ACT)]
     opened.drop(write_run(run, 3 * SECOND))
     opened.until(lambda: len(opened.read_events()) == 2)

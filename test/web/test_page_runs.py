@@ -22,7 +22,6 @@ BROKEN = [
     change(1, time=-1.0),
     change(2, time=1.0),
     change(1, kind="push", act={"axle_impulse": 1e-5, "rate": 20, "hold": "spin_rate"}),
-    change(1, kind="push", act=PUSHES, friction=[0.25, 0]),
     change(1, kind="push", act={**PUSHES, "number": 2.5}),
     change(1, kind="push", act={**PUSHES, "rate": 1001}),
     {"format": 1, "events": [3]},

@@ -8,12 +8,13 @@
 
 namespace symtop {
 
-const int ELAPSED_PARTS = 4;
+const int ELAPSED_PARTS = 4;  // that a caller gives
 const uint64_t SECOND = 1000000000;  // ns
 
 struct Clock {
   double factor;                  // time of the motion per time of the clock
-  double elapsed[ELAPSED_PARTS];  // their sum is the time of the motion in ns at stamp 0
+  // Their sum is the time of the motion in ns at stamp 0; the last one takes off the begin of a stretch.
+  double elapsed[ELAPSED_PARTS + 1];
 };
 
 // The whole part of limbs divided by 10^9, in place, and whether something is left.

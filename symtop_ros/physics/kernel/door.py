@@ -23,6 +23,7 @@ from symtop_ros.arrays import Real
 from symtop_ros.physics.kernel.records import (
     BAD_ANGULAR_VELOCITY,
     BAD_ARITHMETIC,
+    BAD_KICK,
     ENGINES,
     FUNCTIONS,
     KINDS,
@@ -30,10 +31,12 @@ from symtop_ros.physics.kernel.records import (
     OK,
     RECORDS,
     TOO_FAR,
+    VERTICAL,
     ClockRecord,
     ConstantsRecord,
     Engine,
     Kind,
+    PieceRecord,
     RatesRecord,
     StartRecord,
     TopRecord,
@@ -61,9 +64,11 @@ INT64 = np.dtype(np.int64).char  # "l", or "q" where a long has 32 bits (Windows
 State, Pair, Quaternion, Rates = (c_double * count for count in (STATE, 2, 4, 3))
 _unpack_start, _unpack_state = Struct(f"{START}d").unpack, Struct(f"{STATE}d").unpack
 CONSTANTS, VERDICTS = np.dtype(ConstantsRecord), np.dtype(VerdictRecord)  # of arrays
+NOT_PUSHED = (VERTICAL, BAD_KICK)  # why there are no states from a push on
 # These may take long, and release Python's lock.
 LONG = {
-    *("states", "states_of_clock", "reach", "states_of_many", "describe_many", "from_angles"),
+    *("states", "states_of_clock", "reach", "find_piece", "find_farthest_time"),
+    *("states_of_many", "describe_many", "from_angles"),
     *("find_angles", "find_angle_rates", "find_regular_rates", "find_tilt_torques"),
     *("find_tilt_accelerations", "kick", "judge", "judge_kick", "compare_hurried"),
 }
@@ -180,17 +185,22 @@ def write_to(array: NDArray[Any], count: int, code: str = "d") -> Any:
 class KernelMotion:
     """A motion in the library, which is freed with this object."""
 
-    __slots__ = ("_door", "_handle", "_start")
+    __slots__ = ("_door", "_handle", "_pushes", "_start")
 
-    def __init__(self, start: bytes) -> None:
-        """Make the motion of the 15 numbers of `symtop_start`."""
+    def __init__(self, start: bytes, pushes: bytes = b"") -> None:
+        """Make the motion of the 15 numbers of `symtop_start`, and of those of `symtop_pushes`."""
         self._handle: int | None = None
-        self._start, self._door = start, open_door()
+        self._start, self._pushes, self._door = start, pushes, open_door()
         if len(start) != 8 * START:
             raise ValueError(f"start must have {START} numbers, got {len(start) / 8:g}")
-        self._handle = self._door.make(start)
+        self._handle = self._make_pushed() if pushes else self._door.make(start)
         if not self._handle:
             raise refuse_status(self._door.new(start, byref(ctypes.c_void_p())) or NO_MEMORY)
+
+    def _make_pushed(self) -> int | None:
+        handle = ctypes.c_void_p()
+        demand(self._door.new_pushed(self._start, self._pushes, byref(handle)))
+        return handle.value
 
     def __del__(self) -> None:
         if self._handle:
@@ -198,7 +208,7 @@ class KernelMotion:
 
     def __reduce__(self) -> Any:
         """Copy and pickle a motion by its start: copies share no integration."""
-        return KernelMotion, (self._start,)
+        return KernelMotion, (self._start, self._pushes)
 
     @property
     def decay(self) -> float:
@@ -207,7 +217,7 @@ class KernelMotion:
         return float(max(transverse / Ix, axial / Iz))
 
     def at(self, t: float | ExactTimes) -> tuple[float, ...] | None:
-        """Return quaternion and angular velocity at one time, in s or exact; None if too far."""
+        """Return quaternion and angular velocity at one time, in s or exact; None for no state."""
         if isinstance(t, ExactTimes):
             q, omega, clock = Quaternion(), Rates(), bytes(ClockRecord(*t.clock))
             stamp = int(t.nanoseconds).to_bytes(8, sys.byteorder, signed=True)
@@ -218,7 +228,7 @@ class KernelMotion:
             state = State(t)
             status = self._door.read(self._handle, state)
             numbers = _unpack_state(state)
-        if status in (OK, TOO_FAR):
+        if status in (OK, TOO_FAR, *NOT_PUSHED):
             return numbers if status == OK else None
         raise refuse_status(status)
 
@@ -235,6 +245,12 @@ class KernelMotion:
         else:
             status = self._door.states(self._handle, read_from(times), *rest)
         return done.value, status
+
+    def find_piece(self, t: ExactTimes, steps: float) -> tuple[PieceRecord, int]:
+        """Return the piece at one time between two pushes, and the status."""
+        found, clock = PieceRecord(), bytes(ClockRecord(*t.clock))
+        status = self._door.find_piece(self._handle, clock, int(t.nanoseconds), steps, found)
+        return found, status
 
     def reach(self, t: float, steps: float) -> tuple[float, int]:
         """Integrate towards a time in s; return the time reached, and the status."""
@@ -270,7 +286,7 @@ class KernelMotion:
 
     @property
     def farthest_time(self) -> float:
-        """1e15 turns of the fastest phase in s: there are no states from there on."""
+        """The time in s from which on there are no states; infinite for a driven motion."""
         farthest = c_double()
         demand(self._door.find_farthest_time(self._handle, farthest))
         return farthest.value

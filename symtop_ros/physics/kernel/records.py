@@ -9,6 +9,7 @@ from ctypes import (
     c_char_p,
     c_double,
     c_int,
+    c_int64,
     c_size_t,
     c_uint,
     c_uint8,
@@ -41,6 +42,7 @@ BAD_KICK_KIND = 20
 BAD_RATE = 21
 BAD_STEPS = 22
 BAD_DISC = 23
+BAD_PUSHES = 24
 
 Kind = Literal[
     "regular",
@@ -112,10 +114,22 @@ class StartRecord(Structure):
     ]
 
 
+class PushesRecord(Structure):
+    """`symtop_pushes`."""
+
+    _fields_: ClassVar = [("impulse", c_double), ("rate", c_double), ("number", c_double)]
+
+
 class ClockRecord(Structure):
     """`symtop_clock`."""
 
     _fields_: ClassVar = [("factor", c_double), ("elapsed", c_double * 4)]
+
+
+class PieceRecord(Structure):
+    """`symtop_piece`."""
+
+    _fields_: ClassVar = [("start", StartRecord), ("begin", c_double), ("number", c_double)]
 
 
 class RatesRecord(Structure):
@@ -204,7 +218,9 @@ class VerdictRecord(Structure):
 
 RECORDS: tuple[type[Structure], ...] = (
     StartRecord,
+    PushesRecord,
     ClockRecord,
+    PieceRecord,
     RatesRecord,
     ConstantsRecord,
     TopRecord,
@@ -220,6 +236,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "version": (c_char_p, ()),
     "describe_status": (c_char_p, (c_int,)),
     "new": (c_int, (c_char_p, POINTER(c_void_p))),
+    "new_pushed": (c_int, (c_char_p, c_char_p, POINTER(c_void_p))),
     "free": (None, (c_void_p,)),
     "continue": (c_int, (c_void_p, c_double, c_char_p, POINTER(c_void_p))),
     "state": (c_int, (c_void_p, c_double, POINTER(c_double), POINTER(c_double))),
@@ -248,6 +265,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
             POINTER(c_size_t),
         ),
     ),
+    "find_piece": (c_int, (c_void_p, c_char_p, c_int64, c_double, POINTER(PieceRecord))),
     "reach": (c_int, (c_void_p, c_double, c_double, POINTER(c_double))),
     "find_kind": (c_int, (c_void_p,)),
     "find_turning_angles": (c_int, (c_void_p, POINTER(c_double))),

@@ -3,14 +3,17 @@
 import numpy as np
 
 from symtop_ros.arrays import Real
-from symtop_ros.physics.kernel.door import KernelMotion, demand, refuse_status
+from symtop_ros.physics.kernel.door import NOT_PUSHED, KernelMotion, demand, refuse_status
 from symtop_ros.physics.kernel.records import (
+    BAD_KICK,
     MORE_STEPS,
     OK,
     TOO_FAR,
     TOO_FAST,
     TOO_LONG,
     TOO_STIFF,
+    VERTICAL,
+    PieceRecord,
 )
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
 from symtop_ros.physics.values import refuse
@@ -18,6 +21,10 @@ from symtop_ros.physics.values import refuse
 STATES, STEPS = 2**16, 256.0  # in one call of the kernel, some ms
 LONGEST_WAY = 1e7  # steps, a minute or two; of kernel/driven/trail.hpp
 MOST_DECAYS = 1e5  # decay times on the way to a time, some seconds; of kernel/driven/motion.hpp
+WHY_NOT_PUSHED = {
+    VERTICAL: "the axis is vertical then, and no side is that of phi",
+    BAD_KICK: "it makes the top too fast",
+}
 
 
 def fill_states(motion: KernelMotion, times: Real | ExactTimes, q: Real, omega: Real) -> None:
@@ -51,11 +58,27 @@ def _fill_in_order(motion: KernelMotion, times: Real | ExactTimes, q: Real, omeg
             raise _refuse_time(motion, float(to_rough_seconds(times)[first]), status)
 
 
+def find_piece(motion: KernelMotion, t: ExactTimes) -> PieceRecord:
+    """Return what moves at one time between two pushes.
+
+    Raises
+    ------
+    ValueError
+        If there is none; the reason names the time.
+    """
+    status = MORE_STEPS
+    while status == MORE_STEPS:
+        found, status = motion.find_piece(t, STEPS)
+    if status != OK:
+        raise _refuse_time(motion, float(t.rough_seconds), status)
+    return found
+
+
 def reach(motion: KernelMotion, t: float, steps: float) -> float:
-    """Integrate towards a time in a limited number of steps, or to where it is too fast."""
+    """Integrate towards a time in a limited number of steps, or to where it cannot go on."""
     while True:
         reached, status = motion.reach(t, min(steps, STEPS))
-        if status not in (MORE_STEPS, TOO_FAST):
+        if status not in (MORE_STEPS, TOO_FAST, *NOT_PUSHED):
             demand(status)
         steps -= STEPS
         if status != MORE_STEPS or steps <= 0:
@@ -66,9 +89,12 @@ def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
     """Return the error for a time at which there is no state."""
     if status == TOO_FAR:
         return refuse("t", f"within {motion.farthest_time:.3g} s of the start (1e15 turns)", t)
-    if status not in (TOO_FAST, TOO_STIFF, TOO_LONG):
+    if status not in (TOO_FAST, TOO_STIFF, TOO_LONG, *NOT_PUSHED):
         return refuse_status(status)
-    reached = reach(motion, t, 0)
+    reached = reach(motion, t, 0) if motion.engine == "taylor" else motion.farthest_time
+    if status in NOT_PUSHED:
+        why = f"the push then cannot be made: {WHY_NOT_PUSHED[status]}"
+        return refuse("t", f"before {reached:.9g} s ({why})", t)
     if status == TOO_LONG:
         # No time can be named: back in time friction drives a top, and the steps become shorter.
         way = "ten million steps of integration (a minute or two)"

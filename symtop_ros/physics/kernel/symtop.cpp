@@ -47,6 +47,9 @@ const char* symtop_describe_status(symtop_status status) {
     case SYMTOP_BAD_STEPS: return "most_steps must be >= 0";
     case SYMTOP_BAD_DISC:
       return "disc must be of finite numbers, with mass and radius > 0, and gravity finite";
+    case SYMTOP_BAD_PUSHES:
+      return "pushes must be a whole number of 1 to 1000, 0.01 to 1000 in a second, with a finite "
+             "impulse";
   }
   return "status must be one of symtop_status";
 }

@@ -89,7 +89,8 @@ typedef enum {
   SYMTOP_BAD_KICK_KIND,
   SYMTOP_BAD_RATE,
   SYMTOP_BAD_STEPS,
-  SYMTOP_BAD_DISC
+  SYMTOP_BAD_DISC,
+  SYMTOP_BAD_PUSHES
 } symtop_status;
 
 /* The version of the library; SYMTOP_VERSION is that of the header. */
@@ -101,10 +102,24 @@ SYMTOP_API const char* symtop_describe_status(symtop_status status);
 /* Make a motion. On success it is written to *motion and has to be freed, else *motion is null. */
 SYMTOP_API symtop_status symtop_new(const symtop_start* start, symtop_motion** motion);
 
+/* Equal pushes on the axle, as SYMTOP_AXLE_IMPULSE: the first one at t = 0, the others at the nearest
+ * whole nanoseconds to multiples of 1/rate. */
+typedef struct {
+  double impulse; /* angular impulse of each, N m s */
+  double rate;    /* pushes in a second: 0.01 to 1000 */
+  double number;  /* of all, with the first one: 1 to 1000, whole */
+} symtop_pushes;
+
+/* Make a motion that is pushed again and again. It starts with the state that the first push leaves;
+ * between pushes it is as exact as others. From a push on that cannot be (the axis is vertical, or
+ * the top would be too fast) there are no states: their status says why. */
+SYMTOP_API symtop_status symtop_new_pushed(const symtop_start* start, const symtop_pushes* pushes,
+                                           symtop_motion** motion);
+
 SYMTOP_API void symtop_free(symtop_motion* motion); /* null is allowed */
 
-/* Make the motion that goes on from a time with another torque, such as a hand that begins to push.
- * Its times count from there. */
+/* Make the motion that goes on from a time with another torque, such as a hand that begins to push,
+ * and without further pushes. Its times count from there. */
 SYMTOP_API symtop_status symtop_continue(symtop_motion* motion, double t, const double torque[3],
                               symtop_motion** continued);
 
@@ -135,6 +150,17 @@ SYMTOP_API symtop_status symtop_states_of_clock(symtop_motion* motion, const sym
                                      double* orientation, double* angular_velocity,
                                      size_t* written);
 
+/* What moves between two pushes; without pushes the motion itself. */
+typedef struct {
+  symtop_start start; /* after the last push up to then; its torque and friction as those of the motion */
+  double begin;       /* ns of the motion at that push, whole */
+  double number;      /* of the pushes up to then, with the first one; 1 without pushes */
+} symtop_piece;
+
+/* The piece of a motion at a stamp of a clock, of a driven one in at most so many steps. */
+SYMTOP_API symtop_status symtop_find_piece(symtop_motion* motion, const symtop_clock* clock,
+                                           int64_t stamp, double most_steps, symtop_piece* piece);
+
 /* Integrate towards a time in at most so many steps. *reached is the time in s up to which states
  * now take no integration; for a motion that is not driven it is the time itself. */
 SYMTOP_API symtop_status symtop_reach(symtop_motion* motion, double t, double most_steps, double* reached);
@@ -147,14 +173,14 @@ typedef enum {
   SYMTOP_THROUGH_THE_POLE, /* "through the pole": the axis passes through the vertical */
   SYMTOP_ASYMPTOTIC,       /* the axis approaches the vertical for ever */
   SYMTOP_SLEEPING,         /* the axis rests on the vertical */
-  SYMTOP_DRIVEN,           /* friction or a torque acts */
+  SYMTOP_DRIVEN,           /* friction, a torque or a series of pushes acts */
   SYMTOP_UNKNOWN_KIND      /* the arithmetic is bad, see above, or the motion is null */
 } symtop_kind;
 
 SYMTOP_API symtop_kind symtop_find_kind(symtop_motion* motion);
 
 /* Of a driven motion the following ones are those that would follow from the start under gravity
- * alone. */
+ * alone; symtop_find_piece has the start between two pushes. */
 
 /* The smallest and the largest angle theta in rad between the axis and the vertical. */
 SYMTOP_API symtop_status symtop_find_turning_angles(symtop_motion* motion, double angles[2]);
@@ -169,8 +195,8 @@ typedef struct {
 
 SYMTOP_API symtop_status symtop_find_rates(symtop_motion* motion, symtop_rates* rates);
 
-/* 1e15 turns of the fastest phase in s: there are no states from there on. Infinite for a driven
- * motion. */
+/* 1e15 turns of the fastest phase in s, or the time of a push that cannot be: there are no states from
+ * there on. Infinite for a motion with friction or a torque. */
 SYMTOP_API symtop_status symtop_find_farthest_time(symtop_motion* motion, double* t);
 
 /* 2 pi over the nutation period in rad/s, as the sum of two doubles; 0 if theta does not return. */

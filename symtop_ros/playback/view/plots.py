@@ -75,7 +75,7 @@ class Plots:
             square = (momentum.numbers[:, :2] ** 2).sum(axis=1, keepdims=True)
             self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square)
         if segment:
-            if segment.final_motion is segment.motion:  # pushes change the constants of motion
+            if not segment.motion.pushes:  # they change the constants of motion
                 self._send_drift(columns, segment.motion.top)
             self._send_constants(columns, segment.motion)
 

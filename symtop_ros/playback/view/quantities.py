@@ -9,7 +9,7 @@ from symtop_ros.arrays import Real, Stamps
 from symtop_ros.log.batch import Columns
 from symtop_ros.physics import EffectivePotential, Motion, Top
 from symtop_ros.simulation.events import RESTARTS, Event
-from symtop_ros.simulation.segment import PushedMotion, Segment
+from symtop_ros.simulation.segment import Segment
 
 ColumnsByTopic = Mapping[str, Columns]
 
@@ -172,7 +172,7 @@ class EnergyBook:
 
     def _work_of_torque(self, stamps: Stamps, omega: Real, motion: Motion, gained: Real) -> Real:
         """Return the work of the applied torque since the begin of the segment, (n,)."""
-        if not any(motion.applied_torque) and not isinstance(motion, PushedMotion):
+        if not any(motion.applied_torque) and not motion.pushes:
             return np.zeros_like(gained)
         if not motion.friction:
             return gained

@@ -13,11 +13,11 @@ from symtop_ros.playback.view import entities, quantities, surroundings, torques
 from symtop_ros.playback.view.blueprint import Framing, create_blueprint
 from symtop_ros.playback.view.ghost import GhostView
 from symtop_ros.playback.view.plots import Plots, describe_motion
-from symtop_ros.simulation.events import KICKS, Event
+from symtop_ros.simulation.events import KICKS, RELEASE, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.topics import SAMPLE_TOPICS
 
-SPOKEN = ("start", "reset", *KICKS)  # events whose verdict is shown
+SPOKEN = ("start", "reset", *KICKS, RELEASE)  # events whose verdict is shown
 
 
 @dataclass(frozen=True, slots=True)

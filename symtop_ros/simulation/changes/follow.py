@@ -21,7 +21,7 @@ from symtop_ros.simulation.changes.outcomes import (
     Step,
     Torque,
 )
-from symtop_ros.simulation.changes.requests import plan_kick, plan_pushes
+from symtop_ros.simulation.changes.requests import plan_kick, plan_pushes, plan_release
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import list_body, read_body
 from symtop_ros.simulation.validation import reject
@@ -108,8 +108,14 @@ def _kick(segment: Segment, act: Act, before: State) -> Ruled:
 
 
 def _push(segment: Segment, act: Act, before: State) -> Ruled:
-    motion = plan_pushes(segment.motion, before, act.request)
-    return demand_a_day(segment.replace_motion(motion, act.stamp)), Pushed.of(motion, before)
+    motion, pushes = plan_pushes(segment.motion, before, act.request)
+    segment = demand_a_day(segment.replace_motion(motion, act.stamp))
+    return segment, Pushed.of(motion, pushes, before)
+
+
+def _release(segment: Segment, act: Act, _: State) -> Ruled:
+    segment, pushes = plan_release(segment, act.stamp)
+    return segment, Pushed.of_given(segment.motion, pushes)
 
 
 def _pause(segment: Segment, act: Act, _: State) -> Ruled:
@@ -187,6 +193,7 @@ RULES: dict[str, Callable[[Segment, Act, State], Ruled]] = {
     "reset": _restart,
     "kick": _kick,
     "push": _push,
+    "release": _release,
     "pause": _pause,
     "resume": _resume,
     "step": _step,

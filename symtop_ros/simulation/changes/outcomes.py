@@ -8,8 +8,17 @@ from dataclasses import dataclass
 from typing import Literal
 
 from symtop_ros.arrays import Vector
-from symtop_ros.physics import KickVerdict, Kind, Motion, State, Verdict, perrys_rule
-from symtop_ros.simulation.segment import PushedMotion
+from symtop_ros.physics import (
+    ExactTimes,
+    KickVerdict,
+    Kind,
+    Motion,
+    Pushes,
+    State,
+    Verdict,
+    perrys_rule,
+    push_axle,
+)
 from symtop_ros.wire.layout import NANOSECONDS
 from symtop_ros.wording import write
 
@@ -48,30 +57,43 @@ class Gain:
 
 @dataclass(frozen=True, slots=True)
 class Pushed:
-    """Consequences of pushes on the axle, if nothing else happens until the last one."""
+    """Consequences of pushes on the axle, if nothing else happens until the last one.
+
+    Of a driven motion it is only said that there were pushes: friction and torques change the
+    energy and the turning angles, too.
+    """
 
     number: int
     duration: float  # s of the motion from the first to the last one
-    turning_angles: tuple[float, float]  # rad, after the last one
-    former_angles: tuple[float, float]  # without them
-    means: Means | None  # None if phi' is undefined at a time
-    work: float  # mJ
-    weight: Gain
+    driven: bool
+    turning_angles: tuple[float, float] | None = None  # rad, after the last one
+    former_angles: tuple[float, float] | None = None  # without them
+    means: Means | None = None  # also None if phi' is undefined at a time
+    work: float | None = None  # mJ
+    weight: Gain | None = None
 
     @classmethod
-    def of(cls, motion: PushedMotion, before: State) -> "Pushed":
+    def of(cls, motion: Motion, pushes: Pushes, before: State) -> "Pushed":
         """Return the outcome of the pushes of a motion, with the state before the first one."""
-        top, last, former = motion.top, motion.pieces[-1], Motion(motion.top, before)
+        given = pushes.number, pushes.last_time / NANOSECONDS, motion.is_driven
+        if motion.is_driven:
+            return cls(*given)
+        top, former = motion.top, Motion(motion.top, before)
+        last = motion.piece_at(ExactTimes(pushes.last_time)).motion
         rates = former.mean_precession_rate, last.mean_precession_rate
         return cls(
-            motion.pushes.number,
-            motion.pushes.time(motion.pushes.number - 1) / NANOSECONDS,
+            *given,
             last.turning_angles,
             former.turning_angles,
             None if any(map(math.isnan, rates)) else Means(*rates),
             MILLI * float(top.energy(last.start) - top.energy(before)),
             _find_gain(top.Mgl, former.turning_angles, last.turning_angles),
         )
+
+    @classmethod
+    def of_given(cls, motion: Motion, pushes: Pushes) -> "Pushed":
+        """Return the outcome of pushes that have ended, from the motion alone."""
+        return cls.of(motion, pushes, push_axle(motion.top, motion.start, -pushes.impulse))
 
 
 def _find_gain(Mgl: float, before: tuple[float, float], after: tuple[float, float]) -> Gain:
@@ -178,6 +200,7 @@ OUTCOMES: dict[str, type[Outcome]] = {
     "reset": Start,
     "kick": KickVerdict,
     "push": Pushed,
+    "release": Pushed,
     "pause": Pause,
     "resume": Pause,
     "step": Step,

@@ -5,15 +5,19 @@ A start has the `initial.*` parameters, overridden by the fields of the request.
 
 import math
 from collections.abc import Mapping
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from typing import Any
 
 import numpy as np
 
 from symtop_ros.physics import (
     HOLDS,
+    MOST_PUSHES,
+    PUSH_RATES,
+    ExactTimes,
     Hold,
     Motion,
+    Pushes,
     State,
     Top,
     apply_impulse,
@@ -23,7 +27,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     set_precession_rate,
 )
-from symtop_ros.simulation.segment import PushedMotion, Pushes
+from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import (
     MAX_ANGLE,
     MAX_MOMENT,
@@ -52,6 +56,7 @@ KINDS = (
 )
 PUSHES = ("axle_impulse", "rate", "number")  # of a push
 KICK_FIELDS = (*KINDS, "hold", *PUSHES[1:])
+LARGEST_IMPULSE = 1e30  # N m s
 UNITS = {"precession_rate_factor": "", "axle_impulse": "N m s"}  # of others rad/s
 ANGLES = ("theta", "phi", "psi")
 RATES = ("theta_dot", "phi_dot", "psi_dot")
@@ -101,30 +106,49 @@ def name_kick(request: Mapping[str, Any]) -> str:
     return "push" if "rate" in request or "number" in request else "kick"
 
 
-def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> PushedMotion:
+def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> tuple[Motion, Pushes]:
     """Return the motion that follows if a state of a motion is pushed again and again."""
     validate_names(request, KICK_FIELDS)
-    pushes = read_pushes(request, motion)
+    pushes = read_pushes(request)
     try:
-        pushed = PushedMotion(motion.top, push_axle(motion.top, state, pushes.impulse), pushes)
+        first = push_axle(motion.top, state, pushes.impulse)
+        pushed = Motion(motion.top, first, motion.friction, motion.applied_torque, pushes)
+        # Under gravity alone all pushes are tried; else it would take their time to reach the last.
+        end = ExactTimes(pushes.last_time)
+        last = first if motion.is_driven else pushed.piece_at(end).motion.start
     except ValueError as error:  # a vertical axis, or a top that is too fast, then or later
         raise RefusedError(str(error)) from None
-    _limit_rates("axle_impulse", request, pushed.pieces[-1].start)
-    return pushed
+    _limit_rates("axle_impulse", request, last)
+    return pushed, pushes
 
 
-def read_pushes(request: Mapping[str, Any], motion: Motion) -> Pushes:
-    """Return the pushes that a request asks for, if a motion may get them."""
+def plan_release(segment: Segment, stamp: int) -> tuple[Segment, Pushes]:
+    """Return the segment without pushes after a stamp (ns), and those before it."""
+    given, pushes = segment.count_pushes(stamp), segment.motion.pushes
+    if not (pushes and given and given < pushes.number):
+        raise RefusedError("release must follow pushes that have not ended, got none")
+    ended = replace(pushes, number=given)
+    return replace(segment, motion=segment.motion.end_pushes(given)), ended
+
+
+def read_pushes(request: Mapping[str, Any]) -> Pushes:
+    """Return the pushes that a request asks for."""
     given = [name for name in KICK_FIELDS if name in request]
     if {*given} != {*PUSHES}:
         raise RefusedError(f"pushes must have {', '.join(PUSHES)}, got {show(given)}")
-    if motion.is_driven:
-        raise reject(
-            "friction and torque",
-            "0 for a series of pushes",
-            [*astuple(motion.friction), *motion.applied_torque],
-        )
-    return Pushes.read(*(request[name] for name in PUSHES))
+    count = number("number", request["number"], "", 1, MOST_PUSHES)
+    if not count.is_integer():
+        raise reject("number", f"a whole number up to {MOST_PUSHES}", request["number"])
+    return Pushes(
+        number("axle_impulse", request["axle_impulse"], "N m s", -LARGEST_IMPULSE, LARGEST_IMPULSE),
+        number("rate", request["rate"], "pushes per s of the motion", *PUSH_RATES),
+        int(count),
+    )
+
+
+def name_pushes(pushes: Pushes) -> dict[str, float]:
+    """Return the fields of ~/kick that ask for pushes."""
+    return dict(zip(PUSHES, astuple(pushes), strict=True))
 
 
 def _limit_rates(kind: str, request: Mapping[str, Any], after: State) -> None:

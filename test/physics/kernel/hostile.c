@@ -143,7 +143,7 @@ static int judge(symtop_status status, int is_allowed, int line) {
                               status == SYMTOP_BAD_TOP || status == SYMTOP_BAD_ORIENTATION ||
                               status == SYMTOP_BAD_STEPS || status == SYMTOP_BAD_RATE ||
                               status == SYMTOP_BAD_ARITHMETIC || status == SYMTOP_BAD_TORQUE ||
-                              status == SYMTOP_BAD_FRICTION;
+                              status == SYMTOP_BAD_FRICTION || status == SYMTOP_BAD_PUSHES;
   calls++, answered += status == SYMTOP_OK;
   /* Of buffers that overlap nothing is promised but that the call ends: a count that is written to
      one of them has another length elsewhere. */
@@ -550,6 +550,27 @@ static void try_constants(symtop_motion* given) {
   CHECK(status, motion && rates), ROOM_OR_NAN(status, (double*)(void*)rates, 4);
 }
 
+static void try_piece(symtop_motion* given) {
+  prepare();
+  symtop_motion* motion = draw_handle(given);
+  symtop_clock* clock = (symtop_clock*)take(5, 1);
+  double* piece = (double*)take(17, 1);
+  if (clock) memset(clock, 0, sizeof *clock), clock->factor = draw_number(1.0);
+  const double size = clock ? fabs(clock->factor) : 1.0;
+  const int64_t stamp = is_rare(30) ? INT64_MIN : (int64_t)(draw() >> 30);
+  const symtop_status status = symtop_find_piece(motion, clock, stamp, STEPS, (symtop_piece*)(void*)piece);
+  CHECK(status, !has_null && stamp != INT64_MIN && (size == 0 || (size >= 1e-100 && size <= 1e100)));
+  ROOM(status, piece, 17);
+  if (status == SYMTOP_OK && !has_overlap && !(piece[15] >= 0 && piece[16] >= 1)) fault = fault ? fault : __LINE__;
+}
+
+static void use(symtop_status status, symtop_motion* motion, int is_asked) {
+  if (is_asked && (status == SYMTOP_OK) != (motion != NULL)) fault = fault ? fault : __LINE__;
+  if (!motion) return;
+  try_states(motion), try_one_state(motion), try_constants(motion), try_piece(motion);
+  symtop_free(motion);
+}
+
 static void try_motion(void) {
   int good = 1;
   symtop_motion *motion = NULL, **to = is_rare(40) ? NULL : &motion;
@@ -557,10 +578,25 @@ static void try_motion(void) {
   symtop_start* start = take_starts(1, 0, &good);
   const symtop_status status = symtop_new(start, to);
   CHECK(status, good && start && to);
-  if (to && (status == SYMTOP_OK) != (motion != NULL)) fault = fault ? fault : __LINE__;
-  if (!motion) return;
-  try_states(motion), try_one_state(motion), try_constants(motion);
-  symtop_free(motion);
+  use(status, motion, to != NULL);
+}
+
+/* Few pushes: each costs what a motion costs. */
+static void try_pushed(void) {
+  int good = 1;
+  symtop_motion *motion = NULL, **to = is_rare(40) ? NULL : &motion;
+  prepare();
+  symtop_start* start = take_starts(1, 0, &good);
+  symtop_pushes* pushes = (symtop_pushes*)take(3, 1);
+  if (pushes) {
+    pushes->impulse = draw_number(1.0), pushes->rate = draw_number(30.0);
+    pushes->number = is_rare(8) ? draw_number(30.0) : (double)(draw() % 8);
+    good &= are_finite(&pushes->impulse, 1) && pushes->rate >= 0.01 && pushes->rate <= 1000;
+    good &= pushes->number >= 1 && pushes->number <= 1000 && pushes->number == floor(pushes->number);
+  }
+  const symtop_status status = symtop_new_pushed(start, pushes, to);
+  CHECK(status, good && start && pushes && to);
+  use(status, motion, to != NULL);
 }
 
 /* Calls with so many seeds from the first one on. Returns 0, or the line of the first fault. */
@@ -568,7 +604,7 @@ int run(unsigned first, unsigned number);
 int run(unsigned first, unsigned number) {
   static void (*const TRIALS[])(void) = {try_angles, try_orientations, try_regular_rates, try_tilts,
                                          try_discs,  try_kicks,        try_verdicts,      try_map,
-                                         try_many,   try_motion,       try_motion};
+                                         try_many,   try_motion,       try_pushed};
   hash = 14695981039346656037u, calls = answered = 0, fault = 0;
   for (unsigned seed = first; seed < first + number && !fault; seed++) {
     oddness = seed % 2 ? 6 : 60;

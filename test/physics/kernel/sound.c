@@ -38,6 +38,9 @@ int main(int count, char** words) {
   const symtop_top top = {0.000228, 0.0000572, 0.068};
   const double angles[3] = {0, 0.5, 0}, rates[3] = {1, 0, 200}, factor = 1.4;
   symtop_motion *motion = NULL, *refused = NULL;
+  const symtop_pushes pushes = {1e-5, 20.0, 3.0};
+  const symtop_clock clock = {1.0, {0}};
+  symtop_piece piece = {{0}, -7.0, -7.0};
   symtop_verdict verdict;
   symtop_rates found = {-7.0, -7.0, -7.0, -7.0, 0};
   double q[4], omega[3], few[4];
@@ -54,6 +57,7 @@ int main(int count, char** words) {
     show(symtop_find_nutation_rate(motion, q), q, 2);
     show(symtop_find_farthest_time(motion, q), q, 1);
     show(symtop_reach(motion, 1.0, 100.0, q), q, 1);
+    show(symtop_find_piece(motion, &clock, 1, 100.0, &piece), &piece.begin, 1);
     const symtop_status last = symtop_find_rates(motion, &found);
     show(last, &found.mean_spin_rate, 1);
     if ((symtop_find_kind(motion) == SYMTOP_UNKNOWN_KIND) != (last != SYMTOP_OK)) return 3;
@@ -61,6 +65,8 @@ int main(int count, char** words) {
     show(first, q, 4);
   }
   show(symtop_new(&start, &refused), q, 0);
+  symtop_free(refused);
+  show(symtop_new_pushed(&start, &pushes, &refused), q, 0);
   clear(q, 4), clear(omega, 3);
   show(symtop_from_angles(angles, rates, 1, q, omega, &done), q, 4);
   show(symtop_find_angles(start.orientation, 1, few), few, 3);

@@ -22,14 +22,15 @@ class DrivenMotion {
     start_ = normalize(s);
   }
 
-  // States at times that are sums of two doubles, as `split` returns them for a place.
+  // States at times that are sums of two doubles, as `split` returns them for a place; *steps is
+  // lowered by those taken.
   template <class Split>
-  Progress fill(const Split& split, int64_t count, double steps, const Target& to,
+  Progress fill(const Split& split, int64_t count, double* steps, const Target& to,
                 int64_t* written) {
     const Lock lock(mutex_);
     for (*written = 0; *written < count; ++*written) {
       const Pair time = split(*written);
-      const Progress progress = read(time.x, time.y, &steps, to.from(*written));
+      const Progress progress = read(time.x, time.y, steps, to.from(*written));
       if (progress != ARRIVED) return progress;
     }
     return ARRIVED;

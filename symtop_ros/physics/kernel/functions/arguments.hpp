@@ -193,7 +193,7 @@ inline bool is_part_of_clock(double x) {
 }
 
 inline symtop_status accept(const symtop_clock& given, Clock& clock) {
-  clock.factor = given.factor;
+  clock = {given.factor, {}};
   bool is_valid = is_part_of_clock(given.factor);
   for (int i = 0; i < ELAPSED_PARTS; i++) {
     clock.elapsed[i] = given.elapsed[i];

@@ -13,7 +13,8 @@ const char symtop_digest[] = "symtop " SYMTOP_DIGEST;
 
 // Sizes of the records in bytes, in the order in which symtop.h has them.
 SYMTOP_API extern const uint32_t symtop_sizes[];
-const uint32_t symtop_sizes[] = {sizeof(symtop_start),   sizeof(symtop_clock),
+const uint32_t symtop_sizes[] = {sizeof(symtop_start),   sizeof(symtop_pushes),
+                                 sizeof(symtop_clock),   sizeof(symtop_piece),
                                  sizeof(symtop_rates),   sizeof(symtop_constants),
                                  sizeof(symtop_top),     sizeof(symtop_place),
                                  sizeof(symtop_reason),  sizeof(symtop_average),

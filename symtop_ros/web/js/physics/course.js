@@ -1,9 +1,10 @@
-// A motion from a start, with friction and torque, computed by the kernel at any time.
+// A motion from a start, with friction, torque and pushes, computed by the kernel at any time.
 
 import { pack } from "./kernel.js";
 import { State } from "./state.js";
 
-/** @import { Kernel, Top, Vector } from "./kernel.js" */
+/** @import { Kernel, Pushes, Top, Vector } from "./kernel.js" */
+/** What moves since a push: its time in ns, and the number of pushes. @typedef {{course: Course, begin: number, number: number}} Piece */
 
 export const NANO = 1e9; // ns in a second
 export const MOST_STEPS = 100_000; // of an integration, for one state: some seconds
@@ -15,20 +16,59 @@ export class Course {
    * @param {State} start
    * @param {[number, number]} friction
    * @param {Vector} torque
+   * @param {Pushes | null} pushes of which the first leaves the start
    */
-  constructor(kernel, top, start, friction = [0, 0], torque = [0, 0, 0]) {
+  constructor(kernel, top, start, friction = [0, 0], torque = [0, 0, 0], pushes = null) {
     this.kernel = kernel;
     this.top = top;
     this.start = start;
     this.friction = friction;
     this.torque = torque;
+    this.pushes = pushes;
     const given = { orientation: start.given, angular_velocity: start.omega, friction, torque };
     /** The numbers of the motion, as the kernel takes them. */
     this.packed = pack({ ...top, ...given });
-    this.motion = kernel.motion({ ...top, ...given });
+    this.motion = kernel.motion({ ...top, ...given, pushes });
     this.isDriven = [...friction, ...torque].some((each) => each !== 0);
     /** @type {Course | null} */
-    this.undriven = this.isDriven ? null : this;
+    this.undriven = this.isDriven || pushes ? null : this;
+    /** Those that were asked for, by the number of pushes. @type {Map<number, Piece>} */
+    this.pieces = new Map();
+  }
+
+  /** What moves at a time since the start in whole ns. @param {number} passed @returns {Piece} */
+  pieceAt(passed) {
+    if (!this.pushes) return { course: this, begin: 0, number: 0 };
+    if (this.isDriven) this.at(passed);
+    const { start, begin, number } = this.motion.findPiece(passed);
+    const piece = this.pieces.get(number) ?? { course: this.continuePiece(start), begin, number };
+    this.pieces.set(number, piece);
+    return piece;
+  }
+
+  /** @param {import("./kernel.js").Found} found of symtop_start */
+  continuePiece({ orientation, angular_velocity }) {
+    return this.continue(new State(this.kernel, orientation, angular_velocity));
+  }
+
+  /** The state just before the push with which a piece begins, but for the first. @param {Piece} piece */
+  findStateBefore({ begin }) {
+    const former = this.pieceAt(begin - 1);
+    return former.course.at(begin - former.begin);
+  }
+
+  /** Refuse pushes of which one cannot be; those of a driven motion are tried when it has come there. */
+  demandPushes() {
+    if (!this.pushes || this.isDriven) return;
+    this.pieceAt(Math.ceil((this.pushes.number / this.pushes.rate) * NANO));
+  }
+
+  /** The course that gets only so many of its pushes. @param {Pushes} pushes @param {number} number */
+  endPushes(pushes, number) {
+    const { kernel, top, start, friction, torque } = this;
+    const ended = new Course(kernel, top, start, friction, torque, { ...pushes, number });
+    ended.pieces = this.pieces;
+    return ended;
   }
 
   /** The motion that would follow under gravity alone. @returns {Course} */
@@ -58,10 +98,12 @@ export class Course {
 
   /**
    * The course that goes on from a state, with what is changed.
-   * @param {State} start @param {{top?: Top, friction?: [number, number], torque?: Vector}} changes
+   * @param {State} start
+   * @param {{top?: Top, friction?: [number, number], torque?: Vector, pushes?: Pushes | null}} changes
    */
-  continue(start, { top = this.top, friction = this.friction, torque = this.torque } = {}) {
-    return new Course(this.kernel, top, start, friction, torque);
+  continue(start, changes = {}) {
+    const { top = this.top, friction = this.friction, torque = this.torque, pushes } = changes;
+    return new Course(this.kernel, top, start, friction, torque, pushes);
   }
 
   /** The parameters of a top and its friction, by the names of a node. */

@@ -9,10 +9,12 @@ import { NAMES, RECORDS, STATUS } from "./records.js";
 /** @typedef {"rises" | "falls" | "stays"} Direction */
 /**
  * What a motion starts from, in SI units: w, x, y, z, body to world; angular velocity in the body
- * frame; axial and transverse friction; the torque in the world frame.
+ * frame; axial and transverse friction; the torque in the world frame; and pushes on the axle, the
+ * first of which leaves this state.
  * @typedef {Top & {orientation: number[], angular_velocity: number[], friction?: number[],
- *   torque?: number[]}} Start
+ *   torque?: number[], pushes?: Pushes | null}} Start
  */
+/** Equal pushes: N m s, 1/s, and how many. @typedef {{impulse: number, rate: number, number: number}} Pushes */
 /** @typedef {{writes: number | string}} Room for so many doubles, a handle, or a record */
 /** @typedef {{[name: string]: any}} Found a record of symtop.h, with names for the enums */
 
@@ -53,6 +55,9 @@ class Reader {
     return more ? NAMES[kind].filter((_, bit) => (number >> bit) & 1) : NAMES[kind][number];
   }
 }
+
+/** @param {any} given @returns {given is number | bigint} */
+const isNumber = (given) => typeof given === "number" || typeof given === "bigint";
 
 /** The bytes that a function writes. @param {Room["writes"]} type */
 const measure = (type) => {
@@ -106,18 +111,18 @@ export class Kernel {
    * Call a function with numbers, arrays and rooms; returns what it writes, a value for each room.
    * What it refuses is a RangeError.
    * @param {string} name
-   * @param {(number | ArrayLike<number> | BigInt64Array | Room)[]} given
+   * @param {(number | bigint | ArrayLike<number> | BigInt64Array | Room)[]} given
    * @returns {any[]}
    */
   call(name, ...given) {
     const sizes = given.map((each) =>
-      typeof each === "number" ? 0 : "writes" in each ? measure(each.writes) : 8 * each.length,
+      isNumber(each) ? 0 : "writes" in each ? measure(each.writes) : 8 * each.length,
     );
     let place = this.reserve(sizes.reduce((sum, each) => sum + each, 0));
     /** @type {(() => any)[]} */
     const rooms = [];
     const taken = given.map((each, k) => {
-      if (typeof each === "number") return each;
+      if (isNumber(each)) return each;
       const begin = place;
       place += sizes[k];
       if ("writes" in each) rooms.push(() => this.read(each.writes, begin));
@@ -152,7 +157,10 @@ export class Kernel {
 
   /** Make a motion. @param {Start} start */
   motion(start) {
-    return new Motion(this, this.call("new", pack(start), room("handle"))[0]);
+    const { pushes } = start;
+    const series = pushes ? [[pushes.impulse, pushes.rate, pushes.number]] : [];
+    const name = pushes ? "new_pushed" : "new";
+    return new Motion(this, this.call(name, pack(start), ...series, room("handle"))[0]);
   }
 
   /**
@@ -225,6 +233,17 @@ export class Motion {
   atNanosecond(passed) {
     const given = [this.handle, [1, 0, 0, 0, 0], BigInt64Array.of(BigInt(passed)), 1, Infinity];
     return this.kernel.call("states_of_clock", ...given, room(4), room(3), room(1)).slice(0, 2);
+  }
+
+  /**
+   * What moves between two pushes: its start, the time in ns at which it begins, and the number of
+   * pushes up to then.
+   * @param {number} passed whole ns
+   * @returns {Found}
+   */
+  findPiece(passed) {
+    const given = [this.handle, [1, 0, 0, 0, 0], BigInt(passed), Infinity];
+    return this.kernel.call("find_piece", ...given, room("piece"))[0];
   }
 
   /** Integrate towards a time in so many steps; returns the time up to which states are at hand. */

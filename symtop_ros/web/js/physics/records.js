@@ -28,6 +28,7 @@ export const STATUS = {
   BAD_RATE: 21,
   BAD_STEPS: 22,
   BAD_DISC: 23,
+  BAD_PUSHES: 24,
 };
 
 /** Names of the enums, in the order of the header. @type {{[list: string]: any[]}} */
@@ -81,9 +82,19 @@ export const RECORDS = {
     ["double 2", "friction"],
     ["double 3", "torque"],
   ],
+  pushes: [
+    ["double", "impulse"],
+    ["double", "rate"],
+    ["double", "number"],
+  ],
   clock: [
     ["double", "factor"],
     ["double 4", "elapsed"],
+  ],
+  piece: [
+    ["start", "start"],
+    ["double", "begin"],
+    ["double", "number"],
   ],
   rates: [
     ["double", "nutation_period"],

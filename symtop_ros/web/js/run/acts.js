@@ -2,7 +2,7 @@
 
 import { Course, NANO } from "../physics/course.js";
 import { cross, scale, subtract } from "../scene/matrices.js";
-import { demandNoForces } from "./reader.js";
+import { readPushes } from "./run.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
 import { phrase } from "../words/wording.js";
 
@@ -61,11 +61,11 @@ const push = (top, { way }) => {
 /** Push along the precession: at once, and then again and again. @type {Act} */
 const pushAlong = (top, { axle_impulse, rate = PUSH_RATE, number = top.pushes }) => {
   const { course } = top;
-  demandNoForces([...course.friction, ...course.torque]);
   const way = Math.sign(course.free.motion.rates.mean_precession_rate) || 1;
   const impulse = axle_impulse ?? (way * PUSH_TORQUE * findTorque(course)) / rate;
   const after = top.state.kick(course.top, "axle", [impulse]);
-  top.add("push", course.continue(after), { act: { axle_impulse: impulse, rate, number } });
+  const act = { axle_impulse: impulse, rate, number };
+  top.add("push", course.continue(after, { pushes: readPushes(act) }), { act });
 };
 
 /** Push along while a button is held. @type {Act} */
@@ -192,7 +192,10 @@ const EVENTS = {
   kick,
   press,
   push,
-  pushes: pushAlong,
+  pushes: (top, message) => {
+    pushAlong(top, message);
+    top.demandPushes();
+  },
   restart,
   link: followLink,
   pull: (top, { end }) => addImpulse(top, findPull(top.course, top.state, end), "pull"),

@@ -28,6 +28,7 @@ const TRACE = [240, 960]; // points, the fewest and the most
 const NUTATION = 64; // points of the trace in a nutation: its pieces are not seen
 const WATCHED = 5; // s in which the first nutation after a kick is shown, at least
 const FOLLOW = 250; // ms between two texts of a motion that friction or a torque changes
+const MOST_PUSHES = 1000; // of one press, as many as the kernel takes
 const CHARTS = 60; // ms between two drawings of the charts: no eye follows numbers faster
 const [AWAKE, REST] = [1000, 500]; // ms; left alone for so long, a page in a pause is drawn so rarely
 const DONE = ["pointerdown", "pointermove", "pointerup", "wheel", "keydown", "keyup", "click"];
@@ -54,7 +55,7 @@ export class LocalTop {
     this.layers = { ...content.layers };
     this.torqueUntil = 0;
     this.pushUntil = 0; // ms, while a button is held
-    this.pushes = 1; // that a button asks for: here more follow while it is held
+    this.pushes = MOST_PUSHES; // that a button asks for: it ends them when it is released
     this.stirred = 0; // ms; when something was done last
     this.chartsDue = 0; // ms
     this.textsDue = 0; // ms
@@ -130,7 +131,7 @@ export class LocalTop {
   /** @param {number} passed ms @param {number} now ms */
   advance(passed, now) {
     if (this.torqueUntil && now > this.torqueUntil) holdTorque(this, 0);
-    if (now > this.pushUntil) this.pushUntil = 0;
+    if (this.pushUntil && now > this.pushUntil) this.release();
     if (this.isRunning) this.tryToMove(Math.min(passed, LONGEST_FRAME) / 1000);
     this.show(now);
   }
@@ -148,18 +149,29 @@ export class LocalTop {
 
   /** Slower than chosen in the nutation that follows a kick. @param {number} passed s of the clock */
   move(passed) {
-    const { course, time } = this.run.find(this.time);
+    const { course, time } = this.run.findEvent(this.time);
+    const before = this.course;
     const first = this.run.findFirstNutation(this.time);
     const most =
       first && this.time < first.end ? (first.end - first.begin) / NANO / WATCHED : Infinity;
     this.isSlow = most < this.speed;
     const wanted = this.time + Math.round(passed * Math.min(this.speed, most) * NANO);
-    if (this.pushUntil) this.run.pushOn(wanted);
     const reached = time + course.reach(wanted - time, FRAME_STEPS);
     this.run.at(reached); // refused where the kernel computes no state; then the time stays
     this.time = reached;
     this.end = Math.max(this.end, this.time);
-    this.cross(course);
+    this.cross(before);
+  }
+
+  /** Refuse pushes of which one cannot be. */
+  demandPushes() {
+    this.run.findEvent(this.time).course.demandPushes();
+  }
+
+  /** End the pushes of a button. */
+  release() {
+    this.pushUntil = 0;
+    this.run.release(this.time);
   }
 
   /** Tell what has changed if the time has come to another motion. @param {Course} course before */
@@ -178,7 +190,6 @@ export class LocalTop {
   add(kind, course, asked = {}) {
     const request = nameRequest(kind, asked, course);
     this.run.add(kind, this.time, course, kind === "torque" ? asked : { ...asked, request });
-    this.run.pushOn(Infinity, asked.act?.number);
     this.changed();
   }
 
@@ -298,12 +309,12 @@ export class LocalTop {
 
   /** Before and after each kick since a time, at one instant: a curve jumps there. @param {number} begin ns */
   sampleKicks(begin) {
-    const kicks = this.run.moments.filter((each) => each.before && each.time >= begin);
-    const past = kicks.filter(({ time }) => time <= this.time);
-    return past.flatMap(({ time, before, course: { start } }) => [
-      { ...this.sample(time, /** @type {State} */ (before)), ghost: null },
-      this.sample(time, start),
-    ]);
+    return this.run
+      .listKicks(begin, this.time)
+      .flatMap(({ time, before, course: { start } }) => [
+        { ...this.sample(time, /** @type {State} */ (before)), ghost: null },
+        this.sample(time, start),
+      ]);
   }
 
   /** @param {number[]} times ns @param {State[]} states */
@@ -354,7 +365,9 @@ export class LocalTop {
   /** What run.json holds. */
   get json() {
     const [format] = this.content.run_fields.formats.slice(-1);
-    return { format, events: this.run.records, end: this.end / NANO };
+    const run = this.run.copy();
+    if (this.pushUntil) run.release(this.time);
+    return { format, events: run.records, end: this.end / NANO };
   }
 
   /** @param {any} json of run.json; one that cannot be read leaves all as it is */
@@ -362,7 +375,7 @@ export class LocalTop {
     const { events, end } = readRun(this.content.run_fields, json);
     this.run.load(events);
     const wanted = Math.round(Math.max(end, events[events.length - 1].time) * NANO);
-    const { time, course } = this.run.find(wanted);
+    const { time, course } = this.run.findEvent(wanted);
     // What takes too long to integrate is reached later.
     this.time = this.end = time + course.reach(wanted - time, MOST_STEPS);
     this.initial = this.run.moments[0].course.start;

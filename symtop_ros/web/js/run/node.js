@@ -12,7 +12,7 @@ import { phrase } from "../words/wording.js";
 /** @import { Course } from "../physics/course.js" */
 /** @typedef {{service: string, argument?: any} | {torque: number[]}} Request */
 
-const MOST_PUSHES = 200; // of one press
+const RELEASE = "release"; // service, and event: pushes have ended
 const TOLD = ["record", "failure"]; // events of which the page says what the node said
 
 export class NodeTop extends LocalTop {
@@ -20,7 +20,6 @@ export class NodeTop extends LocalTop {
   orientation = null; // that the node has published last
   isGreeted = false;
   latest = 0; // ns of the run, of the last event
-  pushes = MOST_PUSHES; // that a button asks for: it ends them when it is released
   stamp = ""; // ns of the node's clock, of the last event
   /** Requests of the act that is performed. @type {Request[]} */
   requests = [];
@@ -66,7 +65,8 @@ export class NodeTop extends LocalTop {
   /** @param {Message} event */
   followEvent({ record, running, factor, recording, said, name, stamp }) {
     this.stamp = stamp;
-    if (record) {
+    if (record?.kind === RELEASE) this.run.release(Math.round(record.time * NANO));
+    else if (record) {
       this.run.append(record);
       this.latest = Math.round(record.time * NANO);
       this.time = this.end = Math.max(this.time, this.latest);
@@ -117,9 +117,13 @@ export class NodeTop extends LocalTop {
   /** End the pushes: those that the node has not given yet. */
   release() {
     this.pushUntil = 0;
-    const { time } = this.run.moments[this.run.moments.length - 1];
-    if (time > this.time) this.send([{ service: "kick", argument: { axle_impulse: 0 } }]);
+    const { number = 0 } = this.run.find(this.time);
+    const { pushes } = this.run.findEvent(this.time).course;
+    if (pushes && number < pushes.number) this.send([{ service: RELEASE }]);
   }
+
+  /** The node refuses pushes of which one cannot be. */
+  demandPushes() {}
 
   /** @param {string} service @param {any} [argument] */
   ask(service, argument = null) {

@@ -27,12 +27,6 @@ const reject = (name, condition, value) => {
   return new RangeError(`${name} must ${condition}, got ${shown}`);
 };
 
-/** A series of pushes is one under gravity alone. @param {number[]} acting friction and torque */
-export const demandNoForces = (acting) => {
-  if (acting.some((each) => each !== 0))
-    throw reject("friction and torque", "be 0 for a series of pushes", acting);
-};
-
 /** @param {any} value */
 const isObject = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
 
@@ -86,13 +80,12 @@ const readAct = (fields, given) => {
   return Object.fromEntries(read);
 };
 
-/** @param {{[name: string]: Field}} fields @param {any} values @param {EventRecord} event */
-const readPushes = (fields, { act: given }, { friction, torque }) => {
+/** @param {{[name: string]: Field}} fields @param {any} values */
+const readPushes = (fields, { act: given }) => {
   const act = readAct(fields, given);
   const names = Object.keys(act);
   if (names.length !== PUSHES.length || !PUSHES.every((name) => name in act))
     throw reject("pushes", `have ${PUSHES.join(", ")}`, names);
-  demandNoForces([...friction, ...torque]);
   if (Number.isInteger(act.number)) return act;
   throw reject("number", `be a whole number up to ${fields.number.high}`, act.number);
 };
@@ -114,7 +107,7 @@ const readEvent = (table, given, before) => {
     throw reject("time", "be that of the event before it or later", read.time);
   const { request, ...event } = read;
   if (request) event.request = request;
-  if (event.kind === "push") return { ...event, act: readPushes(table.act, values, event) };
+  if (event.kind === "push") return { ...event, act: readPushes(table.act, values) };
   if (event.kind !== "kick") return event;
   const act = readAct(table.act, values.act);
   // The quantity that a kick leaves unchanged; null for an angular impulse.

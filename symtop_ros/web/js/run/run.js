@@ -7,11 +7,12 @@ import { Course, NANO } from "../physics/course.js";
 import { nameEvent } from "./reader.js";
 import { State } from "../physics/state.js";
 
-/** @import { Kernel, Vector, Quaternion, Hold } from "../physics/kernel.js" */
+/** @import { Piece } from "../physics/course.js" */
+/** @import { Kernel, Vector, Quaternion, Hold, Pushes } from "../physics/kernel.js" */
 /** @typedef {"start" | "kick" | "push" | "change" | "torque"} Kind */
 /**
- * What was asked for, the same of all pushes of a series: a kick by the names of ~/kick (`act`), the hold of it, null for an angular
- * impulse, and the request in words.
+ * What was asked for: a kick or pushes by the names of ~/kick (`act`), the hold of a kick, null for an
+ * angular impulse, and the request in words.
  * @typedef {{act?: {[name: string]: any}, hold?: Hold | null, request?: string}} Asked
  */
 /**
@@ -25,9 +26,9 @@ import { State } from "../physics/state.js";
  */
 /**
  * An event with its time in ns and its motion, the state just before it, the course that it ended,
- * and the ghost: the run without its last kick.
+ * and the ghost: the run without its last kick. Of pushes also each of them, with its number.
  * @typedef {{kind: Kind, time: number, asked: Asked, course: Course, before: State | null,
- *   last: Course | null, ghost: Placed | null}} Moment
+ *   last: Course | null, ghost: Placed | null, number?: number}} Moment
  */
 /**
  * A part of a run, kept for comparison: the state at a time since its start, or nothing after its end.
@@ -36,7 +37,6 @@ import { State } from "../physics/state.js";
 
 const LONGEST = 10_000; // ms in which the events of a run must be computed
 const GHOST_STEPS = 3000; // of an integration, for one state of the ghost
-const MOST_PUSHES = 1000; // of a series, as in Python
 
 export class Run {
   /** @param {Kernel} kernel */
@@ -47,8 +47,25 @@ export class Run {
   }
 
   /** The last event before a time, or the first one. @param {number} time ns @returns {Moment} */
-  find(time) {
+  findEvent(time) {
     return this.moments[Math.max(0, this.findPlace(time))];
+  }
+
+  /** That event; of pushes the last one of them. @param {number} time ns @returns {Moment} */
+  find(time) {
+    const event = this.findEvent(time);
+    return event.course.pushes ? nameMoment(event, event.course.pieceAt(time - event.time)) : event;
+  }
+
+  /** All pushes and kicks from a time to another. @param {number} begin ns @param {number} end ns */
+  listKicks(begin, end) {
+    const [first, last] = [this.findEvent(begin), this.findPlace(end)];
+    const events = this.moments.slice(this.moments.indexOf(first), last + 1);
+    const kicks = events.flatMap((event, k) => {
+      const until = Math.min(end, (events[k + 1]?.time ?? Infinity) - 1);
+      return event.course.pushes ? listPushes(event, until) : [event];
+    });
+    return kicks.filter(({ before, time }) => before && time >= begin);
   }
 
   /** @param {number} time ns */
@@ -81,7 +98,7 @@ export class Run {
 
   /** @param {number} time ns */
   at(time) {
-    const { course, time: since } = this.find(time);
+    const { course, time: since } = this.findEvent(time);
     return course.at(time - since);
   }
 
@@ -102,34 +119,21 @@ export class Run {
     const time = Math.max(wanted, this.moments[0]?.time ?? 0);
     const last = this.moments.length && kind !== "start" ? this.find(time) : null;
     const before = last ? this.at(time) : null;
-    const isMore = kind === "push" && last?.asked === asked;
-    const next = last && !isMore ? this.findNextGhost(kind, time, course, last) : null;
-    const ghost = isMore ? last.ghost : next;
+    const ghost = last ? this.findNextGhost(kind, time, course, last) : null;
     this.moments.length = this.findPlace(time) + 1;
+    this.release(time);
     this.moments.push({ kind, time, asked, course, before, last: last?.course ?? null, ghost });
   }
 
-  /** The pushes of one event. @param {Moment} moment */
-  findSeries({ kind, asked }) {
-    return kind === "push" ? this.moments.filter((each) => each.asked === asked) : [];
-  }
-
-  /** Go on with the pushes at the end of the run. @param {number} until ns @param {number} most */
-  pushOn(until, most = MOST_PUSHES) {
-    const series = this.findSeries(this.moments[this.moments.length - 1]);
-    for (let { length } = series; length > 0 && length < most; length += 1) {
-      const [{ time: begin, asked, course }] = series;
-      const { rate, axle_impulse } = asked.act ?? {};
-      const time = begin + Math.floor((length * NANO) / rate + 0.5);
-      if (time > until) return;
-      const after = this.at(time).kick(course.top, "axle", [axle_impulse]);
-      this.add("push", time, course.continue(after), asked);
-    }
-  }
-
-  /** The moments that were asked for: of a series of pushes, the first. */
-  get events() {
-    return this.moments.filter(({ asked }, k) => asked !== this.moments[k - 1]?.asked);
+  /** End the pushes of the last event at a time in ns. @param {number} time */
+  release(time) {
+    const event = this.moments.at(-1);
+    const pushes = event?.course.pushes;
+    if (!event || !pushes) return;
+    const { number } = event.course.pieceAt(time - event.time);
+    const course = event.course.endPushes(pushes, number);
+    const asked = { ...event.asked, act: { ...event.asked.act, number } };
+    this.moments[this.moments.length - 1] = { ...event, course, asked };
   }
 
   /**
@@ -147,11 +151,16 @@ export class Run {
     return { course: last.ghost.course.continue(state, { top, friction, torque }), since: time };
   }
 
+  copy() {
+    const copy = new Run(this.kernel);
+    copy.moments = [...this.moments];
+    return copy;
+  }
+
   /** The run from its last start to a time, whatever becomes of it. @param {number} end ns @returns {Kept} */
   keep(end) {
     const start = this.findStart(end);
-    const copy = new Run(this.kernel);
-    copy.moments = [...this.moments];
+    const copy = this.copy();
     return (passed) => {
       const time = start + passed;
       return time > end ? null : { state: copy.at(time), course: copy.find(time).course };
@@ -160,10 +169,8 @@ export class Run {
 
   /** The events as in run.json. @returns {EventRecord[]} */
   get records() {
-    return this.events.map((moment) => {
-      const { kind, time, asked, course } = moment;
+    return this.moments.map(({ kind, time, asked, course }) => {
       const { top, start, friction, torque } = course;
-      const { length: number } = this.findSeries(moment);
       return {
         kind,
         time: time / NANO,
@@ -173,7 +180,6 @@ export class Run {
         friction,
         torque,
         ...asked,
-        ...(number ? { act: { ...asked.act, number } } : {}),
       };
     });
   }
@@ -196,8 +202,28 @@ export class Run {
   append({ kind, time, top, orientation, angular_velocity, friction, torque, ...asked }) {
     const [Ix, Iz, Mgl] = top;
     const start = new State(this.kernel, orientation, angular_velocity);
-    const course = new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque);
+    const pushes = kind === "push" && asked.act ? readPushes(asked.act) : null;
+    const course = new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque, pushes);
+    course.demandPushes();
     this.add(kind, Math.round(time * NANO), course, asked);
-    this.pushOn(Infinity, asked.act?.number);
   }
 }
+
+/** The pushes that the fields of ~/kick ask for. @param {{[name: string]: any}} act @returns {Pushes} */
+export const readPushes = ({ axle_impulse: impulse, rate, number }) => ({ impulse, rate, number });
+
+/** One of the pushes of an event. @param {Moment} event @param {Piece} piece @returns {Moment} */
+const nameMoment = (event, piece) => {
+  const { course, begin, number } = piece;
+  const before = number > 1 ? event.course.findStateBefore(piece) : event.before;
+  return { ...event, time: event.time + begin, course, before, number };
+};
+
+/** The pushes of an event up to a time in ns. @param {Moment} event @param {number} end @returns {Moment[]} */
+const listPushes = (event, end) => {
+  const found = [];
+  let piece = event.course.pieceAt(end - event.time);
+  for (; piece.number > 1; piece = event.course.pieceAt(piece.begin - 1))
+    found.push(nameMoment(event, piece));
+  return [...found, nameMoment(event, piece)].reverse();
+};

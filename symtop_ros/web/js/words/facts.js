@@ -95,7 +95,7 @@ const listRates = ({ motion }) => {
 /** The last event that was not a torque of a button. @param {Run} run @param {number} time ns */
 const findAnnounced = (run, time) => {
   const isPast = (/** @type {Moment} */ each) => each.kind !== "torque" && each.time <= time;
-  return run.events.findLast(isPast) ?? run.find(time);
+  return run.moments.findLast(isPast) ?? run.find(time);
 };
 
 /**
@@ -152,8 +152,8 @@ export const describe = (run, time) => {
     roots,
     window: chooseWindow(course.free),
     since: run.findStart(time) / NANO,
-    marks: run.events.filter((each) => KICKS.includes(each.kind)).map((each) => each.time / NANO),
-    acts: run.events.filter((each) => each.kind !== "torque").map((each) => each.time / NANO),
+    marks: run.moments.filter((each) => KICKS.includes(each.kind)).map((each) => each.time / NANO),
+    acts: run.moments.filter((each) => each.kind !== "torque").map((each) => each.time / NANO),
     began: began / NANO,
     half: first && (first.begin + first.end) / (2 * NANO),
     link: writeLink(course),

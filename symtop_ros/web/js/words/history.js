@@ -45,8 +45,8 @@ export const nameRequest = (kind, asked, course, variant = "radians") => {
  * The last events: their places in the run, and what was asked for.
  * @param {Run} run @param {Variant} variant @returns {[number, string][]}
  */
-export const listHistory = ({ moments, events }, variant) =>
-  events
+export const listHistory = ({ moments }, variant) =>
+  moments
     .filter(({ kind }) => kind !== "torque")
     .slice(-LISTED)
     .reverse()

@@ -20,17 +20,18 @@ const findHeight = ({ motion: { turning_angles } }) =>
  * @param {Course} free the motion of now
  */
 export const describePushes = (run, first, time, free) => {
-  const given = run.findSeries(first).filter((each) => each.time <= time);
-  const { before } = first;
-  if (!before || run.find(time) !== given.at(-1)) return null;
+  const { before, course } = first;
+  if (!before || course.isDriven || run.findEvent(time) !== first) return null;
+  const last = run.find(time);
   const { top } = free;
   const former = free.continueFree(before);
   const [was, is] = [former, free].map((each) => each.motion.rates.mean_precession_rate);
   const [energy, now] = [before, free.start].map((each) => findConstants(top, each).energy);
   const weight = MILLI * top.Mgl * (findHeight(free) - findHeight(former));
   const outcome = {
-    number: given.length,
-    duration: (run.find(time).time - first.time) / NANO,
+    number: last.number,
+    duration: (last.time - first.time) / NANO,
+    driven: false,
     turning_angles: free.motion.turning_angles,
     former_angles: former.motion.turning_angles,
     means: Number.isNaN(was + is) ? null : { before: was, after: is },

@@ -1,0 +1,55 @@
+// A motion on which nothing strikes: under gravity alone, or driven by friction or a torque.
+#pragma once
+
+#include <new>
+
+#include "../driven/motion.hpp"
+#include "../gravity.hpp"
+#include "arguments.hpp"
+
+namespace symtop {
+
+inline DrivenArguments to_driven(const symtop_start& s) {
+  DrivenArguments a = {s.Ix, s.Iz, s.Mgl, s.friction[0], s.friction[1], {}, {}, {}};
+  std::memcpy(a.torque, s.torque, sizeof a.torque);
+  std::memcpy(a.orientation, s.orientation, sizeof a.orientation);
+  std::memcpy(a.omega, s.angular_velocity, sizeof a.omega);
+  return a;
+}
+
+inline symtop_status to_status(Progress progress) {
+  static const symtop_status STATUSES[] = {SYMTOP_OK, SYMTOP_TOO_FAST, SYMTOP_TOO_STIFF,
+                                           SYMTOP_TOO_LONG, SYMTOP_MORE_STEPS,
+                                           SYMTOP_NO_MEMORY};
+  return STATUSES[progress];
+}
+
+struct Stretch {
+  symtop_start start;
+  GravityMotion gravity;
+  DrivenMotion driven;
+  bool is_driven;
+
+  explicit Stretch(const symtop_start& s)
+      : start(s), gravity(to_start(s)), driven(to_driven(s)), is_driven(symtop::is_driven(s)) {}
+
+  // States at the times that `split` returns in two parts, or under gravity at `times`; *steps is
+  // lowered by those taken.
+  template <class Split, class... Times>
+  symtop_status fill(size_t count, double* steps, const Target& to, size_t* written,
+                     const Split& split, const Times&... times) {
+    const int64_t n = static_cast<int64_t>(count);
+    int64_t done = 0;
+    symtop_status status = SYMTOP_OK;
+    if (is_driven) {
+      status = to_status(driven.fill(split, n, steps, to, &done));
+    } else {
+      done = gravity.fill(to, n, times...);
+      if (done < n) status = SYMTOP_TOO_FAR;
+    }
+    *written = static_cast<size_t>(done);
+    return status;
+  }
+};
+
+}  // namespace symtop

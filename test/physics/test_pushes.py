@@ -1,0 +1,171 @@
+"""A series of pushes: exact states, pieces and refusals at every time, with any forces."""
+
+import copy
+import math
+import pickle
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from drawn import Numbers
+from physics.tops import ARTICLE, CUSPS
+
+from symtop_ros.physics import (
+    ExactTimes,
+    Friction,
+    Motion,
+    Pushes,
+    State,
+    Top,
+    balance,
+    push_axle,
+)
+
+START = push_axle(ARTICLE, CUSPS, 2.0**-15)
+PUSHES = Pushes(2.0**-15, 30.0, 7)  # a third of a second is no whole number of ns
+MOTION = Motion(ARTICLE, START, pushes=PUSHES)
+BEGINS = [0, 33_333_333, 66_666_667, 100_000_000, 133_333_333, 166_666_667, 200_000_000]
+STAMPS = [-(10**8), 0, 7, 33_333_332, 33_333_333, 66_666_667, 10**8, 199_999_999, 10**9]
+SLEEPING = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 200.0))
+
+
+def find_stretch(motion, stamp):
+    """The motion of a stamp, one push after the other, and its begin in ns."""
+    now, begin = motion.restart(motion.start), 0
+    for each in BEGINS[1:]:
+        if each > stamp:
+            break
+        state = now.at(ExactTimes(each - begin))
+        now, begin = now.restart(push_axle(motion.top, state, motion.pushes.impulse)), each
+    return now, begin
+
+
+FORCES = [(), (Friction(2.0**-20, 2.0**-18),), (Friction(), (0.0, 0.0, 2.0**-12))]
+TOPS = [ARTICLE, Top(*ARTICLE.moments[:2], 0.0), Top(2.0**-13, 3 * 2.0**-14, -0.0625)]
+
+
+@pytest.mark.parametrize("forces", FORCES)
+@pytest.mark.parametrize("top", TOPS)
+def test_states_and_pieces_are_those_of_one_push_after_the_other(top, forces):
+    """At a stamp of a push it has been given; before the first one the motion goes back in time."""
+    motion = Motion(top, START, *forces, pushes=PUSHES)
+    found = motion.at(ExactTimes(np.array(STAMPS)))
+    for place, stamp in enumerate(STAMPS):
+        now, begin = find_stretch(motion, stamp)
+        piece = motion.piece_at(ExactTimes(stamp))
+        assert (piece.begin, piece.motion.start) == (begin, now.start)
+        assert piece.number == BEGINS.index(begin) + 1
+        assert found[place] == now.at(ExactTimes(stamp - begin)) == motion.at(ExactTimes(stamp))
+        slow = (4 * stamp - 4, 0.25)
+        own = now.at(ExactTimes(*slow, Fraction(1 - begin)))
+        assert motion.at(ExactTimes(*slow, Fraction(1))) == own
+
+
+def test_a_time_in_seconds_is_exact_after_a_push_too():
+    """The state is that of the exact time; the difference to the push would be rounded."""
+    for t in (0.19, 0.2, 1000.1, 1e6 + 0.1, -0.3):
+        nanoseconds = Fraction(t) * 10**9
+        assert MOTION.at(t) == MOTION.at(ExactTimes(0, elapsed=nanoseconds)) == MOTION.at([t])[0]
+        assert MOTION.piece_at(t).number == sum(each <= max(0, nanoseconds) for each in BEGINS)
+
+
+def test_copies_pickles_and_a_text_have_the_pushes():
+    for again in (copy.copy(MOTION), pickle.loads(pickle.dumps(MOTION)), eval(repr(MOTION))):
+        assert again.pushes == PUSHES
+        assert again.at(0.19) == MOTION.at(0.19)
+    assert MOTION.restart(CUSPS).pushes is None
+
+
+def test_pushes_hold_the_spin_momentum():
+    momenta = {float(ARTICLE.axial_momentum(MOTION.piece_at(t).motion.start)) for t in (0, 0.1, 1)}
+    assert max(momenta) - min(momenta) <= 8 * 2**-52 * max(momenta)
+
+
+def test_what_is_constant_is_said_of_a_piece_alone():
+    """The angles between which the axis moves are those of the last piece, not of the start."""
+    assert (MOTION.kind, MOTION.engine) == ("driven", "closed form")
+    low, high = MOTION.piece_at(1.0).motion.turning_angles
+    tilts = MOTION.at(1.0 + np.arange(500) / 500).euler_angles.theta
+    assert low - 1e-12 <= tilts.min() <= tilts.max() <= high + 1e-12  # rounding of the angles
+    assert not MOTION.turning_angles[0] - 1e-6 <= tilts.min()
+    assert Motion(ARTICLE, START, pushes=Pushes(1.0, 1.0, 1)).kind == Motion(ARTICLE, START).kind
+    plain = Motion(ARTICLE, START)
+    assert plain.piece_at(3.0) == (plain, 0, 0)
+
+
+def test_pushes_that_end_earlier_are_the_same_up_to_then():
+    ended = MOTION.end_pushes(3)
+    times = ExactTimes(np.array([each for each in STAMPS if each < BEGINS[3]]))
+    assert np.array_equal(ended.at(times).orientation, MOTION.at(times).orientation)
+    assert ended.piece_at(1.0).begin == BEGINS[2]
+    with pytest.raises(ValueError, match="number must be at most the 3 pushes of the mo"):
+        ended.end_pushes(4)
+    with pytest.raises(ValueError, match="number must be a whole number of 1 to 1000, got 0"):
+        ended.end_pushes(0)
+
+
+def test_a_push_that_cannot_be_ends_the_states_and_says_why():
+    sleeping = Motion(ARTICLE, SLEEPING, pushes=Pushes(2.0**-15, 4.0, 3))
+    assert sleeping.farthest_time == 0.25
+    assert sleeping.at(0.25 - 2.0**-40).angular_velocity[2] == 200.0
+    wild = Motion(Top(1.0, 1.0, 1.0), START, pushes=Pushes(4e99, 0.5, 1000))
+    driven = Motion(ARTICLE, SLEEPING, Friction(2.0**-20), pushes=Pushes(2.0**-15, 4.0, 3))
+    vertical = r"t must be before 0.25 s \(the push then cannot be made: the axis is vertical then"
+    for motion, t, words in (
+        (sleeping, 0.25, vertical),
+        (driven, 0.5, vertical),
+        (wild, 100.0, "t must be (before|within)"),
+    ):
+        for ask in (motion.at, motion.piece_at, lambda t, motion=motion: motion.at([0.0, t])):
+            with pytest.raises(ValueError, match=words):
+                ask(t)
+    assert driven.reach(0.5, math.inf) == 0.25
+
+
+def test_what_asks_for_one_motion_without_pushes_says_so():
+    with pytest.raises(ValueError, match="pushes must be none for derivatives: take a piece, got"):
+        MOTION.jacobian(1.0)
+    with pytest.raises(ValueError, match="pushes must be none for a balance: take a piece, got"):
+        balance(MOTION, 1.0, 1.0)
+    many = State(np.stack([START.orientation] * 2), np.stack([START.angular_velocity] * 2))
+    with pytest.raises(ValueError, match="top and start must be those of one motion, if there are"):
+        Motion(ARTICLE, many, pushes=PUSHES)
+    with pytest.raises(ValueError, match="pushes must be Pushes, got 3"):
+        Motion(ARTICLE, START, pushes=3)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "words"),
+    [
+        ((math.nan, 1.0, 1), "impulse must be a finite number"),
+        ((1.0, 0.001, 1), "rate must be 0.01 to 1000 1/s, got 0.001"),
+        ((1.0, 1.0, 2.5), "number must be a whole number of 1 to 1000, got 2.5"),
+        ((1.0, 1.0, 1001), "number must be a whole number of 1 to 1000, got 1001"),
+    ],
+)
+def test_pushes_that_no_motion_gets_are_refused(numbers, words):
+    with pytest.raises(ValueError, match=words):
+        Pushes(*numbers)
+
+
+def test_a_driven_motion_is_pushed_in_as_many_steps_as_are_allowed():
+    motion = Motion(ARTICLE, START, Friction(2.0**-20), pushes=PUSHES)
+    reached = 0.0
+    while reached < 1.0:
+        before, reached = reached, motion.reach(1.0, 1.0)
+        assert reached > before
+    assert motion.at(1.0) == Motion(ARTICLE, START, Friction(2.0**-20), pushes=PUSHES).at(1.0)
+
+
+def test_random_series_come_at_the_nearest_nanoseconds():
+    rng = Numbers(5)
+    for _ in range(50):
+        rate, number = rng.uniform(0.01, 1000.0), rng.randint(2, 40)
+        pushes = Pushes(2.0**-20, rate, number)
+        motion = Motion(ARTICLE, START, pushes=pushes)
+        piece = motion.piece_at(ExactTimes(pushes.last_time))
+        assert (piece.number, piece.begin) == (number, pushes.last_time)
+        exact = Fraction(number - 1) / Fraction(rate) * 10**9
+        # half a ns, and two roundings of numbers below 2^42 ns
+        assert abs(pushes.last_time - exact) <= Fraction(1, 2) + Fraction(1, 2**10)
+        assert motion.piece_at(ExactTimes(pushes.last_time - 1)).number == number - 1
