@@ -18,7 +18,7 @@ from mcap.records import Message
 from symtop_ros import __version__
 from symtop_ros.log.account import Account
 from symtop_ros.log.contents import LATEST
-from symtop_ros.log.course import Course
+from symtop_ros.log.chronicle import Chronicle
 from symtop_ros.log.stretches import NO_BEGINNING, NOT_RECORDED, Unknown
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Top
@@ -195,7 +195,7 @@ class TextCheck:
         self.reasons = dict(REASONS)  # why others were not compared
         self._account, self._budget = account, StepBudget(SPARE_STEPS)
         self._unknown = Unknown(account.unknown)
-        self._course = Course(account.events, account.ordered.places)
+        self._chronicle = Chronicle(account.events, account.ordered.places)
         self._judges: dict[str, Callable[[str, Message, int], Found]] = {
             DESCRIPTION.name: self._judge_description,
             TF_STATIC.name: self._judge_frames,
@@ -282,7 +282,7 @@ class TextCheck:
         """Return the fields of a status that are those of no event that can hold."""
         found: list[list[Mismatch]] = []
         for number in self._list_owners(status.stamp, place):
-            event, segment = self._account.events[number], self._course.segment(number)
+            event, segment = self._account.events[number], self._chronicle.segment(number)
             if not is_of_this_version(event):
                 self.reasons.setdefault(DIAGNOSTICS.name, OTHER_VERSION)
                 return None
@@ -301,8 +301,8 @@ class TextCheck:
     def _list_owners(self, stamp: int, place: int) -> list[int]:
         """Return the events that can hold at a stamp: by their place in the log, and by stamps."""
         stamps, places = np.array([stamp]), np.array([place], dtype=np.intp)
-        owner = int(self._course.find_owners(stamps, places)[0])
-        latest = int(self._course.find_latest(places)[0])
+        owner = int(self._chronicle.find_owners(stamps, places)[0])
+        latest = int(self._chronicle.find_latest(places)[0])
         # What takes effect at the stamp itself may have come after the diagnostics, and an event
         # may come late.
         found = dict.fromkeys((latest, owner, owner - 1, latest + 1))

@@ -7,7 +7,7 @@ import numpy as np
 from symtop_ros.arrays import Places, Real
 from symtop_ros.log.account import Account
 from symtop_ros.log.batch import Batch, Columns
-from symtop_ros.log.course import Course
+from symtop_ros.log.chronicle import Chronicle
 from symtop_ros.log.stretches import Unknown
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.segment import Segment
@@ -66,7 +66,7 @@ class LogCheck:
 
     def __init__(self, account: Account) -> None:
         self.deviations: dict[str, Deviation] = {}
-        self._course = Course(account.events, account.ordered.places)
+        self._chronicle = Chronicle(account.events, account.ordered.places)
         self._unknown, self._budget = Unknown(account.unknown), StepBudget(SPARE_STEPS)
 
     def add_batch(self, batch: Batch) -> None:
@@ -78,7 +78,7 @@ class LogCheck:
     def add(self, name: str, columns: Columns) -> None:
         """Compare samples of a topic."""
         deviation = self.deviations.setdefault(name, Deviation())
-        owners = self._course.find_owners(columns.stamps, columns.places)
+        owners = self._chronicle.find_owners(columns.stamps, columns.places)
         follows = owners >= 0
         deviation.unchecked += int((~follows).sum())
         unknown = self._unknown.find(columns.stamps, columns.places) & follows
@@ -93,7 +93,7 @@ class LogCheck:
     def _add_known(self, deviation: Deviation, name: str, left: Columns, owners: Places) -> None:
         """Compare samples that follow from an event that is there."""
         # Where stamps are repeated two events may agree up to rounding: the exact one holds.
-        for bound in [BOUND] if self._course.is_ordered else [0.0, BOUND]:
+        for bound in [BOUND] if self._chronicle.is_ordered else [0.0, BOUND]:
             left, owners = self._take_agreeing(deviation, name, left, owners, bound)
         for number in np.unique(owners).tolist():
             self._take_all(deviation, name, left.select(owners == number), number)
@@ -109,9 +109,9 @@ class LogCheck:
         """Take the samples that agree with an event within a bound; return the others."""
         if not len(owners):
             return left, owners
-        for number in self._course.candidates(left.stamps, owners):
-            chosen = self._course.holds(number, left.stamps)
-            segment, part = self._course.segment(number), left.select(chosen)
+        for number in self._chronicle.candidates(left.stamps, owners):
+            chosen = self._chronicle.holds(number, left.stamps)
+            segment, part = self._chronicle.segment(number), left.select(chosen)
             if not chosen.any() or not self._budget.reach_stamps(segment, part.stamps):
                 continue
             difference, scale = _compare(name, part, segment)
@@ -123,7 +123,7 @@ class LogCheck:
 
     def _take_all(self, deviation: Deviation, name: str, part: Columns, number: int) -> None:
         """Take samples of an event whether they agree or not."""
-        segment = self._course.segment(number)
+        segment = self._chronicle.segment(number)
         if not self._budget.reach_stamps(segment, part.stamps):
             deviation.unreached += len(part.stamps)
             return

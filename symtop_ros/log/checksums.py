@@ -27,7 +27,7 @@ from symtop_ros.log.reader import (
     RECORD_START,
     DamageError,
     McapFile,
-    Places,
+    RecordPlaces,
     fits,
     log_errors,
     open_stream,
@@ -167,7 +167,7 @@ def _index(data: bytes) -> Index | None:
     index: Index = defaultdict(list)
     try:
         content = unpack_chunk(Chunk.read(open_stream(data)))
-        for opcode, begin, _ in Places(content):
+        for opcode, begin, _ in RecordPlaces(content):
             if opcode == Opcode.MESSAGE:
                 channel, _, log_time, _ = MESSAGE_START.unpack_from(content, begin)
                 index[channel].append((log_time, begin - RECORD_START.size))

@@ -9,7 +9,7 @@ import numpy as np
 from mcap.records import Message
 
 from symtop_ros.log.batch import BatchReader
-from symtop_ros.log.course import Placed
+from symtop_ros.log.chronicle import Placed
 from symtop_ros.log.names import Names
 from symtop_ros.log.source import MessageSource
 from symtop_ros.log.stamps import StampRows

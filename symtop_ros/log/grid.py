@@ -15,7 +15,7 @@ import numpy as np
 
 from symtop_ros.arrays import Places, Real, Stamps
 from symtop_ros.log.batch import TF
-from symtop_ros.log.course import Course, Ordered
+from symtop_ros.log.chronicle import Chronicle, Ordered
 from symtop_ros.log.source import MessageSource
 from symtop_ros.log.stamps import StampRows
 from symtop_ros.log.writer import BEGUN_ENTRY, METADATA
@@ -84,7 +84,7 @@ class Grid:
     """The grid of stamps of a log."""
 
     def __init__(self, ordered: Ordered, recordings: Sequence[Recording]) -> None:
-        self._course = Course(ordered.events, ordered.places)
+        self._chronicle = Chronicle(ordered.events, ordered.places)
         self._periods = np.array([*_list_periods(ordered, recordings)])  # first before all events
         is_own_time = any(each.is_own_time for each in recordings)
         # Times without samples, each with the number of the event that says so.
@@ -103,20 +103,20 @@ class Grid:
             return GridFindings()
         stamps, places = samples = rows.expand()
         # In time that went back, a stamp may be there once for each event that holds at it.
-        repeated = rows.count_repeated(self._course.count_holding)
-        if self._course.is_ordered:  # whatever the order of the chunks of a file is
+        repeated = rows.count_repeated(self._chronicle.count_holding)
+        if self._chronicle.is_ordered:  # whatever the order of the chunks of a file is
             order = np.argsort(stamps, kind="stable")
             stamps, places = stamps[order], places[order]
-        owners = self._course.find_owners(stamps, places)
+        owners = self._chronicle.find_owners(stamps, places)
         periods = self._find_periods(owners, _find_usual_period(rows))
         gaps = self._find_gaps(name, (stamps, places, owners), periods)
         rate = float(NANOSECONDS / periods[0]) if periods[0] else None
         return GridFindings(tuple(gaps), repeated, tuple(self._list_returns(*samples)), rate)
 
     def _list_returns(self, stamps: Stamps, places: Places) -> Iterator[int]:
-        if not self._course.is_in_log_order:  # chunks or messages are in another order
+        if not self._chronicle.is_in_log_order:  # chunks or messages are in another order
             return
-        latest = self._course.find_latest(places)
+        latest = self._chronicle.find_latest(places)
         for k in np.flatnonzero(stamps[1:] < stamps[:-1]).tolist():
             # An event may come late.
             if not self._explains_return(range(int(latest[k]) + 1, int(latest[k + 1]) + 2)):
@@ -129,7 +129,7 @@ class Grid:
     def _find_periods(self, owners: Places, usual: float) -> Real:
         """Return the period (ns) of the grid at each sample, of which the owners are the events."""
         periods = self._periods[owners + 1]
-        if not self._course.is_ordered:  # the next event may have come late
+        if not self._chronicle.is_ordered:  # the next event may have come late
             following = np.minimum(owners + 2, len(self._periods) - 1)
             periods = np.fmax(periods, self._periods[following])
         return np.where(np.isnan(periods), usual, periods)
@@ -146,7 +146,7 @@ class Grid:
             *(each[wide].tolist() for each in columns), strict=True
         ):
             # An event that came late is the next one.
-            last = next_owner + (not self._course.is_ordered)
+            last = next_owner + (not self._chronicle.is_ordered)
             empty = self._empty_of_tf if name == TF else self._empty
             numbers = slice(*(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, last)))
             lost = end - begin - _measure(empty[numbers], begin, end)

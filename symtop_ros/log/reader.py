@@ -384,7 +384,7 @@ def _contents(record: FileRecord) -> Contents:
     if record.opcode != Opcode.CHUNK:
         return _parse(record.data, [(record.opcode, 0, len(record.data))], PARSED)
     data = unpack_chunk(Chunk.read(open_stream(record.data)))
-    return _parse(data, Places(data), PARSED_IN_CHUNK)
+    return _parse(data, RecordPlaces(data), PARSED_IN_CHUNK)
 
 
 def unpack_chunk(chunk: Chunk) -> bytes:
@@ -398,7 +398,7 @@ def unpack_chunk(chunk: Chunk) -> bytes:
 
 
 @dataclass(frozen=True, slots=True)
-class Places:
+class RecordPlaces:
     """The records of a chunk as opcode, begin and end, found anew in each iteration."""
 
     data: bytes

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symtop_ros.arrays import Mask, Places, Stamps
-from symtop_ros.log.course import Ordered
+from symtop_ros.log.chronicle import Ordered
 from symtop_ros.log.stamps import Row, StampRows
 from symtop_ros.simulation.events import MAX_STAMP, Event
 

@@ -26,7 +26,7 @@ class Clock(Protocol):
 
 
 class Host(Protocol):
-    """The program around a run: the node, or the page."""
+    """The program around a run: the node, or what writes the log of a run of the page."""
 
     @property
     def is_open(self) -> bool:

@@ -11,7 +11,7 @@ from symtop_ros.check.run import check_run
 from symtop_ros.check.samples import LogCheck
 from symtop_ros.log.account import Account
 from symtop_ros.log.batch import Columns
-from symtop_ros.log.course import Ordered
+from symtop_ros.log.chronicle import Ordered
 from symtop_ros.log.reader import LogError, McapFile
 from symtop_ros.log.stretches import Stretch
 from symtop_ros.log.top_log import TopLog

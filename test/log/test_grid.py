@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from log.test_course import KICKS, START, event, order
+from log.test_chronicle import KICKS, START, event, order
 
 from symtop_ros.log.grid import Grid, Recording
 from symtop_ros.log.stamps import ROUNDING, StampRows

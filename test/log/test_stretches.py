@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from log.test_course import KICKS, START, event, order
+from log.test_chronicle import KICKS, START, event, order
 from log.test_grid import rows_of
 
 from symtop_ros.log.stretches import (
@@ -35,7 +35,7 @@ def find(events, marks=(), breaks=(), stamps=STAMPS, places=None):
 
 
 def order_at(events, places):
-    from symtop_ros.log.course import order_events
+    from symtop_ros.log.chronicle import order_events
 
     return order_events(list(zip(places, events, strict=True)), (0,))
 

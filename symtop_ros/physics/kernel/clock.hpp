@@ -57,13 +57,13 @@ inline Exact find_time(const Clock& clock, const Exact& elapsed, int64_t stamp) 
   return elapsed + Exact(clock.factor) * to_exact(stamp);
 }
 
-// ExactTimes.split_seconds: the nearest double, and what it lacks
+// A time in ns as seconds: the nearest double, and what it lacks.
 inline Pair split_seconds(const Exact& time) {
   const double high = to_seconds(time);
   return {high, to_seconds(time - Exact(high) * Exact(static_cast<double>(SECOND)))};
 }
 
-// Phases._scale: the whole part, towards minus infinity, of a step times x 2^exponent/10^9, modulo
+// The whole part, towards minus infinity, of a step times x 2^exponent/10^9, modulo
 // 2^256. The step is an integer of 256 bits with sign.
 inline void scale_step(const uint64_t step[STEP_LIMBS], double x, int exponent,
                        uint64_t scaled[STEP_LIMBS]) {
@@ -109,7 +109,7 @@ inline void scale_step(const uint64_t step[STEP_LIMBS], double x, int exponent,
   }
 }
 
-// Phases that grow by a step in a nanosecond of the clock: Phases._at_exact.
+// Phases that grow by a step in a nanosecond of the clock.
 class ClockSteps {
  public:
   ClockSteps(const Steps& steps, int count, const Clock& clock) : count_(count) {

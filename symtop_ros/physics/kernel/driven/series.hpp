@@ -65,7 +65,8 @@ struct Piece {
     return scale(sum_of(t, -start.t) + Double2{rest, 0.0}, 1 / unit);
   }
 
-  void find_end() {  // Stepper._join
+  // The state at the end, of norm 1: one step of Newton's for 1/sqrt(norm), which was 1 to rounding.
+  void find_end() {
     following.t = end;
     evaluate(locate(end, 0.0), following.values);
     Double2 norm = {0.0, 0.0};
@@ -115,7 +116,8 @@ class Stepper {
   alignas(32) double left_rest_[EXTENDED_TERMS + 1][MOST_PAIRS] = {};
   alignas(32) double right_rest_[EXTENDED_TERMS + 1][MOST_PAIRS] = {};
 
-  static void stop(Piece& piece, double end) {  // _stop
+  // A piece whose state does not change: nothing moves, or it is too fast to go on.
+  static void stop(Piece& piece, double end) {
     piece.end = end;
     piece.unit = INFINITY;
     std::memset(piece.low, 0, sizeof piece.low);

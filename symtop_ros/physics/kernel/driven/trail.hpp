@@ -101,7 +101,7 @@ class Trail {
     return (t - present().end) / (present().end - first.start.t) * recent_count_;
   }
 
-  // DrivenEquations.start
+  // The numbers that were given, and the orientation with more digits of norm 1.
   static Knot start(const DrivenArguments& top) {
     Knot knot = {};
     Double2 norm = {0.0, 0.0};

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from symtop_ros.log.course import Course, order_events
+from symtop_ros.log.chronicle import Chronicle, order_events
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.simulation.events import start_event
 
@@ -60,14 +60,14 @@ def test_events_without_numbers_stay_in_the_order_of_the_log():
 
 def test_the_latest_event_before_a_place_is_that_of_the_log():
     found = order(START, KICKS[1], KICKS[0])
-    course = Course(found.events, found.places)
-    assert not course.is_in_log_order
-    assert course.find_latest(np.array([-1, 0, 1, 2, 9])).tolist() == [-1, 0, 2, 1, 1]
+    chronicle = Chronicle(found.events, found.places)
+    assert not chronicle.is_in_log_order
+    assert chronicle.find_latest(np.array([-1, 0, 1, 2, 9])).tolist() == [-1, 0, 2, 1, 1]
 
 
 def test_an_event_before_others_that_are_missing_may_hold_at_any_later_stamp():
     stamps = np.array([0, 25, 35, 99])
-    whole, part = (Course(each, range(len(each))) for each in ([START, *KICKS], [START, KICKS[2]]))
+    whole, part = (Chronicle(each, range(len(each))) for each in ([START, *KICKS], [START, KICKS[2]]))
     assert whole.holds(0, stamps).tolist() == [True, False, False, False]
     assert part.holds(0, stamps).tolist() == [True] * 4
     assert (whole.is_ordered, part.is_ordered) == (True, False)
@@ -75,8 +75,8 @@ def test_an_event_before_others_that_are_missing_may_hold_at_any_later_stamp():
 
 def test_stamps_are_repeated_between_the_end_of_a_jump_and_its_begin():
     back = event(2, 5, "clock", **{"from": 40, "to": 5})
-    course = Course([START, back], [0, 1])
-    assert not course.is_ordered
-    assert course.count_holding(np.array([0, 4, 5, 39, 40])).tolist() == [1, 1, 2, 2, 1]
-    assert list(course.candidates(np.array([3]), np.array([0]))) == [0]
-    assert set(course.candidates(np.array([20]), np.array([0]))) == {0, 1}
+    chronicle = Chronicle([START, back], [0, 1])
+    assert not chronicle.is_ordered
+    assert chronicle.count_holding(np.array([0, 4, 5, 39, 40])).tolist() == [1, 1, 2, 2, 1]
+    assert list(chronicle.candidates(np.array([3]), np.array([0]))) == [0]
+    assert set(chronicle.candidates(np.array([20]), np.array([0]))) == {0, 1}
