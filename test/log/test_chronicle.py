@@ -67,7 +67,9 @@ def test_the_latest_event_before_a_place_is_that_of_the_log():
 
 def test_an_event_before_others_that_are_missing_may_hold_at_any_later_stamp():
     stamps = np.array([0, 25, 35, 99])
-    whole, part = (Chronicle(each, range(len(each))) for each in ([START, *KICKS], [START, KICKS[2]]))
+    whole, part = (
+        Chronicle(each, range(len(each))) for each in ([START, *KICKS], [START, KICKS[2]])
+    )
     assert whole.holds(0, stamps).tolist() == [True, False, False, False]
     assert part.holds(0, stamps).tolist() == [True] * 4
     assert (whole.is_ordered, part.is_ordered) == (True, False)
