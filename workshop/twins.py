@@ -18,7 +18,7 @@ LIBRARY = KERNEL / "functions/library.hpp"  # what only ctypes calls
 PYTHON, PAGE = KERNEL / "records.py", PACKAGE / "web/js/physics/records.js"
 WIDTH = 100
 NUMBERED = ("status",)  # enums that Python and the page know by their numbers
-NAMELESS = ("UNKNOWN_",)  # enumerators that are no names of anything
+NAMELESS = re.compile("UNKNOWN_|KINDS_OF_")  # enumerators that are no names of anything
 # Types of C in the languages. The page reads an `int` of a record as a flag.
 CTYPES = {
     "double": "c_double",
@@ -69,6 +69,9 @@ def read_header() -> Header:
     """Read symtop.h, and what the library adds for ctypes."""
     text = HEADER.read_text(encoding="utf-8")
     enums = {name: tuple(_read_names(body, name)) for body, name in ENUM.findall(text)}
+    for body, _ in ENUM.findall(text):
+        for number, word in enumerate(_list_words(body)):  # the length of an array may be one
+            text = text.replace(f"[{word}]", f"[{number}]")
     records = {name: tuple(_read_fields(body)) for body, name in RECORD.findall(text)}
     declared = COMMENT.sub("", text) + LIBRARY.read_text(encoding="utf-8")
     functions = {
@@ -78,13 +81,18 @@ def read_header() -> Header:
     return Header(enums, records, functions)
 
 
+def _list_words(body: str) -> list[str]:
+    """Return the enumerators of an enum, which have the numbers 0, 1, ... if none is given."""
+    return re.findall(r"SYMTOP_\w+", COMMENT.sub("", body))
+
+
 def _read_names(body: str, enum: str) -> Iterator[str | None]:
     def keep_name(comment: re.Match[str]) -> str:
         return found[1] if (found := QUOTED.match(comment[0])) else ""
 
     for found in ENUMERATOR.finditer(COMMENT.sub(keep_name, body)):
         word, quoted = found.groups()
-        if not word.startswith(NAMELESS):
+        if not NAMELESS.match(word):
             own = word.removeprefix(f"{enum.upper()}_").lower()
             yield own if quoted is None else quoted or None
 

@@ -17,8 +17,8 @@ from mcap.records import Message
 
 from symtop_ros import __version__
 from symtop_ros.log.account import Account
-from symtop_ros.log.contents import LATEST
 from symtop_ros.log.chronicle import Chronicle
+from symtop_ros.log.contents import LATEST
 from symtop_ros.log.stretches import NO_BEGINNING, NOT_RECORDED, Unknown
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Top

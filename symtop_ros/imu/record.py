@@ -205,7 +205,6 @@ def _find_fastest_driven(motion: Motion, stamps: Stamps, interval: float) -> flo
     twice = float((momentum * begun.angular_velocity).sum(axis=-1).max()) + 4 * abs(Mgl)
     torque, least = math.hypot(*motion.applied_torque), min(Ix, Iz)
     energy = math.sqrt(twice) + torque / math.sqrt(least) * interval / NANOSECONDS
-    friction = max(motion.friction.axial / Iz, motion.friction.transverse / Ix)
-    drive = friction + math.sqrt(2 * torque / least)
+    drive = float(motion.friction.find_decay(motion.top)) + math.sqrt(2 * torque / least)
     rates = energy * (1 / math.sqrt(Ix) + 1 / math.sqrt(Iz))
     return float(rates + math.sqrt(2 * abs(Mgl) / Ix) + drive)

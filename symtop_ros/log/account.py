@@ -15,8 +15,8 @@ import numpy as np
 
 from symtop_ros.arrays import Places, Stamps
 from symtop_ros.log.checksums import find_damage
-from symtop_ros.log.contents import Contents, read_contents
 from symtop_ros.log.chronicle import Ordered, order_events
+from symtop_ros.log.contents import Contents, read_contents
 from symtop_ros.log.grid import Gap, Grid, GridFindings, Recording, list_recordings
 from symtop_ros.log.names import KNOWN, TELLING, Names, read_names
 from symtop_ros.log.reader import list_problems

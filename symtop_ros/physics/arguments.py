@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.arrays import Mask, Real, Vector
 from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel.records import FRICTION_KINDS
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -25,7 +26,7 @@ TORQUE_UNIT = "N m, world frame"
 # To set up a motion takes the time of some hundred states.
 STATES, STATES_OF_SETUP = 2**16, 200
 # Ends of the columns of starts: moments, orientation as given, omega, friction, torque.
-STARTS = (3, 7, 10, 12, door.START)
+STARTS = (3, 7, 10, 10 + len(FRICTION_KINDS), door.START)
 _pack_start = Struct(f"{door.START}d").pack
 
 
@@ -83,7 +84,7 @@ def find_shape(top: Top, start: State, friction: Friction, torque: Any) -> tuple
 def pack_start(top: Top, start: State, friction: Friction, torque: Vector) -> bytes:
     """Return the arguments of one motion, as `symtop_start` has them."""
     state = *start.given_orientation.tolist(), *start.angular_velocity.tolist()
-    return _pack_start(*top.moments, *state, friction.axial, friction.transverse, *torque)
+    return _pack_start(*top.moments, *state, *friction.coefficients, *torque)
 
 
 def list_starts(
@@ -96,7 +97,7 @@ def list_starts(
         np.stack(top.moments, axis=-1),
         start.given_orientation,
         start.angular_velocity,
-        np.stack([friction.axial, friction.transverse], axis=-1),
+        np.stack(friction.coefficients, axis=-1),
         np.asarray(torque),
     )
     spread = [np.broadcast_to(each, (*shape, each.shape[-1])) for each in arrays]
@@ -104,11 +105,11 @@ def list_starts(
 
 
 def read_start(row: Real) -> tuple[Top, State, Friction, Vector]:
-    """Return the arguments of one motion, from its 15 numbers."""
-    Ix, Iz, Mgl, *_, axial, transverse, x, y, z = row.tolist()
-    start = State.of_given(row[3:7].copy(), row[7:10].copy())
-    friction = Friction(axial, transverse) if axial or transverse else NO_FRICTION
-    return Top(Ix, Iz, Mgl), start, friction, (x, y, z)
+    """Return the arguments of one motion, from its numbers."""
+    moments, orientation, omega, coefficients, (x, y, z) = np.split(row, STARTS[:-1])
+    start = State.of_given(orientation.copy(), omega.copy())
+    friction = Friction(*coefficients.tolist()) if coefficients.any() else NO_FRICTION
+    return Top(*moments.tolist()), start, friction, (float(x), float(y), float(z))
 
 
 def fill_states(starts: Real, times: Real | ExactTimes, orientation: Real, omega: Real) -> Mask:

@@ -101,7 +101,7 @@ def differentiate(motion: Any, times: Real | ExactTimes) -> Real:
 def _changes_nothing(motion: Any, times: Real) -> bool:
     """Return whether friction and torque are far too weak to be seen in derivatives by then."""
     fastest, longest = _find_rates(motion)[1], float(np.abs(times).max(initial=0))
-    drive = max(motion.friction.axial, motion.friction.transverse)
+    drive = max(motion.friction.coefficients)
     drive += math.hypot(*motion.applied_torque) / (fastest or 1.0)
     change = drive / min(motion.top.Ix, motion.top.Iz) * longest
     return bool(change * (1 + fastest * longest) < WEAKEST)

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from symtop_ros.arrays import Real, Vector, split, stack
 from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel.records import FRICTION_KINDS
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import (
     EPS,
@@ -234,7 +235,8 @@ class Friction(_Numbers):
 
     def __init__(self, axial: ArrayLike = 0.0, transverse: ArrayLike = 0.0) -> None:
         given = {"friction.axial": axial, "friction.transverse": transverse}
-        for name, value in zip(given, validate_together(given, ("N m s",) * 2), strict=True):
+        units = ("N m s",) * len(given)
+        for name, value in zip(given, validate_together(given, units), strict=True):
             if np.min(value, initial=0.0) < 0:
                 raise refuse(name, ">= 0 N m s", float(np.min(value)))
             object.__setattr__(self, name.removeprefix("friction."), value)
@@ -242,8 +244,17 @@ class Friction(_Numbers):
     def __bool__(self) -> bool:
         """Return True if a coefficient is not zero."""
         if self.shape:
-            return bool(np.any(self.axial) or np.any(self.transverse))
-        return self.axial > 0 or self.transverse > 0  # asked of every motion
+            return any(map(np.any, self.coefficients))
+        return any(self.coefficients)  # asked of every motion
+
+    @property
+    def coefficients(self) -> tuple[Any, ...]:
+        """The coefficients in N m s, in the order of the kernel: (axial, transverse)."""
+        return tuple(getattr(self, name) for name in FRICTION_KINDS)
+
+    def find_decay(self, top: Top) -> Any:
+        """Return the fastest rate in 1/s, (...), at which friction slows a top."""
+        return np.maximum(self.axial / top.Iz, self.transverse / top.Ix)
 
     @door.compute_soundly
     def torque(self, state: State) -> Real:

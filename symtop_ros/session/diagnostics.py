@@ -1,6 +1,7 @@
 """The motion in numbers and words, for `~/get_state`, and the statuses of `/diagnostics`."""
 
 import math
+from dataclasses import asdict
 from typing import Any
 
 from symtop_ros.log.recorder import Recorder
@@ -60,8 +61,7 @@ def balance_status(segment: Segment, stamp: int) -> Status:
         OK,
         "friction or an applied torque acts" if motion.is_driven else "only gravity acts",
         {
-            "friction.axial": motion.friction.axial,
-            "friction.transverse": motion.friction.transverse,
+            **{f"friction.{name}": each for name, each in asdict(motion.friction).items()},
             "applied_torque": list(motion.applied_torque),
             "power": float((added * state.to_world(state.angular_velocity)).sum()),
             "energy.balance": found.energy,
@@ -123,7 +123,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "time": segment.time_at(stamp),
         "time_since": since,
         "running": segment.running,
-        "top": {"Ix": top.Ix, "Iz": top.Iz, "Mgl": top.Mgl},
+        "top": asdict(top),
         "orientation": {"x": x, "y": y, "z": z, "w": w},
         "angular_velocity_body": state.angular_velocity.tolist(),
         "angular_velocity": state.to_world(state.angular_velocity).tolist(),
@@ -133,7 +133,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "euler_rates": state.euler_rates._asdict(),
         "constants": constants_of_motion(top, state),
         **summarize_motion(motion, state),
-        "friction": {"axial": motion.friction.axial, "transverse": motion.friction.transverse},
+        "friction": asdict(motion.friction),
         "applied_torque": list(motion.applied_torque),
         "regular_precession_rates": list(verdict.regular_rates),
         "verdict": str(verdict),

@@ -12,9 +12,10 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.physics import HOLDS, ExactTimes, Friction, Motion, State, Top
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 from symtop_ros.simulation.changes.requests import (
     KICK_FIELDS,
+    find_hold,
     name_pushes,
     read_kick,
     read_pushes,
@@ -63,9 +64,6 @@ class RunEvent:
     def to_json(self) -> dict[str, Any]:
         """Return the event as it stands in run.json."""
         motion, start = self.motion, self.motion.start
-        # the quantity that a kick leaves unchanged; None for an angular impulse
-        held = HOLDS["axle_impulse" in self.act]
-        hold = None if "angular_impulse" in self.act else self.act.get("hold", held)
         return {
             "kind": self.kind,
             "time": self.time / NANOSECONDS,
@@ -75,7 +73,7 @@ class RunEvent:
             "friction": astuple(motion.friction),
             "torque": motion.applied_torque,
             **({"act": self.act} if self.act else {}),
-            **({"hold": hold} if self.kind == "kick" else {}),
+            **({"hold": find_hold(self.act)} if self.kind == "kick" else {}),
         }
 
 
@@ -120,9 +118,11 @@ def _read_act(event: Event, motion: Motion) -> dict[str, Any]:
         return name_pushes(motion.pushes)
     given = event.request.items()
     try:
-        return read_kick({name: text for name, text in given if name in KICK_FIELDS and text})
+        act = read_kick({name: text for name, text in given if name in KICK_FIELDS and text})
+        find_hold(act)
     except ValueError:
         return {}
+    return act
 
 
 def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int]:

@@ -62,7 +62,7 @@ BLOCK = 256  # elements of a call that takes up to 0.1 ms for each
 
 INT64 = np.dtype(np.int64).char  # "l", or "q" where a long has 32 bits (Windows)
 State, Pair, Quaternion, Rates = (c_double * count for count in (STATE, 2, 4, 3))
-_unpack_start, _unpack_state = Struct(f"{START}d").unpack, Struct(f"{STATE}d").unpack
+_unpack_state = Struct(f"{STATE}d").unpack
 CONSTANTS, VERDICTS = np.dtype(ConstantsRecord), np.dtype(VerdictRecord)  # of arrays
 NOT_PUSHED = (VERTICAL, BAD_KICK)  # why there are no states from a push on
 # These may take long, and release Python's lock.
@@ -185,12 +185,12 @@ def write_to(array: NDArray[Any], count: int, code: str = "d") -> Any:
 class KernelMotion:
     """A motion in the library, which is freed with this object."""
 
-    __slots__ = ("_door", "_handle", "_pushes", "_start")
+    __slots__ = ("_door", "_handle", "_pushes", "start")
 
     def __init__(self, start: bytes, pushes: bytes = b"") -> None:
         """Make the motion of the 15 numbers of `symtop_start`, and of those of `symtop_pushes`."""
         self._handle: int | None = None
-        self._start, self._pushes, self._door = start, pushes, open_door()
+        self.start, self._pushes, self._door = start, pushes, open_door()
         if len(start) != 8 * START:
             raise ValueError(f"start must have {START} numbers, got {len(start) / 8:g}")
         self._handle = self._make_pushed() if pushes else self._door.make(start)
@@ -199,7 +199,7 @@ class KernelMotion:
 
     def _make_pushed(self) -> int | None:
         handle = ctypes.c_void_p()
-        demand(self._door.new_pushed(self._start, self._pushes, byref(handle)))
+        demand(self._door.new_pushed(self.start, self._pushes, byref(handle)))
         return handle.value
 
     def __del__(self) -> None:
@@ -208,13 +208,7 @@ class KernelMotion:
 
     def __reduce__(self) -> Any:
         """Copy and pickle a motion by its start: copies share no integration."""
-        return KernelMotion, (self._start, self._pushes)
-
-    @property
-    def decay(self) -> float:
-        """The fastest rate in 1/s at which friction slows the top."""
-        Ix, Iz, *_, axial, transverse, _, _, _ = _unpack_start(self._start)
-        return float(max(transverse / Ix, axial / Iz))
+        return KernelMotion, (self.start, self._pushes)
 
     def at(self, t: float | ExactTimes) -> tuple[float, ...] | None:
         """Return quaternion and angular velocity at one time, in s or exact; None for no state."""

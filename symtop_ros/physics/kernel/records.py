@@ -17,6 +17,9 @@ from ctypes import (
 )
 from typing import Any, ClassVar, Literal, get_args
 
+FrictionKind = Literal["axial", "transverse"]
+FRICTION_KINDS: tuple[FrictionKind, ...] = get_args(FrictionKind)
+
 # symtop_status
 OK = 0
 NO_MEMORY = 1

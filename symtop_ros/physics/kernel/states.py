@@ -3,6 +3,7 @@
 import numpy as np
 
 from symtop_ros.arrays import Real
+from symtop_ros.physics.arguments import read_start
 from symtop_ros.physics.kernel.door import NOT_PUSHED, KernelMotion, demand, refuse_status
 from symtop_ros.physics.kernel.records import (
     BAD_KICK,
@@ -102,7 +103,8 @@ def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
     end, why = abs(reached), "the motion then becomes too fast"
     if status == TOO_STIFF:
         # After some decay times the top creeps, but explicit series cannot take longer steps.
-        decay = 1 / motion.decay
+        top, _, friction, _ = read_start(np.frombuffer(motion.start))
+        decay = 1 / float(friction.find_decay(top))
         end += MOST_DECAYS * decay
         why = f"friction stops the top in {decay:.3g} s, and every such time takes a step"
     return refuse("t", f"within {end:.3g} s of the start ({why})", t)

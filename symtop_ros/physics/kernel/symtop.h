@@ -56,12 +56,15 @@ extern "C" {
 
 typedef struct symtop_motion symtop_motion;
 
+/* Coefficients of friction: a torque per angular velocity along the axis, and across it. */
+typedef enum { SYMTOP_AXIAL, SYMTOP_TRANSVERSE, SYMTOP_KINDS_OF_FRICTION } symtop_friction_kind;
+
 typedef struct {
   double Ix, Iz, Mgl;         /* moments about the pivot, across the axis and along it; weight times
                                  distance: negative for a top that hangs below its pivot */
   double orientation[4];      /* at t = 0; of norm 1 within 1e-3: it is normalised */
   double angular_velocity[3]; /* at t = 0 */
-  double friction[2];         /* coefficients >= 0: axial and transverse torque per rate, N m s */
+  double friction[SYMTOP_KINDS_OF_FRICTION]; /* coefficients >= 0, N m s */
   double torque[3];           /* applied torque in the world frame, constant */
 } symtop_start;
 

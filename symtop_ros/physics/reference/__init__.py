@@ -69,7 +69,7 @@ def exact_state(
     """
     _check(top, start, t, digits)
     inputs, working = Inputs.of(top, start), digits + 15
-    drag = (friction.axial, friction.transverse) if friction else (0.0, 0.0)
+    drag = friction.coefficients if friction else (0.0, 0.0)
 
     def compute() -> ExactState:
         if any(drag) or any(torque):

@@ -96,7 +96,8 @@ class Series:
         self.bits = int(digits / math.log10(2)) + 20
         self._terms = int(TERMS_PER_DIGIT * digits)
         Ix, Iz, Mgl, orientation, omega = inputs
-        axial, transverse = Fraction(friction[0]) / Iz, Fraction(friction[1]) / Ix
+        along, across = map(Fraction, friction)
+        axial, transverse = along / Iz, across / Ix
         pull = (abs(Mgl) + max(map(abs, map(Fraction, torque)))) / Ix
         fastest = max(math.sqrt(pull), *map(float, map(abs, (*omega, axial, transverse))))
         self._second = Fraction(2) ** math.ceil(math.log2(fastest or 1.0))  # in units of time

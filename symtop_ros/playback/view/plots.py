@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import asdict
 
 import numpy as np
 import rerun as rr
@@ -148,9 +149,10 @@ def _added_torques(motion: Motion) -> dict[str, str]:
     """Return friction and applied torque; angles, period and rates then hold at the event only."""
     if not motion.is_driven:
         return {}
-    friction = motion.friction
+    friction = asdict(motion.friction)
+    sizes = ", ".join(f"{each:g}" for each in friction.values())
     return {
-        "friction axial, transverse": f"{friction.axial:g}, {friction.transverse:g} N m s",
+        f"friction {', '.join(friction)}": f"{sizes} N m s",
         "applied torque": "{:g} {:g} {:g} N m".format(*motion.applied_torque),
     }
 

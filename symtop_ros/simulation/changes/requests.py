@@ -3,9 +3,11 @@
 A start has the `initial.*` parameters, overridden by the fields of the request.
 """
 
+import json
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import astuple, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -47,17 +49,13 @@ from symtop_ros.simulation.validation import (
     vector,
 )
 
-KINDS = (
-    "precession_rate",
-    "precession_rate_change",
-    "precession_rate_factor",
-    "angular_impulse",
-    "axle_impulse",
-)
+# What ~/kick and a kick of run.json ask for. A kind of kick has the name of symtop_kick_kind, and
+# what it holds: a hold, null for nothing, or the one that is `chosen`.
+FIELDS = json.loads(Path(__file__).parents[1].joinpath("run_fields.json").read_text("utf-8"))["act"]
+KINDS = tuple(name for name, field in FIELDS.items() if "kick" in field)
 PUSHES = ("axle_impulse", "rate", "number")  # of a push
 KICK_FIELDS = (*KINDS, "hold", *PUSHES[1:])
 LARGEST_IMPULSE = 1e30  # N m s
-UNITS = {"precession_rate_factor": "", "axle_impulse": "N m s"}  # of others rad/s
 ANGLES = ("theta", "phi", "psi")
 RATES = ("theta_dot", "phi_dot", "psi_dot")
 DIRECT = ("orientation", "angular_velocity")
@@ -85,20 +83,44 @@ def plan_kick(
     That is the quantity that it leaves unchanged; None for an angular impulse.
     """
     validate_names(request, KICK_FIELDS)
-    top, kind = motion.top, exactly_one(request, KINDS)
-    hold: Hold | None = None
-    if kind.endswith("impulse") and "hold" in request:
+    kind = exactly_one(request, KINDS)
+    hold = find_hold(request)
+    if "hold" in request and FIELDS[kind]["holds"] != "chosen":
         raise RefusedError(f"hold must be given without {kind}, got both")
-    if kind == "angular_impulse":
-        after = apply_impulse(
-            top, state, vector(kind, request[kind], 3, MAX_MOMENT, "N m s, world frame")
-        )
-    else:
-        hold = HOLDS[HOLDS.index(choice("hold", request.get("hold", HOLDS[0]), HOLDS))]
-        hold = "spin_momentum" if kind == "axle_impulse" else hold
-        after = _change_precession(top, state, kind, request[kind], hold)
+    try:
+        after = KICKS[kind](motion.top, state, _read_amount(kind, request[kind]), hold)
+    except ValueError as error:  # a vertical axis, or a result that is not finite
+        raise RefusedError(str(error)) from None
     _limit_rates(kind, request, after)
     return motion.restart(after), hold
+
+
+def find_hold(request: Mapping[str, Any]) -> Hold | None:
+    """Return what a kick of one kind holds; None for an angular impulse."""
+    held = FIELDS[exactly_one(request, KINDS)]["holds"]
+    if held is None:
+        return None
+    word = request.get("hold", HOLDS[0]) if held == "chosen" else held
+    return HOLDS[HOLDS.index(choice("hold", word, HOLDS))]
+
+
+def _read_amount(kind: str, value: Any) -> Any:
+    field = FIELDS[kind]
+    if "size" in field:
+        return vector(kind, value, field["size"], MAX_MOMENT, field["unit"])
+    return number(kind, value, field["unit"])
+
+
+# What each kind makes of the top, a state, the amount, and what is held.
+KICKS: dict[str, Callable[[Top, State, Any, Any], State]] = {
+    "precession_rate": lambda _, state, rate, hold: set_precession_rate(state, rate, hold),
+    "precession_rate_change": lambda _, state, change, hold: set_precession_rate(
+        state, precession_rate(state) + change, hold
+    ),
+    "precession_rate_factor": lambda _, state, factor, hold: hurry(state, factor, hold),
+    "angular_impulse": lambda top, state, impulse, _: apply_impulse(top, state, impulse),
+    "axle_impulse": lambda top, state, impulse, _: push_axle(top, state, impulse),
+}
 
 
 def name_kick(request: Mapping[str, Any]) -> str:
@@ -154,20 +176,6 @@ def name_pushes(pushes: Pushes) -> dict[str, float]:
 def _limit_rates(kind: str, request: Mapping[str, Any], after: State) -> None:
     if not float(np.abs(after.angular_velocity).max()) <= MAX_RATE:
         raise reject(kind, f"such that the top stays below {MAX_RATE:g} rad/s", request[kind])
-
-
-def _change_precession(top: Top, state: State, kind: str, value: Any, hold: Hold) -> State:
-    rate = number(kind, value, UNITS.get(kind, "rad/s"))
-    try:
-        if kind == "axle_impulse":
-            return push_axle(top, state, rate)
-        if kind == "precession_rate":
-            return set_precession_rate(state, rate, hold)
-        if kind == "precession_rate_change":
-            return set_precession_rate(state, precession_rate(state) + rate, hold)
-        return hurry(state, rate, hold)
-    except ValueError as error:  # a vertical axis, or a result that is not finite
-        raise RefusedError(str(error)) from None
 
 
 def start_motion(settings: Settings) -> Motion:

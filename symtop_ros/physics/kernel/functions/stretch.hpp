@@ -10,7 +10,7 @@
 namespace symtop {
 
 inline DrivenArguments to_driven(const symtop_start& s) {
-  DrivenArguments a = {s.Ix, s.Iz, s.Mgl, s.friction[0], s.friction[1], {}, {}, {}};
+  DrivenArguments a = {s.Ix, s.Iz, s.Mgl, s.friction[SYMTOP_AXIAL], s.friction[SYMTOP_TRANSVERSE], {}, {}, {}};
   std::memcpy(a.torque, s.torque, sizeof a.torque);
   std::memcpy(a.orientation, s.orientation, sizeof a.orientation);
   std::memcpy(a.omega, s.angular_velocity, sizeof a.omega);

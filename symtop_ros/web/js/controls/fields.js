@@ -3,6 +3,7 @@
 // are those of the start while one of them is edited. Behind the digits of a field is a double: who
 // types these digits again means it.
 
+import { NAMES } from "../physics/records.js";
 import { findAll, make, whenReleased, write } from "./document.js";
 import { refuse } from "./notices.js";
 import { angleUnit, inDegrees, parseQuantity, shorten } from "../words/quantities.js";
@@ -14,6 +15,8 @@ import { phrase } from "../words/wording.js";
  *   isNotNegative?: boolean, low?: number, high?: number, step?: number}} Field
  */
 
+/** @type {string[]} */
+const FRICTION = NAMES.friction_kind;
 /** @type {{[name: string]: Field}} */
 const FIELDS = {
   factor: { isPositive: true, low: 1.05, high: 3, step: 0.05 },
@@ -26,8 +29,7 @@ const FIELDS = {
   "disc.mass": { isPositive: true },
   "disc.radius": { isPositive: true },
   "disc.distance": {},
-  "friction.axial": { isNotNegative: true },
-  "friction.transverse": { isNotNegative: true },
+  ...Object.fromEntries(FRICTION.map((name) => [`friction.${name}`, { isNotNegative: true }])),
 };
 /** @type {{[key: string]: number}} */
 const SIGNS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };

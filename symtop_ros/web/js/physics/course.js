@@ -1,6 +1,7 @@
 // A motion from a start, with friction, torque and pushes, computed by the kernel at any time.
 
-import { pack } from "./kernel.js";
+import { NO_FRICTION, pack } from "./kernel.js";
+import { NAMES } from "./records.js";
 import { State } from "./state.js";
 
 /** @import { Kernel, Pushes, Top, Vector } from "./kernel.js" */
@@ -14,11 +15,11 @@ export class Course {
    * @param {Kernel} kernel
    * @param {Top} top
    * @param {State} start
-   * @param {[number, number]} friction
+   * @param {number[]} friction coefficients, in the order of symtop_friction_kind
    * @param {Vector} torque
    * @param {Pushes | null} pushes of which the first leaves the start
    */
-  constructor(kernel, top, start, friction = [0, 0], torque = [0, 0, 0], pushes = null) {
+  constructor(kernel, top, start, friction = NO_FRICTION, torque = [0, 0, 0], pushes = null) {
     this.kernel = kernel;
     this.top = top;
     this.start = start;
@@ -99,7 +100,7 @@ export class Course {
   /**
    * The course that goes on from a state, with what is changed.
    * @param {State} start
-   * @param {{top?: Top, friction?: [number, number], torque?: Vector, pushes?: Pushes | null}} changes
+   * @param {{top?: Top, friction?: number[], torque?: Vector, pushes?: Pushes | null}} changes
    */
   continue(start, changes = {}) {
     const { top = this.top, friction = this.friction, torque = this.torque, pushes } = changes;
@@ -109,9 +110,8 @@ export class Course {
   /** The parameters of a top and its friction, by the names of a node. */
   get parameters() {
     const { Ix, Iz, Mgl } = this.top;
-    const [axial, transverse] = this.friction;
-    const friction = { "friction.axial": axial, "friction.transverse": transverse };
-    return { "top.Ix": Ix, "top.Iz": Iz, "top.Mgl": Mgl, ...friction };
+    const friction = NAMES.friction_kind.map((name, k) => [`friction.${name}`, this.friction[k]]);
+    return { "top.Ix": Ix, "top.Iz": Iz, "top.Mgl": Mgl, ...Object.fromEntries(friction) };
   }
 
   /** The course from a state under gravity alone. @param {State} start */

@@ -9,7 +9,7 @@ import { NAMES, RECORDS, STATUS } from "./records.js";
 /** @typedef {"rises" | "falls" | "stays"} Direction */
 /**
  * What a motion starts from, in SI units: w, x, y, z, body to world; angular velocity in the body
- * frame; axial and transverse friction; the torque in the world frame; and pushes on the axle, the
+ * frame; coefficients of friction in the order of symtop_friction_kind; the torque in the world frame; and pushes on the axle, the
  * first of which leaves this state.
  * @typedef {Top & {orientation: number[], angular_velocity: number[], friction?: number[],
  *   torque?: number[], pushes?: Pushes | null}} Start
@@ -19,6 +19,10 @@ import { NAMES, RECORDS, STATUS } from "./records.js";
 /** @typedef {{[name: string]: any}} Found a record of symtop.h, with names for the enums */
 
 const LARGEST = 1024; // bytes of a record
+/** @type {number[]} */
+export const NO_FRICTION = NAMES.friction_kind.map(() => 0);
+// The vectors of a start, in the order of symtop_start.
+const LENGTHS = [4, 3, NO_FRICTION.length, 3];
 const GRAVITY = 9.81; // m/s^2, as in Python
 
 /** Reads memory as C has laid it out: all records hold doubles, and begin at multiples of 8. */
@@ -72,12 +76,13 @@ export const room = (type) => ({ writes: type });
 
 /** The numbers of symtop_start. @param {Start} start */
 export const pack = ({ Ix, Iz, Mgl, ...given }) => {
-  const { orientation, angular_velocity, friction = [0, 0], torque = [0, 0, 0] } = given;
+  const { orientation, angular_velocity, friction = NO_FRICTION, torque = [0, 0, 0] } = given;
   const parts = [orientation, angular_velocity, friction, torque];
-  if (String(parts.map((each) => each.length)) === "4,3,2,3")
+  if (String(parts.map((each) => each.length)) === String(LENGTHS))
     return [Ix, Iz, Mgl, ...orientation, ...angular_velocity, ...friction, ...torque];
   const names = "orientation, angular_velocity, friction and torque";
-  throw new RangeError(`${names} must have 4, 3, 2 and 3 numbers`);
+  const [last] = LENGTHS.slice(-1);
+  throw new RangeError(`${names} must have ${LENGTHS.slice(0, -1).join(", ")} and ${last} numbers`);
 };
 
 export class Kernel {

@@ -33,6 +33,7 @@ export const STATUS = {
 
 /** Names of the enums, in the order of the header. @type {{[list: string]: any[]}} */
 export const NAMES = {
+  friction_kind: ["axial", "transverse"],
   kind: [
     "regular",
     "unidirectional",

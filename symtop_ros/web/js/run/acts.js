@@ -1,6 +1,7 @@
 // What a page asks of its top: kicks, pushes, torques, starts, and the time of the run.
 
 import { Course, NANO } from "../physics/course.js";
+import { NAMES } from "../physics/records.js";
 import { cross, scale, subtract } from "../scene/matrices.js";
 import { readPushes } from "./run.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
@@ -172,10 +173,10 @@ const changeDisc = (kernel, own, key, value) => {
 /** @param {LocalTop} top @param {Message} message */
 const setParameter = (top, { name, value }) => {
   const [group, key] = name.split(".");
-  const friction = /** @type {[number, number]} */ ([...top.course.friction]);
+  const friction = [...top.course.friction];
   let own = { ...top.course.top };
   if (group === "disc") own = changeDisc(top.kernel, own, key, value);
-  else if (group === "friction") friction[key === "axial" ? 0 : 1] = value;
+  else if (group === "friction") friction[NAMES.friction_kind.indexOf(key)] = value;
   else own[/** @type {keyof typeof own} */ (key)] = value;
   const request = phrase("request", { kind: "parameter", name: key, value });
   top.add("change", top.course.continue(top.state, { top: own, friction }), { request });

@@ -1,5 +1,6 @@
 // Starts by names and numbers: of a scene, of a link, and by Euler's angles and rates.
 
+import { NAMES } from "../physics/records.js";
 import { readField } from "./reader.js";
 import { State } from "../physics/state.js";
 import { phrase } from "../words/wording.js";
@@ -7,19 +8,21 @@ import { phrase } from "../words/wording.js";
 /** @import { Vector, Top, Kernel } from "../physics/kernel.js" */
 /**
  * The initial conditions of a scene are the `initial.*` parameters of a node; orientation x, y, z, w.
- * @typedef {{name: string, title: string, story: string, top: Vector, friction: [number, number],
+ * @typedef {{name: string, title: string, story: string, top: Vector, friction: number[],
  *   torque: Vector, initial: {[name: string]: any}}} SceneFile
  */
 /**
  * The angles and rates of a scene are what a link that names it leaves open.
- * @typedef {{top: Top, friction: [number, number], torque: Vector, start: State,
+ * @typedef {{top: Top, friction: number[], torque: Vector, start: State,
  *   initial?: {[name: string]: number}}} Beginning
  */
 
 const ANGLES = ["phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"];
 const TOP_NAMES = /** @type {const} */ (["Ix", "Iz", "Mgl"]);
 const VECTORS = ["orientation", "angular_velocity", "torque"];
-const NAMES = [...TOP_NAMES, "axial", "transverse", ...ANGLES];
+/** @type {string[]} */
+const FRICTION = NAMES.friction_kind;
+const SINGLE = [...TOP_NAMES, ...FRICTION, ...ANGLES];
 const PRECESSIONS = ["slow", "fast"];
 
 /** A number as a refusal or a request writes it. @param {number} x */
@@ -88,8 +91,8 @@ const toNumber = (name, text) => {
 
 /** @param {[string, string | number]} pair of a link @returns {[string, number]} */
 const readNumber = ([name, text]) => {
-  if (NAMES.includes(name)) return [name, toNumber(name, text)];
-  const known = ["scene", "precession", ...NAMES, ...VECTORS];
+  if (SINGLE.includes(name)) return [name, toNumber(name, text)];
+  const known = ["scene", "precession", ...SINGLE, ...VECTORS];
   throw new RangeError(`name in a link must be one of ${known.join(", ")}, got ${name}`);
 };
 
@@ -136,8 +139,7 @@ export const readLink = (kernel, { precession, ...texts }, given, fields) => {
   const numbers = Object.fromEntries(single.map(readNumber));
   const top = { ...given.top };
   for (const each of TOP_NAMES) top[each] = numbers[each] ?? top[each];
-  /** @type {[number, number]} */
-  const friction = [numbers.axial ?? given.friction[0], numbers.transverse ?? given.friction[1]];
+  const friction = FRICTION.map((name, k) => numbers[name] ?? given.friction[k]);
   const torque = vectors.torque ?? given.torque;
   const isNamed = precession !== undefined || ANGLES.some((each) => each in numbers);
   let { start } = given;
@@ -147,8 +149,9 @@ export const readLink = (kernel, { precession, ...texts }, given, fields) => {
 };
 
 /** The link that starts a motion with the same doubles. @param {Beginning} beginning */
-export const writeLink = ({ top, friction: [axial, transverse], torque, start }) => {
-  const values = { ...top, axial, transverse, torque };
+export const writeLink = ({ top, friction, torque, start }) => {
+  const coefficients = Object.fromEntries(FRICTION.map((name, k) => [name, friction[k]]));
+  const values = { ...top, ...coefficients, torque };
   const state = { orientation: start.given, angular_velocity: start.omega };
   return Object.entries({ ...values, ...state })
     .map(([name, value]) => `${name}=${value}`)

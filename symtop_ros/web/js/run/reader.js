@@ -1,14 +1,16 @@
 // Twin of the reader in simulation/run_file.py: both follow the fields of run_fields.json. A run is
 // understood as a whole before anything of it is used; what is not known of it is dropped.
 
+import { NAMES } from "../physics/records.js";
 import { writeNumber } from "../words/numbers.js";
 
 /** @import { EventRecord } from "./run.js" */
 /**
  * A field: one of some words, a text of some length, some numbers of limited size, or a number.
- * Without `absent` a field must be given.
+ * Without `absent` a field must be given. A kind of kick (`kick`, its name in the kernel) holds a
+ * quantity, nothing (null), or the one that is `chosen`.
  * @typedef {{words?: string[], length?: number, size?: number, limit?: number, unit?: string,
- *   low?: number, high?: number, absent?: any}} Field
+ *   low?: number, high?: number, absent?: any, kick?: string, holds?: any}} Field
  */
 /**
  * What run_fields.json holds: the fields of an event, of the act of a kick, and of the run.
@@ -110,9 +112,11 @@ const readEvent = (table, given, before) => {
   if (event.kind === "push") return { ...event, act: readPushes(table.act, values) };
   if (event.kind !== "kick") return event;
   const act = readAct(table.act, values.act);
-  // The quantity that a kick leaves unchanged; null for an angular impulse.
-  const hold = act.hold ?? ("axle_impulse" in act ? "spin_momentum" : "spin_rate");
-  return { ...event, act, hold: "angular_impulse" in act ? null : hold };
+  const [holds] = Object.keys(act).flatMap((name) => {
+    const field = table.act[name];
+    return "kick" in field ? [field.holds] : [];
+  });
+  return { ...event, act, hold: holds === "chosen" ? (act.hold ?? NAMES.hold[0]) : holds };
 };
 
 /**

@@ -18,7 +18,7 @@ import { State } from "../physics/state.js";
 /**
  * An event as in run.json; its time is in s, and whole nanoseconds.
  * @typedef {{kind: Kind, time: number, top: [number, number, number], orientation: Quaternion,
- *   angular_velocity: Vector, friction: [number, number], torque: Vector} & Asked} EventRecord
+ *   angular_velocity: Vector, friction: number[], torque: Vector} & Asked} EventRecord
  */
 /**
  * A course in a run: its times count from `since`, in ns of the run.

@@ -1,7 +1,11 @@
 // The vectors of a state that the scene draws, in the world frame.
 
+import { NAMES } from "../physics/records.js";
 import { add } from "./matrices.js";
 import { findFrameTorques } from "../charts/formulas.js";
+
+/** @type {string[]} */
+const KINDS = NAMES.friction_kind;
 
 /** @import { State } from "../physics/state.js" */
 /** @import { Vector } from "../physics/kernel.js" */
@@ -14,7 +18,8 @@ import { findFrameTorques } from "../charts/formulas.js";
 export const findVectors = ({ top: { Ix, Iz, Mgl }, friction, torque }, state) => {
   const [x, y, z] = state.omega;
   const [a, b] = state.toWorld([0, 0, Mgl]);
-  const damping = state.toWorld([-friction[1] * x, -friction[1] * y, -friction[0] * z]);
+  const [axial, transverse] = ["axial", "transverse"].map((each) => friction[KINDS.indexOf(each)]);
+  const damping = state.toWorld([-transverse * x, -transverse * y, -axial * z]);
   return {
     L: state.toWorld([Ix * x, Ix * y, Iz * z]),
     omega: state.toWorld(state.omega),

@@ -23,7 +23,9 @@ const findRequest = (kind, { act = {} }, { start }) => {
   if (factor !== undefined) return { kind: factor > 1 ? "hurried" : "delayed", factor };
   if (axle_impulse !== undefined) return { kind: axle_impulse < 0 ? "back" : "along" };
   if (change !== undefined) return { kind: change > 0 ? "along" : "back" };
-  return act.angular_impulse ? { kind: "impulse" } : { kind: "rate", phi_dot };
+  if (act.angular_impulse) return { kind: "impulse" };
+  if (act.precession_rate !== undefined) return { kind: "rate", phi_dot };
+  throw new RangeError(`a kick must be one that has words, got ${Object.keys(act).join(", ")}`);
 };
 
 /**
