@@ -1,14 +1,9 @@
 """Fields, sliders and keys of the page: what is typed, and what is refused."""
 
 import math
-import re
-from dataclasses import fields
 from functools import partial
 
 import pytest
-from web.modules import FOLDER
-
-from symtop_ros.physics import Friction
 
 
 def test_an_angle_is_understood_with_its_unit(opened):
@@ -95,9 +90,3 @@ def test_keys_drags_and_the_wheel_turn_and_move_the_view_and_do_not_touch_the_to
     assert len(opened.read_events()) == 1
     opened.press("ArrowLeft")
     assert len(opened.read_events()) == 2
-
-
-@pytest.mark.parametrize("name", ["controls/fields.js", "physics/course.js"])
-def test_the_page_whose_lists_are_its_own_has_the_coefficients_of_friction(name):
-    named = re.findall(r'"friction\.(\w+)"', (FOLDER / "js" / name).read_text(encoding="utf-8"))
-    assert named == [field.name for field in fields(Friction)]
