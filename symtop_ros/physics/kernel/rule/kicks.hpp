@@ -41,10 +41,17 @@ inline void push_axle(const symtop_top& top, const Vertical& g, double impulse, 
   omega[0] += change * (g.x / sine), omega[1] += change * (g.y / sine);
 }
 
-// The new precession rate that a kick asks for, given the present one.
+// The new precession rate that a kick asks for, given the present one; NaN of one that asks for none.
+// Without a default: a compiler names a kind that is missing here.
 inline double find_new_rate(symtop_kick_kind kind, double amount, double now) {
-  if (kind == SYMTOP_CHANGE_OF_RATE) return now + amount;
-  return kind == SYMTOP_FACTOR_OF_RATE ? amount * now : amount;
+  switch (kind) {
+    case SYMTOP_NEW_RATE: return amount;
+    case SYMTOP_CHANGE_OF_RATE: return now + amount;
+    case SYMTOP_FACTOR_OF_RATE: return amount * now;
+    case SYMTOP_IMPULSE:
+    case SYMTOP_AXLE_IMPULSE: break;
+  }
+  return NAN;
 }
 
 // The angular velocity after a kick; false if the axis is vertical, where phi' is undefined.
