@@ -19,7 +19,7 @@ from symtop_ros.judge.compare import IDENTITY, NONE, Errors, Offset, Scaling, co
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import MOST_DELAY, SAMPLES
 from symtop_ros.judge.truth import Truth
-from symtop_ros.testset.score import VELOCITIES
+from symtop_ros.testset.score import turn_to_body
 from symtop_ros.wording import write
 
 # Which rotations are free, with their columns of derivatives, and how much each counts when the
@@ -44,6 +44,13 @@ COARSE = 150  # estimates that the search takes; the refinement takes SAMPLES
 # Components that a rotation of a level may have; of the other levels all.
 FREE = {"none": (1, 0, 0, 0), "heading": (1, 0, 0, 1)}
 Models = tuple[Real, Real, Real]  # estimates and exact attitudes (g, n, 4), and the known (g, n)
+VELOCITIES: dict[str, Callable[[Real, Real], Real]] = {
+    "the angular velocities are in deg/s": lambda q, omega: np.radians(omega),
+    "the angular velocities are in the world frame": turn_to_body,
+    "the angular velocities are in deg/s, in the world frame": lambda q, omega: turn_to_body(
+        q, np.radians(omega)
+    ),
+}
 MUCH = 10.0  # a change explains an error that it makes this many times smaller
 SMALL = 0.05  # rad, or part of the largest rate: smaller errors are no mistakes of convention
 
