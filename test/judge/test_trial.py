@@ -296,10 +296,12 @@ def draw_file(number: int, own: bool) -> File:
     ):
         return draw_file(number + len(FOREIGN) * 1000, own)  # no error of this scene
     found = Estimates.of(stamps, q)
-    if name not in {*NOISE, *FEW} and (noise := random.choice(NOISES)):
+    if noise := 0.0 if name in {*NOISE, *FEW} else random.choice(NOISES):
         vectors = [[random.gauss(0, noise) for _ in range(3)] for _ in stamps]
         found = replace(found, orientations=compose(q, wxyz(Rotation.from_rotvec(vectors))))
-    return File(name, scene, truth, found, ())
+    # the mean of three instants is late, and little else in noise
+    kinds = (("", "none", ("delay",)),) if name == "slow filter" and noise else ()
+    return File(name, scene, truth, found, kinds)
 
 
 FILES = 200  # of foreign causes and noise
@@ -312,8 +314,10 @@ OWN_FILES, RIGHT = 130, 124
 def test_no_cause_is_named_that_is_not_there(number):
     file = draw_file(number, own=False)
     found = find_causes(file.estimates, file.truth)
+    if found.explained and found.best.kind in file.kinds:
+        return
     assert found.best.kind == ("", "none", ()), (file.name, file.scene)
-    assert not found.explained or (found.best.residual > 1e-4 and file.name in {*NOISE, *FEW})
+    assert not found.explained or (found.best.residual > 1e-4 and file.name in NOISE)
 
 
 @pytest.mark.parametrize("number", OWN)
