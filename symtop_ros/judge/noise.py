@@ -1,4 +1,4 @@
-"""What is left of estimates: whether it is noise, how many estimates are independent, deviations.
+"""Noise in what an explanation leaves: its kind, the number of independent estimates, deviations.
 
 Errors of filters are correlated in time and differ along axes. So nothing here assumes white or
 isotropic noise: deviations are those of the sandwich (Newey and West 1987), with the scores of all

@@ -71,6 +71,7 @@ class Search:
     def __init__(self, run: Estimates, truth: Truth) -> None:
         """Take some estimates for the search, and more for what it has found."""
         self.some, self.more, self.truth = run.thin(SAMPLES), run.thin(MOST_SAMPLES), truth
+        self.run = run
         self.fits, self.of_more = (
             {name: Fit(change[2](those), truth) for name, change in CHANGES.items()}
             for those in (self.some, self.more)
@@ -82,7 +83,17 @@ class Search:
         self.names = [name for name in PARAMETERS if name != "scale" or steps <= MOST_STEPS]
 
     def find(self) -> Finding:
-        """Return the simplest of all explanations."""
+        """Return the simplest of all explanations, with what it leaves of all estimates."""
+        found = self.find_in_more()
+        if len(self.run) == len(self.more):
+            return found
+        fit = Fit(CHANGES[found.best.change][2](self.run), self.truth)
+        whole = replace(found.best, cost=fit.cost(found.best.offset))
+        is_alike = whole.cost <= SIMPLER * found.best.cost + self.fit.rounding
+        return replace(found, best=whole, explained=found.explained and is_alike)
+
+    def find_in_more(self) -> Finding:
+        """Return the simplest of all explanations of some estimates, as more of them show it."""
         start = self.refine(("", "none", ()), self.fit.start, with_more=True)
         if self.is_still():
             return Finding(start, (), self.hidden, explained=False, still=True)

@@ -1,4 +1,4 @@
-"""The times of a table: as they were stated, or in another unit or epoch that fits the run.
+"""The times of a table, in the unit and epoch that were stated or in others that fit the run.
 
 A unit and an epoch are causes as others are: each is tried, and taken if attitudes then follow the
 motion up to constant rotations and a delay.

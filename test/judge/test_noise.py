@@ -7,6 +7,7 @@ from scipy.spatial.transform import Rotation
 from trials import choose
 
 from symtop_ros.arrays import compose, invert
+from symtop_ros.judge import search
 from symtop_ros.judge.clock import measure_clock
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.judgement import judge
@@ -156,6 +157,20 @@ def test_two_publishers_on_one_topic_are_not_explained(mixed, count):
     found = find_causes(Estimates.of(stamps, np.where(bad, GARBAGE[kind](exact), exact)), TRUTH)
     assert not found.explained
     assert found.best.residual > 0.1  # that of all estimates
+
+
+@pytest.mark.parametrize("bad", [0.001, 0.5])
+def test_what_is_said_is_said_of_all_estimates(bad, monkeypatch):
+    """Some are exact; those that are not looked at in detail are asked as well."""
+    monkeypatch.setattr(search, "MOST_SAMPLES", 500)
+    stamps = SECOND + np.arange(20_000) * (SECOND // 4000)
+    estimates = Made(delay=1e-3).make(TRUTH, stamps)
+    wrong = np.zeros(len(stamps), dtype=bool)
+    wrong[19_000 : 19_000 + int(bad * len(stamps))] = True
+    q = np.where(wrong[:, np.newaxis], [1.0, 0.0, 0.0, 0.0], estimates.orientations)
+    found = find_causes(Estimates.of(stamps, q), TRUTH)
+    assert not found.explained
+    assert find_causes(estimates, TRUTH).explained
 
 
 def test_correlations_that_swing_are_correlations():
