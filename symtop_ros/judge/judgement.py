@@ -176,7 +176,9 @@ def _list_parts(cause: Cause) -> list[dict[str, Any]]:
 
 def _write_whole(cause: Cause) -> dict[str, Any]:
     """Return a cause with all that a sentence may say of it."""
-    return {**vars(cause), "parts": _list_parts(cause), "residual": cause.residual}
+    correlation = vars(cause) if cause.correlation_time else None
+    parts = _list_parts(cause)
+    return {**vars(cause), "parts": parts, "residual": cause.residual, "correlation": correlation}
 
 
 def _write_fault(cause: Cause | None) -> dict[str, Any] | None:

@@ -99,6 +99,8 @@ class Search:
             return Finding(start, (), self.hidden, explained=False, still=True)
         if start.cost <= self.fit.rounding:  # nothing is simpler, and nothing can be better
             return Finding(start, (), self.hidden)
+        if len(self.more) < PER_PARAMETER:
+            return Finding(start, (), self.hidden, explained=False, fault="few")
         coarse = self.refine(start.kind, start.offset)
         best, others = self.choose([coarse, *self.list_causes()], self.fits)
         if best.kind == start.kind:  # there may be a parameter that only more estimates show
@@ -110,9 +112,8 @@ class Search:
         best = self.refine(best.kind, best.offset, with_more=True)
         is_named, is_less = self.judge(best, start)
         if not is_named:
-            fault = "few" if len(self.more) < PER_PARAMETER else best.fault
             candidate = best if is_less else None
-            return Finding(start, (), self.hidden, False, fault, candidate=candidate)
+            return Finding(start, (), self.hidden, False, best.fault, candidate=candidate)
         return replace(Finding(best, tuple(others), self.hidden), **self.find_period(best))
 
     def judge(self, best: Cause, start: Cause) -> tuple[bool, bool]:
@@ -121,7 +122,7 @@ class Search:
         It is named if it is significant, and leaves noise or next to nothing. What is left may be
         correlated because a filter's errors are, or because there is another cause.
         """
-        if len(self.more) < PER_PARAMETER * max(best.count, 1):
+        if len(self.more) < PER_PARAMETER * best.count:
             return False, False
         if best.kind != start.kind and best.cost * CLEAR**2 <= start.cost:
             return True, False
@@ -242,27 +243,29 @@ def refine(
     fit: Fit, kind: tuple[str, str, tuple[str, ...]], offset: Offset, *, is_sure: bool
 ) -> Cause:
     """Return the least squares of a kind of cause near an offset; `is_sure`: with deviations."""
-    _, level, names = kind
-    turns, free = LEVELS[level][0], [PARAMETERS[name] for name in names]
-    best = fit.refine(offset, [*turns, *free])
-    found = Cause(*kind, best, fit.cost(best))
-    if not is_sure:
-        return found
-    if found.cost <= ROUNDING:
-        return replace(found, independent=float(len(fit.some)))
-    left = fit.find_remainder(best)
-    fault = left.find_fault(found.count)
+    cause = Cause(*kind, offset, np.inf)
+    best = fit.refine(offset, cause.columns)
+    found = replace(cause, offset=best, cost=fit.cost(best))
+    return add_deviations(fit, found) if is_sure else found
+
+
+def add_deviations(fit: Fit, cause: Cause) -> Cause:
+    """Return a cause with its standard deviations, or with the reason why it has none."""
+    if cause.cost <= ROUNDING:
+        return replace(cause, independent=float(len(fit.some)))
+    left = fit.find_remainder(cause.offset)
     found = replace(
-        found,
+        cause,
         independent=left.independent,
         correlation_time=left.correlation_time,
-        fault=fault,
+        fault=left.find_fault(cause.count),
     )
-    if fault or not found.count:
+    if found.fault or not found.count:
         return found
-    sure = fit.find_deviations(best, [*turns, *free], left)
-    turn = float(np.linalg.norm(sure[list(turns)]))
-    return replace(found, deviations=tuple(sure[free].tolist()), turn_deviation=turn)
+    sure = fit.find_deviations(cause.offset, cause.columns, left)
+    own = tuple(float(sure[PARAMETERS[name]]) for name in cause.parameters)
+    turn = float(np.linalg.norm(sure[list(LEVELS[cause.level][0])]))
+    return replace(found, deviations=own, turn_deviation=turn)
 
 
 def explain(

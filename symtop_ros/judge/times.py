@@ -4,6 +4,7 @@ A unit and an epoch are causes as others are: each is tried, and taken if attitu
 motion up to constant rotations and a delay.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -34,24 +35,32 @@ def read_times(table: Table, truth: Truth, name: str, of_sensor: bool) -> Estima
     stated = replace(table.read(), of_sensor=of_sensor)
     if len(table.times) < FEWEST:
         return stated
-    begin, first = truth.begin or 0, min(table.times)
-    is_far = abs(first - begin) >= DAY
-    if not is_far and _fits(stated, truth):
+    late = min(table.times) - (truth.begin or 0)
+    if abs(late) < DAY and _fits(stated, truth):
         return stated
-    for part, text in PARTS.items():
-        # a run of that day has no other epoch: its estimates may begin later
-        for shift in (0, begin - first // part) if is_far else (0,):
-            if (part, shift) != (1, 0) and abs(first // part + shift - begin) < DAY:
-                found = replace(table.read(part, shift), of_sensor=of_sensor)
-                if _fits(found, truth):
-                    return replace(found, notes=(*found.notes, _describe(text, bool(shift))))
-    if is_far and truth.end is None:
+    for found in _list_readings(table, truth):
+        if _fits(candidate := replace(found, of_sensor=of_sensor), truth):
+            return candidate
+    if abs(late) >= DAY and truth.end is None:
         raise RefusedError(
-            f"{name} must have times within the run: the first estimate is "
-            f"{_write_span(first - begin)} the start of the scene, and no other unit or epoch "
-            "explains it"
+            f"{name} must have times within the run: the first estimate is {_write_span(late)} the "
+            "start of the scene, and no other unit or epoch explains it"
         )
     return stated
+
+
+def _list_readings(table: Table, truth: Truth) -> Iterator[Estimates]:
+    """Yield the estimates in other units and epochs, with a note, that begin within a day.
+
+    Times of the day of the run have no other epoch: estimates may begin later than it.
+    """
+    begin, first = truth.begin or 0, min(table.times)
+    is_far = abs(first - begin) >= DAY
+    for part, text in PARTS.items():
+        for shift in (0, begin - first // part) if is_far else (0,):
+            if (part, shift) != (1, 0) and abs(first // part + shift - begin) < DAY:
+                found = table.read(part, shift)
+                yield replace(found, notes=(*found.notes, _describe(text, bool(shift))))
 
 
 def _describe(part: str, is_shifted: bool) -> str:
