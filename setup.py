@@ -171,7 +171,7 @@ setup(
             "wording/*.json",
         ],
         f"{NAME}.testset": [
-            *("*.md", "*.xz", "*.mjs", "*.cpp", "LICENSE"),
+            *("*.md", "*.xz", "LICENSE"),
         ],
     },
     data_files=[

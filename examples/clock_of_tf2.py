@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from symtop_ros.arrays import Stamps
-from symtop_ros.judge.clock import measure_clock
+from symtop_ros.judge.clock import Clock, measure_clock
 from symtop_ros.judge.compare import compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.truth import scene_truth
@@ -27,6 +27,12 @@ def look_up(rate: int, times: Stamps) -> tuple[Estimates, Estimates]:
     return Estimates.of(times, interpolated), Estimates.of(times, latest)
 
 
+def describe_delay(clock: Clock) -> str:
+    """Return how late transforms are; errors of interpolation are no noise to deviate by."""
+    deviation = clock.delay_deviation
+    return f"late by {clock.delay:.4f}{'' if deviation is None else f' +- {deviation:.2g}'} us"
+
+
 def main() -> None:
     """Print a row for each rate."""
     times = np.sort(np.random.default_rng(1).integers(SECOND, 10 * SECOND, LOOK_UPS))
@@ -34,7 +40,7 @@ def main() -> None:
         interpolated, latest = look_up(rate, times)
         error = compare(interpolated, TRUTH).total
         clocks = [measure_clock(each, TRUTH, "tf") for each in (interpolated, latest)]
-        late = [f"late by {each.delay:.4g} +- {each.delay_deviation:.2g} us" for each in clocks]
+        late = [describe_delay(each) for each in clocks]
         print(
             f"{rate} Hz: interpolated, {np.sqrt((error**2).mean()):.1e} rad rms, "
             f"{error.max():.1e} at most, {late[0]}; latest, {late[1]}, jitter "

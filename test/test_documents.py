@@ -6,6 +6,7 @@ import io
 import json
 import re
 import shutil
+import sys
 from pathlib import Path
 
 import pytest
@@ -114,7 +115,8 @@ def test_the_commands_of_the_page_give_a_first_score(language, name, program, te
     write_block(language, testset / name, program)
     words, shown = console(ROOT / "docs/truth.md", f" {name} ")
     for line in words:
-        printed = execute(["sh", "-c", line], check=True).stdout
+        command = line.replace("python ", f"{sys.executable} ")
+        printed = execute(["sh", "-c", command], check=True).stdout
     # the same numbers up to the last of two digits, which the order of sums may change
     assert printed.startswith("cusps: attitude 3.")
     texts = (re.findall(r"\d\.\de[-+]\d\d", text) for text in (printed, shown))

@@ -17,9 +17,9 @@ from scipy.spatial.transform import Rotation
 from symtop_ros.arrays import Real, compose, find_rotation_vectors, invert
 from symtop_ros.judge.compare import IDENTITY, NONE, Errors, Offset, Scaling, compare
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.fit import MOST_DELAY, SAMPLES
+from symtop_ros.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES
 from symtop_ros.judge.truth import Truth
-from symtop_ros.testset.score import VELOCITIES
+from symtop_ros.testset.score import turn_to_body
 from symtop_ros.wording import write
 
 # Which rotations are free, with their columns of derivatives, and how much each counts when the
@@ -41,11 +41,22 @@ MOST_CLOCK, MOST_SCALE = 5e-3, 0.05  # s per s, and part of the scale of a gyros
 WHOLE = 8 * 2 * np.pi  # rad, of world or body within the run, by a drift
 BATCH = 32  # scales of which paths are computed together, as far as a cache reaches
 COARSE = 150  # estimates that the search takes; the refinement takes SAMPLES
+# An eigenvalue at a grid point is at most a quarter of a step from the best value; with more than
+# this left, nothing is explained there.
+HOPELESS = 0.05  # mean square of half angles
 # Components that a rotation of a level may have; of the other levels all.
 FREE = {"none": (1, 0, 0, 0), "heading": (1, 0, 0, 1)}
 Models = tuple[Real, Real, Real]  # estimates and exact attitudes (g, n, 4), and the known (g, n)
+VELOCITIES: dict[str, Callable[[Real, Real], Real]] = {
+    "the angular velocities are in deg/s": lambda q, omega: np.radians(omega),
+    "the angular velocities are in the world frame": turn_to_body,
+    "the angular velocities are in deg/s, in the world frame": lambda q, omega: turn_to_body(
+        q, np.radians(omega)
+    ),
+}
+SIGNIFICANT = 6.0  # deviations: thousands of values are tried
 MUCH = 10.0  # a change explains an error that it makes this many times smaller
-SMALL = 0.05  # rad, or part of the largest rate: smaller errors are no mistakes of convention
+SMALL = 0.05  # part of the rates; smaller errors are no mistakes of convention
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,10 +68,15 @@ class Cause:
     parameters: tuple[str, ...]
     offset: Offset
     cost: float  # mean square of the distances of quaternions
-    # standard deviations of the parameters and of the rotations (rad), if what is left is noise;
-    # none if they were not asked for
+    # standard deviations of the parameters and of the rotations (rad); none if they were not asked
+    # for, or cannot be given
     deviations: tuple[float, ...] = ()
     turn_deviation: float = 0.0
+    independent: float | None = (
+        None  # number of independent estimates, if deviations were asked for
+    )
+    fault: str = ""  # why there are no deviations: "few", "wanders"
+    correlation_time: float = 0.0  # s
 
     @property
     def weight(self) -> float:
@@ -82,6 +98,24 @@ class Cause:
         """Its kind, without numbers."""
         return self.change, self.level, self.parameters
 
+    @property
+    def columns(self) -> list[int]:
+        """Columns of the derivatives that are free."""
+        return [*LEVELS[self.level][0], *(PARAMETERS[name] for name in self.parameters)]
+
+    @property
+    def count(self) -> int:
+        """Number of parameters and components of rotations."""
+        return len(self.columns)
+
+    @property
+    def is_significant(self) -> bool:
+        """True if all parameters and the rotations are many deviations from zero."""
+        sizes = [abs(getattr(self.offset, name)) for name in self.parameters]
+        pairs = [*zip(sizes, self.deviations, strict=True)] if self.deviations else []
+        turned = [(self.turns, self.turn_deviation)] if self.level != "none" else []
+        return all(size > SIGNIFICANT * deviation for size, deviation in [*pairs, *turned])
+
 
 @dataclass(frozen=True, eq=False)
 class Finding:
@@ -91,6 +125,9 @@ class Finding:
     others: tuple[Cause, ...] = ()  # as simple and as good
     hidden: tuple[str, ...] = ()
     explained: bool = True  # False: most of the error is left
+    fault: str = ""  # why no cause is given: "few", "wanders"
+    # a cause that is significant and leaves clearly less, but not noise: it may be only a part
+    candidate: Cause | None = None
     still: bool = False  # True: the estimates do not move, and the top does
     period: float | None = None  # s; delays that differ by it are as good, with `repeated`
     repeated: Offset = NONE
@@ -227,16 +264,22 @@ def _name_changes(found: Finding, of_sensor: bool) -> list[str]:
 
 
 def _find_rates(some: Estimates, truth: Truth, offset: Offset) -> Iterator[str]:
-    """Yield the mistake of the angular velocities, if there is one."""
+    """Yield the mistake of the angular velocities, if there is one.
+
+    Rates of an engine that diverges become smaller by any division, too: what is left must be small
+    against the exact rates.
+    """
     now = _rate(compare(some, truth, offset))
     q, omega = some.orientations, np.asarray(some.angular_velocities)
-    if now > SMALL * float(np.sqrt((omega**2).sum(axis=1).mean())):
+    exact = truth.states_at(some.stamps, some.of_sensor)[1]
+    size = float(np.sqrt((exact**2).sum(axis=1).mean()))
+    if now > SMALL * size:
         errors = {
             text: _rate(compare(replace(some, angular_velocities=mend(q, omega)), truth, offset))
             for text, mend in VELOCITIES.items()
         }
         best = min(errors, key=lambda name: errors[name])
-        if errors[best] < now / MUCH:
+        if errors[best] < min(now, size) / MUCH:
             yield best
 
 

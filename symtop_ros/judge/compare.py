@@ -100,8 +100,9 @@ class Errors:
 
     def growth(self) -> Real:
         """Return the root mean square of the error in each tenth of the run, (10,), in rad."""
-        span = max(int(self.stamps[-1] - self.stamps[0]), 1)
-        tenths = (self.stamps - self.stamps[0]) * WINDOWS // (span + 1)
+        # As parts of the run: ten times a span of 30 years of ns is beyond 64 bits.
+        parts = self.seconds / max(float(self.seconds[-1]), 1e-9)
+        tenths = np.minimum((WINDOWS * parts).astype(np.int64), WINDOWS - 1)
         sums = np.bincount(tenths, self.total**2, WINDOWS)
         counts = np.bincount(tenths, minlength=WINDOWS)
         return np.asarray(np.sqrt(sums / np.where(counts, counts, np.nan)))

@@ -27,6 +27,7 @@ if TYPE_CHECKING:  # logs need mcap
 MAX_STAMP = 2**62  # ns
 MAX_ESTIMATES = 20_000_000
 LARGEST_NORM_ERROR = 0.1  # of a quaternion; one further from 1 is no attitude
+ODD_NORM = 1e-3  # off 1, beyond which a quaternion was rounded no more, but meant otherwise
 NORM_ROUNDING = 2.0**-50  # of a quaternion that is normalised
 
 
@@ -65,7 +66,9 @@ class Estimates:
         rates = None if angular_velocities is None else angular_velocities[order]
         # Unit quaternions stay unchanged: a division would add the rounding that is measured.
         scale = np.where(np.abs(norms - 1) <= NORM_ROUNDING, 1.0, norms)[order, np.newaxis]
-        return cls(times[order], q[order] / scale, rates, left_out + int((~good).sum()))
+        notes = tuple(_describe_norms(norms[order]))
+        found = cls(times[order], q[order] / scale, rates, left_out + int((~good).sum()))
+        return replace(found, notes=notes)
 
     def __len__(self) -> int:
         """Return the number of estimates."""
@@ -82,8 +85,27 @@ class Estimates:
         )
 
     def thin(self, most: int) -> Estimates:
-        """Return at least so many of the estimates, and less than twice, spread over the run."""
-        return self.select(np.arange(len(self)) % max(1, len(self) // most) == 0)
+        """Return at least so many of the estimates, and less than twice, spread over the run.
+
+        One is drawn at random of each so many that follow each other: of two publishers that take
+        turns, every other estimate would be that of one.
+        """
+        width = max(1, len(self) // most)
+        if width == 1:
+            return self
+        draws = np.random.default_rng(0).integers(0, width, len(self) // width)
+        chosen = np.zeros(len(self), dtype=bool)
+        chosen[np.arange(len(draws)) * width + draws] = True
+        return self.select(chosen)
+
+
+def _describe_norms(norms: Real) -> Iterator[str]:
+    """Name quaternions that were no attitudes before they were divided by their norms."""
+    wrong = int((np.abs(norms - 1) > ODD_NORM).sum())
+    if wrong:
+        ends = dict.fromkeys(f"{float(each):.3g}" for each in (norms.min(), norms.max()))
+        counted = f"{wrong} of {len(norms)} quaternions"
+        yield f"{counted} had another norm than 1, and were divided by it: {' to '.join(ends)}"
 
 
 POSE = {"position": 3, "orientation": 4}

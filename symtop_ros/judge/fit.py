@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from symtop_ros.arrays import Mask, Real, compose, find_rotation_vectors, invert
 from symtop_ros.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
 from symtop_ros.judge.estimates import Estimates
+from symtop_ros.judge.noise import Remainder, find_deviations
 from symtop_ros.judge.truth import Truth
 from symtop_ros.wire.layout import NANOSECONDS
 
@@ -123,6 +124,11 @@ class Fit:
             columns[:, :, SCALE] = to_rotation(world).apply(turns)
         return np.asarray(columns.reshape(-1, COLUMNS)[:, free])
 
+    def derive_vectors(self, offset: Offset, free: list[int]) -> Real:
+        """Return the derivatives as vectors, (n, 3, free)."""
+        columns = self.derive(offset, free)
+        return columns.reshape(len(columns) // 3, 3, len(free))
+
     def _find_speeds(self, offset: Offset) -> Real:
         """Return the angular velocities in the world by the stamps, not by a run's slower time.
 
@@ -146,16 +152,17 @@ class Fit:
         ]
         return bool(ranks[0] == ranks[1])
 
-    def find_deviations(self, offset: Offset, free: list[int]) -> Real:
-        """Return the standard deviations of the columns, (11,), if what is left is noise.
+    def find_remainder(self, offset: Offset) -> Remainder:
+        """Return what an offset leaves of the known estimates."""
+        q, model = self.residuals(offset)
+        left = find_rotation_vectors(compose(q, invert(model)))
+        body = to_rotation(model).inv().apply(left) if len(left) else left
+        return Remainder((left, body), float(np.ptp(self.some.stamps)) / NANOSECONDS)
 
-        Noise of the same size in each of the three components; 0 in columns that are not free.
-        """
-        deviations, columns = np.zeros(COLUMNS), self.derive(offset, free)
-        if free and len(columns) > len(free):
-            noise = 4 / 3 * self.cost(offset) * len(columns) / (len(columns) - len(free))
-            inverse = np.linalg.pinv(columns.T @ columns, hermitian=True)
-            deviations[free] = np.sqrt(noise * np.diag(inverse))
+    def find_deviations(self, offset: Offset, free: list[int], remainder: Remainder) -> Real:
+        """Return the standard deviations of the columns, (11,); 0 in columns that are not free."""
+        deviations = np.zeros(COLUMNS)
+        deviations[free] = find_deviations(self.derive_vectors(offset, free), remainder)
         return deviations
 
 

@@ -85,11 +85,14 @@ class Judgement:
                 "model": self.aligned,
                 "parts": {"several": parts} if parts else None,
                 "residual": summarize(self.errors.total)["rms"],
+                "fault": _write_fault(self.fitted),
             }
             return write("found.aligned", record)
         found, best = self.found, self.found.best
         key = _choose_key(found) if len(self.errors.total) > 1 else "single"
-        lines = [write(f"found.{key}", {"parts": _list_parts(best), "residual": best.residual})]
+        lines = [write(f"found.{key}", _write_whole(best))]
+        if found.candidate:
+            lines.append(write("candidate", _write_whole(found.candidate)))
         if found.period is not None:
             world, body = found.repeated.angles
             lines.append(write("repeats", {"period": found.period, "world": world, "body": body}))
@@ -145,7 +148,7 @@ def _choose_key(found: Finding) -> str:
     if found.still:
         return "still"
     if not found.explained:
-        return "unexplained"
+        return found.fault or "unexplained"
     if found.best.weight:
         return "explained"
     return "exact" if found.best.residual < NOTHING else "nothing"
@@ -171,6 +174,18 @@ def _list_parts(cause: Cause) -> list[dict[str, Any]]:
     return [*change, *parameters, *([turns] if cause.level != "none" else [])]
 
 
+def _write_whole(cause: Cause) -> dict[str, Any]:
+    """Return a cause with all that a sentence may say of it."""
+    correlation = vars(cause) if cause.correlation_time else None
+    parts = _list_parts(cause)
+    return {**vars(cause), "parts": parts, "residual": cause.residual, "correlation": correlation}
+
+
+def _write_fault(cause: Cause | None) -> dict[str, Any] | None:
+    """Return why a cause has no deviations, as a record for a sentence."""
+    return {**vars(cause), "kind": cause.fault} if cause and cause.fault else None
+
+
 def _write_deviation(deviation: float | None, unit: float = 1.0) -> dict[str, Any]:
     return {"deviation": {"value": unit * deviation} if deviation else None}
 
@@ -187,7 +202,10 @@ def _describe_cause(cause: Cause) -> dict[str, Any]:
         "world_offset": {"angle": world, "w_x_y_z": offset.world.tolist()},
         "body_offset": {"angle": body, "w_x_y_z": offset.body.tolist()},
         "deviations": dict(zip(cause.parameters, cause.deviations, strict=False)),
-        "rotation_deviation": cause.turn_deviation if cause.level != "none" else None,
+        "rotation_deviation": (cause.turn_deviation or None) if cause.level != "none" else None,
+        "independent_estimates": cause.independent,
+        "correlation_time": cause.correlation_time,
+        "no_deviations_as": cause.fault or None,
     }
 
 
@@ -197,6 +215,8 @@ def _describe_finding(found: Finding) -> dict[str, Any]:
     is_hidden = "delay" in found.hidden and "delay" not in best.parameters
     return {
         "explained": found.explained,
+        "no_cause_as": found.fault or None,
+        "candidate": _describe_candidate(found.candidate),
         "estimates_move": not found.still,
         "mistake": best.change or None,
         **_describe_cause(best),
@@ -205,6 +225,17 @@ def _describe_finding(found: Finding) -> dict[str, Any]:
         "delay_period": found.period,
         "not_identifiable": list(found.hidden),
         "residual_rms": best.residual,
+    }
+
+
+def _describe_candidate(cause: Cause | None) -> dict[str, Any] | None:
+    """Return a cause that is not named, as it leaves no noise, for JSON."""
+    if cause is None:
+        return None
+    return {
+        "mistake": cause.change or None,
+        "residual_rms": cause.residual,
+        **_describe_cause(cause),
     }
 
 

@@ -29,12 +29,10 @@ INTRODUCTION = """\
 A problem of the test set that is described [below](#a-test-set-of-heavy-tops), in a folder that
 stands alone: `{name}.json` has all of it, `problems.csv`, `states.csv`, `forces.csv` and
 `world.csv` have it as tables, `{name}.mjcf`, `.sdf` and `.urdf` are models, and
-`{name}.turned.mjcf` and the like say the same of the body in other words (see Descriptions). Each
-of these scores a trajectory and prints the same:
+`{name}.turned.mjcf` and the like say the same of the body in other words (see Descriptions). This
+scores a trajectory, with Python and NumPy:
 
     python score.py {name} trajectory.csv
-    node score.mjs {name} trajectory.csv
-    g++ -O2 -std=c++17 score.cpp -o score && ./score {name} trajectory.csv
 
 `sha256sum -c SHA256SUMS` checks the files.{free}
 
@@ -140,8 +138,7 @@ def _read_motion(facts: Mapping[str, Any]) -> tuple[State, Body]:
 
 
 def _read_shared() -> dict[str, str]:
-    names = "score.py", "score.mjs", "score.cpp", "LICENSE"
-    return {name: (SOURCE / name).read_text(encoding="utf-8") for name in names}
+    return {name: (SOURCE / name).read_text(encoding="utf-8") for name in ("score.py", "LICENSE")}
 
 
 def _read_readme() -> str:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.tables import TABLES, read_table
+from symtop_ros.judge.times import read_times
 from symtop_ros.judge.truth import Truth, read_events, scene_truth
 from symtop_ros.simulation.validation import RefusedError
 
@@ -61,7 +62,8 @@ def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
     """Return the estimates that are asked for."""
     other: Path | None = options.estimates
     if other and other.suffix.lower() in TABLES:
-        return [Source(str(other), _choose_frame(read_table(other), options.attitude_of))]
+        of_sensor = options.attitude_of == SENSOR
+        return [Source(str(other), read_times(read_table(other), run.truth, str(other), of_sensor))]
     if not options.topic:
         raise RefusedError(f"--topic must name the estimates in {other}, got none")
     from symtop_ros.log.account import read_account  # logs need mcap

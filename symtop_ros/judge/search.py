@@ -1,18 +1,21 @@
 """The causes that explain the errors of estimates: the simplest, a wanted one, or a stated model.
 
 A cause is at most one mistake of convention, one level of rotations, and one parameter, such as a
-delay. It is named if what it leaves is noise, or next to nothing, and if no simpler cause leaves as
-little; causes that are as simple and as good are all named.
+delay. It is named if it is significant, if what it leaves is noise or next to nothing, and if no
+simpler cause leaves as little; causes that are as simple and as good are all named. Some estimates
+are searched; what is said of the causes that were found is said of all.
 """
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.judge.causes import (
     CHANGES,
+    HOPELESS,
     LEVELS,
     Cause,
     Finding,
@@ -22,25 +25,20 @@ from symtop_ros.judge.causes import (
 )
 from symtop_ros.judge.compare import MOST_STEPS, NONE, STEP, Offset, compare
 from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES, Fit
+from symtop_ros.judge.fit import MOST_DELAY, PARAMETERS, ROUNDING, SAMPLES, Fit
+from symtop_ros.judge.noise import PER_PARAMETER
 from symtop_ros.judge.truth import Truth
 from symtop_ros.simulation.validation import RefusedError
 
-MOST_SAMPLES = 20_000  # estimates from which a cause that was found is estimated again
+MOST_SAMPLES = 200_000  # estimates from which a cause that was found is estimated again
 VALLEYS, FINER = 4, 31  # of each table that are refined, and values that are tried in each
-# An eigenvalue at a grid point is at most a quarter of a step from the best value; with more than
-# this left, nothing is explained there.
-HOPELESS = 0.05  # mean square of half angles
-# Noise makes the squares smaller by chance: by less than this, in units of its variance, for each
-# number that is free, of the thousands of values that are tried.
+# Noise makes the squares smaller by chance: by less than this, in units of the variance of one
+# independent number, of the thousands of values that are tried.
 CHANCE = 36.0
 SIMPLER = 4.0  # if no noise is left, simpler causes count with at most twice the error (squared)
 TIE = 1.5  # explanations that are as good, by their mean squares
+LESS = 4.0  # the squares become so many times smaller: the cause is worth a sentence
 CLEAR = 1000.0  # the error becomes so many times smaller: its cause is clear, whatever is left
-# The squares of the correlations of noise over ten lags, in units of their variances, add up to ten
-# on average, and to more than 40 once in 50 000 times (Box and Pierce 1970).
-LAGS, WHITE = 10, 40.0
-LOUD = 0.3  # rad; noise of an attitude is smaller
 SMALL = 1e-3  # rad; smaller rotations count as zero in a comparison of explanations
 # Estimates that stay this close (rad) to one attitude do not move, and the exact attitudes move so
 # many times as far.
@@ -73,7 +71,11 @@ class Search:
     def __init__(self, run: Estimates, truth: Truth) -> None:
         """Take some estimates for the search, and more for what it has found."""
         self.some, self.more, self.truth = run.thin(SAMPLES), run.thin(MOST_SAMPLES), truth
-        self.fits = {name: Fit(change[2](self.some), truth) for name, change in CHANGES.items()}
+        self.run = run
+        self.fits, self.of_more = (
+            {name: Fit(change[2](those), truth) for name, change in CHANGES.items()}
+            for those in (self.some, self.more)
+        )
         self.fit = self.fits[""]
         self.tables = Tables(truth, self.fit.fastest)
         self.hidden = HIDDEN.get(truth.kind, ())
@@ -81,23 +83,55 @@ class Search:
         self.names = [name for name in PARAMETERS if name != "scale" or steps <= MOST_STEPS]
 
     def find(self) -> Finding:
-        """Return the simplest of all explanations."""
-        start = self.refine(("", "none", ()), self.fit.start)
+        """Return the simplest of all explanations, with what it leaves of all estimates."""
+        found = self.find_in_more()
+        if len(self.run) == len(self.more):
+            return found
+        fit = Fit(CHANGES[found.best.change][2](self.run), self.truth)
+        whole = replace(found.best, cost=fit.cost(found.best.offset))
+        is_alike = whole.cost <= SIMPLER * found.best.cost + self.fit.rounding
+        return replace(found, best=whole, explained=found.explained and is_alike)
+
+    def find_in_more(self) -> Finding:
+        """Return the simplest of all explanations of some estimates, as more of them show it."""
+        start = self.refine(("", "none", ()), self.fit.start, with_more=True)
         if self.is_still():
             return Finding(start, (), self.hidden, explained=False, still=True)
         if start.cost <= self.fit.rounding:  # nothing is simpler, and nothing can be better
             return Finding(start, (), self.hidden)
-        best, others = self.choose([start, *self.list_causes()], len(self.some))
+        if len(self.more) < PER_PARAMETER:
+            return Finding(start, (), self.hidden, explained=False, fault="few")
+        coarse = self.refine(start.kind, start.offset)
+        best, others = self.choose([coarse, *self.list_causes()], self.fits)
         if best.kind == start.kind:  # there may be a parameter that only more estimates show
             small = [
                 self.refine(("", "none", each), start.offset, with_more=True)
                 for each in ((), *((name,) for name in self.names))
             ]
-            best, others = self.choose(small, len(self.more))
+            best, others = self.choose(small, self.of_more)
         best = self.refine(best.kind, best.offset, with_more=True)
-        if best.cost * CLEAR**2 > start.cost and not self.is_white(best):
-            return Finding(start, (), self.hidden, explained=False)
-        return Finding(best, tuple(others), self.hidden, True, False, *self.find_period(best))
+        is_named, is_less = self.judge(best, start)
+        if not is_named:
+            candidate = best if is_less else None
+            return Finding(start, (), self.hidden, False, best.fault, candidate=candidate)
+        return replace(Finding(best, tuple(others), self.hidden), **self.find_period(best))
+
+    def judge(self, best: Cause, start: Cause) -> tuple[bool, bool]:
+        """Return whether an explanation is named, and else whether it would leave clearly less.
+
+        It is named if it is significant, and leaves noise or next to nothing. What is left may be
+        correlated because a filter's errors are, or because there is another cause.
+        """
+        if len(self.more) < PER_PARAMETER * best.count:
+            return False, False
+        if best.kind != start.kind and best.cost * CLEAR**2 <= start.cost:
+            return True, False
+        fit = self.of_more[best.change]
+        left = fit.find_remainder(best.offset)
+        is_sound = not best.fault and best.is_significant and left.has_shape_of_noise
+        if not (is_sound and left.agrees_on(fit.derive_vectors(best.offset, best.columns))):
+            return False, False
+        return left.is_white, best.cost * LESS <= start.cost
 
     def is_still(self) -> bool:
         """Return True if the estimates keep one attitude while the top turns."""
@@ -105,28 +139,23 @@ class Search:
         spread, moved = (1 - np.linalg.eigvalsh(q.T @ q)[-1] / len(q) for q in attitudes)
         return bool(4 * spread < min(STILL**2, 4 * moved / MOVED**2))
 
-    def is_white(self, cause: Cause) -> bool:
-        """Return True if what an explanation leaves looks like noise, by its correlation."""
-        left = self.fits[cause.change].find_left(cause.offset)
-        square = float((left**2).sum())
-        correlated = sum(
-            float((left[k:] * left[:-k]).sum()) ** 2 for k in range(1, min(LAGS + 1, len(left)))
-        )
-        return square <= LOUD**2 * len(left) and 3 * len(left) * correlated <= WHITE * square**2
-
-    def select(self, found: Sequence[Cause], count: int) -> list[Cause]:
+    def select(self, found: Sequence[Cause], fits: Mapping[str, Fit]) -> list[Cause]:
         """Return those that are as good as the best one, in the noise of so many estimates."""
         lowest = min(found, key=lambda each: each.cost)
-        factor = min(1 + CHANCE / (3 * count), SIMPLER) if self.is_white(lowest) else SIMPLER
+        left = fits[lowest.change].find_remainder(lowest.offset)
+        is_noise = not left.find_fault(lowest.count) and left.has_shape_of_noise
+        factor = min(1 + CHANCE / (3 * left.independent), SIMPLER) if is_noise else SIMPLER
         return [each for each in found if each.cost <= factor * lowest.cost + self.fit.rounding]
 
-    def choose(self, found: Sequence[Cause], count: int) -> tuple[Cause, list[Cause]]:
+    def choose(self, found: Sequence[Cause], fits: Mapping[str, Fit]) -> tuple[Cause, list[Cause]]:
         """Return the simplest of the good explanations, and others that are as simple and good.
 
         The one with the smallest rotations comes first; then the order of parameters and the delay
         count.
         """
-        good, order = self.select(found, count), [*PARAMETERS]
+        most = len(fits[""].some) / PER_PARAMETER
+        enough = [each for each in found if each.count <= most or not each.weight]
+        good, order = self.select(enough, fits), [*PARAMETERS]
         simple = [each for each in good if each.weight == min(other.weight for other in good)]
 
         def prefer(cause: Cause) -> tuple[float, float]:
@@ -193,34 +222,50 @@ class Search:
         self, kind: tuple[str, str, tuple[str, ...]], offset: Offset, *, with_more: bool = False
     ) -> Cause:
         """Return the least squares of a kind of cause near an offset, of more with deviations."""
-        undo = CHANGES[kind[0]][2]
-        fit = Fit(undo(self.more), self.truth) if with_more else self.fits[kind[0]]
+        fit = (self.of_more if with_more else self.fits)[kind[0]]
         return refine(fit, kind, offset, is_sure=with_more)
 
-    def find_period(self, best: Cause) -> tuple[float | None, Offset]:
-        """Return a period by which the delay can change, and the rotations with it."""
+    def find_period(self, best: Cause) -> dict[str, Any]:
+        """Return a period by which the delay can change, and the rotations with it, by names."""
         period = self.truth.period
         if period is None or self.truth.is_driven or "delay" not in best.parameters:
-            return None, NONE
+            return {}
         later = best.offset.delay - float(np.copysign(period, best.offset.delay))
         found = [*self.search(best.change, "delay", best.offset, np.array([later]))][-1:]
         kind = best.change, "both", best.parameters
         good = [self.refine(kind, each.offset) for each in found if abs(later) <= MOST_DELAY]
         if good and good[0].cost <= SIMPLER * best.cost + self.fit.rounding:
-            return period, good[0].offset
-        return None, NONE
+            return {"period": period, "repeated": good[0].offset}
+        return {}
 
 
 def refine(
     fit: Fit, kind: tuple[str, str, tuple[str, ...]], offset: Offset, *, is_sure: bool
 ) -> Cause:
     """Return the least squares of a kind of cause near an offset; `is_sure`: with deviations."""
-    _, level, names = kind
-    turns, free = LEVELS[level][0], [PARAMETERS[name] for name in names]
-    best = fit.refine(offset, [*turns, *free])
-    sure = fit.find_deviations(best, [*turns, *free]) if is_sure else np.zeros(0)
-    turn = float(np.linalg.norm(sure[list(turns)])) if is_sure else 0.0
-    return Cause(*kind, best, fit.cost(best), tuple(sure[free].tolist()) if is_sure else (), turn)
+    cause = Cause(*kind, offset, np.inf)
+    best = fit.refine(offset, cause.columns)
+    found = replace(cause, offset=best, cost=fit.cost(best))
+    return add_deviations(fit, found) if is_sure else found
+
+
+def add_deviations(fit: Fit, cause: Cause) -> Cause:
+    """Return a cause with its standard deviations, or with the reason why it has none."""
+    if cause.cost <= ROUNDING:
+        return replace(cause, independent=float(len(fit.some)))
+    left = fit.find_remainder(cause.offset)
+    found = replace(
+        cause,
+        independent=left.independent,
+        correlation_time=left.correlation_time,
+        fault=left.find_fault(cause.count),
+    )
+    if found.fault or not found.count:
+        return found
+    sure = fit.find_deviations(cause.offset, cause.columns, left)
+    own = tuple(float(sure[PARAMETERS[name]]) for name in cause.parameters)
+    turn = float(np.linalg.norm(sure[list(LEVELS[cause.level][0])]))
+    return replace(found, deviations=own, turn_deviation=turn)
 
 
 def explain(
@@ -254,7 +299,7 @@ def explain(
         if turned or each.level == "none"
     ]
     return min(
-        search.select(causes, len(search.some)),
+        search.select(causes, search.fits),
         key=lambda each: (len(each.parameters), abs(each.offset.delay)),
     )
 

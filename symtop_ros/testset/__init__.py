@@ -1,1 +1,1 @@
-"""Seventy motions of heavy tops to 30 digits, packed, and their scorers. For judge."""
+"""Seventy motions of heavy tops to 30 digits, packed, and their scorer. For judge."""

@@ -16,7 +16,7 @@ import json
 import sys
 from array import array
 from bisect import bisect
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
@@ -40,10 +40,6 @@ SAME_TIME = 1e-9
 LARGEST_FILE = 2**30  # bytes
 LARGEST_NUMBER = 1e100  # beyond it squares overflow
 SHOWN = 60  # characters of a header or row in a message
-SMALL, MUCH = (
-    0.05,
-    10.0,
-)  # rad, or part of the largest rate; a mistake makes an error so much larger
 Real = NDArray[np.float64]
 
 
@@ -109,21 +105,12 @@ class Problem:
         if abs(worst - 1) > LARGEST_NORM_ERROR:
             raise ValueError(f"orientations must be unit quaternions, got a norm of {worst:.6g}")
         q = q / norms[:, np.newaxis]
-        exact = split_decimals(self.facts["orientations"])
-        angles = measure_angles(q, *exact)
-        others = {text: measure_angles(mend(q), *exact) for text, mend in ATTITUDES.items()}
-        mistakes = _name_mistake(angles, others, 1.0)
+        angles = measure_angles(q, *split_decimals(self.facts["orientations"]))
         if angular_velocities is None:
-            return Score(self, angles, None, mistakes)
+            return Score(self, angles, None)
         omega = _check("angular_velocities", angular_velocities, 3)
         high, low = split_decimals(self.facts["angular_velocities"])
-        rates = np.linalg.norm((omega - high) - low, axis=1)
-        others = {
-            text: np.linalg.norm(mend(exact[0], omega) - high, axis=1)
-            for text, mend in VELOCITIES.items()
-        }
-        mistakes += _name_mistake(rates, others, float(np.linalg.norm(high, axis=1).max()))
-        return Score(self, angles, rates, mistakes)
+        return Score(self, angles, np.linalg.norm((omega - high) - low, axis=1))
 
 
 @dataclass(frozen=True)
@@ -137,14 +124,11 @@ class Score:
         Angle in rad of the rotation that would correct the attitude.
     rates : ndarray (20,) or None
         |omega - omega_exact| in rad/s.
-    mistakes : tuple of str
-        Mistakes of convention without which an error would be at most a tenth.
     """
 
     problem: Problem
     angles: Real
     rates: Real | None
-    mistakes: tuple[str, ...] = ()
 
     @property
     def in_limits(self) -> Real:
@@ -160,7 +144,7 @@ class Score:
         return np.asarray(self.angles / np.array(self.problem.facts[limits]), dtype=np.float64)
 
     def format(self) -> str:
-        """Return the score in a line, and likely mistakes in separate lines.
+        """Return the score in a line.
 
         Examples
         --------
@@ -169,13 +153,12 @@ class Score:
         'cusps: attitude 2.1e+00 rad at most (mean 1.2e+00)'
         """
         rates = self.rates
-        text = (
+        return (
             f"{self.problem.facts['name']}: attitude {self.angles.max():.1e} rad at most "
             f"(mean {self.angles.mean():.1e}), {self.in_limits.max():.2g} limits "
             f"({self.in_float32_limits.max():.2g} of float32)"
             f"{'' if rates is None else f'; angular velocity {rates.max():.1e} rad/s at most'}"
         )
-        return "\n".join([text, *(f"likely mistake: {each}" for each in self.mistakes)])
 
 
 def read_problems(path: Path = FILE) -> dict[str, Problem]:
@@ -302,10 +285,6 @@ def _check(name: str, values: ArrayLike, width: int) -> Real:
     return numbers
 
 
-def _conjugate(q: Real) -> Real:
-    return np.asarray(q * [1.0, -1.0, -1.0, -1.0])
-
-
 def turn_to_body(orientations: Real, vectors: Real) -> Real:
     """Return vectors of the world (n, 3) in the frames of the body, (n, 3).
 
@@ -317,30 +296,6 @@ def turn_to_body(orientations: Real, vectors: Real) -> Real:
     w, xyz = orientations[:, :1], -orientations[:, 1:]
     twice = 2 * np.cross(xyz, vectors)
     return np.asarray(vectors + w * twice + np.cross(xyz, twice))
-
-
-ATTITUDES: dict[str, Callable[[Real], Real]] = {
-    "the quaternions have the order x, y, z, w": lambda q: q[:, [3, 0, 1, 2]],
-    "the quaternions are conjugate: world to body": _conjugate,
-    "the quaternions are conjugate, in the order x, y, z, w": lambda q: _conjugate(
-        q[:, [3, 0, 1, 2]]
-    ),
-}
-VELOCITIES: dict[str, Callable[[Real, Real], Real]] = {
-    "the angular velocities are in deg/s": lambda q, omega: np.radians(omega),
-    "the angular velocities are in the world frame": turn_to_body,
-    "the angular velocities are in deg/s, in the world frame": lambda q, omega: turn_to_body(
-        q, np.radians(omega)
-    ),
-}
-
-
-def _name_mistake(errors: Real, others: dict[str, Real], size: float) -> tuple[str, ...]:
-    """Return the mistake without which a large error would be small, or nothing."""
-    best = min(others, key=lambda text: float(others[text].max()))
-    largest = float(errors.max())
-    is_clear = largest > SMALL * size and others[best].max() < largest / MUCH
-    return (best,) if is_clear else ()
 
 
 def split_decimals(rows: Sequence[Sequence[str]]) -> tuple[Real, Real]:

@@ -18,7 +18,7 @@ from typing import Any
 
 from symtop_ros.arrays import multiply
 
-VERSION = "5.0"
+VERSION = "6.0"
 CONSTANTS = ("Ix", "Iz", "Mgl", "mass", "arm", "Ix_centre")
 QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
 TURNED_COLUMNS = tuple(f"turned_{name}" for name in (*QUATERNION, *RATES))

@@ -12,7 +12,7 @@ from judge.cases import encode, make_estimates, truth_and_stamps, write_log, wri
 from log.damaged import zero_chunk
 from log_files import write_mcap
 from scipy.spatial.transform import Rotation
-from testset.test_scorers import make_table, write
+from testset.trajectories import make_table, write
 
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.main import main
@@ -122,9 +122,8 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     models = {f"cusps.{each}.{form}" for each in described for form in ("urdf", "sdf", "mjcf")}
     assert {path.name for path in tmp_path.iterdir()} == models - left_out | {
         *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf")),
-        *(f"score.{suffix}" for suffix in ("py", "mjs", "cpp")),
         *(f"{name}.csv" for name in ("problems", "states", "forces", "world")),
-        *("README.md", "LICENSE", "SHA256SUMS"),
+        *("score.py", "README.md", "LICENSE", "SHA256SUMS"),
     }
     readme = (tmp_path / "README.md").read_text()
     assert "[symtop_ros]" not in readme.replace("[symtop_ros](", "")

@@ -6,7 +6,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from testset.test_scorers import NAMES, write
+from testset.trajectories import NAMES, write
 
 from symtop_ros.judge.main import main
 from symtop_ros.judge.scoreboard import Entry

@@ -2,7 +2,6 @@ import pytest
 from documents import ROOT, find_section
 
 from workshop.load import node_cost, stress
-from workshop.releases import page
 from workshop.speed import derivatives, filters, testset
 from workshop.speed.ahead import TABLES
 from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
@@ -40,7 +39,7 @@ TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"
 PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SECTIONS = (
     *("chapters", "summary"),
-    *(each.NAME for each in (derivatives, filters, testset, node_cost, stress, page)),
+    *(each.NAME for each in (derivatives, filters, testset, node_cost, stress)),
 )
 
 

@@ -81,7 +81,6 @@ def test_mujoco_is_scored_alike_in_every_description(name, folder):
                 mujoco.mj_step(model, data, nstep=64)
                 states.append([*data.qpos[-4:], *data.qvel[-3:]])
             score = problem.score(*np.split(np.array(states), [4], axis=1))
-            assert score.mistakes == ()
             errors.append(score.angles.max())
     # RK4 with steps of 0.016 rad; its errors are the same but for the rounding of 1280 steps
     assert max(errors) < 1e-6

@@ -4,8 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from testset.trajectories import NAMES, make_table, read_exact, write
 
 from symtop_ros.arrays import compose
+from symtop_ros.physics import State
 from symtop_ros.testset.score import main, read_problems, read_trajectory
 
 CUSPS = read_problems()["cusps"]
@@ -29,6 +31,9 @@ NO_STATES = [
     (EXACT * 1.1, None, "orientations must be unit quaternions, got a norm of 1.1"),
     (EXACT * np.nan, None, "orientations must be finite numbers up to 1e\\+100, got nan"),
     (EXACT, EXACT, "angular_velocities must be of shape \\(20, 3\\)"),
+    (EXACT * 1e300, None, "orientations must be finite numbers up to 1e\\+100, got"),
+    (EXACT * 0.0, None, "orientations must be unit quaternions, got a norm of 0"),
+    (EXACT, np.full((20, 3), -1e200), "angular_velocities must be finite numbers up to"),
 ]
 
 
@@ -38,19 +43,72 @@ def test_states_that_cannot_be_scored_are_refused(orientations, rates, reason):
         CUSPS.score(orientations, rates)
 
 
+def make_tables():
+    """One trajectory in all forms that are read, and the same states in each."""
+    good = make_table("cusps", 1e-7)
+    text = write(good)
+    lines = text.splitlines()
+    more = ["a," + lines[0], *(f"x,{row}" for row in [*lines[1:], "0.1" + ",1" * 7])]
+    world = np.column_stack((good[:, :5], State(good[:, 1:5], good[:, 5:]).to_world(good[:, 5:])))
+    return {
+        "commas": text,
+        "bom": "\ufeff" + text,
+        "semicolons": write(good, separator=";"),
+        "tabs": write(good, separator="\t"),
+        "spaces": write(good, separator="  "),
+        "hash": "# " + write(good, separator=" "),
+        "quotes": text.replace("t,w", '"t","w"'),
+        "blank lines and carriage returns": "\r\n\r\n".join(lines),
+        "other columns and rows": "\n".join(more),
+        "times that have added up": write(good * [1 + 5e-10, *[1.0] * 7]),
+        "norms of 1.005": write(good * [1, *[1.005] * 4, 1, 1, 1]),
+        "of one sign": write(good * [1, *[-1.0] * 4, 1, 1, 1]),
+        "infinite time": text + "inf" + ",1" * 7 + "\n",
+        "world rates": write(world, (*NAMES[:5], "omega_x", "omega_y", "omega_z")),
+        "no rates": write(good[:, :5], NAMES[:5]),
+    }
+
+
+TABLES = make_tables()
+
+
+@pytest.mark.parametrize("kind", TABLES)
+def test_a_table_is_read_in_every_form(kind, tmp_path):
+    good, path = make_table("cusps", 1e-7), tmp_path / "trajectory.csv"
+    path.write_text(TABLES[kind], encoding="utf-8")
+    wanted = CUSPS.score(good[:, 1:5], good[:, 5:])
+    found = CUSPS.score(*read_trajectory(path, CUSPS))
+    # a quaternion is divided by its norm: products and quotients of a few eps
+    assert found.angles == pytest.approx(wanted.angles, abs=8 * np.finfo(float).eps)
+    if kind == "no rates":
+        assert found.rates is None
+    else:  # rates of 200 rad/s, turned by a matrix of these quaternions and back
+        assert found.rates == pytest.approx(wanted.rates, abs=200 * 16 * np.finfo(float).eps)
+
+
+def test_a_score_says_how_large_errors_are_and_nothing_of_causes():
+    _, q, omega = read_exact("cusps")
+    for rates in (np.degrees(omega), omega * 1e6):
+        assert CUSPS.score(q[:, [1, 2, 3, 0]], rates).format().count("\n") == 0
+
+
 NO_TRAJECTORIES = [
     ("a,b\n1,2\n", "must have the columns t, w, x, y, z, got the header a,b"),
     ("t,w,x,y,z\n0.5,1,0,0,0\n", "a state at each time, got none at 1 s; the nearest is 0.5 s"),
     ("t,w,x,y,z\n0.5,1,0,0\n", "line 2 must have all columns"),
     ("t,w,x,y,z\none,1,0,0,0\n", "line 2 must consist of numbers"),
     ("t,w,x,y,z\nnan,1,0,0,0\n", "got none at 0.5 s; there is no row"),
+    ("t,w,x,y,z\n0x1p-1,1,0,0,0\n", "line 2 must consist of numbers"),
+    ("t,w,x,y,z\n0.5,1_0,0,0,0\n", "line 2 must consist of numbers"),
+    ("\x00\x01\u00e9\u0416", "must have the columns t, w, x, y, z, got the header"),
+    ("", "got the header nothing"),
 ]
 
 
 @pytest.mark.parametrize(("text", "reason"), NO_TRAJECTORIES)
 def test_a_file_that_is_no_trajectory_is_refused_in_a_line(text, reason, tmp_path, capsys):
     path = tmp_path / "bad.csv"
-    path.write_text(text)
+    path.write_text(text, encoding="utf-8")
     with pytest.raises(ValueError, match=reason):
         read_trajectory(path, CUSPS)
     assert main(["cusps", str(path)]) == 1

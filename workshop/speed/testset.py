@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.testset.score import FILE, read_problems
-from workshop.releases.page import measure_releases
 from workshop.speed.peers import CLOSED_FORM, find_peers
 from workshop.speed.peers.peer import Peer
 from workshop.speed.publish import format_table, group, replace_section, track, write_results
@@ -46,11 +45,6 @@ class Entry:
     angle: float  # largest error of the attitude at four times in rad
     limits: float  # the same in units of what half an ulp of the inputs changes
     seconds: float  # time to reach the end once
-
-
-def score(folder: Path, docs: Path | None, releases: bool) -> None:
-    """Score the integrators, or releases of engines."""
-    (measure_releases if releases else score_testset)(folder, docs)
 
 
 def score_testset(folder: Path, docs: Path | None = None) -> None:
