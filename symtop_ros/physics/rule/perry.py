@@ -55,6 +55,7 @@ from symtop_ros.physics.kernel.records import (
 )
 from symtop_ros.physics.kicks import validate_hold
 from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.rule.cause import Cause, read_cause
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import validate_one
 from symtop_ros.wording import write
@@ -191,6 +192,8 @@ class KickVerdict:
         Facts that are contrary to the change of theta''; None if there are none.
     average : Average or None
         As in `Verdict`; None for a driven motion too.
+    cause : Cause
+        As in `Verdict`, after the kick.
     """
 
     axis: Literal["tilted", "vertical"]
@@ -208,6 +211,7 @@ class KickVerdict:
     lowest: Lift
     contradiction: Contradiction | None
     average: Average | None
+    cause: Cause
 
     def __str__(self) -> str:
         """Return the change, its consequences and Perry's rule, in sentences."""
@@ -267,6 +271,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
         lowest=Lift(LIFT_KINDS[found.lowest.kind], found.lowest.amount),
         contradiction=_read_contradiction(found.contrary_facts, reason),
         average=read_average(found.average),
+        cause=read_cause(found.cause, SUBJECTS[found.subject]),
     )
 
 

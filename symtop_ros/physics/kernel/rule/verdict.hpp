@@ -11,6 +11,7 @@
 #pragma once
 
 #include "../gravity.hpp"
+#include "cause.hpp"
 #include "tilt.hpp"
 
 namespace symtop {
@@ -166,6 +167,7 @@ inline bool judge(const symtop_start& s, GravityMotion& motion, double factor, s
   if (!(std::fabs(after) <= LARGEST)) return false;
   verdict = describe_course(now, motion);
   verdict.average = find_average(s, motion);
+  verdict.cause = find_cause(now, verdict);
   verdict.factor = factor;
   verdict.reason = is_vertical ? explain_vertical(now)
                                : explain_change(TiltAcceleration(now, hold),
@@ -205,6 +207,7 @@ inline symtop_verdict judge_kick(const symtop_start& before, const symtop_start&
       given == SYMTOP_NOTHING && is_push_along(was, now) ? SYMTOP_SPIN_MOMENTUM : given;
   symtop_verdict verdict = describe_course(now, with);
   verdict.average = is_driven ? leave_average() : find_average(after, with);
+  verdict.cause = is_driven ? leave_cause() : find_cause(now, verdict);
   if (is_driven) verdict.motion = SYMTOP_DRIVEN;
   verdict.factor = NAN;
   if (was.vertical.is_of_vertical_axis()) {

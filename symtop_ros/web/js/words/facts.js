@@ -27,7 +27,6 @@ const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
 const KICKS = ["kick", "push"];
-const CAUSES = ["hurried_rises", "delayed_falls"]; // that the torque of gravity alone explains
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
 /** The time in s that the plots show: one turn of the precession, or some nutations. */
@@ -108,13 +107,12 @@ const findAnnounced = (run, time) => {
 export const describeMotion = (run, time, free) => {
   const announced = findAnnounced(run, time);
   const found = announced.kind === "push" ? describePushes(run, announced, time, free) : null;
-  const { headline, name, outcome } = found ?? findOutcome(run.find(time), free);
-  const isKick = name === "kick";
+  const { headline, name, outcome, because } = found ?? findOutcome(run.find(time), free);
   const say = (/** @type {Variant} */ variant) => ({
     headline: phrase("headline", headline, variant),
-    because: phrase("because", { kind: isKick ? findCause(outcome) : "start" }),
+    because: because ? phrase("cause", because, variant).trim() : "",
     why: phrase(name, outcome, variant),
-    happened: isKick ? phrase("happened", headline, variant) : "",
+    happened: name === "kick" ? phrase("happened", headline, variant) : "",
   });
   return {
     texts: { radians: say("radians"), degrees: say("degrees") },
@@ -122,12 +120,6 @@ export const describeMotion = (run, time, free) => {
     table: listRates(free),
     turning: findTurning(free),
   };
-};
-
-/** Why the axis moves as it does after a kick, if the torque of gravity alone explains it. @param {any} outcome */
-const findCause = ({ direction, reason: { kind, rule, subject } }) => {
-  const cause = `${kind}_${direction}`;
-  return subject === "top" && rule === "holds" && CAUSES.includes(cause) ? cause : "start";
 };
 
 /** Tilt, rates and regular rates of now. @typedef {ReturnType<typeof describeNow>} Now */

@@ -4,6 +4,7 @@
 import { findConstants } from "../charts/formulas.js";
 import { NANO } from "../physics/course.js";
 import { MILLI, nameGain } from "./ledger.js";
+import { judge } from "./verdict.js";
 
 /** @import { Run, Moment } from "../run/run.js" */
 /** @import { Course } from "../physics/course.js" */
@@ -37,5 +38,6 @@ export const describePushes = (run, first, time, free) => {
     work: MILLI * (now - energy),
     weight: nameGain(weight, { weight: MILLI * top.Mgl, precession: 0 }),
   };
-  return { headline: { ...outcome, kind: "pushed" }, name: "push", outcome };
+  const because = judge(free).cause;
+  return { headline: { ...outcome, kind: "pushed" }, name: "push", outcome, because };
 };
