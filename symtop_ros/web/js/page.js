@@ -176,6 +176,7 @@ export class Page {
     this.showHistory(facts.histories[inDegrees() ? "degrees" : "radians"]);
     this.fields.show(facts);
     this.lesson?.follow(facts);
+    for (const [name, text] of Object.entries(facts.outlooks)) say(`outlook-${name}`, text);
     showLedger(facts.ledger, facts.energies);
   }
 

@@ -4,6 +4,7 @@ import { NANO } from "../physics/course.js";
 import { findOutcome } from "./headline.js";
 import { listHistory } from "./history.js";
 import { findLedger, nameLedger } from "./ledger.js";
+import { describeOutlooks } from "./outlooks.js";
 import { describePushes } from "./pushes.js";
 import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
@@ -27,6 +28,7 @@ const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
 const KICKS = ["kick", "push"];
+const HELD = ["push", "torque"]; // which a button may still be giving
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
 /** The time in s that the plots show: one turn of the precession, or some nutations. */
@@ -152,6 +154,7 @@ export const describe = (run, time) => {
     ledger: findLedger(announced),
     energies: phrase("ledger", nameLedger(announced)),
     body: course.top,
+    outlooks: describeOutlooks(HELD.includes(kind) ? null : course),
     isFresh: kind === "start",
   };
 };

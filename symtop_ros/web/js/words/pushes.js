@@ -13,6 +13,16 @@ import { judge } from "./verdict.js";
 const findHeight = ({ motion: { turning_angles } }) =>
   turning_angles.reduce((sum, angle) => sum + Math.cos(angle), 0) / 2;
 
+/** Mean phi' and the height of the weight, before and after. @param {Course} former @param {Course} free */
+export const compareMeans = (former, free) => {
+  const [was, is] = [former, free].map((each) => each.motion.rates.mean_precession_rate);
+  const weight = MILLI * free.top.Mgl * (findHeight(free) - findHeight(former));
+  return {
+    means: Number.isNaN(was + is) ? null : { before: was, after: is },
+    weight: nameGain(weight, { weight: MILLI * free.top.Mgl, precession: 0 }),
+  };
+};
+
 /**
  * Null after something else, as a torque, or under friction.
  * @param {Run} run
@@ -26,17 +36,14 @@ export const describePushes = (run, first, time, free) => {
   if (!before || run.find(time) !== given.at(-1)) return null;
   const { top } = free;
   const former = free.continueFree(before);
-  const [was, is] = [former, free].map((each) => each.motion.rates.mean_precession_rate);
   const [energy, now] = [before, free.start].map((each) => findConstants(top, each).energy);
-  const weight = MILLI * top.Mgl * (findHeight(free) - findHeight(former));
   const outcome = {
     number: given.length,
     duration: (run.find(time).time - first.time) / NANO,
     turning_angles: free.motion.turning_angles,
     former_angles: former.motion.turning_angles,
-    means: Number.isNaN(was + is) ? null : { before: was, after: is },
     work: MILLI * (now - energy),
-    weight: nameGain(weight, { weight: MILLI * top.Mgl, precession: 0 }),
+    ...compareMeans(former, free),
   };
   const because = judge(free).cause;
   return { headline: { ...outcome, kind: "pushed" }, name: "push", outcome, because };
