@@ -183,6 +183,7 @@ export class Page {
     this.showHistory(facts.histories[inDegrees() ? "degrees" : "radians"]);
     this.fields.show(facts);
     this.lesson?.follow(facts);
+    say("impulses-title", facts.impulses);
     for (const [name, text] of Object.entries(facts.outlooks)) say(`outlook-${name}`, text);
     showLedger(facts.ledger, facts.energies);
   }

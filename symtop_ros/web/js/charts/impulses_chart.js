@@ -2,7 +2,7 @@
 // to half a nutation, their areas filled up to now, and below them theta', of which the change is the sum
 // over Ix.
 
-import { find, say } from "../controls/document.js";
+import { find } from "../controls/document.js";
 import { findFrameTorques } from "./formulas.js";
 import { findImpulses } from "./impulses.js";
 import { draw, findSpan, Frame, spread } from "./plot.js";
@@ -53,8 +53,9 @@ export const writeImpulses = (course, passed) => {
 };
 
 /** Whether the half nutation from a start is a fall of the axis, a rise, or some of both. @param {Course} course */
-const nameHalf = ({ start, motion }) => {
+export const nameHalf = ({ start, motion, isDriven }) => {
   const [least, most] = motion.turning_angles;
+  if (isDriven || most - least <= STILL) return "half";
   const { theta } = start.angles;
   if (most - theta <= STILL) return "rise";
   return theta - least <= STILL ? "fall" : "half";
@@ -76,7 +77,6 @@ export const drawImpulses = (course, passed) => {
   LOOKS.forEach(([name], k) => {
     find(`impulse-${name}`).textContent = texts[k];
   });
-  say("impulses-title", phrase("impulses", { kind: nameHalf(course) }));
   const heights = fall.flatMap(({ torques }) => Object.values(torques));
   const upper = new Frame(HEIGHTS[0], [0, last], findSpan([0, ...heights], 1e-9), 3);
   const rates = fall.map(({ rate }) => rate);

@@ -6,6 +6,7 @@ import { listHistory } from "./history.js";
 import { findLedger, nameLedger } from "./ledger.js";
 import { describeOutlooks } from "./outlooks.js";
 import { describePushes } from "./pushes.js";
+import { nameHalf } from "../charts/impulses_chart.js";
 import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
 import { findPotential } from "../charts/formulas.js";
@@ -154,6 +155,7 @@ export const describe = (run, time) => {
     ledger: findLedger(announced),
     energies: phrase("ledger", nameLedger(announced)),
     body: course.top,
+    impulses: phrase("impulses", { kind: nameHalf(course) }),
     outlooks: describeOutlooks(HELD.includes(kind) ? null : course),
     isFresh: kind === "start",
   };
