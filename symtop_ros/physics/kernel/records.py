@@ -85,6 +85,7 @@ ReasonKind = Literal[
     "unchanged",
     "reversed",
     "no_effect",
+    "weightless",
     "undefined",
     "stable",
     "unstable",

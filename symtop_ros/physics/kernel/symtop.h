@@ -324,6 +324,7 @@ typedef enum {
   SYMTOP_UNCHANGED,       /* the factor is 1 */
   SYMTOP_REVERSED,        /* the factor is negative */
   SYMTOP_NO_EFFECT,       /* theta'' is the same with the kick as without it */
+  SYMTOP_WEIGHTLESS,      /* Mgl = 0: nothing rises in opposition to gravity */
   SYMTOP_VERTICAL_UNDEFINED, /* "undefined": the axis passes the vertical */
   SYMTOP_VERTICAL_STABLE,    /* "stable": it rests there, and stays near it */
   SYMTOP_VERTICAL_UNSTABLE   /* "unstable" */

@@ -59,6 +59,7 @@ export const NAMES = {
     "unchanged",
     "reversed",
     "no_effect",
+    "weightless",
     "undefined",
     "stable",
     "unstable",
