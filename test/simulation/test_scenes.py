@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from odd_values import assert_one_sentence
+from physics.rule.test_cause import demand
 from physics.tops import EPS
 
 from symtop_ros.physics import (
@@ -17,6 +18,7 @@ from symtop_ros.physics import (
     apply_impulse,
     hurry,
     kick_verdict,
+    perrys_rule,
     regular_precession_rates,
 )
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY
@@ -251,6 +253,30 @@ def test_a_flat_top_a_hanging_one_and_a_plane_pendulum_are_what_they_are_called(
     assert plane.turning_angles[0] == 0.0
     assert axles[:, 2].max() > 1 - 1e-4
     assert np.abs(axles @ np.cross(axles[0], axles[500])).max() < 1e-9
+
+
+CAUSES = {  # scenes under gravity alone, by what explains their motion
+    "with_momentum": "backward_start closed_cusps cusps disc hanging looping unidirectional",
+    "steady": "bicycle_wheel conical_pendulum fast_precession hurry_fast hurry_slow perry_fails "
+    "regular_precession toy_gyroscope",
+    "free": "free",
+    "swings": "gray_fall spin_reversal",
+    "plane": "separatrix through_the_pole",
+    "upright": "sleeping",
+    "no_spin": "spherical_pendulum",
+    None: "sleeping_unstable",
+}
+
+
+def test_what_explains_the_motion_of_each_scene_is_true_of_it():
+    motions = {name: motion_of(name) for name in scene_names()}
+    found = {}
+    for name, motion in motions.items():
+        if not motion.is_driven:
+            cause = perrys_rule(motion.top, motion.start).cause
+            found[name] = cause.explanation
+            demand(motion.top, motion.start, cause)
+    assert found == {name: cause for cause, names in CAUSES.items() for name in names.split()}
 
 
 HEAD = "/**:\n  ros__parameters:\n"

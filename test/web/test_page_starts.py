@@ -112,6 +112,7 @@ def test_a_link_that_cannot_be_followed_is_refused(opened):
         assert opened.read_events() == events
 
 
+@pytest.mark.wording
 def test_a_scene_that_is_opened_by_a_link_tells_its_story(open_page):
     page = open_page("#scene=closed_cusps")
     assert page.tab.locator("#scenes").input_value() == "closed_cusps"

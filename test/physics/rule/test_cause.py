@@ -295,7 +295,6 @@ def test_what_is_said_of_a_start_and_of_a_kick_is_true_of_the_motion(family, cou
         demand(top, after, kicked)
         for each in (cause, kicked):
             said.update([each.explanation, each.turn, each.pace and f"{each.turn} {each.pace}"])
-    print(family, dict(said))
     assert sum(said[each] for each in CLAIMS) > count / 4  # of both, most can be explained
 
 
@@ -303,6 +302,6 @@ def test_of_a_driven_motion_nothing_is_said():
     before = State.from_euler(theta=0.5, psi_dot=200.0)
     motion = Motion(ARTICLE, hurry(before), Friction(axial=2e-6))
     cause = kick_verdict(motion, before, "spin_rate").cause
-    assert str(cause) == ""
+    assert (cause.explanation, cause.turn, cause.pace) == (None, None, None)
     assert cause.momentum_from_axle is None
     assert cause.rate_about_momentum is None
