@@ -131,13 +131,12 @@ def _write_enum(enum: str, names: Sequence[str | None]) -> str:
         numbers = "\n".join(f"{str(name).upper()} = {k}" for k, name in enumerate(names))
         return f"# symtop_{enum}\n{numbers}\n"
     title = "".join(part.title() for part in enum.split("_"))
-    kind, every = title, f"get_args({title})"
-    if None in names:  # of which a type has no name
-        kind = f"{title} | None"
-        words = [f'"{name}"' if name else "None" for name in names]
-        every = f"({', '.join(words)})"
     listed = _wrap(f"{title} = Literal[", [f'"{name}"' for name in names if name], "]")
-    return f"{listed}\n{enum.upper()}S: tuple[{kind}, ...] = {every}\n"
+    every = f"{enum.upper()}S: tuple[{title}, ...] = get_args({title})"
+    if None in names:  # of which a type has no name
+        words = [f'"{name}"' if name else "None" for name in names]
+        every = _wrap(f"{enum.upper()}S: tuple[{title} | None, ...] = (", words, ")")
+    return f"{listed}\n{every}\n"
 
 
 def _wrap(head: str, parts: Sequence[str], tail: str, indent: str = "") -> str:

@@ -44,6 +44,7 @@ from symtop_ros.physics.precession import (
     theta_torque,
 )
 from symtop_ros.physics.pushes import MOST_PUSHES, PUSH_RATES, Piece, Pushes
+from symtop_ros.physics.rule.cause import Cause
 from symtop_ros.physics.rule.perry import KickVerdict, Lift, kick_verdict
 from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
@@ -59,6 +60,7 @@ __all__ = [
     "Angles",
     "Balance",
     "Body",
+    "Cause",
     "Direction",
     "EffectivePotential",
     "ExactTimes",

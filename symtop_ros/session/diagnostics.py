@@ -137,6 +137,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "applied_torque": list(motion.applied_torque),
         "regular_precession_rates": list(verdict.regular_rates),
         "verdict": str(verdict),
+        "why": "" if motion.is_driven else str(verdict.cause),
         "perrys_rule_holds": verdict.rule_holds,
     }
 

@@ -214,6 +214,16 @@ def test_the_state_says_since_when_its_time_counts():
     assert since() == "reset at stamp 0.210000000 s"
 
 
+@pytest.mark.wording
+def test_the_state_says_why_the_axis_moves_as_it_does_under_gravity_alone():
+    def why(scene):
+        return json.loads(Run(scene).ask("get_state")[1])["why"]
+
+    assert why("regular_precession").startswith("Gravity's torque does not change the tilt: it is")
+    assert why("free").startswith("No torque acts: the angular momentum L is constant")
+    assert why("friction") == ""
+
+
 def test_reset_starts_from_initial_parameters_that_were_set_after_the_last_start():
     run = Run("cusps")
     run.ask("set_initial_conditions", {"theta": 1.0})

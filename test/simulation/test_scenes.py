@@ -9,9 +9,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 from odd_values import assert_one_sentence
+from physics.rule.test_cause import demand
 from physics.tops import EPS
 
-from symtop_ros.physics import Body
+from symtop_ros.physics import (
+    Body,
+    Motion,
+    apply_impulse,
+    hurry,
+    kick_verdict,
+    perrys_rule,
+    regular_precession_rates,
+)
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY
 from symtop_ros.simulation import presets
 from symtop_ros.simulation.changes.requests import start_motion
@@ -131,6 +140,143 @@ def test_the_spin_rate_falls_and_rises_in_one_fall():
     assert spins[lowest] < 0.95 * begin
     assert spins[horizontal] == pytest.approx(begin, rel=2e-3)  # a sample of 1000
     assert spins[-1] > 1.4 * begin
+
+
+def swings_of(motion, times):
+    """Turning angles (n, 2) that the motion would have from each time on under gravity alone."""
+    return np.array([Motion(motion.top, motion.at(float(t))).turning_angles for t in times])
+
+
+def test_friction_sinks_the_top_and_its_nutation_grows_before_it_shrinks():
+    angles = swings_of(motion_of("friction"), np.arange(0.0, 24.0, 0.05))
+    # means of three seconds, many nutations: at an instant they depend on the phase
+    tilts, swings = angles.mean(axis=1), np.diff(angles)[:, 0]
+    tilts, swings = (each.reshape(8, 60).mean(axis=1) for each in (tilts, swings))
+    assert np.all(np.diff(tilts) > 0)
+    largest = int(swings.argmax())
+    assert 1.01 < swings[largest] / swings[0] < 1.1  # "a little"
+    assert tilts[largest] == pytest.approx(0.8, abs=0.05)
+    assert np.all(np.diff(swings[largest:]) < 0)
+
+
+def test_a_torque_about_the_vertical_raises_the_top_and_does_not_hurry_it():
+    motion, times = motion_of("vertical_torque"), np.arange(0.0, 20.0, 1.0)
+    angles = swings_of(motion, times).mean(axis=1)
+    rates = [Motion(motion.top, motion.at(float(t))).mean_precession_rate for t in times]
+    assert motion.applied_torque[:2] == (0.0, 0.0)
+    assert motion.applied_torque[2] > 0
+    assert (np.diff(angles) < 0).all()
+    assert (np.diff(rates) < 0).all()
+
+
+def test_a_sleeping_top_survives_an_impulse_and_a_slower_one_falls_and_comes_back():
+    sleeping, slow = motion_of("sleeping"), motion_of("sleeping_unstable")
+    assert sleeping.top.critical_spin == pytest.approx(137.7, abs=0.05)
+    kicked = apply_impulse(sleeping.top, sleeping.start, (1e-5, 0.0, 0.0))
+    assert Motion(sleeping.top, kicked).turning_angles[1] < 0.003
+    assert slow.start.euler_angles.theta == pytest.approx(0.001, rel=1e-12)
+    assert abs(slow.start.angular_velocity[2]) < slow.top.critical_spin
+    assert slow.at(slow.nutation_period / 2).euler_angles.theta > 0.5
+    assert slow.at(slow.nutation_period).euler_angles.theta == pytest.approx(0.001, rel=1e-6)
+
+
+def test_the_hurried_scenes_rise_on_the_slow_root_and_fall_on_the_fast_one():
+    for scene, direction in (("hurry_slow", "rises"), ("hurry_fast", "falls")):
+        motion = motion_of(scene)
+        kicked = hurry(motion.start, Settings.from_scene(scene).hurry_factor)
+        verdict = kick_verdict(Motion(motion.top, kicked), motion.start, "spin_rate")
+        low, high = Motion(motion.top, kicked).turning_angles
+        tilt = motion.start.euler_angles.theta
+        assert (low < tilt - 1e-4) is (direction == "rises")
+        assert (high > tilt + 1e-4) is (direction == "falls")
+        assert verdict.reason.rule == ("holds" if direction == "rises" else "fails")
+    motion = motion_of("perry_fails")
+    low, high = Motion(motion.top, hurry(motion.start, 1.4)).turning_angles
+    assert motion.top.Mgl < 0 < motion.top.Iz - motion.top.Ix
+    assert motion.start.euler_rates.psi < 0
+    assert high > motion.start.euler_angles.theta + 1e-4  # of the axis; the weight is below
+
+
+def sample(scene, count=401):
+    motion = motion_of(scene)
+    return motion, motion.at(np.linspace(0.0, motion.nutation_period, count))
+
+
+def test_cusps_loops_and_a_wave_are_told_by_the_sign_of_the_precession_rate():
+    _, states = sample("cusps")
+    rates = states.euler_rates.phi
+    assert rates[0] == pytest.approx(0.0, abs=1e-12) == rates[-1]
+    assert states.euler_rates.theta[0] == 0.0
+    assert rates[1:-1].min() > 0
+    assert (
+        sample("looping")[1].euler_rates.phi.min() < 0 < sample("looping")[1].euler_rates.phi.max()
+    )
+    motion, states = sample("unidirectional")
+    slow, _ = regular_precession_rates(motion.top, 0.5, 200.0)
+    assert motion.start.euler_rates.phi > slow
+    assert states.euler_rates.phi.min() > 0
+
+
+def test_what_stays_and_what_goes_round_is_as_the_scenes_say():
+    for scene, rate in (("regular_precession", 6.50), ("fast_precession", 69.8)):
+        _, states = sample(scene)
+        assert states.euler_rates.phi == pytest.approx(rate, abs=0.05)
+        assert np.ptp(states.euler_angles.theta) < 1e-7
+    motion, states = sample("free")
+    L, axle = motion.top.angular_momentum(states), states.to_world([0.0, 0.0, 1.0])
+    assert np.abs(L - L[0]).max() <= 1e-12 * np.abs(L[0]).max()
+    assert np.ptp(axle @ L[0]) <= 1e-12 * np.linalg.norm(L[0])
+    assert np.ptp(axle[:, 0]) > 0.1
+    motion, states = sample("conical_pendulum")
+    L, torque = motion.top.angular_momentum(states), motion.top.gravity_torque(states)
+    assert np.abs(np.sum(L * torque, axis=1)).max() < 1e-6
+    axle = states.to_world([0.0, 0.0, 1.0])
+    across = L[:, 0] * axle[:, 1] - L[:, 1] * axle[:, 0]
+    assert np.abs(across).max() < 1e-6  # the horizontal part of L is in the plane of the wire
+
+
+def test_a_flat_top_a_hanging_one_and_a_plane_pendulum_are_what_they_are_called():
+    disc = motion_of("disc")
+    slow, fast = regular_precession_rates(disc.top, 0.6, 120.0)
+    assert disc.top.Iz > disc.top.Ix
+    assert slow * fast < 0 < disc.top.Mgl  # a s f = Mgl: a < 0, the quadratic opens downwards
+    hanging = motion_of("hanging")
+    assert hanging.start.euler_angles.theta > math.pi / 2
+    assert motion_of("bicycle_wheel").start.euler_rates.psi / (2 * math.pi) == pytest.approx(
+        4, 0.01
+    )
+    spins = motion_of("toy_gyroscope").start.euler_rates.psi
+    assert spins * 60 / (2 * math.pi) == pytest.approx(2900, rel=0.02)
+    plane = motion_of("through_the_pole")
+    times = np.linspace(0.0, plane.nutation_period, 2001)
+    axles = plane.at(times).to_world([0.0, 0.0, 1.0])
+    assert plane.turning_angles[0] == 0.0
+    assert axles[:, 2].max() > 1 - 1e-4
+    assert np.abs(axles @ np.cross(axles[0], axles[500])).max() < 1e-9
+
+
+CAUSES = {  # scenes under gravity alone, by what explains their motion
+    "with_momentum": "backward_start closed_cusps cusps disc hanging looping unidirectional",
+    "steady": "bicycle_wheel conical_pendulum fast_precession hurry_fast hurry_slow perry_fails "
+    "regular_precession toy_gyroscope",
+    "free": "free",
+    "swings": "gray_fall spin_reversal",
+    "plane": "separatrix through_the_pole",
+    "upright": "sleeping",
+    "no_spin": "spherical_pendulum",
+    None: "sleeping_unstable",
+}
+
+
+def test_what_explains_the_motion_of_each_scene_is_true_of_it():
+    motions = {name: motion_of(name) for name in scene_names()}
+    found = {}
+    for name, motion in motions.items():
+        if not motion.is_driven:
+            cause = perrys_rule(motion.top, motion.start).cause
+            found[name] = cause.explanation
+            demand(motion.top, motion.start, cause)
+    assert found == {name: cause for cause, names in CAUSES.items() for name in names.split()}
 
 
 HEAD = "/**:\n  ros__parameters:\n"

@@ -80,6 +80,26 @@ window.sayStarts = async (starts) => {
   });
 };
 
+/** The impulses of starts since them: at times, and the texts that the page shows at half a nutation. */
+window.findImpulses = async (cases) => {
+  const { Course } = await import("/physics/course.js");
+  const { State } = await import("/physics/state.js");
+  const { findImpulses } = await import("/charts/impulses.js");
+  const { writeImpulses } = await import("/charts/impulses_chart.js");
+  return cases.map(([top, theta, phi, rate, psi]) => {
+    const rates = { phi, theta: rate, psi };
+    const course = new Course(kernel, top, State.fromEuler(kernel, { theta }, rates));
+    const half = course.motion.nutation_period / 2;
+    const found = [0.3, 0.9, 1].map((share) => {
+      const passed = share * half;
+      const numbers = course.motion.at(passed); // at the double, which no nanosecond rounds
+      const state = new State(kernel, numbers.slice(0, 4), numbers.slice(4));
+      return findImpulses(course, state, passed);
+    });
+    return toRecord([half, found, writeImpulses(course, half)]);
+  });
+};
+
 /** Whether each start makes loops, and the spins at which the kinds of its motions change. */
 window.decideKinds = async (cases) => {
   const { makesLoops, findBoundaries } = await import("/charts/kinds.js");

@@ -190,15 +190,13 @@ def test_the_impulses_of_one_fall_are_those_of_the_article(open_page):
 
     def is_shown_up_to_now():
         passed = float(page.tab.get_attribute("body", "data-time")) - event["time"]
-        # up to now: to the last of 200 steps
-        ends = [find_impulses(motion, time) for time in (passed - half / 200, passed)]
-        low, high = (1e3 * end(ends, axis=0) for end in (np.min, np.max))
-        return ((low - 1e-3 < read()[:3]) & (read()[:3] < high + 1e-3)).all()
+        wanted = [1e3 * each for each in find_impulses(motion, passed)]
+        return read()[:3] == pytest.approx(wanted, rel=6e-4, abs=1e-9)  # four digits are shown
 
     def is_shown_whole():
-        # trapezoids: their second differences leave 1e-5 of the whole, and four digits are shown
+        *parts, total = read()
         wanted = [1e3 * each for each in find_impulses(motion, half)]
-        return read() == pytest.approx([*wanted, 0.0], abs=6e-4)
+        return total == 0 and parts == pytest.approx(wanted, abs=6e-4)  # four digits
 
     # numbers follow the motion four times a second, and later on a busy machine
     page.wait_for_time(event["time"] + 0.02)

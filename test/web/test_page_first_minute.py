@@ -23,7 +23,7 @@ def new(open_page):
 
 def read_kick(page):
     """Return the motions before and after the push, and the time of the push."""
-    start, kick = page.read_events()
+    start, kick = page.read_events()[-2:]
     before = read_motion(start).at(find_time(start, kick))
     motion = read_motion(kick)
     return Motion(motion.top, before), motion, kick["time"]
@@ -47,6 +47,43 @@ def test_a_push_is_predicted_seen_and_compared(new):
     assert new.tab.is_visible("#headline")
     new.tab.click("#hurry")
     assert not new.tab.is_visible("#compared")
+
+
+@pytest.mark.wording
+def test_the_same_is_asked_at_the_fast_precession_and_the_same_push_lowers_it(new):
+    new.tab.click("text=It will rise")
+    _, motion, time = read_kick(new)
+    assert not new.tab.is_visible("#second")
+    new.wait_for_time(time + motion.nutation_period / 2)
+    new.tab.click("text=And at the fast precession?")
+    new.tab.wait_for_selector("text=Will it rise or fall?")
+    assert not new.tab.is_visible("#compared")
+    start = new.read_events()[-1]
+    fast = read_motion(start)
+    assert fast.kind == "regular"
+    assert fast.mean_precession_rate == pytest.approx(69.82, abs=0.01)
+    new.tab.click("text=It will fall")
+    before, motion, time = read_kick(new)
+    assert motion.turning_angles[1] > before.turning_angles[1] + 0.05
+    assert not new.tab.is_visible("#between")
+    new.wait_for_time(time + motion.nutation_period / 2)
+    new.tab.wait_for_selector("#compared")
+    assert new.say("predicted") == "it falls"
+    assert new.say("happened").startswith("it fell ")
+    assert "between them, 6.50 and 69.82 rad/s" in new.say("between")
+    assert not new.tab.is_visible("#second")
+    new.tab.click("#hurry")
+    assert not new.tab.is_visible("#between")
+
+
+@pytest.mark.wording
+def test_the_second_answer_does_not_replace_the_first_one(new):
+    new.tab.click("text=It will rise")
+    _, motion, time = read_kick(new)
+    new.wait_for_time(time + motion.nutation_period / 2)
+    new.tab.click("#second")
+    new.tab.click("text=It will fall")
+    assert new.tab.evaluate("Object.values(localStorage).includes('rises')")
 
 
 def test_who_comes_again_is_not_asked(new):

@@ -1,6 +1,14 @@
-"""The headline says what is so, and agrees with the reason below it."""
+"""The headline says what is so, and agrees with the reason below it; so do sentences at buttons."""
 
+import math
+
+import numpy as np
 import pytest
+from trials import choose
+from web.opened import read_motion
+
+from symtop_ros.physics import Motion
+from symtop_ros.physics.kicks import push_axle
 
 
 def test_a_kick_under_friction_is_judged_apart_from_friction_and_said_to_be_past(opened):
@@ -44,3 +52,43 @@ def test_a_top_that_at_first_goes_the_other_way_is_said_to_do_both(opened):
         opened.follow(f"theta=2&psi_dot=200&phi_dot={rate}")
         opened.press(key)
         assert words in opened.say("headline")
+
+
+# The article's top at both roots, at slow roots of a slower spin that sink and that rise, a disc, a
+# hanging top, and one that is let go.
+STEADY = [
+    f"theta=0.5&psi_dot={spin}&precession={root}"
+    for spin in (112, 120, 200)
+    for root in ("slow", "fast")
+]
+PRESSED = [*STEADY, "scene=perry_fails", "scene=hanging", "scene=cusps", "scene=conical_pendulum"]
+HEIGHTS = {1: "higher", -1: "lower", 0: "as high as before"}
+
+
+def push_for_a_second(motion):
+    way = math.copysign(1.0, motion.mean_precession_rate)
+    for k in range(20):
+        state = motion.at(0.05 if k else 0.0)
+        pushed = push_axle(motion.top, state, way * 0.015 * abs(motion.top.Mgl) / 20)
+        motion = Motion(motion.top, pushed)
+    return motion
+
+
+def turn_for_a_second(motion):
+    torque = (0.0, 0.0, 0.0075 * abs(motion.top.Mgl))
+    return Motion(motion.top, Motion(motion.top, motion.start, torque=torque).at(1.0))
+
+
+@pytest.mark.wording
+@pytest.mark.parametrize("fragment", choose(PRESSED, PRESSED[:2]))
+def test_what_a_button_that_is_held_would_do_is_computed(open_page, fragment):
+    page = open_page(f"#{fragment}")
+    motion = read_motion(page.read_events()[-1])
+    for name, act in (("press", push_for_a_second), ("torque", turn_for_a_second)):
+        after, said = act(motion), page.say(f"outlook-{name}")
+        heights = [np.cos(each.turning_angles).sum() * motion.top.Mgl for each in (motion, after)]
+        assert f"the weight is {HEIGHTS[int(np.sign(heights[1] - heights[0]))]}" in said, said
+        rates = (
+            f"{after.mean_precession_rate:.2f} instead of {motion.mean_precession_rate:.2f} rad/s"
+        )
+        assert rates in said, said

@@ -110,3 +110,13 @@ def test_a_link_that_cannot_be_followed_is_refused(opened):
         opened.follow(fragment)
         assert opened.say("refusal").startswith(refusal)
         assert opened.read_events() == events
+
+
+@pytest.mark.wording
+def test_a_scene_that_is_opened_by_a_link_tells_its_story(open_page):
+    page = open_page("#scene=closed_cusps")
+    assert page.tab.locator("#scenes").input_value() == "closed_cusps"
+    assert page.say("story").startswith("A trace with six cusps")
+    page.follow("scene=friction")
+    page.until(lambda: page.say("story").startswith("The article's top with friction"))
+    assert not page.tab.is_visible("#start-scene")

@@ -90,11 +90,45 @@ ReasonKind = Literal[
     "unchanged",
     "reversed",
     "no_effect",
+    "weightless",
     "undefined",
     "stable",
     "unstable",
 ]
 REASON_KINDS: tuple[ReasonKind, ...] = get_args(ReasonKind)
+
+Explanation = Literal[
+    "fixed",
+    "free",
+    "upright",
+    "steady",
+    "plane",
+    "no_spin",
+    "about_momentum",
+    "with_momentum",
+    "swings",
+]
+EXPLANATIONS: tuple[Explanation | None, ...] = (
+    None,
+    "fixed",
+    "free",
+    "upright",
+    "steady",
+    "plane",
+    "no_spin",
+    "about_momentum",
+    "with_momentum",
+    "swings",
+)
+
+Turn = Literal["faster", "slower", "rests", "against"]
+TURNS: tuple[Turn | None, ...] = (None, "faster", "slower", "rests", "against")
+
+Pace = Literal["speeds", "slows"]
+PACES: tuple[Pace | None, ...] = (None, "speeds", "slows")
+
+Part = Literal["size", "direction", "tilt"]
+PARTS: tuple[Part, ...] = get_args(Part)
 
 LiftKind = Literal["unchanged", "higher", "lower"]
 LIFT_KINDS: tuple[LiftKind, ...] = get_args(LiftKind)
@@ -196,6 +230,23 @@ class AverageRecord(Structure):
     ]
 
 
+class CauseRecord(Structure):
+    """`symtop_cause`."""
+
+    _fields_: ClassVar = [
+        ("explanation", c_int),
+        ("turn", c_int),
+        ("pace", c_int),
+        ("torque_share", c_double),
+        ("rate_about_momentum", c_double),
+        ("torque_from_perpendicular", c_double * 2),
+        ("momentum_from_axle", c_double * 3),
+        ("omega_from_axle", c_double * 3),
+        ("momentum_from_vertical", c_double * 3),
+        ("constant", c_uint),
+    ]
+
+
 class LiftRecord(Structure):
     """`symtop_lift`."""
 
@@ -212,6 +263,7 @@ class VerdictRecord(Structure):
         ("motion", c_int),
         ("reason", ReasonRecord),
         ("average", AverageRecord),
+        ("cause", CauseRecord),
         ("factor", c_double),
         ("highest", LiftRecord),
         ("lowest", LiftRecord),
@@ -230,6 +282,7 @@ RECORDS: tuple[type[Structure], ...] = (
     PlaceRecord,
     ReasonRecord,
     AverageRecord,
+    CauseRecord,
     LiftRecord,
     VerdictRecord,
 )

@@ -353,6 +353,7 @@ typedef enum {
   SYMTOP_UNCHANGED,       /* the factor is 1 */
   SYMTOP_REVERSED,        /* the factor is negative */
   SYMTOP_NO_EFFECT,       /* theta'' is the same with the kick as without it */
+  SYMTOP_WEIGHTLESS,      /* Mgl = 0: nothing rises in opposition to gravity */
   SYMTOP_VERTICAL_UNDEFINED, /* "undefined": the axis passes the vertical */
   SYMTOP_VERTICAL_STABLE,    /* "stable": it rests there, and stays near it */
   SYMTOP_VERTICAL_UNSTABLE   /* "unstable" */
@@ -374,6 +375,59 @@ typedef struct {
   int is_fast;          /* 1 if p_psi^2 > 4 Ix |Mgl|, Mgl not 0, and that is within 30 % of rate */
   int spin_reverses;
 } symtop_average;
+
+/* Why the axis moves as it does under gravity alone: the first that holds. */
+typedef enum {
+  SYMTOP_EXPLANATION_UNSAID,  /* "": none holds */
+  SYMTOP_EXPLANATION_FIXED,   /* Mgl = 0, and the axle is along L, or at rest */
+  SYMTOP_EXPLANATION_FREE,    /* Mgl = 0: L is constant, and the axle turns about it */
+  SYMTOP_EXPLANATION_UPRIGHT, /* the axle rests on the vertical: no torque */
+  SYMTOP_EXPLANATION_STEADY,  /* the torque turns L as fast as the axle goes round */
+  SYMTOP_EXPLANATION_PLANE,   /* L is along the torque: a plane pendulum */
+  SYMTOP_EXPLANATION_NO_SPIN, /* p_psi = 0: L is perpendicular to the axle, a spherical pendulum */
+  SYMTOP_EXPLANATION_ABOUT_MOMENTUM, /* L stays within 10 degrees of the vertical: the axle goes round L */
+  SYMTOP_EXPLANATION_WITH_MOMENTUM,  /* L stays within 30 degrees of the axle: the axle goes round with L */
+  SYMTOP_EXPLANATION_SWINGS   /* the torque comes more than 30 degrees from perpendicular to L */
+} symtop_explanation;
+
+/* phi' compared with the rate at which gravity's torque would turn L, for an axis that leaves its tilt
+ * with theta' = 0. */
+typedef enum {
+  SYMTOP_TURN_UNSAID, /* "" */
+  SYMTOP_TURN_FASTER, /* the torque does not suffice: the weight rises */
+  SYMTOP_TURN_SLOWER, /* some of the torque is left, and lowers the weight */
+  SYMTOP_TURN_RESTS,  /* phi' = 0: all of it is left */
+  SYMTOP_TURN_AGAINST /* it goes round in the other direction: the weight falls */
+} symtop_turn;
+
+/* What |phi'| does on all of the way to the next turning angle. */
+typedef enum {
+  SYMTOP_PACE_UNSAID, /* "": one after the other */
+  SYMTOP_PACE_SPEEDS,
+  SYMTOP_PACE_SLOWS
+} symtop_pace;
+
+/* What does not change in the motion, besides p_phi, p_psi and the energy. */
+typedef enum {
+  SYMTOP_PART_SIZE = 1,      /* of L */
+  SYMTOP_PART_DIRECTION = 2, /* of L */
+  SYMTOP_PART_TILT = 4
+} symtop_part;
+
+/* NaN for a driven motion. Angles are in rad. */
+typedef struct {
+  symtop_explanation explanation;
+  symtop_turn turn;
+  symtop_pace pace;
+  double torque_share; /* of gravity's torque: what it takes to turn L as fast as the axle goes round
+                          now; NaN without a turn */
+  double rate_about_momentum; /* |L|/Ix in rad/s, at which the axle turns about L now */
+  double torque_from_perpendicular[2]; /* of torque and L: now, and the most in a nutation */
+  double momentum_from_axle[3]; /* from the line of the axle: now, the least and the most in a nutation */
+  double omega_from_axle[3];
+  double momentum_from_vertical[3]; /* from the line of the vertical */
+  unsigned constant; /* the sum of symtop_part */
+} symtop_cause;
 
 typedef enum {
   SYMTOP_AS_HIGH, /* "unchanged" */
@@ -403,6 +457,7 @@ typedef struct {
   symtop_kind motion;
   symtop_reason reason;
   symtop_average average; /* NaN for a driven motion */
+  symtop_cause cause;
   double factor;          /* of phi'; NaN for an angular impulse and on the vertical */
   /* after a kick, compared with none: */
   symtop_lift highest, lowest;

@@ -7,7 +7,7 @@ not kicked: phi' is multiplied by a factor while the spin rate or the spin momen
 - 0 <= factor < 1 (delayed): the rule holds if theta'' is higher with the kick.
 - The rule says nothing (None) if phi' = 0, if the factor is 1 or negative, about an angular
   impulse that changes theta' or the spin momentum, if theta'' is the same with the kick as without
-  it, and on the vertical, where phi' is undefined.
+  it, for Mgl = 0, where there is no weight to rise, and on the vertical, where phi' is undefined.
 
 These words mean the axis. The height of the centre of mass is cos(theta) times an arm of the sign
 of Mgl, so for Mgl < 0 it moves the other way, and the answers name both.
@@ -18,12 +18,12 @@ of a p^2 - b p + Mgl = 0, Ix theta''/sin(theta) after a kick by k is
 
     (k - 1) Mgl (k s/f - 1)  from the slow root,    (k - 1) a f^2 (k - s/f)  from the fast one.
 
-Since |s| < |f|, a small hurry on the slow root raises the centre of mass of every top, and lowers
-the axis if and only if Mgl < 0. A hurry on the fast root raises the centre of mass if and only if
-Mgl a < 0, where a = (Ix - Iz) cos(theta) if the spin rate is held and Ix cos(theta) if the spin
-momentum is. docs/derivation.md has the derivation. Elsewhere the top may rise although the rule
-fails, and the reverse. The answer to a kick says so. The formulas are in the kernel
-(`kernel/rule/tilt.hpp` and `verdict.hpp`).
+Slow and fast are meant with that held which the kick holds. Since |s| < |f|, a small hurry on the
+slow root raises the centre of mass of every top, and lowers the axis if and only if Mgl < 0. A
+hurry on the fast root raises the centre of mass if and only if Mgl a < 0, where a = (Ix - Iz)
+cos(theta) if the spin rate is held and Ix cos(theta) if the spin momentum is. docs/derivation.md
+has the derivation. Elsewhere the top may rise although the rule fails, and the reverse. The answer
+to a kick says so. The formulas are in the kernel (`kernel/rule/tilt.hpp` and `verdict.hpp`).
 """
 
 import math
@@ -55,6 +55,7 @@ from symtop_ros.physics.kernel.records import (
 )
 from symtop_ros.physics.kicks import validate_hold
 from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.rule.cause import Cause, read_cause
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import validate_one
 from symtop_ros.wording import write
@@ -191,6 +192,8 @@ class KickVerdict:
         Facts that are contrary to the change of theta''; None if there are none.
     average : Average or None
         As in `Verdict`; None for a driven motion too.
+    cause : Cause
+        As in `Verdict`, after the kick.
     """
 
     axis: Literal["tilted", "vertical"]
@@ -208,6 +211,7 @@ class KickVerdict:
     lowest: Lift
     contradiction: Contradiction | None
     average: Average | None
+    cause: Cause
 
     def __str__(self) -> str:
         """Return the change, its consequences and Perry's rule, in sentences."""
@@ -267,6 +271,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
         lowest=Lift(LIFT_KINDS[found.lowest.kind], found.lowest.amount),
         contradiction=_read_contradiction(found.contrary_facts, reason),
         average=read_average(found.average),
+        cause=read_cause(found.cause, SUBJECTS[found.subject]),
     )
 
 

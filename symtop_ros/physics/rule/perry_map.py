@@ -23,8 +23,8 @@ class HurryEffect:
     before, after : ndarray (2, ...)
         Turning angles without the kick and with it, smallest theta first, in rad.
     rule_applies : ndarray (...) of bool
-        False where Perry's rule says nothing: for phi' = 0, on the vertical, for a factor that is 1
-        or negative, and where theta'' is the same with the kick as without it.
+        False where Perry's rule says nothing: for phi' = 0, for Mgl = 0, on the vertical, for a
+        factor that is 1 or negative, and where theta'' is the same with the kick as without it.
     rule_holds : ndarray (...) of bool
         True where Perry's rule holds, as defined in `perrys_rule`.
 

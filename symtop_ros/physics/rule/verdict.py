@@ -19,6 +19,7 @@ from symtop_ros.physics.kernel.records import (
     VerdictRecord,
 )
 from symtop_ros.physics.kicks import HOLDS, validate_hold
+from symtop_ros.physics.rule.cause import Cause, read_cause
 from symtop_ros.physics.rule.perry import VERTICAL, Average, Reason, read_average, read_reason
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
@@ -56,6 +57,8 @@ class Verdict:
         The reason: theta'' with the kick and without it.
     average : Average or None
         Mean precession and its fast-top approximation; None if the mean precession is undefined.
+    cause : Cause
+        Why the axis moves as it does.
 
     Examples
     --------
@@ -76,6 +79,7 @@ class Verdict:
     rule_holds: bool | None
     reason: Reason
     average: Average | None
+    cause: Cause
 
     def __str__(self) -> str:
         """Return direction, turning angles, reason and averages, in sentences."""
@@ -200,6 +204,7 @@ def _read(found: VerdictRecord, hold: Hold) -> Verdict:
         rule_holds=None if reason.rule is None else reason.rule == "holds",
         reason=reason,
         average=read_average(found.average),
+        cause=read_cause(found.cause, SUBJECTS[found.subject]),
     )
 
 

@@ -47,11 +47,16 @@ export class Page {
     this.layers = new Layers(send);
     /** @type {Lesson | null} */
     this.lesson = null; // until the top has sent its steps
+    /** @type {((name: string) => void) | null} */
+    this.tellStory = null; // until it has sent its scenes
     this.charts = new Charts((kept) => send({ act: "keep", kept }));
-    this.question = new Question(() => {
-      this.act("hurry");
-      this.send({ act: "run" });
-    });
+    this.question = new Question(
+      () => {
+        this.act("hurry");
+        this.send({ act: "run" });
+      },
+      (name) => this.send({ act: "scene", name }),
+    );
     followLooks();
     keepChoice("unit", () => this.showUnit());
     this.listen();
@@ -112,7 +117,7 @@ export class Page {
 
   /** @param {Message} hello scenes, layers and the steps of the lesson */
   greet({ scenes, layers, lesson: steps }) {
-    offerScenes(scenes, (name) => this.send({ act: "scene", name }));
+    this.tellStory = offerScenes(scenes, (name) => this.send({ act: "scene", name }));
     this.layers.offer(layers);
     this.lesson = new Lesson(steps, this.send.bind(this), (step) => this.prepare(step.layers));
     find("save-predictions").addEventListener("click", () => {
@@ -162,7 +167,9 @@ export class Page {
       node: this.content.node,
       start: fields.join(", "),
     });
-    if (!this.content.node || confirm(question)) this.send({ act: "link", link });
+    if (this.content.node && !confirm(question)) return;
+    this.send({ act: "link", link });
+    if (link.scene !== undefined) this.tellStory?.(link.scene);
   }
 
   /** @param {Facts} facts */
@@ -176,6 +183,8 @@ export class Page {
     this.showHistory(facts.histories[inDegrees() ? "degrees" : "radians"]);
     this.fields.show(facts);
     this.lesson?.follow(facts);
+    say("impulses-title", facts.impulses);
+    for (const [name, text] of Object.entries(facts.outlooks)) say(`outlook-${name}`, text);
     showLedger(facts.ledger, facts.energies);
   }
 

@@ -37,9 +37,11 @@ function* list_rows({ orientation, angular_velocity }) {
 /** The numbers of a record, with the places of names in their lists. */
 function* flatten(names, record) {
   const lists = { subject: "subjects", direction: "directions", motion: "kinds", rule: "rules" };
+  Object.assign(lists, { explanation: "explanations", turn: "turns", pace: "paces" });
+  const bits = { contrary_facts: "facts", constant: "parts" };
   for (const [field, value] of Object.entries(record)) {
-    if (field === "contrary_facts") {
-      yield names.facts.reduce((sum, each, bit) => sum + (value.includes(each) << bit), 0);
+    if (field in bits) {
+      yield names[bits[field]].reduce((sum, each, bit) => sum + (value.includes(each) << bit), 0);
     } else if (field === "kind") {
       const list = "amount" in record ? "lifts" : "place" in record ? "reasons" : "places";
       yield names[list].indexOf(value);

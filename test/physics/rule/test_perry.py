@@ -20,6 +20,7 @@ from symtop_ros.physics import (
     hurry,
     kick_verdict,
     perrys_rule,
+    regular_precession_rates,
     set_precession_rate,
 )
 
@@ -106,6 +107,28 @@ def test_where_the_rule_says_nothing_it_says_why(state, factor, why):
         phi, psi = state.euler_rates.phi, state.euler_rates.psi
         if state.euler_rates.theta == 0:
             assert not compare_hurried(ARTICLE, 0.5, phi, psi, factor).rule_applies
+
+
+@pytest.mark.parametrize("hold", HOLDS)
+def test_without_weight_nothing_rises_against_gravity(hold):
+    top, before = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0), precess(6.5)
+    assert perrys_rule(top, before, 1.4, hold).reason.kind == "weightless"
+    found = kick_verdict(Motion(top, hurry(before, 1.4, hold)), before, hold)
+    assert (found.reason.kind, found.reason.rule) == ("weightless", None)
+    assert not compare_hurried(top, 0.5, 6.5, 200.0, 1.4, hold).rule_applies
+
+
+def test_a_slow_root_at_constant_spin_rate_may_be_the_fast_one_at_constant_spin_momentum():
+    top = Top(Ix=1.0, Iz=0.95, Mgl=1.0)
+    slow, _ = regular_precession_rates(top, theta=0.5, psi_dot=1.0)
+    assert slow > math.sqrt(top.Mgl / (top.Ix * math.cos(0.5)))
+    before = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=1.0)
+    directions = {"spin_rate": "rises", "spin_momentum": "falls"}
+    for hold, direction in directions.items():
+        found = kick_verdict(Motion(top, hurry(before, 1.02, hold)), before, hold)
+        assert found.direction == direction
+        places = [perrys_rule(top, before, 1.02, each).reason.place.kind for each in directions]
+        assert places == ["slow", "fast"]
 
 
 def test_an_impulse_has_no_rule_but_facts():

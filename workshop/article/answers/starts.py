@@ -168,10 +168,12 @@ def start_decides(top: Top) -> Measured:
 @claim()
 def random_starts_decide(top: Top) -> Measured:
     """Check the rule for random tops and starts, by the kind of the motion."""
-    random, good, looping = np.random.default_rng(SEED), 0, 0
+    random, good, looping, decided, cusped = np.random.default_rng(SEED), 0, 0, 0, 0
     for k in range(TRIED):
         drawn = draw_top(random, top)
         each = drawn if k else top
+        if k % 2:  # the same with its weight below the pivot
+            each = Top(each.Ix, each.Iz, -each.Mgl)
         theta, psi_dot = random.uniform([0.2, 30.0], [2.9, 300.0]).tolist()
         # on both sides of the two cusps, which lie at 0 and about 1
         phi_dot = random.uniform(-1.0, 2.0) * 2 * each.Mgl / (each.Iz * psi_dot)
@@ -180,9 +182,25 @@ def random_starts_decide(top: Top) -> Measured:
         kind = Motion(each, state).kind
         good += kind == ("looping" if expected else "unidirectional")
         looping += expected
-    return Measured(
-        good == TRIED and 0.1 * TRIED < looping < 0.9 * TRIED, good=good, looping=looping
-    )
+        rate = random.uniform(0.3, 3.0) * float(np.sqrt(abs(each.Mgl) / each.Ix))
+        has_cusp = has_second_cusp(each, theta, rate)
+        decided += has_cusp == (start_at_second_cusp(each, theta, rate).kind == "cusps")
+        cusped += has_cusp
+    holds = good == decided == TRIED
+    holds = holds and all(0.1 * TRIED < count < 0.9 * TRIED for count in (looping, cusped))
+    return Measured(holds, good=good, looping=looping, decided=decided, cusped=cusped)
+
+
+def has_second_cusp(top: Top, theta: float, phi_dot: float) -> bool:
+    """Return True if phi' = 2 Mgl/p_psi leads to a cusp: |p_phi| < |p_psi|."""
+    p_psi, sign = TWICE * top.Mgl / phi_dot, np.sign(top.Mgl)
+    return bool(p_psi**2 > 2 * top.Ix * abs(top.Mgl) * (1 + sign * np.cos(theta)))
+
+
+def start_at_second_cusp(top: Top, theta: float, phi_dot: float) -> Motion:
+    """Return the motion with theta' = 0 and p_psi = 2 Mgl/phi'."""
+    psi_dot = TWICE * top.Mgl / phi_dot / top.Iz - phi_dot * float(np.cos(theta))
+    return Motion(top, State.from_euler(theta=theta, phi_dot=phi_dot, psi_dot=psi_dot))
 
 
 @claim()

@@ -58,7 +58,7 @@ inline symtop_rule compare_hurried(const symtop_top& top, double theta, double p
   if (tilt.y == 0) return SYMTOP_RULE_SAYS_NOTHING;  // on the vertical, where phi' is undefined
   const TiltQuadratic quadratic(top, {tilt.x, std::fabs(tilt.x)}, {spin, std::fabs(spin)}, hold);
   const int change = quadratic.change(phi_dot, after).sign;
-  return judge_change({phi_dot, after, factor, false}, change);
+  return judge_change({phi_dot, after, factor, false, top.Mgl != 0}, change);
 }
 
 }  // namespace symtop

@@ -4,13 +4,14 @@
 // One definition of the rule serves a start, a kick and a map. The kicked top is compared with the
 // same top not kicked. Hurried (a factor above 1), the rule holds if theta'' is lower with the kick;
 // delayed (0 to 1), if it is higher. It says nothing if phi' = 0, if the factor is 1 or negative,
-// about an angular impulse that is no push along the precession, if theta'' is the same with the
-// kick as without it, and on the vertical, where phi' is undefined. At a root of regular precession
-// theta'' is 0 without the kick, so the hurried axis rises if and only if the rule holds: the
-// article's case.
+// about an angular impulse that is no push along the precession, without weight (Mgl = 0), if theta''
+// is the same with the kick as without it, and on the vertical, where phi' is undefined. At a root of
+// regular precession theta'' is 0 without the kick, so the hurried axis rises if and only if the rule
+// holds: the article's case.
 #pragma once
 
 #include "../gravity.hpp"
+#include "cause.hpp"
 #include "tilt.hpp"
 
 namespace symtop {
@@ -74,7 +75,7 @@ inline symtop_reason explain_vertical(const Instant& now) {
 // A change of phi' by a factor (NaN for an angular impulse): done by a kick, or only considered.
 struct PrecessionChange {
   double before, after, factor;
-  bool is_done;
+  bool is_done, has_weight;
 
   // The reason why the rule says nothing; that of a change if it says something.
   symtop_reason_kind find_kind(bool has_effect) const {
@@ -83,6 +84,7 @@ struct PrecessionChange {
     if (factor == 1) return SYMTOP_UNCHANGED;
     if (factor < 0) return SYMTOP_REVERSED;
     if (!has_effect) return SYMTOP_NO_EFFECT;
+    if (!has_weight) return SYMTOP_WEIGHTLESS;
     if (factor > 1) return is_done ? SYMTOP_HURRIED : SYMTOP_IF_HURRIED;
     return is_done ? SYMTOP_DELAYED : SYMTOP_IF_DELAYED;
   }
@@ -116,7 +118,7 @@ inline PrecessionChange find_change(const Instant& before, const Instant& after,
   else if (std::fabs(now) <= rounding)
     now = 0.0;
   const double factor = hold == SYMTOP_NOTHING ? NAN : was != 0 ? now / was : 1.0;
-  return {was, now, factor, true};
+  return {was, now, factor, true, before.top.Mgl != 0};
 }
 
 // True if a kick leaves theta' and the axial momentum as they were, up to rounding: a push on the
@@ -166,10 +168,11 @@ inline bool judge(const symtop_start& s, GravityMotion& motion, double factor, s
   if (!(std::fabs(after) <= LARGEST)) return false;
   verdict = describe_course(now, motion);
   verdict.average = find_average(s, motion);
+  verdict.cause = find_cause(now, verdict);
   verdict.factor = factor;
   verdict.reason = is_vertical ? explain_vertical(now)
                                : explain_change(TiltAcceleration(now, hold),
-                                                {rate, after, factor, false});
+                                                {rate, after, factor, false, s.Mgl != 0});
   return true;
 }
 
@@ -205,6 +208,7 @@ inline symtop_verdict judge_kick(const symtop_start& before, const symtop_start&
       given == SYMTOP_NOTHING && is_push_along(was, now) ? SYMTOP_SPIN_MOMENTUM : given;
   symtop_verdict verdict = describe_course(now, with);
   verdict.average = is_driven ? leave_average() : find_average(after, with);
+  verdict.cause = is_driven ? leave_cause() : find_cause(now, verdict);
   if (is_driven) verdict.motion = SYMTOP_DRIVEN;
   verdict.factor = NAN;
   if (was.vertical.is_of_vertical_axis()) {

@@ -1,8 +1,10 @@
-// Chart of the impulses of one fall: the torques about the line of nodes from the last event to half a
-// nutation, their areas filled up to now, and below them theta', which is the sum over Ix.
+// Chart of the impulses of one fall, or one rise: the torques about the line of nodes from the last event
+// to half a nutation, their areas filled up to now, and below them theta', of which the change is the sum
+// over Ix.
 
 import { find } from "../controls/document.js";
 import { findFrameTorques } from "./formulas.js";
+import { findImpulses } from "./impulses.js";
 import { draw, findSpan, Frame, spread } from "./plot.js";
 import { NANO } from "../physics/course.js";
 import { shorten } from "../words/quantities.js";
@@ -16,6 +18,8 @@ const HEIGHTS = [150, 105]; // of the torques, and of theta'
 const LOWER = 20; // of the torques: their times are written below theta'
 const POINTS = 201;
 const [MILLI, DIGITS] = [1000, 4];
+const ZERO = 1e-6; // of the sizes of the parts: their sum is shown with no more digits than they are
+const STILL = 1e-7; // rad; from a turning point, where a fall or a rise begins
 /** @type {[keyof Instant["torques"], string][]} */
 const LOOKS = [
   ["gravity", "var(--theta)"],
@@ -35,12 +39,27 @@ export const listFall = (course) => {
   });
 };
 
-/** Impulses up to an instant, in N m s. @param {Instant[]} fall @param {keyof Instant["torques"]} name */
-export const sumImpulse = (fall, name) =>
-  fall.slice(1).reduce((sum, { time, torques }, k) => {
-    const before = fall[k];
-    return sum + ((time - before.time) * (torques[name] + before.torques[name])) / 2;
-  }, 0);
+/**
+ * The impulses up to now, as texts: of the parts, and of their sum.
+ * @param {Course} course @param {number} passed s
+ */
+export const writeImpulses = (course, passed) => {
+  const parts = findImpulses(course, course.at(Math.round(passed * NANO)), passed);
+  const sum = parts.reduce((total, each) => total + each, 0);
+  const size = parts.reduce((total, each) => total + Math.abs(each), 0);
+  return [...parts, Math.abs(sum) <= ZERO * size ? 0 : sum].map((each) =>
+    shorten(MILLI * each, DIGITS),
+  );
+};
+
+/** Whether the half nutation from a start is a fall of the axis, a rise, or some of both. @param {Course} course */
+export const nameHalf = ({ start, motion, isDriven }) => {
+  const [least, most] = motion.turning_angles;
+  if (isDriven || most - least <= STILL) return "half";
+  const { theta } = start.angles;
+  if (most - theta <= STILL) return "rise";
+  return theta - least <= STILL ? "fall" : "half";
+};
 
 /** The motion that was drawn last, and its torques. @type {{course: Course | null, fall: Instant[]}} */
 const drawn = { course: null, fall: [] };
@@ -51,10 +70,13 @@ export const drawImpulses = (course, passed) => {
   const { fall } = drawn;
   find("impulses").hidden = !fall.length;
   const past = fall.filter(({ time }) => time <= passed + 1 / NANO);
-  for (const [name] of LOOKS)
-    find(`impulse-${name}`).textContent = shorten(MILLI * sumImpulse(past, name), DIGITS);
   if (!fall.length) return;
-  const [end, last] = [past, fall].map((part) => part.at(-1)?.time ?? 0);
+  const last = fall[fall.length - 1].time;
+  const end = Math.min(Math.max(passed, 0), last);
+  const texts = writeImpulses(course, end);
+  LOOKS.forEach(([name], k) => {
+    find(`impulse-${name}`).textContent = texts[k];
+  });
   const heights = fall.flatMap(({ torques }) => Object.values(torques));
   const upper = new Frame(HEIGHTS[0], [0, last], findSpan([0, ...heights], 1e-9), 3);
   const rates = fall.map(({ rate }) => rate);

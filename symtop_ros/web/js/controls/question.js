@@ -1,31 +1,43 @@
-// The first question: what a push along the way will do. Its answer is compared with what happens.
+// The first question: what a push along the way will do. Its answer is compared with what happens. Then
+// the same is asked at the fast precession, where the same push does the opposite.
 
 import { keep, read } from "./choices.js";
 import { find, findAll, say } from "./document.js";
+import { writeNumber } from "../words/numbers.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Facts } from "../words/facts.js" */
 
 const KEPT = "answer"; // as the browser keeps it: who comes again is not asked
+const FAST = "fast_precession"; // the scene of the second question
 
 /** What was answered, by this visitor or an earlier one of the browser. @returns {string | null} */
 export const readAnswer = () => read(KEPT);
 
 export class Question {
-  /** @param {() => void} push */
-  constructor(push) {
+  /** @param {() => void} push @param {(scene: string) => void} start */
+  constructor(push, start) {
     /** The answer of now. @type {string | null} */
     this.answer = null;
     this.end = Infinity; // s of the run at which the answer is seen
     /** Times of the acts, which tell a new act. @type {string | null} */
     this.acts = null;
+    this.isStarting = false; // the motion of the second question
+    this.isSecond = false;
+    /** Regular rates of the motion that was pushed. @type {number[]} */
+    this.roots = [];
     for (const button of findAll("[data-answer]")) {
       button.addEventListener("click", () => {
         this.answer = button.dataset.answer ?? "";
-        keep(KEPT, this.answer);
+        if (!this.isSecond) keep(KEPT, this.answer);
         push();
       });
     }
+    find("second").addEventListener("click", () => {
+      this.leave();
+      this.isStarting = this.isSecond = true;
+      start(FAST);
+    });
   }
 
   /** Ask, unless this browser has answered. */
@@ -40,10 +52,17 @@ export class Question {
   }
 
   /** The push leads to what is seen, and another act ends the question. @param {Facts} facts @param {string} happened */
-  follow({ acts, half }, happened) {
+  follow({ acts, half, roots, since }, happened) {
     say("happened", happened);
-    const isNew = this.acts !== null && this.acts !== String(acts);
-    this.acts = String(acts);
+    const is = `${since}: ${acts}`; // a start may be at the same time as the one before
+    const isNew = this.acts !== null && this.acts !== is;
+    this.acts = is;
+    if (this.isStarting) {
+      this.isStarting = false;
+      this.roots = roots;
+      this.enter("ask");
+      return;
+    }
     if (!isNew) return;
     if (this.answer === null || half === null || this.end < Infinity) this.leave();
     else {
@@ -57,7 +76,8 @@ export class Question {
     this.answer = null;
     this.end = Infinity;
     this.enter("");
-    find("compared").hidden = true;
+    this.isSecond = false;
+    for (const name of ["compared", "second", "between"]) find(name).hidden = true;
   }
 
   /** What happened stands beside the answer once it has been seen. @param {number} time s */
@@ -65,5 +85,8 @@ export class Question {
     if (this.answer === null || time < this.end) return;
     this.enter("");
     find("compared").hidden = false;
+    find(this.isSecond ? "between" : "second").hidden = false;
+    const [slow, fast] = this.roots.map((each) => writeNumber(each, "2r"));
+    if (this.isSecond) say("between", phrase("page.between", { slow, fast }));
   }
 }

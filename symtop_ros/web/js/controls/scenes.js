@@ -5,8 +5,9 @@ import { phrase } from "../words/wording.js";
 
 /**
  * A scene is started when it is picked with the pointer, or by its button or Enter: keys that move
- * through the list start nothing.
+ * through the list start nothing. Returns what tells the story of one that was started elsewhere.
  * @param {{name: string}[]} scenes @param {(name: string) => void} start
+ * @returns {(name: string) => void}
  */
 export const offerScenes = (scenes, start) => {
   const list = find("scenes", HTMLSelectElement);
@@ -31,10 +32,16 @@ export const offerScenes = (scenes, start) => {
     event.preventDefault(); // it would open the list
     startChosen();
   });
+  const tellStory = () => say("story", list.value && phrase(`scene.${list.value}.story`));
   list.addEventListener("change", () => {
-    say("story", list.value && phrase(`scene.${list.value}.story`));
+    tellStory();
     button.hidden = !list.value;
     if (isPicked) startChosen();
   });
   button.addEventListener("click", startChosen);
+  return (name) => {
+    list.value = name; // nothing is chosen by a name that is no scene's
+    button.hidden = true;
+    tellStory();
+  };
 };

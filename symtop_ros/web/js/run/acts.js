@@ -18,7 +18,7 @@ const PUSH = 1; // rad/s by which a push changes a rate
 const PULL = 0.5; // of sqrt(|Mgl|/Ix): change of the rates by a pull of one scene unit
 const TORQUE_SHARE = 0.0075; // of |Mgl|: the torque of the buttons
 const PUSH_TORQUE = 2; // of that torque: the mean one of pushes along
-const PUSH_RATE = 20; // pushes per s of the motion
+export const PUSH_RATE = 20; // pushes per s of the motion
 const TORQUE_LASTS = 150; // ms after the last message of a button that is held
 const STEPS = 24; // of a nutation
 const LONGEST_STEP = 0.05; // s of the motion
@@ -59,11 +59,16 @@ const push = (top, { way }) => {
   addImpulse(top, [size * Math.cos(phi), size * Math.sin(phi), 0], way);
 };
 
+/** One of so many pushes in a second, along the precession, in N m s. @param {Course} course @param {number} rate */
+export const findPush = (course, rate = PUSH_RATE) => {
+  const way = Math.sign(course.free.motion.rates.mean_precession_rate) || 1;
+  return (way * PUSH_TORQUE * findTorque(course)) / rate;
+};
+
 /** Push along the precession: at once, and then again and again. @type {Act} */
 const pushAlong = (top, { axle_impulse, rate = PUSH_RATE, number = top.pushes }) => {
   const { course } = top;
-  const way = Math.sign(course.free.motion.rates.mean_precession_rate) || 1;
-  const impulse = axle_impulse ?? (way * PUSH_TORQUE * findTorque(course)) / rate;
+  const impulse = axle_impulse ?? findPush(course, rate);
   const after = top.state.kick(course.top, "axle", [impulse]);
   const act = { axle_impulse: impulse, rate, number };
   top.add("push", course.continue(after, { pushes: readPushes(act) }), { act });

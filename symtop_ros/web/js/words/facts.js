@@ -4,7 +4,9 @@ import { NANO } from "../physics/course.js";
 import { findOutcome } from "./headline.js";
 import { listHistory } from "./history.js";
 import { findLedger, nameLedger } from "./ledger.js";
+import { describeOutlooks } from "./outlooks.js";
 import { describePushes } from "./pushes.js";
+import { nameHalf } from "../charts/impulses_chart.js";
 import { findTurning } from "../charts/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
 import { findPotential } from "../charts/formulas.js";
@@ -27,7 +29,7 @@ const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
 const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
 const KICKS = ["kick", "push"];
-const CAUSES = ["hurried_rises", "delayed_falls"]; // that the torque of gravity alone explains
+const HELD = ["push", "torque"]; // which a button may still be giving
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
 /** The time in s that the plots show: one turn of the precession, or some nutations. */
@@ -108,13 +110,12 @@ const findAnnounced = (run, time) => {
 export const describeMotion = (run, time, free) => {
   const announced = findAnnounced(run, time);
   const found = announced.kind === "push" ? describePushes(run, announced, time, free) : null;
-  const { headline, name, outcome } = found ?? findOutcome(run.find(time), free);
-  const isKick = name === "kick";
+  const { headline, name, outcome, because } = found ?? findOutcome(run.find(time), free);
   const say = (/** @type {Variant} */ variant) => ({
     headline: phrase("headline", headline, variant),
-    because: phrase("because", { kind: isKick ? findCause(outcome) : "start" }),
+    because: because ? phrase("cause", because, variant).trim() : "",
     why: phrase(name, outcome, variant),
-    happened: isKick ? phrase("happened", headline, variant) : "",
+    happened: name === "kick" ? phrase("happened", headline, variant) : "",
   });
   return {
     texts: { radians: say("radians"), degrees: say("degrees") },
@@ -122,12 +123,6 @@ export const describeMotion = (run, time, free) => {
     table: listRates(free),
     turning: findTurning(free),
   };
-};
-
-/** Why the axis moves as it does after a kick, if the torque of gravity alone explains it. @param {any} outcome */
-const findCause = ({ direction, reason: { kind, rule, subject } }) => {
-  const cause = `${kind}_${direction}`;
-  return subject === "top" && rule === "holds" && CAUSES.includes(cause) ? cause : "start";
 };
 
 /** Tilt, rates and regular rates of now. @typedef {ReturnType<typeof describeNow>} Now */
@@ -160,6 +155,8 @@ export const describe = (run, time) => {
     ledger: findLedger(announced),
     energies: phrase("ledger", nameLedger(announced)),
     body: course.top,
+    impulses: phrase("impulses", { kind: nameHalf(course) }),
+    outlooks: describeOutlooks(HELD.includes(kind) ? null : course),
     isFresh: kind === "start",
   };
 };

@@ -82,8 +82,8 @@ const findMoves = (kind, [low, high], reason) => {
 };
 
 /**
- * The record of the headline, and that of its reason with the name of its template. Motions are
- * those under gravity alone, from the state of now; the headline says so where more acts.
+ * The record of the headline, that of its reason with the name of its template, and why the axis
+ * moves so, null if nothing can be said. Motions are those under gravity alone, from the state of now; the headline says so where more acts.
  * @param {Moment} moment @param {Course} free the motion that would follow
  */
 export const findOutcome = ({ kind, asked, course, before }, free) => {
@@ -95,9 +95,12 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
     // With friction or a torque the angles of the kick do not hold for long.
     const turning_angles = forces ? null : outcome.turning_angles;
     const kicked = { ...headline, turning_angles, ...swing };
+    // What the kick began says enough; what holds for the motion is said if there is no more.
+    const { cause } = outcome;
+    const because = cause.turn ? { ...cause, explanation: null } : cause;
     return forces
-      ? { headline: kicked, name: "after_kick", outcome: { verdict: outcome } }
-      : { headline: kicked, name: "kick", outcome };
+      ? { headline: kicked, name: "after_kick", outcome: { verdict: outcome }, because }
+      : { headline: kicked, name: "kick", outcome, because };
   }
   const verdict = judge(free);
   const { turning_angles } = verdict;
@@ -111,5 +114,6 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
     },
     name: forces ? "driven" : "start",
     outcome: { motion: moves, forces, verdict },
+    because: forces ? null : verdict.cause,
   };
 };

@@ -4,6 +4,7 @@
 import { findConstants } from "../charts/formulas.js";
 import { NANO } from "../physics/course.js";
 import { MILLI, nameGain } from "./ledger.js";
+import { judge } from "./verdict.js";
 
 /** @import { Run, Moment } from "../run/run.js" */
 /** @import { Course } from "../physics/course.js" */
@@ -11,6 +12,16 @@ import { MILLI, nameGain } from "./ledger.js";
 /** Halfway between the turning points. @param {Course} course */
 const findHeight = ({ motion: { turning_angles } }) =>
   turning_angles.reduce((sum, angle) => sum + Math.cos(angle), 0) / 2;
+
+/** Mean phi' and the height of the weight, before and after. @param {Course} former @param {Course} free */
+export const compareMeans = (former, free) => {
+  const [was, is] = [former, free].map((each) => each.motion.rates.mean_precession_rate);
+  const weight = MILLI * free.top.Mgl * (findHeight(free) - findHeight(former));
+  return {
+    means: Number.isNaN(was + is) ? null : { before: was, after: is },
+    weight: nameGain(weight, { weight: MILLI * free.top.Mgl, precession: 0 }),
+  };
+};
 
 /**
  * Null after something else, as a torque, or under friction.
@@ -25,18 +36,16 @@ export const describePushes = (run, first, time, free) => {
   const last = run.find(time);
   const { top } = free;
   const former = free.continueFree(before);
-  const [was, is] = [former, free].map((each) => each.motion.rates.mean_precession_rate);
   const [energy, now] = [before, free.start].map((each) => findConstants(top, each).energy);
-  const weight = MILLI * top.Mgl * (findHeight(free) - findHeight(former));
   const outcome = {
     number: last.number,
     duration: (last.time - first.time) / NANO,
     driven: false,
     turning_angles: free.motion.turning_angles,
     former_angles: former.motion.turning_angles,
-    means: Number.isNaN(was + is) ? null : { before: was, after: is },
     work: MILLI * (now - energy),
-    weight: nameGain(weight, { weight: MILLI * top.Mgl, precession: 0 }),
+    ...compareMeans(former, free),
   };
-  return { headline: { ...outcome, kind: "pushed" }, name: "push", outcome };
+  const because = judge(free).cause;
+  return { headline: { ...outcome, kind: "pushed" }, name: "push", outcome, because };
 };

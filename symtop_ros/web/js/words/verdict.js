@@ -23,6 +23,19 @@ const readReason = ({ subject, reason: { kind, rule, place, ...numbers } }, held
 const readAverage = ({ is_fast, ...average }) =>
   Number.isFinite(average.turns) ? { ...average, speed: is_fast ? "fast" : "slow" } : null;
 
+/** Why the axis moves as it does; without numbers for a driven motion. @param {Found} cause @param {string} subject */
+const readCause = ({ torque_share, rate_about_momentum: rate, ...cause }, subject) => {
+  const { explanation, turn, pace, constant, ...angles } = cause;
+  const kept = Object.entries(angles).map(([name, found]) => [
+    name,
+    Number.isNaN(rate) ? null : found,
+  ]);
+  const share = Number.isNaN(torque_share) ? null : torque_share;
+  const numbers = { torque_share: share, rate_about_momentum: Number.isNaN(rate) ? null : rate };
+  const said = { explanation, turn, pace, constant, subject };
+  return { ...said, ...numbers, ...Object.fromEntries(kept) };
+};
+
 /**
  * The verdict on a start under gravity alone, and what Perry's rule says if it is hurried.
  * @param {Course} course @param {number} factor @param {Hold} hold
@@ -38,6 +51,7 @@ export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_rate") => {
     rule_holds: reason.rule && reason.rule === "holds",
     reason,
     average: readAverage(found.average),
+    cause: readCause(found.cause, found.subject),
   };
 };
 
@@ -50,7 +64,7 @@ export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_rate") => {
 export const judgeKick = (course, before, hold) => {
   const { kernel, packed, isDriven } = course;
   const found = kernel.judgeKick(course.continueFree(before).packed, packed, hold);
-  const { factor, contrary_facts: facts, reason: _, average, ...others } = found;
+  const { factor, contrary_facts: facts, reason: _, average, cause, ...others } = found;
   // A push along the precession holds the spin momentum; after any other angular impulse the kernel
   // finds the rates at the spin rate that it left.
   const isPush = found.reason.kind !== "angular_impulse";
@@ -73,5 +87,6 @@ export const judgeKick = (course, before, hold) => {
     reason,
     contradiction: facts.length && rule ? { rule, subject, facts } : null,
     average: readAverage(average),
+    cause: readCause(cause, others.subject),
   };
 };

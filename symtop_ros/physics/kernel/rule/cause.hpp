@@ -1,0 +1,319 @@
+// Why the axis moves as it does: angles between torque, L, omega and axle over a nutation, and what
+// they allow one to say (derivation.md, "What explains the motion").
+//
+// Gravity's torque is along the line of nodes, n. L has the components Ix theta' along n, p_psi along
+// the axis and p_phi along the vertical. With p_psi and p_phi constant, its length is a function of
+// the height alone, (|L|/Ix)^2 = a^2 + alpha - beta u in the names of exact/nutation.hpp; so are its
+// angles with the axis and with the vertical, and those of omega, and they are monotone in u. Their
+// extremes are those at the turning angles. Only the torque's angle with L has its own in between.
+#pragma once
+
+#include "../gravity.hpp"
+#include "tilt.hpp"
+
+namespace symtop {
+
+// Sentences say how large an angle is; beyond these limits they are not made. The torque that stays
+// within 30 degrees of perpendicular to L changes its direction more than its length.
+const double NEAR_PERPENDICULAR = PI / 6, NEAR_THE_AXLE = PI / 6, NEAR_THE_VERTICAL = PI / 18;
+// The share of its terms below which a sum in doubles has no sign. The turning angles are some EPS
+// of 1, or the square root of it where two roots nearly meet.
+const double SURE = 1e-7;
+
+// L over Ix at a height, in a unit of time in which no square overflows.
+class Momentum {
+ public:
+  double a, b, beta;  // p_psi/Ix, p_phi/Ix, 2 Mgl/Ix
+  double spin;        // omega_z
+
+  explicit Momentum(const Instant& now) : vertical_(now.vertical) {
+    const symtop_top& top = now.top;
+    const double* omega = now.start.angular_velocity;
+    const double fastest =
+        std::fmax(now.find_largest_rate(), std::sqrt(std::fabs(top.Mgl) / top.Ix));
+    unit = fastest > 0 ? fastest : 1.0;
+    const double x = omega[0] / unit, y = omega[1] / unit;
+    spin = omega[2] / unit;
+    a = top.Iz / top.Ix * spin;
+    along_ = x * vertical_.x + y * vertical_.y, across_ = x * vertical_.y - y * vertical_.x;
+    b = along_ + a * vertical_.z;
+    beta = 2 * (top.Mgl / top.Ix / unit / unit);
+    squared_ = x * x + y * y;
+    theta_ = arc_tangent(vertical_.find_sine(), vertical_.z);
+  }
+
+  double unit;  // rad/s
+
+  // u0 - u, as a product: for small tilts a difference of cosines would have no digit.
+  double fall_to(double theta) const {
+    return 2 * cosine_and_sine((theta + theta_) / 2).y * cosine_and_sine((theta - theta_) / 2).y;
+  }
+
+  // sin^2(theta) phi' = b - a u
+  double turning_at(double theta) const { return along_ + a * fall_to(theta); }
+
+  // |omega_xy|^2, of which rounding leaves some EPS where the axis is at rest.
+  double square_at(double theta) const { return std::fmax(0.0, squared_ + beta * fall_to(theta)); }
+
+  // Between L, or omega, and the line of the axle.
+  double momentum_from_axle(double theta) const {
+    return arc_tangent(std::sqrt(square_at(theta)), std::fabs(a));
+  }
+  double velocity_from_axle(double theta) const {
+    return arc_tangent(std::sqrt(square_at(theta)), std::fabs(spin));
+  }
+
+  // Between L and the line of the vertical, where theta' = 0: its horizontal part is then sin(theta)
+  // (a - phi' u).
+  double momentum_from_vertical(double theta) const {
+    const Pair tilt = cosine_and_sine(theta);
+    if (tilt.y <= SURE * SURE) return arc_tangent(std::sqrt(square_at(theta)), std::fabs(b));
+    const double level = tilt.y * a - turning_at(theta) / tilt.y * tilt.x;
+    return arc_tangent(std::fabs(level), std::fabs(b));
+  }
+
+  // The same now, with theta': |L x z'| in the body frame, where L/Ix = (omega_x, omega_y, a).
+  double momentum_from_vertical_now(const double omega[3]) const {
+    const double x = omega[0] / unit, y = omega[1] / unit;
+    const Vertical& g = vertical_;
+    const double level = find_modulus({find_modulus({y * g.z - a * g.y, a * g.x - x * g.z}), across_});
+    return arc_tangent(level, std::fabs(b));
+  }
+
+  // Between the torque and the plane perpendicular to L: L has theta' along the torque, and a and
+  // sin(theta) phi' at right angles to it and to each other.
+  double torque_from_perpendicular(double theta) const {
+    const double sine = cosine_and_sine(theta).y;
+    if (sine <= SURE * SURE) return 0.0;  // no torque
+    const double around = turning_at(theta) / sine;
+    const double nodding = std::fmax(0.0, square_at(theta) - around * around);
+    return arc_tangent(std::sqrt(nodding), find_modulus({a, around}));
+  }
+  double torque_from_perpendicular_now() const {
+    const double sine = vertical_.find_sine();
+    if (sine == 0) return 0.0;
+    return arc_tangent(std::fabs(across_) / sine, find_modulus({a, along_ / sine}));
+  }
+
+  double size_now() const { return find_modulus({a, std::sqrt(squared_)}) * unit; }
+  double theta() const { return theta_; }
+  // The change of phi' with the height: (1 - u^2)^2 dphi'/du = 2 u (b - a u) - a (1 - u^2).
+  Pair slope_at(double theta) const {
+    const Pair tilt = cosine_and_sine(theta);
+    const double first = 2 * tilt.x * turning_at(theta), second = a * tilt.y * tilt.y;
+    return {first - second, std::fabs(first) + std::fabs(second)};
+  }
+  double turning_terms(double theta) const {
+    return std::fabs(along_) + std::fabs(a * fall_to(theta));
+  }
+
+ private:
+  Vertical vertical_;
+  double along_, across_, squared_, theta_;  // sin^2(theta) phi', sin(theta) theta' but for the sign
+};
+
+// The largest of a function over a nutation: the best of some tilts, and its neighbourhood by golden
+// section. The angle of torque and L is smooth in theta: where phi' has a spike, it is small.
+template <class Function>
+inline double find_largest_between(const double angles[2], const Function& at) {
+  const int PARTS = 64, STEPS = 30;
+  const double GOLDEN = 0.6180339887498949, width = (angles[1] - angles[0]) / PARTS;
+  int best = 0;
+  double most = -1.0;
+  for (int k = 0; k <= PARTS; k++) {
+    const double value = at(angles[0] + k * width);
+    if (value > most) most = value, best = k;
+  }
+  double low = angles[0] + std::fmax(best - 1, 0) * width;
+  double high = angles[0] + std::fmin(best + 1, PARTS) * width;
+  for (int step = 0; step < STEPS; step++) {
+    const double inner = (high - low) * GOLDEN, left = at(high - inner), right = at(low + inner);
+    most = std::fmax(most, std::fmax(left, right));
+    (left > right ? high : low) = left > right ? low + inner : high - inner;
+  }
+  return most;
+}
+
+inline int find_sign(double sum, double terms) {
+  return std::fabs(sum) <= SURE * terms ? 0 : sum > 0 ? 1 : -1;
+}
+
+// How |phi'| changes on the way to a turning angle, if it does so in one direction all the way. In
+// (-1, 1) phi' has at most one zero, u = b/a, and one extreme: the product of the roots of a u^2 - 2 b
+// u + a is 1. So the signs at both ends say whether one of them lies between.
+inline symtop_pace find_pace(const Momentum& L, double end) {
+  const double begin = L.theta();
+  const int turns[] = {find_sign(L.turning_at(begin), L.turning_terms(begin)),
+                       find_sign(L.turning_at(end), L.turning_terms(end))};
+  const Pair first = L.slope_at(begin), last = L.slope_at(end);
+  const int slope = find_sign(first.x, first.y);
+  if (!slope || slope != find_sign(last.x, last.y)) return SYMTOP_PACE_UNSAID;
+  const int turn = turns[0] ? turns[0] : turns[1];
+  if (!turn || turns[0] * turns[1] < 0) return SYMTOP_PACE_UNSAID;
+  const int height = end < begin ? 1 : -1;  // of du
+  return turn * slope * height > 0 ? SYMTOP_PACE_SPEEDS : SYMTOP_PACE_SLOWS;
+}
+
+// phi' compared with the rate at which gravity's torque would turn L, where theta' = 0. To turn L with
+// the axis takes the torque phi' (p_psi - Ix phi' cos(theta)) sin(theta); a share of gravity's torque
+// is left, which is Ix theta''. More than all of it is needed for the weight to rise, for both signs
+// of Mgl.
+inline symtop_turn find_turn(double share, double phi_dot) {
+  if (phi_dot == 0) return SYMTOP_TURN_RESTS;
+  if (share < -SURE) return SYMTOP_TURN_AGAINST;
+  if (share > 1) return SYMTOP_TURN_FASTER;
+  return share > 0 ? SYMTOP_TURN_SLOWER : SYMTOP_TURN_UNSAID;
+}
+
+inline bool is_swinging(const Instant& now) {
+  const double* omega = now.start.angular_velocity;
+  const Vertical& g = now.vertical;
+  return std::fabs(omega[0] * g.y - omega[1] * g.x) >
+         START_ROUNDING * now.find_largest_rate() * g.find_sine();
+}
+
+class CauseFinder {
+ public:
+  CauseFinder(const Instant& now, const symtop_verdict& verdict)
+      : now_(now), verdict_(verdict), L_(now), angles_{verdict.turning_angles[0],
+                                                       verdict.turning_angles[1]} {}
+
+  symtop_cause find() const {
+    symtop_cause cause = {};
+    measure(cause);
+    cause.explanation = explain(cause);
+    if (cause.explanation == SYMTOP_EXPLANATION_PLANE) lay_along_torque(cause);
+    cause.constant = find_constant();
+    cause.turn = SYMTOP_TURN_UNSAID, cause.pace = SYMTOP_PACE_UNSAID, cause.torque_share = NAN;
+    if (departs()) compare_rates(cause);
+    return cause;
+  }
+
+ private:
+  const Instant& now_;
+  const symtop_verdict& verdict_;
+  const Momentum L_;
+  const double angles_[2];
+
+  bool is_zero(double rate) const { return std::fabs(rate) <= START_ROUNDING; }  // in L_.unit
+  bool is_at_rest() const { return L_.size_now() == 0; }
+
+  void measure(symtop_cause& cause) const {
+    const double theta = L_.theta();
+    cause.rate_about_momentum = L_.size_now();
+    cause.torque_from_perpendicular[0] = L_.torque_from_perpendicular_now();
+    cause.torque_from_perpendicular[1] = find_largest_between(
+        angles_, [&](double each) { return L_.torque_from_perpendicular(each); });
+    write(cause.momentum_from_axle, L_.momentum_from_axle(theta),
+          [&](double each) { return L_.momentum_from_axle(each); });
+    write(cause.omega_from_axle, L_.velocity_from_axle(theta),
+          [&](double each) { return L_.velocity_from_axle(each); });
+    write(cause.momentum_from_vertical, L_.momentum_from_vertical_now(now_.start.angular_velocity),
+          [&](double each) { return L_.momentum_from_vertical(each); });
+  }
+
+  // Now, and the smallest and the largest of a nutation, which are those at its turning angles. The
+  // turning angles of doubles may leave out the start by some EPS.
+  template <class Function>
+  void write(double to[3], double present, const Function& at) const {
+    const double first = at(angles_[0]), last = at(angles_[1]);
+    to[0] = present;
+    to[1] = std::fmin(present, std::fmin(first, last));
+    to[2] = std::fmax(present, std::fmax(first, last));
+  }
+
+  // L is along the torque, also where it vanishes and the angles above are those of rounding.
+  void lay_along_torque(symtop_cause& cause) const {
+    for (double& each : cause.torque_from_perpendicular) each = PI / 2;
+    for (double* each : {cause.momentum_from_axle, cause.omega_from_axle, cause.momentum_from_vertical})
+      for (int k = 0; k < 3; k++) each[k] = PI / 2;
+  }
+
+  symtop_explanation explain(const symtop_cause& cause) const {
+    if (now_.top.Mgl == 0)
+      return is_at_rest() || cause.momentum_from_axle[2] <= SURE ? SYMTOP_EXPLANATION_FIXED
+                                                          : SYMTOP_EXPLANATION_FREE;
+    if (verdict_.motion == SYMTOP_SLEEPING) return SYMTOP_EXPLANATION_UPRIGHT;
+    if (verdict_.motion == SYMTOP_REGULAR) return SYMTOP_EXPLANATION_STEADY;
+    if (is_zero(L_.a) && is_zero(L_.b)) return SYMTOP_EXPLANATION_PLANE;
+    // Without spin phi' = b/sin^2(theta), unless the rounding of the spin is as large.
+    if (is_zero(L_.a) && std::fabs(L_.a) <= SURE * std::fabs(L_.b))
+      return SYMTOP_EXPLANATION_NO_SPIN;
+    if (goes_about_L(cause)) return SYMTOP_EXPLANATION_ABOUT_MOMENTUM;
+    if (goes_with_L(cause)) return SYMTOP_EXPLANATION_WITH_MOMENTUM;
+    const bool swings = cause.torque_from_perpendicular[1] > NEAR_PERPENDICULAR &&
+                        angles_[1] - angles_[0] > SURE;
+    return swings ? SYMTOP_EXPLANATION_SWINGS : SYMTOP_EXPLANATION_UNSAID;
+  }
+
+  bool have_one_sign(double first, double last) const { return first * last > 0; }
+
+  // L stays so near the vertical that the axle, which turns about L, goes round the vertical. With
+  // both turning angles further from the vertical than L is, phi' keeps its sign.
+  bool goes_about_L(const symtop_cause& cause) const {
+    const double most = cause.momentum_from_vertical[2];
+    return most <= NEAR_THE_VERTICAL && cause.momentum_from_axle[1] >= 2 * most &&
+           have_one_sign(L_.turning_at(angles_[0]), L_.turning_at(angles_[1]));
+  }
+
+  // The torque turns L about the vertical, at the rate Mgl (p_psi - p_phi u)/(L^2 - p_phi^2), always in
+  // the same direction. The axle is nearer to L than to the vertical: it goes round with L.
+  bool goes_with_L(const symtop_cause& cause) const {
+    const double most = cause.momentum_from_axle[2], margin = std::fmin(angles_[0], PI - angles_[1]);
+    const double first = L_.a - L_.b * cosine_and_sine(angles_[0]).x;
+    const double last = L_.a - L_.b * cosine_and_sine(angles_[1]).x;
+    return most <= NEAR_THE_AXLE && most < margin &&
+           cause.torque_from_perpendicular[1] <= NEAR_PERPENDICULAR && have_one_sign(first, last);
+  }
+
+  unsigned find_constant() const {
+    const bool stays = verdict_.motion == SYMTOP_REGULAR || verdict_.motion == SYMTOP_SLEEPING;
+    const bool is_untouched = now_.top.Mgl == 0 || verdict_.motion == SYMTOP_SLEEPING;
+    return (stays || is_untouched ? SYMTOP_PART_SIZE : 0) |
+           (is_untouched ? SYMTOP_PART_DIRECTION : 0) | (stays ? SYMTOP_PART_TILT : 0);
+  }
+
+  // True if the axis leaves its tilt from rest, by the torque that turning L does not take.
+  bool departs() const {
+    return now_.top.Mgl != 0 && verdict_.direction != SYMTOP_STAYS &&
+           verdict_.motion != SYMTOP_REGULAR && !now_.vertical.is_of_vertical_axis() &&
+           !is_swinging(now_);
+  }
+
+  void compare_rates(symtop_cause& cause) const {
+    const TiltAcceleration tilt(now_, SYMTOP_SPIN_MOMENTUM);
+    double phi_dot = find_exact_rates(now_.start).phi_dot;
+    // A kick that ends the precession leaves some EPS of the other rates.
+    if (is_zero(phi_dot / L_.unit)) phi_dot = 0.0;
+    if (tilt.quadratic.is_balanced(phi_dot)) return;
+    const Precise left = tilt.quadratic.at(phi_dot) / Precise(now_.top.Mgl);
+    const double share = (Precise(1.0) - left).to_double();
+    const bool rises = share > 1, axis_rises = rises == (now_.top.Mgl > 0);
+    // At a turning point that rounding has moved the axis may go the other way.
+    if (axis_rises != (verdict_.direction == SYMTOP_RISES)) return;
+    cause.turn = find_turn(share, phi_dot);
+    if (cause.turn == SYMTOP_TURN_UNSAID) return;
+    cause.torque_share = share;
+    // phi' is undefined where the way ends at a pole, or never ends.
+    if (verdict_.motion != SYMTOP_THROUGH_THE_POLE && verdict_.motion != SYMTOP_ASYMPTOTIC)
+      cause.pace = find_pace(L_, angles_[axis_rises ? 0 : 1]);
+  }
+};
+
+inline symtop_cause find_cause(const Instant& now, const symtop_verdict& verdict) {
+  return CauseFinder(now, verdict).find();
+}
+
+// Under friction or a torque of other origin nothing of this holds for long.
+inline symtop_cause leave_cause() {
+  symtop_cause cause = {};
+  cause.explanation = SYMTOP_EXPLANATION_UNSAID, cause.turn = SYMTOP_TURN_UNSAID;
+  cause.pace = SYMTOP_PACE_UNSAID;
+  cause.torque_share = cause.rate_about_momentum = NAN;
+  for (double& each : cause.torque_from_perpendicular) each = NAN;
+  for (double* each : {cause.momentum_from_axle, cause.omega_from_axle, cause.momentum_from_vertical})
+    for (int k = 0; k < 3; k++) each[k] = NAN;
+  return cause;
+}
+
+}  // namespace symtop
