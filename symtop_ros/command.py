@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from symtop_ros import __version__
-from symtop_ros.simulation.validation import one_line, plain
+from symtop_ros.refusals import one_line, plain
 
 
 def tell_failures(name: str, act: Callable[[], int]) -> int:

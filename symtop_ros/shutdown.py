@@ -18,7 +18,7 @@ from rclpy.signals import (
 )
 from rclpy.utilities import remove_ros_args
 
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.refusals import one_line
 
 # rcl's text for a list such as [0, 0, 0.1], which says nothing of integers; and its rule
 MIXED = "Sequence should be of same type"

@@ -22,6 +22,7 @@ from symtop_ros.log.contents import LATEST
 from symtop_ros.log.stretches import NO_BEGINNING, NOT_RECORDED, Unknown
 from symtop_ros.models.urdf import robot_description
 from symtop_ros.physics import Top
+from symtop_ros.refusals import one_line
 from symtop_ros.session.diagnostics import balance_status, motion_status
 from symtop_ros.session.outputs import list_fixed_frames
 from symtop_ros.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
@@ -40,7 +41,6 @@ from symtop_ros.simulation.topics import (
     MARKERS,
     TF_STATIC,
 )
-from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.diagnostics import Status, decode_statuses
 from symtop_ros.wire.layout import DecodeError, Reader
 from symtop_ros.wire.messages import encode_transforms

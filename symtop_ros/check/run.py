@@ -17,9 +17,9 @@ from symtop_ros.log.contents import DECODED
 from symtop_ros.log.reader import LogError
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.log.writer import METADATA
+from symtop_ros.refusals import one_line
 from symtop_ros.simulation.events import FORMAT, LAST_WITHOUT_FIELDS, WITHOUT_FIELDS
 from symtop_ros.simulation.topics import EVENTS
-from symtop_ros.simulation.validation import one_line
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from rclpy.parameter import Parameter
 from std_srvs.srv import SetBool, Trigger
 
 from symtop_ros.session.services import SERVICES
-from symtop_ros.simulation.validation import full_name
+from symtop_ros.wire.names import full_name
 
 TYPES = {"named": SetParametersAtomically, "switch": SetBool, "plain": Trigger}  # by kind
 POLL = 0.01  # s; an executor does not notice that a service was found

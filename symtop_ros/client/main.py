@@ -22,9 +22,9 @@ from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.client.options import make_parser
+from symtop_ros.refusals import MAX_SHOWN, one_line, plain
 from symtop_ros.session.services import SERVICES, Response
 from symtop_ros.shutdown import describe_failure, ros_context
-from symtop_ros.simulation.validation import MAX_SHOWN, one_line, plain
 
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these

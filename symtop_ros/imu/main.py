@@ -11,10 +11,10 @@ import yaml
 from symtop_ros.command import decimal, integer, new_parser, tell_failures
 from symtop_ros.imu.files import write_folder, write_log, write_table
 from symtop_ros.imu.record import ImuRecord, record_imu
+from symtop_ros.refusals import RefusedError, one_line, refuse
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.sensor.imu import BMM150, CONSUMER, MAGNETOMETER_NOISE, NOISE
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.validation import RefusedError, one_line, reject
 
 MAX_BYTES = 65_536  # of a file with noise
 DESCRIPTION = """Writes what an inertial sensor on the top measures, next to the exact truth: a log
@@ -87,7 +87,7 @@ def find_writer(path: Path) -> Callable[[ImuRecord, Path], None]:
     writers = {".mcap": write_log, ".csv": write_table, "": write_folder}
     if path.suffix in writers or path.is_dir():
         return writers.get(path.suffix, write_folder)
-    raise reject("--output", "FILE.mcap, FILE.csv or a folder (without an ending)", str(path))
+    raise refuse("--output", "FILE.mcap, FILE.csv or a folder (without an ending)", str(path))
 
 
 def decimals(text: str) -> list[float]:

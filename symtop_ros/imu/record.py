@@ -9,9 +9,9 @@ import numpy as np
 
 from symtop_ros.arrays import Real, Stamps
 from symtop_ros.physics import STANDARD_GRAVITY, ExactTimes, Motion
+from symtop_ros.refusals import RefusedError, number
 from symtop_ros.simulation.events import Event, start_event
 from symtop_ros.simulation.sensor.imu import Imu, Rig
-from symtop_ros.simulation.validation import RefusedError, number
 from symtop_ros.wire.layout import NANOSECONDS
 
 MAX_SECONDS, MAX_SAMPLES = 1e9, 20_000_000

@@ -18,7 +18,7 @@ from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.noise import sum_lags
 from symtop_ros.judge.search import align
 from symtop_ros.judge.truth import Truth
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 from symtop_ros.wording import write
 
 FEWEST = 10  # estimates

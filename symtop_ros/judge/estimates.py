@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symtop_ros.arrays import Mask, Real, Stamps
-from symtop_ros.simulation.validation import RefusedError, one_line
+from symtop_ros.refusals import RefusedError, one_line
 from symtop_ros.wire.layout import NANOSECONDS, DecodeError, Doubles, Layout, Reader, Stamp, Text
 from symtop_ros.wire.messages import (
     IMU,

@@ -14,7 +14,7 @@ from symtop_ros.judge.compare import NONE, PERCENTILES, Errors, compare
 from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.search import align, explain, find_causes
 from symtop_ros.judge.truth import Truth
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 from symtop_ros.wire.layout import NANOSECONDS
 from symtop_ros.wording import write
 

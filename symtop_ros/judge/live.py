@@ -14,10 +14,11 @@ from symtop_ros.judge.compare import Errors, compare
 from symtop_ros.judge.estimates import decode_estimates
 from symtop_ros.judge.judgement import summarize, tell_limit
 from symtop_ros.judge.truth import Truth
+from symtop_ros.refusals import RefusedError, one_line
 from symtop_ros.shutdown import describe_failure, ros_context, spin_until
 from symtop_ros.simulation.events import decode_events
 from symtop_ros.simulation.topics import DEFAULT_NAME, EVENTS, Topic
-from symtop_ros.simulation.validation import RefusedError, full_name, one_line
+from symtop_ros.wire.names import full_name
 
 PERIOD = 1.0  # s between two lines
 PATIENCE = 5.0  # s for the topic to be found

@@ -12,7 +12,7 @@ from symtop_ros.judge.judgement import Judgement, format_judgements, judge, tell
 from symtop_ros.judge.problems import run_testset
 from symtop_ros.judge.runs import ATTITUDES, Run, Source, read_run, read_sources, report_faults
 from symtop_ros.judge.search import MODELS
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.refusals import one_line
 
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
 top at the estimates' own stamps. The run must be in the log with its ~/events, or be a scene that

@@ -17,7 +17,7 @@ from symtop_ros.judge.estimates import Estimates, read_topic
 from symtop_ros.judge.tables import TABLES, read_table
 from symtop_ros.judge.times import read_times
 from symtop_ros.judge.truth import Truth, read_events, scene_truth
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 
 if TYPE_CHECKING:  # logs need mcap
     from symtop_ros.log.account import Account

@@ -28,7 +28,7 @@ from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import MOST_DELAY, PARAMETERS, ROUNDING, SAMPLES, Fit
 from symtop_ros.judge.noise import PER_PARAMETER
 from symtop_ros.judge.truth import Truth
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 
 MOST_SAMPLES = 200_000  # estimates from which a cause that was found is estimated again
 VALLEYS, FINER = 4, 31  # of each table that are refined, and values that are tried in each

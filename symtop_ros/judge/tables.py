@@ -12,7 +12,7 @@ import numpy as np
 
 from symtop_ros.arrays import Real
 from symtop_ros.judge.estimates import MAX_STAMP, Estimates
-from symtop_ros.simulation.validation import RefusedError, one_line, plain
+from symtop_ros.refusals import RefusedError, one_line, plain
 from symtop_ros.wire.layout import NANOSECONDS
 
 TABLES = (".csv", ".tum", ".txt")  # endings of files that are no logs

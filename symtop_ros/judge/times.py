@@ -14,7 +14,7 @@ from symtop_ros.judge.estimates import Estimates
 from symtop_ros.judge.fit import SAMPLES, Fit
 from symtop_ros.judge.tables import Table
 from symtop_ros.judge.truth import Truth
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 from symtop_ros.wire.layout import NANOSECONDS
 
 DAY = 86_400 * NANOSECONDS  # ns

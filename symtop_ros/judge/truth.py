@@ -12,12 +12,12 @@ import numpy as np
 
 from symtop_ros.arrays import Mask, Places, Real, Stamps, compose
 from symtop_ros.judge.estimates import Estimates
+from symtop_ros.refusals import RefusedError
 from symtop_ros.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.events import Event, start_event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.validation import RefusedError
 
 if TYPE_CHECKING:  # logs need mcap
     from symtop_ros.log.account import Account

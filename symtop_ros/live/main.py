@@ -22,7 +22,7 @@ from symtop_ros.playback import viewer
 from symtop_ros.playback.options import view_options
 from symtop_ros.playback.view.view import View, ViewOptions
 from symtop_ros.shutdown import run_with_ros, spin_until
-from symtop_ros.simulation.validation import full_name
+from symtop_ros.wire.names import full_name
 
 SEND_PERIOD = 0.05  # s between two batches
 PROBE_PERIOD = 1.0  # s between two checks that the viewer is running

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.refusals import one_line
 from symtop_ros.simulation.events import Event, decode_events
 from symtop_ros.simulation.topics import EVENTS, SAMPLE_TOPICS
-from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.messages import Decoded, decode_messages
 
 TF = "tf"

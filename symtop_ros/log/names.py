@@ -22,7 +22,7 @@ from symtop_ros.simulation.topics import (
     Topic,
     choose_description,
 )
-from symtop_ros.simulation.validation import full_name
+from symtop_ros.wire.names import full_name
 
 KNOWN: dict[str, Topic] = {**TOPICS, APPLIED_TORQUE.name: APPLIED_TORQUE}
 # Topics by whose names a top is found. /tf is that of all nodes.

@@ -39,7 +39,7 @@ from mcap.records import (
 
 from symtop_ros.log.source import Loss, MessageSource, decompress, name_kind
 from symtop_ros.log.writer import ENDING, METADATA, REPAIR, REPAIR_LOSSES
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.refusals import one_line
 
 MAGIC = b"\x89MCAP0\r\n"
 # Bytes of a chunk, compressed or not, and of any record that is held in memory; the recorder writes

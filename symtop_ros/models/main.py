@@ -7,9 +7,9 @@ from pathlib import Path
 from symtop_ros.command import decimal, new_parser, tell_failures
 from symtop_ros.models import FORMATS
 from symtop_ros.physics import STANDARD_GRAVITY, Body
+from symtop_ros.refusals import number
 from symtop_ros.simulation.changes.requests import initial_state
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.validation import number
 
 
 def main(args: list[str] | None = None) -> int:

@@ -19,11 +19,11 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
+from symtop_ros.refusals import RefusedError, one_line
 from symtop_ros.session.diagnostics import make_status
 from symtop_ros.simulation.presets import config_folder
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import CLOCK, MARKERS, SAMPLE_TOPICS, Topic
-from symtop_ros.simulation.validation import RefusedError, one_line
 from symtop_ros.wire.diagnostics import OK, WARN, Status
 
 # s between two calls, however late they are. Python's locks are not fair: without a pause the

@@ -25,10 +25,10 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 from std_srvs.srv import SetBool, Trigger
 
+from symtop_ros.refusals import RefusedError, attempt, refuse, show, validate_names
 from symtop_ros.session.services import ServiceKind
 from symtop_ros.simulation.presets import load_scene, scene_names
 from symtop_ros.simulation.settings import PARAMETERS, Settings
-from symtop_ros.simulation.validation import RefusedError, attempt, reject, show, validate_names
 
 QOS = "qos_overrides."  # of topics, which declare these parameters themselves
 Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
@@ -115,7 +115,7 @@ def _check_unknown_names(node: Node) -> None:
             continue
         nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
         if name.partition(".")[0] in GROUPS:
-            raise reject("parameter name", f"known (the nearest is {nearest})", name)
+            raise refuse("parameter name", f"known (the nearest is {nearest})", name)
         node.get_logger().warning(
             f"parameter {name!r} is unknown and not used (nearest: {nearest})"
         )
@@ -236,7 +236,7 @@ def read_values(parameters: Sequence[ParameterMessage]) -> dict[str, Any]:
         if name in values:
             raise RefusedError(f"{show(name)} must be given once, got it more than once")
         if value is None:
-            raise reject(f"type of {show(name)}", "1 to 9 (3 for a double)", 0)
+            raise refuse(f"type of {show(name)}", "1 to 9 (3 for a double)", 0)
         values[name] = value
     return values
 
@@ -265,4 +265,4 @@ def refuse_unknown_types(parameters: Iterable[ParameterMessage]) -> None:
     last = ParameterType.PARAMETER_STRING_ARRAY
     for parameter in parameters:
         if parameter.value.type > last:
-            raise reject(f"type of {show(parameter.name)}", f"0 to {last}", parameter.value.type)
+            raise refuse(f"type of {show(parameter.name)}", f"0 to {last}", parameter.value.type)

@@ -31,10 +31,11 @@ from simulation_interfaces.srv import (
 from symtop_ros import __version__
 from symtop_ros.arrays import Real
 from symtop_ros.physics import State, angular_acceleration
+from symtop_ros.refusals import RefusedError, one_line, refuse, vector
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.validation import MAX_RATE, RefusedError, one_line, reject, vector
+from symtop_ros.simulation.settings import MAX_RATE
 from symtop_ros.wire.layout import NANOSECONDS
 
 FEATURES = (
@@ -163,12 +164,12 @@ class Simulator:
         target, options = request.state.state, (STOPPED, PLAYING, PAUSED)
         if target not in options:
             raise ResultError(
-                UNSUPPORTED, reject("state", "0 (stopped), 1 (playing) or 2 (paused)", target)
+                UNSUPPORTED, refuse("state", "0 (stopped), 1 (playing) or 2 (paused)", target)
             )
         if target == self._state:
             raise ResultError(
                 SetSimulationState.Response.ALREADY_IN_TARGET_STATE,
-                reject("state", "different from the present one", target),
+                refuse("state", "different from the present one", target),
             )
         if self._simulation.segment.running != (target == PLAYING):
             self._demand("pause", target != PLAYING)
@@ -182,13 +183,13 @@ class Simulator:
         scope = request.scope or ALL
         if not scope & STATE or (scope != ALL and scope & ~(TIME | STATE | SPAWNED)):
             condition = f"one that includes the state ({STATE}), 0 or {ALL}"
-            raise ResultError(UNSUPPORTED, reject("scope", condition, request.scope))
+            raise ResultError(UNSUPPORTED, refuse("scope", condition, request.scope))
         self._demand("set_initial_conditions", {})
         return TIME_IS_KEPT if scope & TIME else ""
 
     def _step(self, request: Any, _: Any) -> None:
         if not request.steps:
-            raise reject("steps", "at least 1", 0)
+            raise refuse("steps", "at least 1", 0)
         period = round(NANOSECONDS / self._simulation.ticker.rate)  # as a clock counts
         self._demand("step", {"duration": request.steps * period / NANOSECONDS})
 
@@ -231,12 +232,12 @@ class Simulator:
     def _get_entities(self, request: Any, response: Any) -> None:
         filters = request.filters
         if filters.categories or filters.tags.tags or filters.bounds.type != Bounds.TYPE_EMPTY:
-            raise ResultError(UNSUPPORTED, reject("filters", "a filter of names only", "others"))
+            raise ResultError(UNSUPPORTED, refuse("filters", "a filter of names only", "others"))
         response.entities = [self._name] if _matches(filters.filter, self._name) else []
 
     def _check_name(self, entity: str) -> None:
         if entity != self._name:
-            raise ResultError(Result.RESULT_NOT_FOUND, reject("entity", f"'{self._name}'", entity))
+            raise ResultError(Result.RESULT_NOT_FOUND, refuse("entity", f"'{self._name}'", entity))
 
     def _get_entity_state(self, request: Any, response: Any) -> None:
         self._check_name(request.entity)
@@ -257,12 +258,12 @@ class Simulator:
         # Without flags pose and twist are set, and the acceleration is ignored, as in Gazebo.
         if getattr(request, "set_acceleration", False):
             raise ResultError(
-                UNSUPPORTED, reject("set_acceleration", "false: it follows from the torque", True)
+                UNSUPPORTED, refuse("set_acceleration", "false: it follows from the torque", True)
             )
         sets_pose = getattr(request, "set_pose", True)
         sets_twist = getattr(request, "set_twist", True)
         if given.header.frame_id not in ("", world):
-            raise reject("header.frame_id", f"'{world}'", given.header.frame_id)
+            raise refuse("header.frame_id", f"'{world}'", given.header.frame_id)
         now = self._simulation.state
         attitude = _read_pose(given.pose) if sets_pose else now
         omega = _read_twist(given.twist) if sets_twist else now.to_world(now.angular_velocity)
@@ -289,7 +290,7 @@ def _matches(pattern: str, name: str) -> bool:
     try:
         import re2  # noqa: PLC0415  # with apt's ROS it may be missing
     except ModuleNotFoundError:
-        raise reject(
+        raise refuse(
             "filter", "empty without google-re2 (pip install google-re2)", pattern
         ) from None
     options = re2.Options()
@@ -302,7 +303,7 @@ def _matches(pattern: str, name: str) -> bool:
         reason = error.args[0]
         text = reason.decode(errors="replace") if isinstance(reason, bytes) else reason
         condition = f"a POSIX extended regular expression ({one_line(text)})"
-        raise reject("filter", condition, pattern) from None
+        raise refuse("filter", condition, pattern) from None
 
 
 def _to_message(vector: Any) -> Vector3:
@@ -314,7 +315,7 @@ def _read_pose(pose: Any) -> State:
     """Return a state of rest with the orientation of a top, which turns about the pivot."""
     position = (pose.position.x, pose.position.y, pose.position.z)
     if position != AT_REST:
-        raise ResultError(INVALID_POSE, reject("position", "0 (the pivot is fixed)", position))
+        raise ResultError(INVALID_POSE, refuse("position", "0 (the pivot is fixed)", position))
     q = pose.orientation
     try:
         return State((q.w, q.x, q.y, q.z), AT_REST)
@@ -326,5 +327,5 @@ def _read_twist(twist: Any) -> Real:
     """Return omega in the world frame."""
     linear, omega = ((each.x, each.y, each.z) for each in (twist.linear, twist.angular))
     if linear != AT_REST:
-        raise reject("twist.linear", "0 (the pivot is fixed)", linear)
+        raise refuse("twist.linear", "0 (the pivot is fixed)", linear)
     return np.array(vector("twist.angular", omega, 3, MAX_RATE, "rad/s, world frame"))

@@ -26,13 +26,13 @@ from symtop_ros.node.parameters import (
     warn_of_unused_qos,
 )
 from symtop_ros.physics import kernel_version
+from symtop_ros.refusals import RefusedError, attempt, one_line, refuse
 from symtop_ros.session.services import SERVICES
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.settings import PARAMETERS, Settings
 from symtop_ros.simulation.simulation import JUMP, Simulation
 from symtop_ros.simulation.topics import APPLIED_TORQUE, DEFAULT_NAME
-from symtop_ros.simulation.validation import RefusedError, attempt, one_line, reject
 from symtop_ros.wire.layout import NANOSECONDS
 
 SIM_TIME = "use_sim_time"
@@ -207,7 +207,7 @@ class TopNode(Node):
         parts = message.wrench.force, message.wrench.torque
         force, torque = ((each.x, each.y, each.z) for each in parts)
         if any(force):
-            reason = str(reject("applied_torque force", "0 (only the torque acts)", force))
+            reason = str(refuse("applied_torque force", "0 (only the torque acts)", force))
         else:
             reason = self.session.hold_torque(torque, message.header.frame_id)
         if reason:

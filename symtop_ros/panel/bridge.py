@@ -20,11 +20,11 @@ from rclpy.subscription import Subscription
 
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.live.feed import DEPTH, Feed
+from symtop_ros.refusals import RefusedError, choice, to_double, vector
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.run_file import RunRecorder
 from symtop_ros.simulation.settings import MAX_MOMENT
 from symtop_ros.simulation.topics import STATE_TOPICS
-from symtop_ros.simulation.validation import RefusedError, choice, to_double, vector
 
 DRAWN = "orientation"  # topic of the samples that are drawn
 PARAMETERS = "set_parameters_atomically"

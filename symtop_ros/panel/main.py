@@ -12,7 +12,7 @@ from pathlib import Path
 
 from symtop_ros.command import has_screen, new_parser, port, tell_failures
 from symtop_ros.panel.server import LOCAL_HOST, LOCAL_NAMES, Node, PageServer
-from symtop_ros.simulation.validation import one_line
+from symtop_ros.refusals import one_line
 from symtop_ros.web.join import LANGUAGES, write_file
 
 PORT = 8015

@@ -13,12 +13,8 @@ from symtop_ros.physics.kernel.records import FRICTION_KINDS
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import (
-    fit_shapes,
-    refuse,
-    validate_array,
-    validate_vectors,
-)
+from symtop_ros.physics.values import fit_shapes, validate_array, validate_vectors
+from symtop_ros.refusals import refuse
 
 NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
 TORQUE_UNIT = "N m, world frame"
@@ -53,7 +49,7 @@ def validate_types(top: Any, start: Any, friction: Any) -> None:
         ("friction", friction, Friction),
     ):
         if not isinstance(given, kind):
-            raise refuse(name, f"a {kind.__name__}", repr(given))
+            raise refuse(name, f"a {kind.__name__}", given)
 
 
 def wrap_states(orientation: Real, angular_velocity: Real, shape: tuple[int, ...]) -> State:

@@ -14,7 +14,8 @@ from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import require, validate_number, validate_one, validate_positive
+from symtop_ros.physics.values import validate_number, validate_one, validate_positive
+from symtop_ros.refusals import require
 
 LONGEST_ARM = 10.0  # m, of a body that is chosen: a weight of 1e-9 J would have kilometres
 SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user

@@ -13,12 +13,12 @@ from symtop_ros.arrays import Real, split, stack
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import (
-    require,
     validate_number,
     validate_one,
     validate_positive,
     validate_vector,
 )
+from symtop_ros.refusals import require
 
 STANDARD_GRAVITY = 9.81  # m/s^2
 NODES = 24  # of the Gauss-Legendre quadrature: exact to rounding over a stretch of STRETCH radians
@@ -204,7 +204,7 @@ def balance(motion: Motion, end: float, longest: float) -> Balance:
     True
     """
     validate_one(motion, "motion")
-    require(not motion.pushes, "pushes", "none for a balance: take a piece", repr(motion.pushes))
+    require(not motion.pushes, "pushes", "none for a balance: take a piece", motion.pushes)
     end, longest = validate_number("end", end, "s"), validate_positive("longest", longest, "s")
     begin = end - min(longest, STRETCH / _fastest_rate(motion, end))
     points, weights = np.polynomial.legendre.leggauss(NODES)

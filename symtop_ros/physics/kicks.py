@@ -16,11 +16,11 @@ from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
     LARGEST_ANGULAR_VELOCITY,
     fit_shapes,
-    refuse,
     validate_numbers,
     validate_rate,
     validate_vectors,
 )
+from symtop_ros.refusals import Words, refuse
 
 HOLDS: tuple[Hold, ...] = get_args(Hold)
 ANY_TOP = np.ones(3)  # a change of phi' asks for no top
@@ -238,7 +238,7 @@ def _refuse_vertical(state: State) -> ValueError:
     return refuse(
         "axis",
         "tilted (phi' is undefined on the vertical; an angular impulse works there)",
-        f"theta = {state.euler_angles.theta:g} rad",
+        Words(f"theta = {state.euler_angles.theta:g} rad"),
     )
 
 
@@ -265,4 +265,4 @@ def validate_hold(hold: Any) -> Hold:
     for each in HOLDS:
         if isinstance(hold, str) and hold == each:
             return each
-    raise refuse("hold", " or ".join(map(repr, HOLDS)), repr(hold))
+    raise refuse("hold", " or ".join(map(repr, HOLDS)), hold)

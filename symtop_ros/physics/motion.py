@@ -31,13 +31,8 @@ from symtop_ros.physics.pushes import Piece, Pushes
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import (
-    refuse,
-    require,
-    validate_array,
-    validate_number,
-    validate_vector,
-)
+from symtop_ros.physics.values import validate_array, validate_number, validate_vector
+from symtop_ros.refusals import refuse, require
 
 
 class Motion:
@@ -108,7 +103,7 @@ class Motion:
         if not shape:
             return object.__new__(cls)
         if pushes:
-            raise refuse("top and start", "those of one motion, if there are pushes", str(shape))
+            raise refuse("top and start", "those of one motion, if there are pushes", shape)
         text = "Motion(...) of arrays is Motions(...) from 0.5 on: use that"
         warnings.warn(text, DeprecationWarning, stacklevel=2)
         many: Motion = cls.make_many(top, start, friction, torque)
@@ -123,7 +118,7 @@ class Motion:
         pushes: Pushes | None = None,
     ) -> None:
         validate_types(top, start, friction)
-        require(pushes is None or isinstance(pushes, Pushes), "pushes", "Pushes", repr(pushes))
+        require(pushes is None or isinstance(pushes, Pushes), "pushes", "Pushes", pushes)
         self.top, self.start, self.friction, self.pushes = top, start, friction, pushes
         self.applied_torque = validate_vector("torque", torque, TORQUE_UNIT)
         self.packed_start = pack_start(top, start, friction, self.applied_torque)
@@ -356,7 +351,7 @@ class Motion:
             return Piece(self, 0, 0)
         if not isinstance(t, ExactTimes):
             t = ExactTimes(0, elapsed=Fraction(validate_number("t", t, "s")) * SECOND)
-        require(not t.shape, "t", "one time", f"{t.shape}")
+        require(not t.shape, "t", "one time", t.shape)
         found = states.find_piece(self._kernel, t)
         piece = self._piece
         if piece is None or piece.number != found.number:
@@ -461,7 +456,7 @@ class Motion:
         """
         times = t if isinstance(t, ExactTimes) else validate_array("t", t, unit="s")
         if self.pushes:
-            raise refuse("pushes", "none for derivatives: take a piece", repr(self.pushes))
+            raise refuse("pushes", "none for derivatives: take a piece", self.pushes)
         return differentiate(self, times.ravel()).reshape(*times.shape, 6, 9)
 
     @property

@@ -29,7 +29,8 @@ from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes, to_seconds
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import require, validate_array
+from symtop_ros.physics.values import validate_array
+from symtop_ros.refusals import Words, require
 
 
 class Motions:
@@ -190,7 +191,7 @@ class Motions:
             t.shape[: len(self.shape)] == self.shape,
             "times",
             f"an array whose shape begins with that of the motions, {self.shape}",
-            f"shape {t.shape}",
+            Words(f"shape {t.shape}"),
         )
         flat, shape = t.ravel(), (math.prod(self.shape), math.prod(t.shape[len(self.shape) :]))
         places = np.arange(math.prod(t.shape)).reshape(shape)
@@ -220,7 +221,7 @@ class Motions:
         [0, 0, 1, 1]
         """
         given = times if isinstance(times, ExactTimes) else validate_array("times", times, unit="s")
-        require(len(given.shape) == 1, "times", "of shape (m,)", f"shape {given.shape}")
+        require(len(given.shape) == 1, "times", "of shape (m,)", Words(f"shape {given.shape}"))
         count, states, t = math.prod(self.shape), self.at(given), to_seconds(given)
         orientation, omega = (np.array(part) for part in states.parts)
         flat = wrap_states(orientation, omega, (count * len(t),))
@@ -251,7 +252,7 @@ class Motions:
             shape[: len(self.shape)] == self.shape,
             "states",
             f"states of these motions, of a shape that begins with {self.shape}",
-            f"shape {shape}",
+            Words(f"shape {shape}"),
         )
         return self.top.spread(self.shape, shape)
 

@@ -17,11 +17,10 @@ from symtop_ros.physics.values import (
     EPS,
     LARGEST_ANGULAR_VELOCITY,
     are_floats,
-    refuse,
-    require,
     validate_array,
     validate_together,
 )
+from symtop_ros.refusals import Words, refuse, require
 
 NORM_TOLERANCE = 1e-3  # a norm further from 1 is refused: it is an error of the caller
 NORM_ROUNDING = 4 * EPS  # a norm this close to 1 is left alone: normalising would only add rounding
@@ -104,7 +103,7 @@ class State:
             raise refuse(
                 "angular_velocity",
                 f"of shape {(*q.shape[:-1], 3)} to match the orientation",
-                f"shape {omega.shape}",
+                Words(f"shape {omega.shape}"),
             )
         largest = float(np.abs(omega).max(initial=0.0))
         if largest > LARGEST_ANGULAR_VELOCITY:
@@ -340,13 +339,13 @@ class State:
         [0.0, 1.0, 0.0, 0.0]
         """
         R = validate_array("matrix", matrix, 3)
-        require(R.shape[-2:] == (3, 3), "matrix", "of shape (..., 3, 3)", f"shape {R.shape}")
+        require(R.shape[-2:] == (3, 3), "matrix", "of shape (..., 3, 3)", Words(f"shape {R.shape}"))
         off = np.abs(R @ np.swapaxes(R, -1, -2) - np.eye(3)).max(initial=0.0)
         if off > NORM_TOLERANCE or (np.linalg.det(R) < 0).any():
             raise refuse(
                 "matrix",
                 f"a rotation (orthogonal within {NORM_TOLERANCE:g}, determinant 1)",
-                repr(matrix),
+                matrix,
             )
         # 4 q q^T for each quaternion: its row with the largest diagonal is the best one.
         a, b, c = R[..., 0, 0], R[..., 1, 1], R[..., 2, 2]
@@ -397,9 +396,12 @@ class State:
         """
         t = validate_array("times", to_seconds(times), unit="s")
         shape = self.orientation.shape[:-1]
-        require(len(shape) == 1, "states", "of shape (n,)", f"shape {shape}")
+        require(len(shape) == 1, "states", "of shape (n,)", Words(f"shape {shape}"))
         require(
-            t.shape == shape, "times", f"of shape {shape}, one for each state", f"shape {t.shape}"
+            t.shape == shape,
+            "times",
+            f"of shape {shape}, one for each state",
+            Words(f"shape {t.shape}"),
         )
         vectors = *map(split, self.parts), self.euler_angles, self.euler_rates
         return dict(zip(COLUMNS, (t, *map(np.array, chain(*vectors))), strict=True))
@@ -472,7 +474,7 @@ def _normalize(q: Real) -> Real:
         raise refuse(
             "orientation",
             f"a quaternion of norm 1 within {NORM_TOLERANCE:g}",
-            f"a norm of {norm.flat[deviation.argmax()]:g}",
+            Words(f"a norm of {norm.flat[deviation.argmax()]:g}"),
         )
     door.demand_arithmetic()
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.physics.values import ignore_underflow, refuse, validate_number
+from symtop_ros.physics.values import ignore_underflow, validate_number
+from symtop_ros.refusals import Words, refuse
 
 SECOND = 10**9  # ns
 LARGEST_STAMP = 2**63 - 1  # ns
@@ -101,7 +102,7 @@ class ExactTimes:
             raise refuse(
                 "elapsed",
                 "a sum of four doubles, each 0 or 1e-100 to 1e100 ns in size",
-                f"{float(self.elapsed):.17g}",
+                Words(f"{float(self.elapsed):.17g}"),
             )
         return self.factor, tuple(parts)
 
@@ -153,9 +154,7 @@ def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
             return number
         if array.ndim == 1 and (array.dtype.kind == "i" or array.max(initial=0) <= LARGEST_STAMP):
             return array.astype(np.int64, copy=False)
-    raise refuse(
-        "nanoseconds", "an int or an array (n,) of ints, of at most 63 bits (ns)", repr(value)
-    )
+    raise refuse("nanoseconds", "an int or an array (n,) of ints, of at most 63 bits (ns)", value)
 
 
 def _validate_elapsed(value: Any) -> Fraction:
@@ -164,5 +163,5 @@ def _validate_elapsed(value: Any) -> Fraction:
         # without a division: this is asked for every sample
         if abs(value.numerator) <= LARGEST_ELAPSED * value.denominator:
             return value if isinstance(value, Fraction) else Fraction(value)
-        raise refuse("elapsed", "at most 1e300 ns in size", f"{value.numerator:.3e}")
-    raise refuse("elapsed", "a Fraction with a power of two as denominator (ns)", repr(value))
+        raise refuse("elapsed", "at most 1e300 ns in size", Words(f"{value.numerator:.3e}"))
+    raise refuse("elapsed", "a Fraction with a power of two as denominator (ns)", value)

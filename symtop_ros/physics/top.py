@@ -15,10 +15,10 @@ from symtop_ros.physics.values import (
     EPS,
     LARGEST_MOMENT,
     SMALLEST_MOMENT,
-    refuse,
     validate_one,
     validate_together,
 )
+from symtop_ros.refusals import Words, refuse
 
 
 class _Numbers:
@@ -199,7 +199,7 @@ def match(value: Any, state: State) -> Any:
         raise refuse(
             "top and state",
             "one of each for each other (`Motions.energy` and its like take many times)",
-            f"shapes {np.shape(value)} and {states}",
+            Words(f"shapes {np.shape(value)} and {states}"),
         )
     return value
 

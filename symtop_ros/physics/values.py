@@ -1,10 +1,9 @@
-"""Numbers and arrays: type names, limits, and the validation of arguments.
+"""Numbers and arrays: limits, and the validation of arguments.
 
 Every refused argument raises a ValueError of one form: "NAME must be CONDITION, got VALUE".
 """
 
 import math
-import numbers
 from collections.abc import Callable, Iterable, Sequence
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -12,6 +11,7 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 
 from symtop_ros.arrays import Real, Vector
+from symtop_ros.refusals import Words, describe_range, is_real, number, refuse, require
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -21,34 +21,6 @@ EPS = 2.0**-52  # distance from 1 to the next double
 # within these limits.
 LARGEST_ANGULAR_VELOCITY = 1e100  # rad/s
 LARGEST_MOMENT, SMALLEST_MOMENT = 1e100, 1e-100  # kg m^2, or J
-LONGEST_TEXT = 60  # characters of a refused value that a message repeats
-
-
-def refuse(name: str, condition: str, value: Any) -> ValueError:
-    """Return the error for an argument that does not meet its condition.
-
-    Parameters
-    ----------
-    name : str
-        Name of the argument.
-    condition : str
-        The condition, with its unit.
-    value : Any
-        The value given. A string is repeated without quotes: it describes the value.
-
-    Examples
-    --------
-    >>> raise refuse("Ix", "> 0 kg m^2", -1.0)
-    Traceback (most recent call last):
-    ValueError: Ix must be > 0 kg m^2, got -1
-    """
-    return ValueError(f"{name} must be {condition}, got {_to_text(value)}")
-
-
-def require(holds: Any, name: str, condition: str, value: Any) -> None:
-    """Refuse an argument unless its condition holds."""
-    if not holds:
-        raise refuse(name, condition, value)
 
 
 def validate_number(name: str, value: Any, unit: str = "") -> float:
@@ -74,22 +46,15 @@ def validate_number(name: str, value: Any, unit: str = "") -> float:
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     _refuse_units(name, value, unit)
-    if not _is_real(value):
-        raise refuse(name, _with_unit("a number", unit), repr(value))
-    try:
-        number = float(value)
-    except OverflowError:  # an int too large for a double
-        number = math.inf if value > 0 else -math.inf
-    if not math.isfinite(number):
-        raise refuse(name, _with_unit("a finite number", unit), number)
-    return number
+    require(is_real(value), name, describe_range(-math.inf, math.inf, unit), value)
+    return number(name, value, unit)
 
 
 def validate_positive(name: str, value: Any, unit: str) -> float:
     """Return a number above 0, as `validate_number` does."""
-    number = validate_number(name, value, unit)
-    require(number > 0, name, f"> 0 {unit}", number)
-    return number
+    found = validate_number(name, value, unit)
+    require(found > 0, name, f"> 0 {unit}", found)
+    return found
 
 
 def validate_array(name: str, value: Any, size: int | None = None, unit: str = "") -> Real:
@@ -114,17 +79,17 @@ def validate_array(name: str, value: Any, size: int | None = None, unit: str = "
     _refuse_units(name, value, unit)
     try:
         array = np.asarray(value)
-        is_real = array.dtype.kind in "iuf" or all(map(_is_real, array.flat))
-        if np.ma.isMaskedArray(value) or not is_real:
+        are_real = array.dtype.kind in "iuf" or all(map(is_real, array.flat))
+        if np.ma.isMaskedArray(value) or not are_real:
             raise TypeError
         array = array.astype(np.float64)  # OverflowError: an int too large for a double
     except (TypeError, ValueError, OverflowError):
-        raise refuse(name, _with_unit("an array of finite numbers", unit), repr(value)) from None
+        raise refuse(name, _with_unit("an array of finite numbers", unit), value) from None
     if size is not None and (array.ndim == 0 or array.shape[-1] != size):
-        raise refuse(name, f"of shape (..., {size})", f"shape {array.shape}")
+        raise refuse(name, f"of shape (..., {size})", Words(f"shape {array.shape}"))
     # One number is the common case, and NumPy needs 2 us for the question.
     if not (np.isfinite(array).all() if array.ndim else math.isfinite(array)):
-        raise refuse(name, _with_unit("an array of finite numbers", unit), _find_odd(array))
+        raise refuse(name, _with_unit("an array of finite numbers", unit), Words(_find_odd(array)))
     return array
 
 
@@ -140,7 +105,7 @@ def _refuse_units(name: str, value: Any, unit: str) -> None:
         for part in value:
             _refuse_units(name, part, unit)
     elif hasattr(value, "units") or hasattr(value, "unit"):
-        raise refuse(name, _with_unit("plain numbers, converted to SI units", unit), repr(value))
+        raise refuse(name, _with_unit("plain numbers, converted to SI units", unit), value)
 
 
 def validate_numbers(name: str, value: Any, unit: str = "") -> Any:
@@ -232,13 +197,13 @@ def fit_shapes(names: str, *shapes: tuple[int, ...], listed: str = "") -> tuple[
         return np.broadcast_shapes(*shapes)
     except ValueError:
         text = listed or ", ".join(map(str, shapes))
-        raise refuse(names, "of shapes that fit together", text) from None
+        raise refuse(names, "of shapes that fit together", Words(text)) from None
 
 
 def validate_one(given: Any, name: str = "top") -> None:
     """Refuse many tops, or many motions, where one is wanted."""
     if shape := getattr(given, "shape", ()):
-        raise refuse(name, f"one {name}", f"{name}s of shape {shape}")
+        raise refuse(name, f"one {name}", Words(f"{name}s of shape {shape}"))
 
 
 def validate_vector(name: str, value: Any, unit: str) -> Vector:
@@ -264,7 +229,7 @@ def validate_vector(name: str, value: Any, unit: str) -> Vector:
         x, y, z = validate_array(name, value, 3).tolist()
         return float(x), float(y), float(z)
     except (TypeError, ValueError):
-        raise refuse(name, f"3 finite numbers ({unit})", repr(value)) from None
+        raise refuse(name, f"3 finite numbers ({unit})", value) from None
 
 
 def validate_vectors(name: str, value: Any, unit: str) -> Any:
@@ -273,25 +238,9 @@ def validate_vectors(name: str, value: Any, unit: str) -> Any:
     return validate_array(name, value, 3, unit) if is_many else validate_vector(name, value, unit)
 
 
-def _is_real(value: Any) -> bool:
-    # numbers.Real includes NumPy's floats and integers, but its durations and Python's bool too.
-    # The first test is only for speed: the lookup in an abstract class takes longer.
-    return type(value) is float or (
-        isinstance(value, numbers.Real) and not isinstance(value, bool | np.timedelta64)
-    )
-
-
 def _is_finite_float(value: Any) -> bool:
     return type(value) is float and math.isfinite(value)
 
 
 def _with_unit(condition: str, unit: str) -> str:
     return f"{condition} ({unit})" if unit else condition
-
-
-def _to_text(value: Any) -> str:
-    """Return a value on one line, at full precision, shortened if it is long."""
-    if isinstance(value, float | np.floating):
-        return repr(float(value)).removesuffix(".0")
-    text = " ".join(str(value).split())
-    return text if len(text) <= LONGEST_TEXT else f"{text[: LONGEST_TEXT - 4]} ..."

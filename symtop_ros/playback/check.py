@@ -9,8 +9,8 @@ from symtop_ros.log.account import Account
 from symtop_ros.log.names import KNOWN
 from symtop_ros.log.reader import LogError, list_problems
 from symtop_ros.log.top_log import TopLog
+from symtop_ros.refusals import one_line
 from symtop_ros.simulation.topics import EVENTS
-from symtop_ros.simulation.validation import one_line
 
 WIDTH = 28  # of a topic in its line
 MAX_OTHERS = 20  # topics of others that are named

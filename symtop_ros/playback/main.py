@@ -16,10 +16,10 @@ from symtop_ros.log.repair import repair
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback.check import check
 from symtop_ros.playback.options import make_parser, view_options
+from symtop_ros.refusals import number
 from symtop_ros.session.run_log import write_run_log
 from symtop_ros.simulation.run_file import RATE, RunEvent, read_run, record_run, write_run
 from symtop_ros.simulation.settings import MAX_PUBLISH_RATE
-from symtop_ros.simulation.validation import number
 from symtop_ros.web.join import write_file
 
 

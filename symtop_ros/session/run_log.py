@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.physics import Motion
+from symtop_ros.refusals import RefusedError
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.events import KICKS
 from symtop_ros.simulation.run_file import RATE, RunEvent
 from symtop_ros.simulation.settings import Settings, list_body
 from symtop_ros.simulation.topics import Topic
-from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.diagnostics import Status
 from symtop_ros.wire.layout import NANOSECONDS
 

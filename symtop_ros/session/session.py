@@ -14,6 +14,7 @@ from typing import Any, Literal
 from symtop_ros import __version__
 from symtop_ros.log.recorder import Recorder, describe_error
 from symtop_ros.missing import find_package, name_remedy
+from symtop_ros.refusals import RefusedError, attempt, number, refuse, validate_names
 from symtop_ros.session.diagnostics import collect_statuses, summarize_state
 from symtop_ros.session.outputs import OutputHost, Outputs
 from symtop_ros.session.services import SERVICES, Response
@@ -25,7 +26,6 @@ from symtop_ros.simulation.host import Clock
 from symtop_ros.simulation.own_time import simulate
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.simulation import Simulation
-from symtop_ros.simulation.validation import RefusedError, attempt, number, reject, validate_names
 from symtop_ros.wording import write
 
 MAX_STEP = 1e9  # s of the motion
@@ -182,7 +182,7 @@ class Requests:
         if not StepBudget().reach(segment.motion, end, STEPS_OF_A_REQUEST):
             longest = segment.motion.reach(end, 0) - segment.time_at(segment.stamp)
             condition = f"up to {longest:.6g} s in one step under friction or an applied torque"
-            raise reject("duration", condition, duration)
+            raise refuse("duration", condition, duration)
         return duration
 
     def get_state(self) -> str:

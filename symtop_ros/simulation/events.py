@@ -12,10 +12,10 @@ from typing import Any, TypeVar
 
 from symtop_ros import __version__
 from symtop_ros.physics import Friction, Motion, Pushes, State, Top, kernel_version
+from symtop_ros.refusals import one_line
 from symtop_ros.simulation.changes.outcomes import OUTCOMES, Outcome, Start
 from symtop_ros.simulation.segment import NO_RIG, Segment
 from symtop_ros.simulation.sensor.imu import Rig
-from symtop_ros.simulation.validation import one_line
 from symtop_ros.wire.diagnostics import (
     OK,
     Status,

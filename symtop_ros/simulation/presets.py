@@ -9,7 +9,7 @@ from typing import Any
 
 import yaml
 
-from symtop_ros.simulation.validation import RefusedError, one_line, reject, show
+from symtop_ros.refusals import RefusedError, one_line, refuse, show
 
 CONFIG = Path("share", "symtop_ros", "config")
 # Limits of a file that is read. YAML with aliases can grow without bound ("billion laughs"), and
@@ -49,7 +49,7 @@ def load_scene(name: object) -> dict[str, Any]:
     """Return the parameters that a scene sets, by their full names."""
     names = scene_names()
     if name not in names:
-        raise reject("scene", f"one of {', '.join(names)}", name)
+        raise refuse("scene", f"one of {', '.join(names)}", name)
     path = config_folder() / f"{name}.yaml"
     try:
         _refuse_bombs(path)
@@ -63,7 +63,7 @@ def load_scene(name: object) -> dict[str, Any]:
         ) from None
     for key, value in parameters.items():
         if not all(map(_has_ros_type, value if isinstance(value, list) else [value])):
-            raise reject(show(key), "a number, a text, true, false, or a list of them", value)
+            raise refuse(show(key), "a number, a text, true, false, or a list of them", value)
     return parameters
 
 

@@ -13,6 +13,15 @@ from pathlib import Path
 from typing import Any
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.refusals import (
+    RefusedError,
+    choice,
+    number,
+    one_line,
+    refuse,
+    validate_names,
+    vector,
+)
 from symtop_ros.simulation.changes.requests import (
     KICK_FIELDS,
     find_hold,
@@ -23,15 +32,6 @@ from symtop_ros.simulation.changes.requests import (
 from symtop_ros.simulation.events import KICKS, MOTION, RELEASE, RESTARTS, Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import PARAMETERS
-from symtop_ros.simulation.validation import (
-    RefusedError,
-    choice,
-    number,
-    one_line,
-    reject,
-    validate_names,
-    vector,
-)
 from symtop_ros.wire.layout import NANOSECONDS
 
 # The fields of a run, which the reader of the page follows as well. A time is at most 4e6 s: up to
@@ -171,9 +171,9 @@ def read_run(path: Path) -> tuple[list[RunEvent], int]:
         )
     given = content.get("events")
     if not isinstance(given, list) or not given:
-        raise reject("events", "a list with a start at its beginning", given)
+        raise refuse("events", "a list with a start at its beginning", given)
     if len(given) > TABLE["most"]:
-        raise reject("events", f"a list of at most {TABLE['most']}", len(given))
+        raise refuse("events", f"a list of at most {TABLE['most']}", len(given))
     events = _read_events(given)
     end = _read_field("end", {**TABLE["end"], "absent": 0.0}, content)
     return events, max(events[-1].time, round(end * NANOSECONDS))
@@ -193,9 +193,9 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
     values = {name: _read_field(name, field, given) for name, field in TABLE["event"].items()}
     kind, time = values["kind"], round(values["time"] * NANOSECONDS)
     if not before and kind != "start":
-        raise reject("kind", '"start" for the first event', kind)
+        raise refuse("kind", '"start" for the first event', kind)
     if before and time < before[-1].time:
-        raise reject("time", "that of the event before it or later", values["time"])
+        raise refuse("time", "that of the event before it or later", values["time"])
     act = _read_kick(given.get("act")) if kind in KICKS else {}
     top, start = Top(*values["top"]), State(values["orientation"], values["angular_velocity"])
     pushes = read_pushes(act) if kind == "push" else None
@@ -205,7 +205,7 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
 
 def _read_kick(given: Any) -> Mapping[str, Any]:
     if not isinstance(given, dict):
-        raise reject("act", "the fields of a kick", given)
+        raise refuse("act", "the fields of a kick", given)
     validate_names(given, TABLE["act"])
     return {name: _read_field(name, TABLE["act"][name], given) for name in given}
 
@@ -221,6 +221,6 @@ def _read_field(name: str, field: Mapping[str, Any], given: Mapping[str, Any]) -
         return choice(name, value, tuple(field["words"]))
     if "length" in field:
         if not isinstance(value, str) or len(value) > field["length"]:
-            raise reject(name, f"a text of at most {field['length']} characters", value)
+            raise refuse(name, f"a text of at most {field['length']} characters", value)
         return value
     return number(name, value, field["unit"], field.get("low", -inf), field.get("high", inf))

@@ -9,6 +9,7 @@ from typing import Any
 
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Top
+from symtop_ros.refusals import RefusedError, choice, describe_range, flag, number, refuse, vector
 from symtop_ros.simulation.presets import load_scene
 from symtop_ros.simulation.sensor.imu import (
     ALONG,
@@ -21,20 +22,11 @@ from symtop_ros.simulation.sensor.imu import (
     Rig,
 )
 from symtop_ros.simulation.sensor.noise import MAX_NOISE
-from symtop_ros.simulation.validation import (
-    MAX_RATE,
-    RefusedError,
-    choice,
-    describe_range,
-    flag,
-    number,
-    reject,
-    vector,
-)
 
 NO_TORQUE: Vector = (0.0, 0.0, 0.0)
 PRECESSIONS = ("slow", "fast")
 MAX_ANGLE = 1e3  # rad; beyond, the reduction of an angle to a turn loses digits
+MAX_RATE = 1e9  # rad/s; of any rate that is requested, and of the top after a kick
 MAX_MOMENT = 1e30  # kg m^2, J, N m or N m s; keeps every product of them finite
 MAX_SEED = 2**53  # a larger number may not be a double
 MAX_PUBLISH_RATE = 2000.0  # Hz
@@ -101,7 +93,7 @@ def _printable(condition: str, max_length: int, name: str, value: Any) -> str:
         or not value.strip()
         or not value.isprintable()
     ):
-        raise reject(name, condition, value)
+        raise refuse(name, condition, value)
     return value
 
 
@@ -111,7 +103,7 @@ def _frame(default: str, description: str) -> Parameter:
     def validate(name: str, value: Any) -> str:
         text = _printable(condition, MAX_FRAME, name, value)
         if text.startswith("/"):  # tf2 would not find it
-            raise reject(name, f"{text.lstrip('/')!r}, without the leading slash", text)
+            raise refuse(name, f"{text.lstrip('/')!r}, without the leading slash", text)
         return text
 
     return Parameter(default, description, condition, validate, read_only=True)
@@ -136,7 +128,7 @@ def _whole(largest: int, name: str, value: Any) -> int:
     except RefusedError:
         whole = 0.5
     if whole != int(whole):
-        raise reject(name, f"a whole number, 0 to {largest}", value)
+        raise refuse(name, f"a whole number, 0 to {largest}", value)
     return int(whole)
 
 
@@ -293,7 +285,7 @@ class Settings:
             )
         stamps = clean["publish_rate"] * clean["real_time_factor"]
         if clean["publish_clock"] and stamps > MAX_PUBLISH_RATE:
-            raise reject(
+            raise refuse(
                 "publish_rate times real_time_factor",
                 f"at most {MAX_PUBLISH_RATE:g} Hz with publish_clock",
                 stamps,

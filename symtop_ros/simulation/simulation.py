@@ -13,6 +13,7 @@ from functools import partial
 from typing import TypeVar
 
 from symtop_ros.physics import State
+from symtop_ros.refusals import attempt, one_line
 from symtop_ros.simulation.block import CATCH_UP, GAP, Block, Ticker
 from symtop_ros.simulation.budget import SHARE, ComputeBudget
 from symtop_ros.simulation.changes.follow import Act, Request
@@ -23,7 +24,6 @@ from symtop_ros.simulation.host import Clock, Host, Sink
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import DEPTH
-from symtop_ros.simulation.validation import attempt, one_line
 from symtop_ros.wire.layout import NANOSECONDS
 
 AHEAD = 0.05  # s of samples that are computed together; a kick makes them useless

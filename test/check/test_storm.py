@@ -6,7 +6,7 @@ from log.damaged import SECOND, Log, Recorded
 from trials import seeds
 
 from symtop_ros.playback.main import main
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 
 ACTS = 14
 LOOP = 20.0  # s, at which the clock of a bag that is played again and again begins

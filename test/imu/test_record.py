@@ -15,7 +15,7 @@ from symtop_ros.imu.main import main
 from symtop_ros.judge.main import main as judge
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.playback.main import main as replay
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 
 MOTION = Motion(ARTICLE, CUSPS)
 GRAVITY = 9.81

@@ -15,7 +15,7 @@ from symtop_ros.judge.judgement import judge
 from symtop_ros.judge.main import main
 from symtop_ros.judge.search import find_causes
 from symtop_ros.judge.truth import scene_truth
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 
 TRUTH = scene_truth("cusps")
 STAMPS = np.arange(SECOND, 6 * SECOND, SECOND // 100)

@@ -18,13 +18,13 @@ from symtop_ros.judge.judgement import judge
 from symtop_ros.judge.search import explain
 from symtop_ros.judge.truth import Truth, read_events, scene_truth
 from symtop_ros.physics import Motion
+from symtop_ros.refusals import RefusedError
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.events import Event, start_event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor.imu import Imu, Rig
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import SENSOR_TOPICS, Samples
-from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wire.messages import IMU
 from workshop.load.domains import claim_domain
 

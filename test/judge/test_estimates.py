@@ -8,7 +8,7 @@ from judge.cases import SOME, encode, write_rows
 from symtop_ros.judge.estimates import FORMATS, decode_estimates
 from symtop_ros.judge.main import main
 from symtop_ros.judge.tables import read_table
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 from symtop_ros.wire.messages import TRANSFORM
 
 DAMAGED = [

@@ -13,7 +13,7 @@ from symtop_ros.judge.main import main
 from symtop_ros.judge.tables import read_table
 from symtop_ros.judge.times import read_times
 from symtop_ros.judge.truth import scene_truth
-from symtop_ros.simulation.validation import RefusedError
+from symtop_ros.refusals import RefusedError
 
 TRUTH = scene_truth("cusps")
 STAMPS = range(0, 2 * SECOND, SECOND // 100)

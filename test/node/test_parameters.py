@@ -13,8 +13,8 @@ from rcl_interfaces.srv import DescribeParameters, GetParameters
 from rclpy.qos import QoSReliabilityPolicy
 from std_msgs.msg import String
 
+from symtop_ros.refusals import RefusedError
 from symtop_ros.simulation.settings import PARAMETERS
-from symtop_ros.simulation.validation import RefusedError
 
 QOS = "qos_overrides./top/orientation.publisher"
 BAD = ("depth", -1), ("depth", "x"), ("reliability", "foo"), ("history", 3)

@@ -25,7 +25,8 @@ from symtop_ros.physics import (
     perrys_rule,
     theta_acceleration,
 )
-from symtop_ros.physics.values import refuse, validate_array, validate_number
+from symtop_ros.physics.values import validate_array, validate_number
+from symtop_ros.refusals import refuse
 
 TWO = 2, 2.0, np.float32(2), np.int8(2), np.array(2.0), np.array(2), Fraction(4, 2)
 MASKED = np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0])
@@ -65,7 +66,7 @@ def test_a_long_value_is_shortened_to_one_line():
     text = str(refuse("x", "short", np.zeros((30, 30))))
     assert text.isprintable()
     assert len(text) < 100
-    assert text.endswith(" ...")
+    assert text.endswith("...")
 
 
 def test_a_float_is_shown_with_all_its_digits():

@@ -16,10 +16,10 @@ from symtop_ros.check.run import check_run
 from symtop_ros.log.bags import open_run
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.physics import ExactTimes, Motion, State
+from symtop_ros.refusals import RefusedError
 from symtop_ros.session.run_log import write_run_log
 from symtop_ros.simulation.run_file import RunEvent, read_run, record_run, write_run
 from symtop_ros.simulation.topics import DIAGNOSTICS
-from symtop_ros.simulation.validation import RefusedError
 
 END = 4_000_000_000  # ns
 

@@ -12,6 +12,7 @@ from simulation.runs import Run
 from trials import trials
 
 from symtop_ros.physics import Motion, kick_verdict, perrys_rule
+from symtop_ros.refusals import RefusedError
 from symtop_ros.session.diagnostics import summarize_state
 from symtop_ros.session.session import Answer
 from symtop_ros.simulation.changes import requests
@@ -21,7 +22,6 @@ from symtop_ros.simulation.segment import Segment, to_nanoseconds
 from symtop_ros.simulation.sensor.imu import find_body
 from symtop_ros.simulation.settings import Settings
 from symtop_ros.simulation.topics import STATE_TOPICS, Samples
-from symtop_ros.simulation.validation import RefusedError
 from symtop_ros.wording import write
 
 HOLDS = st.sampled_from(["spin_rate", "spin_momentum"])

@@ -7,8 +7,8 @@ from pathlib import Path
 from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, hurry
+from symtop_ros.refusals import RefusedError
 from symtop_ros.simulation.run_file import TABLE, RunEvent, read_run, write_run
-from symtop_ros.simulation.validation import RefusedError
 
 START = Motion(ARTICLE, CUSPS)
 KICK = {"precession_rate_factor": 1.4, "hold": "spin_rate"}

@@ -8,11 +8,11 @@ from dataclasses import replace
 import pytest
 from simulation.page_runs import KICK, change, find_refusal, list_hostile_runs, make_run, to_json
 
+from symtop_ros.refusals import RefusedError
 from symtop_ros.simulation.changes.follow import Act
 from symtop_ros.simulation.changes.timeline import Timeline
 from symtop_ros.simulation.run_file import TABLE, RunRecorder, read_run, record_run
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.validation import RefusedError
 
 SECOND = 1_000_000_000
 

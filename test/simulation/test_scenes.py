@@ -22,11 +22,11 @@ from symtop_ros.physics import (
     regular_precession_rates,
 )
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY
+from symtop_ros.refusals import RefusedError
 from symtop_ros.simulation import presets
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.presets import CONFIG, load_scene, scene_names
 from symtop_ros.simulation.settings import Settings
-from symtop_ros.simulation.validation import RefusedError
 
 KINDS = {  # scenes by the kind of their motion
     "regular": "regular_precession fast_precession hurry_slow hurry_fast perry_fails "

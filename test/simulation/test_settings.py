@@ -5,8 +5,8 @@ import math
 import pytest
 from odd_values import assert_one_sentence
 
+from symtop_ros.refusals import MAX_SENTENCE, RefusedError, one_line
 from symtop_ros.simulation.settings import PARAMETERS, Settings
-from symtop_ros.simulation.validation import MAX_SENTENCE, RefusedError, one_line
 
 RANGED = [name for name, parameter in PARAMETERS.items() if parameter.limits]
 VECTORS = {name: p.condition[0] for name, p in PARAMETERS.items() if p.default == []}

@@ -13,7 +13,7 @@ from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import refuse, require
+from symtop_ros.refusals import refuse, require
 
 NUMBERS = 15  # of a start: moments, orientation, angular velocity; friction and torque are zero
 STATE_BYTES = 8 * 7 + 1
@@ -115,7 +115,7 @@ class Motions:
             Of the shape (n, m); (n,) for a number.
         """
         given = _to_device(times)
-        require(given.ndim <= 1, "times", "a number or of shape (m,)", str(given.shape))
+        require(given.ndim <= 1, "times", "a number or of shape (m,)", given.shape)
         return self._read(given.reshape(-1), given.size, 0, given.shape)
 
     def at_each(self, times: Numbers) -> States:
@@ -133,7 +133,7 @@ class Motions:
         """
         given = _to_device(times)
         is_valid = given.ndim in (1, 2) and given.shape[0] == len(self)
-        require(is_valid, "times", f"of shape ({len(self)},) or ({len(self)}, m)", str(given.shape))
+        require(is_valid, "times", f"of shape ({len(self)},) or ({len(self)}, m)", given.shape)
         each = math.prod(given.shape[1:])
         return self._read(given.reshape(-1), each, each, given.shape[1:])
 
@@ -152,7 +152,7 @@ def _list_columns(top: Any, start: Any) -> list[Array]:
     names = ("Ix", "Iz", "Mgl", "orientation", "angular_velocity")
     sizes = (0, 0, 0, 4, 3)
     given = (*moments, *start)
-    require(len(given) == len(names), "top and start", "of 3 and 2 arrays", str(len(given)))
+    require(len(given) == len(names), "top and start", "of 3 and 2 arrays", len(given))
     return [_to_column(*each) for each in zip(names, given, sizes, strict=True)]
 
 
@@ -161,16 +161,16 @@ def _to_column(name: str, given: Numbers, size: int) -> Array:
     array = _to_device(given)
     if size:
         fits = array.ndim in (1, 2) and array.shape[-1] == size
-        require(fits, name, f"of shape ({size},) or (n, {size})", str(array.shape))
+        require(fits, name, f"of shape ({size},) or (n, {size})", array.shape)
         return array.reshape(-1, size)
-    require(array.ndim <= 1, name, "a number or of shape (n,)", str(array.shape))
+    require(array.ndim <= 1, name, "a number or of shape (n,)", array.shape)
     return array.reshape(-1, 1)
 
 
 def _join(columns: list[Array]) -> Array:
     """Return the starts (n, 15), whose friction and torque are zero."""
     counts = {len(each) for each in columns} - {1}
-    require(len(counts) <= 1, "arrays", "of one length or 1", str(sorted(counts)))
+    require(len(counts) <= 1, "arrays", "of one length or 1", sorted(counts))
     starts = open_cupy().zeros((max(counts, default=1), NUMBERS))
     first = 0
     for each in columns:

@@ -43,7 +43,8 @@ from symtop_ros.physics.kernel.records import (
     VerdictRecord,
 )
 from symtop_ros.physics.times import ExactTimes
-from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY, refuse
+from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY
+from symtop_ros.refusals import RefusedError, refuse
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -132,7 +133,7 @@ def refuse_status(status: int) -> Exception:
     if status == NO_MEMORY:
         return MemoryError()
     sentence = open_door().describe_status(status).decode()
-    return (FloatingPointError if status == BAD_ARITHMETIC else ValueError)(sentence)
+    return (FloatingPointError if status == BAD_ARITHMETIC else RefusedError)(sentence)
 
 
 def demand(status: int) -> None:

@@ -17,7 +17,7 @@ from symtop_ros.physics.kernel.records import (
     PieceRecord,
 )
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
-from symtop_ros.physics.values import refuse
+from symtop_ros.refusals import refuse
 
 STATES, STEPS = 2**16, 256.0  # in one call of the kernel, some ms
 LONGEST_WAY = 1e7  # steps, a minute or two; of kernel/driven/trail.hpp

@@ -26,10 +26,10 @@ from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
     LARGEST_ANGULAR_VELOCITY,
     fit_shapes,
-    refuse,
     validate_array,
     validate_number,
 )
+from symtop_ros.refusals import refuse
 from symtop_ros.wording import write
 
 

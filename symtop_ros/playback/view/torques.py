@@ -21,7 +21,7 @@ from symtop_ros.log.batch import Columns
 from symtop_ros.physics import FrameTorques, State, Top, precessing_frame_torques
 from symtop_ros.playback.view import entities
 from symtop_ros.playback.view.quantities import ColumnsByTopic, find_step, join, nodes_of
-from symtop_ros.simulation.validation import MAX_RATE
+from symtop_ros.simulation.settings import MAX_RATE
 
 RATE = 60.0  # arrows per s of the clock
 LENGTH = 0.9  # of the longest arrow in scene units

@@ -10,6 +10,7 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from symtop_ros.physics import KickVerdict, State, kick_verdict
+from symtop_ros.refusals import refuse
 from symtop_ros.simulation.changes.outcomes import (
     ClockJump,
     Outcome,
@@ -24,7 +25,6 @@ from symtop_ros.simulation.changes.outcomes import (
 from symtop_ros.simulation.changes.requests import plan_kick, plan_pushes, plan_release
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import list_body, read_body
-from symtop_ros.simulation.validation import reject
 from symtop_ros.wire.diagnostics import write_text
 
 Request = Mapping[str, Any]
@@ -88,7 +88,7 @@ def demand_a_day(segment: Segment) -> Segment:
     left = (segment.motion.farthest_time - segment.begin_time) / segment.factor
     if left < DAY:
         condition = "so slow that it stays within 1e15 turns for a day at this real-time factor"
-        raise reject("motion", condition, f"{left:.3g} s")
+        raise refuse("motion", condition, f"{left:.3g} s")
     return segment
 
 
@@ -140,7 +140,7 @@ def _step(segment: Segment, act: Act, _: State) -> Ruled:
     duration = float(act.request["duration"])
     segment = segment.step(duration, act.stamp)
     if segment.begin_time >= segment.motion.farthest_time:
-        raise reject("duration", "within 1e15 turns of the motion", duration)
+        raise refuse("duration", "within 1e15 turns of the motion", duration)
     return segment, Step("stepped", segment.begin_time)
 
 

@@ -29,24 +29,24 @@ from symtop_ros.physics import (
     regular_precession_rates,
     set_precession_rate,
 )
-from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.settings import (
-    MAX_ANGLE,
-    MAX_MOMENT,
-    PRECESSIONS,
-    InitialConditions,
-    Settings,
-)
-from symtop_ros.simulation.validation import (
-    MAX_RATE,
+from symtop_ros.refusals import (
     RefusedError,
     choice,
     exactly_one,
     number,
-    reject,
+    refuse,
     show,
     validate_names,
     vector,
+)
+from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.settings import (
+    MAX_ANGLE,
+    MAX_MOMENT,
+    MAX_RATE,
+    PRECESSIONS,
+    InitialConditions,
+    Settings,
 )
 
 # What ~/kick and a kick of run.json ask for. A kind of kick has the name of symtop_kick_kind, and
@@ -87,10 +87,7 @@ def plan_kick(
     hold = find_hold(request)
     if "hold" in request and FIELDS[kind]["holds"] != "chosen":
         raise RefusedError(f"hold must be given without {kind}, got both")
-    try:
-        after = KICKS[kind](motion.top, state, _read_amount(kind, request[kind]), hold)
-    except ValueError as error:  # a vertical axis, or a result that is not finite
-        raise RefusedError(str(error)) from None
+    after = KICKS[kind](motion.top, state, _read_amount(kind, request[kind]), hold)
     _limit_rates(kind, request, after)
     return motion.restart(after), hold
 
@@ -132,14 +129,11 @@ def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> tup
     """Return the motion that follows if a state of a motion is pushed again and again."""
     validate_names(request, KICK_FIELDS)
     pushes = read_pushes(request)
-    try:
-        first = push_axle(motion.top, state, pushes.impulse)
-        pushed = Motion(motion.top, first, motion.friction, motion.applied_torque, pushes)
-        # Under gravity alone all pushes are tried; else it would take their time to reach the last.
-        end = ExactTimes(pushes.last_time)
-        last = first if motion.is_driven else pushed.piece_at(end).motion.start
-    except ValueError as error:  # a vertical axis, or a top that is too fast, then or later
-        raise RefusedError(str(error)) from None
+    first = push_axle(motion.top, state, pushes.impulse)
+    pushed = Motion(motion.top, first, motion.friction, motion.applied_torque, pushes)
+    # Under gravity alone all pushes are tried; else it would take their time to reach the last.
+    end = ExactTimes(pushes.last_time)
+    last = first if motion.is_driven else pushed.piece_at(end).motion.start
     _limit_rates("axle_impulse", request, last)
     return pushed, pushes
 
@@ -160,7 +154,7 @@ def read_pushes(request: Mapping[str, Any]) -> Pushes:
         raise RefusedError(f"pushes must have {', '.join(PUSHES)}, got {show(given)}")
     count = number("number", request["number"], "", 1, MOST_PUSHES)
     if not count.is_integer():
-        raise reject("number", f"a whole number up to {MOST_PUSHES}", request["number"])
+        raise refuse("number", f"a whole number up to {MOST_PUSHES}", request["number"])
     return Pushes(
         number("axle_impulse", request["axle_impulse"], "N m s", -LARGEST_IMPULSE, LARGEST_IMPULSE),
         number("rate", request["rate"], "pushes per s of the motion", *PUSH_RATES),
@@ -175,7 +169,7 @@ def name_pushes(pushes: Pushes) -> dict[str, float]:
 
 def _limit_rates(kind: str, request: Mapping[str, Any], after: State) -> None:
     if not float(np.abs(after.angular_velocity).max()) <= MAX_RATE:
-        raise reject(kind, f"such that the top stays below {MAX_RATE:g} rad/s", request[kind])
+        raise refuse(kind, f"such that the top stays below {MAX_RATE:g} rad/s", request[kind])
 
 
 def start_motion(settings: Settings) -> Motion:
@@ -221,10 +215,7 @@ def _refuse_contradictions(request: Mapping[str, Any]) -> None:
 def _from_quaternion(orientation: Any, angular_velocity: Any) -> State:
     x, y, z, w = vector("orientation", orientation, 4, 2.0, "x, y, z, w")
     omega = vector("angular_velocity", angular_velocity, 3, MAX_RATE, "rad/s, body frame")
-    try:
-        return State((w, x, y, z), omega)
-    except ValueError as error:  # the norm
-        raise RefusedError(str(error)) from None
+    return State((w, x, y, z), omega)
 
 
 def _from_euler(top: Top, values: Mapping[str, Any]) -> State:

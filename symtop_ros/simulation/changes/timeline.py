@@ -12,6 +12,7 @@ from typing import Literal
 
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import State
+from symtop_ros.refusals import refuse, vector
 from symtop_ros.simulation.budget import Shortfall
 from symtop_ros.simulation.changes.follow import Act, Following, Request, demand_a_day, follow
 from symtop_ros.simulation.changes.outcomes import Pace, Start, Torque
@@ -19,7 +20,6 @@ from symtop_ros.simulation.changes.requests import initial_state, start_motion
 from symtop_ros.simulation.events import Event
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings
-from symtop_ros.simulation.validation import reject, vector
 from symtop_ros.wire.layout import NANOSECONDS
 
 
@@ -89,7 +89,7 @@ class Timeline:
         """Apply a torque (3,) in N m until its time-out."""
         world = self.settings.world_frame
         if frame not in ("", world):
-            raise reject("applied_torque frame_id", f'"{world}" or empty', frame)
+            raise refuse("applied_torque frame_id", f'"{world}" or empty', frame)
         x, y, z = vector("applied_torque", torque, 3, MAX_MOMENT, "N m, world frame")
         end = stamp + round(self.settings.applied_torque_timeout * NANOSECONDS)
         return replace(self, held_torque=(x, y, z), torque_end=end)._apply_torque(stamp, "applied")

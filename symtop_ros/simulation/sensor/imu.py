@@ -11,8 +11,8 @@ from typing import Any
 
 from symtop_ros.arrays import Real, Vector, compose
 from symtop_ros.physics import STANDARD_GRAVITY, Body, Motion, State, Top, specific_force
+from symtop_ros.refusals import number, vector
 from symtop_ros.simulation.sensor.noise import AXES, MAX_NOISE, Noise
-from symtop_ros.simulation.validation import number, vector
 from symtop_ros.wire.diagnostics import write_text
 
 EXACT = 1e-18  # (1e-9)^2, a covariance of what is exact: zero would mean "unknown" (sensor_msgs)

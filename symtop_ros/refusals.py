@@ -1,24 +1,31 @@
-"""Validation of named values from requests, parameter files and the command line.
+"""One language of refusals: "NAME must be CONDITION, got VALUE", in one printable line.
 
-Every refusal reads "NAME must be CONDITION, got VALUE", in one printable line.
+Here values are validated one by one, as requests, files and command lines have them; arrays of them
+in `physics/values.py`. What is refused is a ValueError everywhere, whose text is the answer.
 """
 
 import math
 import re
 from array import array
 from collections.abc import Callable, Collection, Mapping, Sequence, Sized
+from numbers import Real
 from typing import Any
 
-MAX_RATE = 1e9  # rad/s; of any rate that is requested, and of the top after a kick
 MAX_SHOWN = 60  # characters of a value in a message
+MAX_SENTENCE = 400  # characters of a text from another program or a file
 # YAML 1.1 takes 2e-06, without a point, as text, in scene files and in `ros2 service call`. It is
 # accepted as a number.
 NUMBER = re.compile(r"[-+]?\d+[eE][-+]?\d+")
-MAX_SENTENCE = 400  # characters of a text from another program or a file
 
 
 class RefusedError(ValueError):
-    """A request that is refused; its text is the answer."""
+    """A value or a request that is refused; its text is the answer."""
+
+
+class Words(str):
+    """Words that describe a value, such as the shape of an array, and stand without quotes."""
+
+    __slots__ = ()
 
 
 def attempt(act: Callable[[], str | None]) -> tuple[bool, str]:
@@ -29,14 +36,39 @@ def attempt(act: Callable[[], str | None]) -> tuple[bool, str]:
         return False, str(refusal)
 
 
-def reject(name: str, condition: str, got: object) -> RefusedError:
-    """Return the refusal of a value."""
-    return RefusedError(f"{name} must be {condition}, got {show(got)}")
+def refuse(name: str, condition: str, value: object) -> RefusedError:
+    """Return the refusal of a value that does not meet its condition, with its unit.
+
+    Examples
+    --------
+    >>> str(refuse("Ix", "> 0 kg m^2", -1.0))
+    'Ix must be > 0 kg m^2, got -1'
+    >>> str(refuse("scene", "one of cusps, looping", "cups"))
+    "scene must be one of cusps, looping, got 'cups'"
+    >>> str(refuse("t", "of shape (n,)", Words("shape (2, 3)")))
+    't must be of shape (n,), got shape (2, 3)'
+    """
+    return RefusedError(f"{name} must be {condition}, got {show(value)}")
+
+
+def require(holds: object, name: str, condition: str, value: object) -> None:
+    """Refuse a value unless its condition holds."""
+    if not holds:
+        raise refuse(name, condition, value)
 
 
 def show(value: object) -> str:
-    """Return a value as text of at most `MAX_SHOWN` characters, however long the value is."""
-    text = repr(value[:MAX_SHOWN] if isinstance(value, Sequence | array) else value)
+    """Return a value as one line of at most `MAX_SHOWN` characters, however long the value is.
+
+    A number has all its digits.
+    """
+    if isinstance(value, Words):
+        text = str(value)
+    elif isinstance(value, float):  # also those of NumPy
+        text = repr(float(value)).removesuffix(".0")
+    else:
+        text = repr(value[:MAX_SHOWN] if isinstance(value, Sequence | array) else value)
+    text = " ".join(text.split())
     return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 3]}..."
 
 
@@ -46,29 +78,34 @@ def validate_names(
     """Refuse a mapping with a name that is not one of `names`."""
     for name in values:
         if name not in names:
-            raise reject(what, f"one of {', '.join(names)}", name)
+            raise refuse(what, f"one of {', '.join(names)}", name)
+
+
+def is_real(value: Any) -> bool:
+    """Return True for a number: also those of NumPy, but neither truth values nor durations."""
+    # The first test is only for speed: the lookup in an abstract class takes longer.
+    if type(value) is float:
+        return True
+    is_duration = getattr(getattr(value, "dtype", None), "kind", "") == "m"
+    return isinstance(value, Real) and not (is_duration or isinstance(value, bool))
 
 
 def number(
-    name: str, value: object, unit: str, low: float = -math.inf, high: float = math.inf
+    name: str, value: object, unit: str = "", low: float = -math.inf, high: float = math.inf
 ) -> float:
     """Return a finite number within [low, high]; integers and text such as 2e-06 are converted."""
-    bounded = math.isfinite(low) or math.isfinite(high)
-    plain = f"a finite number ({unit})" if unit else "a finite number"
-    condition = describe_range(low, high, unit) if bounded else plain
     if isinstance(value, str) and NUMBER.fullmatch(value):
         value = float(value)
     if (
-        isinstance(value, bool)
-        or not isinstance(value, int | float)
-        or not low <= value <= high
+        not is_real(value)
         or not math.isfinite(double := to_double(value))
+        or not low <= double <= high
     ):
-        raise reject(name, condition, value)
+        raise refuse(name, describe_range(low, high, unit), value)
     return double
 
 
-def to_double(value: float) -> float:
+def to_double(value: Any) -> float:
     """Return a number as a double; an integer with too many digits is infinite."""
     try:
         return float(value)
@@ -84,8 +121,10 @@ def plain(text: str) -> str:
 
 
 def describe_range(low: float, high: float, unit: str) -> str:
-    """Return a range as text."""
-    return f"{low:.6g} to {high:.6g} {unit}".rstrip()
+    """Return a range as text; without limits that of all numbers."""
+    if math.isfinite(low) or math.isfinite(high):
+        return f"{low:.6g} to {high:.6g} {unit}".rstrip()
+    return f"a finite number ({unit})" if unit else "a finite number"
 
 
 def vector(name: str, value: Any, size: int, limit: float, unit: str) -> tuple[float, ...]:
@@ -101,20 +140,20 @@ def vector(name: str, value: Any, size: int, limit: float, unit: str) -> tuple[f
         return tuple(number(name, part, unit, -limit, limit) for part in parts)
     except RefusedError:
         condition = f"{size} numbers from {-limit:g} to {limit:g} ({unit})"
-        raise reject(name, condition, list(parts)) from None
+        raise refuse(name, condition, list(parts)) from None
 
 
 def choice(name: str, value: object, options: tuple[str, ...]) -> str:
     """Return one of some words."""
     if not isinstance(value, str) or value not in options:
-        raise reject(name, " or ".join(f'"{option}"' for option in options), value)
+        raise refuse(name, " or ".join(f'"{option}"' for option in options), value)
     return value
 
 
 def flag(name: str, value: object) -> bool:
     """Return True or False; numbers and text are refused."""
     if not isinstance(value, bool):
-        raise reject(name, "true or false", value)
+        raise refuse(name, "true or false", value)
     return value
 
 
@@ -126,11 +165,6 @@ def exactly_one(values: Mapping[str, Any], names: tuple[str, ...]) -> str:
             f"a request must have one of {', '.join(names)}, got {' and '.join(given) or 'none'}"
         )
     return given[0]
-
-
-def full_name(node: str) -> str:
-    """Return the full name of a node; the slash at its beginning may be left out."""
-    return f"/{node.strip('/')}"
 
 
 def one_line(text: object, max_length: int = MAX_SENTENCE) -> str:
