@@ -15,14 +15,16 @@ from security.policy import allowed, used
 from waiting import TIMEOUT, until
 
 from symtop_ros.playback import viewer
+from symtop_ros.session.services import SERVICES
 from symtop_ros.simulation.topics import STATE_TOPICS
 from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
-COMMANDS = {name: (name,) for name in ("hurry", "reset", "pause", "state", "watch")}
-COMMANDS |= {"start": ("start", "theta=0.5"), "kick": ("kick", "precession_rate=9")}
-COMMANDS |= {"step": ("step", "duration=0.01"), "record": ("record", "on")}
+GIVEN = {"start": ["theta=0.5"], "kick": ["precession_rate=9"], "step": ["duration=0.01"]}
+GIVEN |= {"record": ["on"]}
+NAMES = (*(each.command for each in SERVICES.values()), "watch")
+COMMANDS = {name: (name, *GIVEN.get(name, ())) for name in NAMES}
 
 
 @contextlib.contextmanager
