@@ -69,6 +69,7 @@ PEERS = [
     "exudyn>=1.13",
     "diffrax>=0.7",
     "ahrs>=0.4",  # attitude filters
+    "usd-core>=26",  # validates the stages of the top
     "distributed>=2024.8",  # a local cluster of Dask computes a map
 ]
 TEST = [

@@ -11,7 +11,7 @@ from typing import Any
 
 from symtop_ros.judge.judgement import tell_limit
 from symtop_ros.judge.scoreboard import Entry, format_json, format_table, read_entries
-from symtop_ros.models import FORMATS, FREE_FORMATS, UNSAID
+from symtop_ros.models import FORMATS, FREE_FORMATS, UNSAID, name_file
 from symtop_ros.models.descriptions import describe
 from symtop_ros.models.snippets import format_snippets, format_world_snippets
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
@@ -28,7 +28,7 @@ INTRODUCTION = """\
 
 A problem of the test set that is described [below](#a-test-set-of-heavy-tops), in a folder that
 stands alone: `{name}.json` has all of it, `problems.csv`, `states.csv`, `forces.csv` and
-`world.csv` have it as tables, `{name}.mjcf`, `.sdf` and `.urdf` are models, and
+`world.csv` have it as tables, `{name}.mjcf`, `.sdf`, `.urdf` and `.usda` are models, and
 `{name}.turned.mjcf` and the like say the same of the body in other words (see Descriptions). This
 scores a trajectory, with Python and NumPy:
 
@@ -42,8 +42,8 @@ scores a trajectory, with Python and NumPy:
 LINK_OUT = re.compile(r"\[([^]]*)\]\(\.\.[^)]*\)")  # of the README, to files that a copy has not
 FREE = """
 
-The body has no weight. `{name}.free.mjcf`, `.free.sdf` and `.free.urdf` hold it by nothing: engines
-have code of their own for free bodies, which a ball joint does not reach."""
+The body has no weight. `{name}.free.mjcf`, `.free.sdf`, `.free.urdf` and `.free.usda` hold it by
+nothing: engines have code of their own for free bodies, which a ball joint does not reach."""
 OF_THE_SET = ("Files", "An example: MuJoCo")  # sections that name files that a copy has not
 
 
@@ -125,10 +125,11 @@ def _describe_models(facts: Mapping[str, Any]) -> dict[str, str]:
     top = Top(facts["Ix"], facts["Iz"], facts["Mgl"])
     formats = FORMATS if top.Mgl else {**FORMATS, **FREE_FORMATS}
     (start, body), name = _read_motion(facts), facts["name"]
-    texts = {f"{name}.{form}": write(top, start, body) for form, write in formats.items()}
+    texts = {name_file(name, form): write(top, start, body) for form, write in formats.items()}
     for each, (form, write) in product(score.DESCRIPTIONS, formats.items()):
         if (each, form) not in UNSAID:
-            texts[f"{name}.{each}.{form}"] = write(top, start, body, describe(each, body))
+            described = describe(each, body)
+            texts[name_file(f"{name}.{each}", form)] = write(top, start, body, described)
     return texts
 
 

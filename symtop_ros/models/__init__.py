@@ -1,4 +1,4 @@
-"""The top and its start as URDF, SDF and MJCF. Imported by session, node, check and judge.
+"""The top and its start as URDF, SDF, MJCF and USD. Imported by session, node, check and judge.
 
 All of them hold a body that moves as the top does, with its doubles in full, in any of its
 descriptions. Friction and applied torques are left out: no format has friction that differs along
@@ -14,6 +14,7 @@ from typing import Protocol
 from symtop_ros.models.descriptions import PLAIN, Description
 from symtop_ros.models.engines import format_free_mjcf, format_free_sdf, format_mjcf, format_sdf
 from symtop_ros.models.urdf import format_free_urdf, format_urdf
+from symtop_ros.models.usd import format_free_usd, format_usd
 from symtop_ros.physics import Body, State, Top
 
 
@@ -24,12 +25,24 @@ class Format(Protocol):
         """Return the text of a description of a body."""
 
 
-FORMATS: dict[str, Format] = {"urdf": format_urdf, "sdf": format_sdf, "mjcf": format_mjcf}
+FORMATS: dict[str, Format] = {
+    "urdf": format_urdf,
+    "sdf": format_sdf,
+    "mjcf": format_mjcf,
+    "usd": format_usd,
+}
 FREE_FORMATS: dict[str, Format] = {
     "free.urdf": format_free_urdf,
     "free.sdf": format_free_sdf,
     "free.mjcf": format_free_mjcf,
+    "free.usd": format_free_usd,
 }
 # What a format cannot say: the axis of a URDF's joint goes through the origin of its link, and a
-# link of SDF has mass.
-UNSAID = {("offset", "urdf"), ("nested", "sdf"), ("nested", "free.sdf")}
+# link of SDF and a body of USD have mass.
+UNSAID = {("offset", "urdf")}
+UNSAID |= {("nested", form) for form in ("sdf", "free.sdf", "usd", "free.usd")}
+
+
+def name_file(name: str, form: str) -> str:
+    """Return the name of the file of a model; a stage of USD as text ends in usda."""
+    return f"{name}.{form}{'a' if form.endswith('usd') else ''}"

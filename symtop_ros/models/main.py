@@ -1,4 +1,4 @@
-"""Entry point of `top_model`: a top as URDF, SDF or MJCF."""
+"""Entry point of `top_model`: a top as URDF, SDF, MJCF or USD."""
 
 import argparse
 import sys

@@ -1,5 +1,6 @@
 """Models of the top in other engines: the inertia that they read, and the motion that follows."""
 
+import importlib
 import re
 from xml.etree import ElementTree
 
@@ -7,7 +8,8 @@ import numpy as np
 import pytest
 from physics.tops import ARTICLE
 
-from symtop_ros.models import FORMATS
+from symtop_ros.models import FORMATS, FREE_FORMATS, name_file
+from symtop_ros.models.descriptions import PLAIN, describe
 from symtop_ros.models.main import main
 from symtop_ros.models.urdf import MUJOCO_BOUND, robot_description
 from symtop_ros.physics import Body, Motion
@@ -17,6 +19,7 @@ from symtop_ros.simulation.settings import Settings
 
 SCENES = ["cusps", "fast_precession", "perry_fails", "disc", "free", "hanging"]
 DURATION = 1.0  # s
+DESCRIPTIONS = "", "turned", "offset", "nested_half"
 
 
 def read_scene(name):
@@ -89,7 +92,10 @@ def test_every_scene_can_be_written(form, tmp_path):
     for scene in scene_names():
         path = tmp_path / f"{scene}.{form}"
         assert main(["--format", form, "--scene", scene, "-o", str(path)]) == 0
-        assert ElementTree.parse(path).getroot().tag in ("robot", "sdf", "mujoco")
+        if form == "usd":
+            assert path.read_text().startswith("#usda 1.0\n(\n")
+        else:
+            assert ElementTree.parse(path).getroot().tag in ("robot", "sdf", "mujoco")
 
 
 def test_the_model_goes_to_standard_output_and_what_it_leaves_out_is_told(capsys):
@@ -117,3 +123,28 @@ def test_the_body_hangs_from_the_world(world, top, with_tf, with_state_publisher
     while frame in parents:
         frame = parents[frame]
     assert frame == world
+
+
+@pytest.mark.long  # 28 MB to fetch
+@pytest.mark.parametrize("name", DESCRIPTIONS)
+def test_usd_core_validates_every_stage_and_reads_its_numbers(name, tmp_path):
+    pxr = pytest.importorskip("pxr")
+    importlib.import_module("pxr.UsdPhysics")
+    validation = importlib.import_module("pxr.UsdValidation")
+    validators = validation.ValidationRegistry().GetOrLoadAllValidators()
+    for scene in SCENES:
+        top, start = read_scene(scene)
+        body = Body.of(top)
+        described = describe(name, body) if name else PLAIN
+        for form in ("usd", "free.usd"):
+            write = {**FORMATS, **FREE_FORMATS}[form]
+            path = tmp_path / name_file(f"{scene}.{name}", form)
+            path.write_text(write(top, start, body, described))
+            stage = pxr.Usd.Stage.Open(str(path))
+            found = validation.ValidationContext(validators).Validate(stage)
+            assert [each.GetMessage() for each in found] == []
+            link = stage.GetPrimAtPath("/World/start_top/top")
+            (mass,) = [link.GetAttribute("physics:mass").Get()]
+            assert mass == np.float32(described.link(body).mass)
+            assert link.HasAPI(pxr.UsdPhysics.RigidBodyAPI)
+            assert stage.GetPrimAtPath("/World/pivot").IsValid() == (form == "usd")

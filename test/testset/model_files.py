@@ -27,7 +27,10 @@ class Described:
 
 
 def read_model(path: Path) -> Described:
-    """Return what a MJCF, SDF or URDF file says."""
+    """Return what a MJCF, SDF, URDF or USD file says."""
+    if path.suffix == ".usda":
+        with mp.workdps(DIGITS):
+            return read_usd(path.read_text())
     root = ElementTree.parse(path).getroot()
     read = {"mjcf": read_mjcf, "sdf": read_sdf, "urdf": read_urdf}[path.suffix[1:]]
     with mp.workdps(DIGITS):
@@ -107,6 +110,57 @@ def read_urdf(root: Element, text: str) -> Described:
     # of each joint in the frame of the link: its axis, turned back by the joints after it
     omega = turns[3].T * (turns[2].T * (turns[1].T * z * a + x * b) + z * c)
     return gather(found, turns[0] * turns[1] * turns[2] * turns[3], omega)
+
+
+def read_usd(text: str) -> Described:
+    """Return what a stage says: each field of a prim by its name, numbers as they stand there."""
+    heads = list(re.finditer(r'def \w+ "(\w+)"', text))
+    ends = [*(each.start() for each in heads[1:]), len(text)]
+    prims = {
+        head[1]: dict(re.findall(r"^ +\w+ (\S+) = \(?([^()\n]*)\)?$", text[head.end() : end], re.M))
+        for head, end in zip(heads, ends, strict=True)
+    }
+    pivot, fixed = prims.get("pivot"), prims.get("fixed")
+    held = tuple_of(pivot, "physics:localPos1") if pivot else mp.zeros(3, 1)
+    frames = [("top", mp.eye(3), -held)]
+    if fixed:
+        turned = rotation(list(tuple_of(fixed, "physics:localRot0")))
+        frames.append(("part", turned, tuple_of(fixed, "physics:localPos0")))
+    found = [place_body(prims[name], turned, place) for name, turned, place in frames]
+    frame = rotation(list(tuple_of(prims["start_top"], "xformOp:orient")))
+    omega = tuple_of(prims["top"], "physics:angularVelocity") * mp.pi / 180
+    origin = tuple_of(prims["start_top"], "xformOp:translate")
+    for name, turned, place in frames:
+        start, prim = prims[f"start_{name}"], prims[name]
+        at, centre = tuple_of(start, "xformOp:translate"), tuple_of(prim, "physics:centerOfMass")
+        arm = place + turned * centre if pivot else mp.zeros(3, 1)
+        own = tuple_of(prim, "physics:angularVelocity") * mp.pi / 180
+        size = mp.norm(omega)
+        assert mp.norm(turned * own - omega) <= 1e-15 * size
+        moving = turned * tuple_of(prim, "physics:velocity") - matrix(cross(omega, arm))
+        assert mp.norm(moving) <= 1e-14 * size * (1 + mp.norm(arm))
+        turning = rotation(list(tuple_of(start, "xformOp:orient"))) - frame * turned
+        assert mp.mnorm(turning) < 1e-15
+        apart = at - origin - frame * (place - frames[0][2])
+        assert mp.norm(apart) < 1e-15 * (1 + mp.norm(at))
+    if pivot:
+        assert float(re.search("gravityMagnitude = (.*)", text)[1]) == 9.81
+        return gather(found, frame, omega)
+    whole = gather(found, frame, omega)
+    velocity = -frame * matrix(cross(omega, whole.weighted / whole.mass))
+    return gather_free(found, frame, omega, list(origin), list(velocity))
+
+
+def tuple_of(prim: dict[str, str], name: str) -> Any:
+    return vector(prim[name].replace(",", " "))
+
+
+def place_body(prim: dict[str, str], turned: Any, place: Any) -> tuple[Any, Any, Any]:
+    """Return mass, centre of mass and moments of a body of a stage, as `place_part` does."""
+    axes = turned * rotation(list(tuple_of(prim, "physics:principalAxes")))
+    moments = axes * mp.diag(list(tuple_of(prim, "physics:diagonalInertia"))) * axes.T
+    centre = place + turned * tuple_of(prim, "physics:centerOfMass")
+    return mpf(float(prim["physics:mass"])), centre, moments
 
 
 def read_origin(element: Element, name: str) -> list[Any]:

@@ -7,6 +7,7 @@ from physics.tops import EPS
 from testset.model_files import DIGITS, read_model, rotation
 from trials import choose
 
+from symtop_ros.models import FORMATS, FREE_FORMATS, name_file
 from symtop_ros.models.descriptions import describe
 from symtop_ros.testset.score import DESCRIPTIONS, find_problem, read_problems
 from workshop.testset.problems import SETTINGS
@@ -18,8 +19,8 @@ def find_models(folder, name):
     """Yield the paths of the models of a problem, each with its description."""
     for description in ("", *DESCRIPTIONS):
         named = ".".join(filter(None, (name, description)))
-        for form in ("mjcf", "sdf", "urdf", "free.mjcf", "free.sdf", "free.urdf"):
-            path = folder / "models" / f"{named}.{form}"
+        for form in (*FORMATS, *FREE_FORMATS):
+            path = folder / "models" / name_file(named, form)
             if path.exists():
                 yield path, named
 

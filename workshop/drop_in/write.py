@@ -20,7 +20,7 @@ ROOT = HERE.parents[1]
 SOURCES = ROOT / KERNEL
 HEADER = SOURCES / "symtop.h"
 (VERSION,) = re.findall(r'^#define SYMTOP_VERSION "(.+)"$', HEADER.read_text(), re.M)
-FILES = ("README.md", "CMakeLists.txt", "symtop.pc.in", "example.c")
+FILES = ("README.md", "CMakeLists.txt", "symtop-config.cmake.in", "symtop.pc.in", "example.c")
 # CMake has its own words for these, and a static library takes no -shared.
 SAID_BY_CMAKE = ("-std=", "-fPIC", "-shared")
 LOCAL_INCLUDE = re.compile(r'^#include "(.+)"\n', re.M)

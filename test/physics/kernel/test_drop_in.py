@@ -126,6 +126,26 @@ def test_a_project_of_cmake_takes_the_folder_as_a_part(drop_in, tmp_path):
     check_project(drop_in, tmp_path, None)
 
 
+@pytest.mark.long
+@needs_cmake
+@pytest.mark.parametrize("is_part", [True, False])
+def test_a_project_in_c_alone_is_told_which_language_it_lacks(is_part, drop_in, tmp_path):
+    shutil.copytree(drop_in, tmp_path / "symtop")
+    if is_part:
+        find = "add_subdirectory(symtop)"
+    else:
+        find = f"find_package(symtop REQUIRED PATHS {tmp_path}/installed NO_DEFAULT_PATH)"
+        configure_and_build(tmp_path / "symtop", tmp_path / "b")
+        run_script("cmake --install b --prefix installed", tmp_path)
+    lines = [PROJECT.replace("LANGUAGES C CXX", "C"), find]
+    (tmp_path / "CMakeLists.txt").write_text("\n".join(lines))
+    words = ["cmake", "-S", str(tmp_path), "-B", str(tmp_path / "mine")]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode
+    told = "the project must have the language CXX, got C: write project(NAME LANGUAGES C CXX)"
+    assert told in " ".join(done.stderr.split())
+
+
 def check_project(drop_in, project, find, *options):
     """Build a project with the two lines of the README, or with another first one."""
     (lines,) = re.findall(r"```cmake\n(.*?)```", (drop_in / "README.md").read_text(), re.S)

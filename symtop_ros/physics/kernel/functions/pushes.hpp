@@ -124,7 +124,7 @@ class Stretches {
     const int last = status == SYMTOP_OK ? place : count_made() - 1;
     const double begin = find_begin(last) / SECOND;
     const double wanted = last == place ? t - begin : find_length(last);
-    double own;
+    double own = 0.0;  // where there is no memory for any step
     const Progress progress = at(last).driven.reach(wanted, most_steps, &own);
     if (status == SYMTOP_OK) status = to_status(progress);
     if (status != SYMTOP_OK) *reached = begin + own;
