@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.testset.score import DESCRIPTIONS, Problem, Score, find_problem, read_trajectory
+from symtop_ros.testset.score import DESCRIPTIONS, Problem, Score, find_problem, score_trajectory
 from symtop_ros.testset.tables import TABLES
 
 # rk4-0.001 and rk4-1e-3: the step of this entry. The first part is as short as it can be, so that
@@ -71,13 +71,14 @@ class Entry:
             "times": self.problem["times"],
             "errors": self.score.angles.tolist(),
             "rate_errors": None if rates is None else rates.tolist(),
+            "start": self.score.start,
         }
 
 
 def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
     """Return the scores of all PROBLEM/NAME.csv in a folder; PROBLEM.turned is a description."""
     entries = [
-        Entry(path.stem, problem.score(*read_trajectory(path, problem)))
+        Entry(path.stem, score_trajectory(path, problem))
         for problem in (find_problem(problems, name + end) for name in problems for end in ENDINGS)
         for path in sorted((folder / problem.facts["name"]).glob("*.csv"))
         if path.name not in TABLES  # the problem and its exact motion are no entries

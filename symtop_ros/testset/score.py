@@ -6,7 +6,8 @@
 
 A trajectory is a table with the columns t, w, x, y, z, and wx, wy, wz if it has angular velocities
 in the body frame, or omega_x, omega_y, omega_z in the world frame, in any order. Commas,
-semicolons, tabs or spaces separate columns. Further columns and rows at other times are ignored.
+semicolons, tabs or spaces separate columns. A row at t = 0 is compared with the start as it was
+given; further columns and rows at other times are ignored.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ import json
 import sys
 from array import array
 from bisect import bisect
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
 from typing import Any
@@ -33,10 +34,15 @@ BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
 # Of the body: its frame turned, or with its origin off the pivot; all or half of the mass in a
 # fixed child. The states of the first are in the turned frame, those of the others as ever.
 DESCRIPTIONS = ("turned", "offset", "nested", "nested_half")
+# The rotation of a turned frame to the principal axes.
+TURN = (0.7, 0.1, 0.5, 0.5)
 SEPARATORS = (",", ";", "\t")  # else any white space
 LARGEST_NORM_ERROR = 0.01  # of a quaternion; a larger one is another error than that of a motion
 # A row belongs to a time if it is this close to it, relatively: a clock that adds up its steps.
 SAME_TIME = 1e-9
+# A row at t = 0 agrees with the start, or with what a mistake makes of it, within this: in rad, and
+# relative to the rate. It may be rounded to single precision, or to a few digits.
+SAME_START = 1e-4
 LARGEST_FILE = 2**30  # bytes
 LARGEST_NUMBER = 1e100  # beyond it squares overflow
 SHOWN = 60  # characters of a header or row in a message
@@ -124,11 +130,14 @@ class Score:
         Angle in rad of the rotation that would correct the attitude.
     rates : ndarray (20,) or None
         |omega - omega_exact| in rad/s.
+    start : str
+        What a row at t = 0 has in place of the start; empty if it is the start, or there is none.
     """
 
     problem: Problem
     angles: Real
     rates: Real | None
+    start: str = ""
 
     @property
     def in_limits(self) -> Real:
@@ -158,6 +167,7 @@ class Score:
             f"(mean {self.angles.mean():.1e}), {self.in_limits.max():.2g} limits "
             f"({self.in_float32_limits.max():.2g} of float32)"
             f"{'' if rates is None else f'; angular velocity {rates.max():.1e} rad/s at most'}"
+            f"{self.start and f'; the row at t = 0 is not the start: {self.start}'}"
         )
 
 
@@ -201,6 +211,94 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
     OSError
         If the file cannot be read.
     """
+    q, rates = _read_states(path, problem)
+    return q[1:], None if rates is None else rates[1:]
+
+
+def score_trajectory(path: Path, problem: Problem) -> Score:
+    """Return the score of a table, with what is wrong with its row at t = 0, if it has one.
+
+    Raises
+    ------
+    ValueError, OSError
+        As `read_trajectory`.
+    """
+    q, rates = _read_states(path, problem)
+    score = problem.score(q[1:], None if rates is None else rates[1:])
+    start = describe_start(problem, q[0], None if rates is None else rates[0])
+    return replace(score, start=start)
+
+
+def describe_start(problem: Problem, q: Real, rates: Real | None) -> str:
+    """Return how a state (4,), (3,) at t = 0 differs from the start; empty if it does not.
+
+    It may be nan: there is no such state.
+    A mistake is named if the state is what it makes of the start, and nothing else is.
+
+    Examples
+    --------
+    >>> problem = read_problems()["cusps"]
+    >>> w, x, y, z = problem.facts["orientation"]
+    >>> describe_start(problem, np.array([w, x, y, z]), None)
+    ''
+    >>> describe_start(problem, np.array([w, -x, -y, -z]), None)
+    'its attitude is the conjugate'
+    """
+    given, omega = (np.array(problem.facts[name]) for name in ("orientation", "angular_velocity"))
+    unit = given / np.linalg.norm(given)
+    w, x, y, z = unit
+    body = turn_to_body(unit[np.newaxis], omega[np.newaxis])[0]
+    world = turn_to_body(np.array([[w, -x, -y, -z]]), omega[np.newaxis])[0]
+    attitudes = {
+        "the conjugate": np.array([w, -x, -y, -z]),
+        "that of w, x, y, z read as x, y, z, w": np.array([z, w, x, y]),
+        "that of x, y, z, w read as w, x, y, z": np.array([x, y, z, w]),
+        "none": np.array([1.0, 0.0, 0.0, 0.0]),
+    }
+    turning = {
+        "that of the world frame": world,
+        "that of rates of the body taken for those of the world": body,
+        "in deg/s": np.degrees(omega),
+        "that of rad/s taken for deg/s": np.radians(omega),
+        "zero": np.zeros(3),
+    }
+    texts = [_name_mistake("its attitude is", _measure_turn, q, unit, attitudes, 1.0)]
+    if rates is not None:
+        size = float(np.linalg.norm(omega))
+        words = "its angular velocity is"
+        texts.append(_name_mistake(words, _measure_change, rates, omega, turning, size))
+    return " and ".join(filter(None, texts))
+
+
+def _measure_turn(q: Real, p: Real) -> float:
+    norm = np.linalg.norm(q)
+    return float(measure_angles((q / norm)[np.newaxis], p[np.newaxis], np.zeros((1, 4)))[0])
+
+
+def _measure_change(a: Real, b: Real) -> float:
+    return float(np.linalg.norm(a - b))
+
+
+def _name_mistake(
+    words: str,
+    measure: Callable[[Real, Real], float],
+    found: Real,
+    right: Real,
+    mistakes: dict[str, Real],
+    size: float,
+) -> str:
+    if not np.isfinite(found).all() or not (found.any() or size):
+        return ""
+    with np.errstate(all="ignore"):
+        off, limit = measure(found, right), SAME_START * size
+        if off <= limit or not np.isfinite(off):
+            return ""
+        named = [name for name, each in mistakes.items() if measure(found, each) <= limit]
+    return f"{words} {named[0]}" if len(named) == 1 else f"{words} off by {off:.2g}"
+
+
+def _read_states(path: Path, problem: Problem) -> tuple[Real, Real | None]:
+    """Return the orientations (21, 4) and rates (21, 3) at t = 0, nan without a row, and later."""
     if path.stat().st_size > LARGEST_FILE:
         raise ValueError(
             f"{path} must have at most {LARGEST_FILE} bytes, got {path.stat().st_size}"
@@ -217,7 +315,8 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
             raise ValueError(
                 f"{path} must have the columns t, w, x, y, z, got the header {_show(head)}"
             )
-        found = _pick(file, separator, [header.index(n) for n in ("t", *names)], problem.times)
+        places = [header.index(n) for n in ("t", *names)]
+        found = _pick(file, separator, places, np.array([0.0, *problem.times]))
     q, rates = found[:, :4], found[:, 4:] if len(names) > 4 else None
     if rates is not None and names[-1] in WORLD_RATES:
         with np.errstate(all="ignore"):  # zero and infinite quaternions are refused later
@@ -227,7 +326,10 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
 
 
 def _pick(rows: Iterable[str], separator: str | None, places: Sequence[int], times: Real) -> Real:
-    """Return the numbers of the rows at the times; the place of t comes first."""
+    """Return the numbers of the rows at the times, nan at the first one if there is no row.
+
+    The place of t comes first.
+    """
     found = np.full((len(times), len(places) - 1), np.nan)
     marks, tried = times.tolist(), array("d")
     for number, row in enumerate(rows, start=2):
@@ -244,7 +346,7 @@ def _pick(rows: Iterable[str], separator: str | None, places: Sequence[int], tim
             raise ValueError(f"line {number} must have all columns, got {_show(row)}") from None
         except ValueError:
             raise ValueError(f"line {number} must consist of numbers, got {_show(row)}") from None
-    _find_absent(times, np.array(tried))
+    _find_absent(times[1:], np.array(tried))
     return found
 
 
@@ -406,7 +508,7 @@ def score_file(problems: dict[str, Problem], name: str, path: Path | None) -> Sc
     problem = find_problem(problems, name)
     if path is None:
         raise ValueError(f"trajectory must be a CSV file for {name}, got none")
-    return problem.score(*read_trajectory(path, problem))
+    return score_trajectory(path, problem)
 
 
 def find_problem(problems: dict[str, Problem], name: str) -> Problem:
@@ -430,7 +532,17 @@ def find_problem(problems: dict[str, Problem], name: str) -> Problem:
     facts = problems[base].facts | {"name": name}
     if description == "turned":
         facts |= {each: facts[f"turned_{each}"] for each in ("orientations", "angular_velocities")}
+        facts |= _turn_start(facts)
     return Problem(facts)
+
+
+def _turn_start(facts: dict[str, Any]) -> dict[str, list[float]]:
+    """Return the start as the turned frame has it."""
+    (w, *v), (a, *u) = facts["orientation"], TURN
+    vector = np.multiply(w, u) + np.multiply(a, v) + np.cross(v, u)
+    omega = turn_to_body(np.array([TURN]), np.array([facts["angular_velocity"]]))[0]
+    q = [w * a - float(np.dot(v, u)), *vector.tolist()]
+    return {"orientation": q, "angular_velocity": omega.tolist()}
 
 
 if __name__ == "__main__":

@@ -118,10 +118,12 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert len(capsys.readouterr().out.splitlines()) == 71
     assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
     described = ("turned", "nested_half", "offset", "nested")
-    left_out = {"cusps.offset.urdf", "cusps.nested.sdf"}  # what the formats cannot say
-    models = {f"cusps.{each}.{form}" for each in described for form in ("urdf", "sdf", "mjcf")}
+    # what the formats cannot say
+    left_out = {"cusps.offset.urdf", "cusps.nested.sdf", "cusps.nested.usda"}
+    forms = ("urdf", "sdf", "mjcf", "usda")
+    models = {f"cusps.{each}.{form}" for each in described for form in forms}
     assert {path.name for path in tmp_path.iterdir()} == models - left_out | {
-        *(f"cusps.{suffix}" for suffix in ("json", "urdf", "sdf", "mjcf")),
+        *(f"cusps.{suffix}" for suffix in ("json", *forms)),
         *(f"{name}.csv" for name in ("problems", "states", "forces", "world")),
         *("score.py", "README.md", "LICENSE", "SHA256SUMS"),
     }

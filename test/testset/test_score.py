@@ -8,7 +8,13 @@ from testset.trajectories import NAMES, make_table, read_exact, write
 
 from symtop_ros.arrays import compose
 from symtop_ros.physics import State
-from symtop_ros.testset.score import main, read_problems, read_trajectory
+from symtop_ros.testset.score import (
+    describe_start,
+    find_problem,
+    main,
+    read_problems,
+    read_trajectory,
+)
 
 CUSPS = read_problems()["cusps"]
 EXACT = np.array([[float(c) for c in q] for q in CUSPS.facts["orientations"]])
@@ -128,3 +134,62 @@ def test_other_refusals_are_a_line(capsys, tmp_path):
         assert capsys.readouterr().err.startswith(reason)
     assert main([]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 71
+
+
+def rotate(q, v):
+    """R v of a unit quaternion, in vectors."""
+    w, u = q[0], q[1:]
+    return v + 2 * np.cross(u, np.cross(u, v) + w * v)
+
+
+def mistake_starts(facts):
+    """Wrong starts of a problem: the words, an attitude, and rates."""
+    q, omega = np.array(facts["orientation"]), np.array(facts["angular_velocity"])
+    unit = q / np.linalg.norm(q)
+    w, x, y, z = q
+    back = unit * [1, -1, -1, -1]
+    yield "attitude is the conjugate", q * [1, -1, -1, -1], omega
+    yield "read as x, y, z, w", np.array([z, w, x, y]), omega
+    yield "read as w, x, y, z", np.array([x, y, z, w]), omega
+    yield "that of the world frame", q, rotate(unit, omega)
+    yield "taken for those of the world", q, rotate(back, omega)
+    yield "in deg/s", q, omega * 180 / math.pi
+    yield "taken for deg/s", -q, omega * math.pi / 180
+
+
+@pytest.mark.parametrize("description", ["", ".turned"])
+def test_a_start_that_was_read_wrongly_is_named_and_a_right_one_never(description):
+    named, changed, rng = 0, 0, np.random.default_rng(3)
+    for name in read_problems():
+        problem = find_problem(read_problems(), name + description)
+        q, omega = (np.array(problem.facts[k]) for k in ("orientation", "angular_velocity"))
+        assert describe_start(problem, -q, omega) == ""
+        assert (
+            describe_start(problem, *(np.float32(each).astype(float) for each in (q, omega))) == ""
+        )
+        assert describe_start(problem, np.full(4, np.nan), np.full(3, np.nan)) == ""
+        unit, size = q / np.linalg.norm(q), np.linalg.norm(omega)
+        for words, attitude, rates in mistake_starts(problem.facts):
+            ends = attitude / np.linalg.norm(attitude)
+            turned = min(np.linalg.norm(ends - sign * unit) for sign in (1, -1))
+            if turned < 1e-3 and np.linalg.norm(rates - omega) <= 1e-3 * size:
+                continue  # the mistake changes nothing in this problem
+            text = describe_start(problem, attitude, rates)
+            changed += 1
+            named += words in text
+            assert text, (name, words)
+        noisy = q + 0.1 * rng.normal(size=4)
+        assert describe_start(problem, noisy, None).startswith("its attitude is off by ")
+    # of two mistakes that make the same of a start none is named
+    assert named >= 0.9 * changed
+
+
+def test_the_row_at_the_start_is_told_with_the_score(tmp_path, capsys):
+    path, rows = tmp_path / "mine.csv", make_table("heavy_top")
+    problem = read_problems()["heavy_top"].facts
+    q, omega = problem["orientation"], np.array(problem["angular_velocity"])
+    start = np.array([[0.0, *q, *rotate(np.array(q) / np.linalg.norm(q), omega)]])
+    path.write_text(write(np.concatenate([start, rows])))
+    assert main(["heavy_top", str(path)]) == 0
+    told = "the row at t = 0 is not the start: its angular velocity is that of the world frame\n"
+    assert capsys.readouterr().out.endswith(told)
