@@ -68,7 +68,7 @@ PEERS = [
     "pin>=3.4",
     "exudyn>=1.13",
     "diffrax>=0.7",
-    "ahrs>=0.4",  # attitude filters
+    *("ahrs>=0.4", "vqf>=2", "imufusion>=1.3"),  # attitude filters
     "usd-core>=26",  # validates the stages of the top
     "distributed>=2024.8",  # a local cluster of Dask computes a map
 ]
