@@ -10,7 +10,7 @@ from symtop_ros.physics import Body, State
 
 LARGEST_RATE = 1e6  # rad/s; pybullet stops joints at 100 rad/s
 SNIPPETS = """\
-## Start in MuJoCo, Drake, Pinocchio and pybullet
+## Start in MuJoCo, Drake, Pinocchio, pybullet and Newton
 
 MuJoCo, with the ball joint of the MJCF (`qpos`: w, x, y, z, body to world; `qvel`: body frame):
 
@@ -85,6 +85,37 @@ phi, theta, psi = (pybullet.getJointState(top, joint)[0] for joint in range(3))
 ```
 
 The attitude is Rz(phi) Rx(theta) Rz(psi); `getLinkState` would round it to single precision.
+
+Newton (`pip install newton mujoco-warp`; single precision), with the ball joint of the MJCF
+(`joint_q`: x, y, z, w; `joint_qd`: in the frame of the joint's parent, which is the world):
+
+```python
+import newton
+import numpy as np
+
+builder = newton.ModelBuilder()
+builder.add_mjcf("{name}.mjcf")
+model = builder.finalize()
+state, following = model.state(), model.state()
+state.joint_q.assign(np.array([{xyzw}], dtype=np.float32))
+state.joint_qd.assign(np.array([{world_rates}], dtype=np.float32))
+newton.eval_fk(model, state.joint_q, state.joint_qd, state)
+```
+
+and its trajectory for the scorer:
+
+```python
+solver, control = newton.solvers.SolverFeatherstone(model), model.control()
+steps, duration = 64, {duration}
+with open("trajectory.csv", "w") as file:
+    print("t,w,x,y,z", file=file)
+    for k in range(1, 21):
+        for _ in range(steps):
+            solver.step(state, following, control, None, duration / 20 / steps)
+            state, following = following, state
+        x, y, z, w = state.joint_q.numpy().tolist()
+        print(duration * k / 20, w, x, y, z, sep=",", file=file)
+```
 """
 
 
@@ -97,6 +128,7 @@ def format_snippets(name: str, start: State, body: Body, duration: float) -> str
         quaternion=join((w, x, y, z), ", "),
         xyzw=join((x, y, z, w), ", "),
         rates=join(start.angular_velocity.tolist(), ", "),
+        world_rates=join(start.to_world(start.angular_velocity).tolist(), ", "),
         angles=join(start.euler_angles, ", "),
         euler_rates=join(start.euler_rates, ", "),
         moments=join((body.Ix, body.Ix, body.Iz), ", "),

@@ -34,6 +34,26 @@ def measure_pinocchio(names):
 MEASURE = {"mujoco": measure_mujoco, "pinocchio": measure_pinocchio}
 
 
+@pytest.mark.long  # 0.3 GB to fetch
+@pytest.mark.parametrize("name", PROBLEMS)
+def test_newton_starts_as_the_problem_does_in_single_precision(name, tmp_path, monkeypatch):
+    pytest.importorskip("newton")
+    assert main(["--testset", name, "-o", str(tmp_path)]) == 0
+    code = next(code for code, _ in blocks(tmp_path / "README.md", "python") if "add_mjcf" in code)
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    exec(code, names)
+    facts = read_problems()[name].facts
+    start = State(facts["orientation"], facts["angular_velocity"])
+    (*_, x, y, z, w), rates = (
+        names["state"].body_q.numpy()[0],
+        names["state"].body_qd.numpy()[0][3:],
+    )
+    assert abs(start.orientation @ [w, x, y, z]) > 1 - 1e-6
+    omega = start.to_world(start.angular_velocity)
+    assert rates == pytest.approx(omega, abs=1e-6 * np.abs(omega).max())
+
+
 @pytest.mark.parametrize("name", PROBLEMS)
 @pytest.mark.parametrize("engine", ["mujoco", pytest.param("pinocchio", marks=pytest.mark.long)])
 def test_the_snippet_starts_the_engine_as_the_problem_starts(engine, name, tmp_path, monkeypatch):
