@@ -38,7 +38,7 @@ def _run(_: argparse.Namespace, listen: Callable[[], None]) -> int:
         if rclpy.ok():
             raise
     finally:
-        top.close()
+        top.destroy_node()  # else the middleware ends after what it shares with other processes
     failure = top.session.recording.unreported_failure
     if failure:
         print(f"top_node: recording stopped: {failure}", file=sys.stderr)

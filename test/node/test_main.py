@@ -3,6 +3,7 @@
 import signal
 import sys
 import time
+from itertools import product
 
 import pytest
 from node.listener import Listener
@@ -89,6 +90,26 @@ WAY_OUT = (
     "mcap must be installed for a recording, got none: pip install mcap, on Debian and Ubuntu into "
     "a venv"
 )
+
+
+TRANSPORTS = ("SHM", "UDPv4", "DEFAULT", "LARGE_DATA")
+
+
+TRIALS = [*product(TRANSPORTS, SIGNALS, range(17))]
+
+
+@pytest.mark.parametrize("trial", choose(TRIALS, TRIALS[17 : 3 * 17 : 17]))
+def test_it_ends_without_a_fault_on_every_transport(trial, monkeypatch):
+    """With shared memory alone the middleware ended after the semaphores that it needs."""
+    transport, ending, _ = trial
+    monkeypatch.setenv("FASTDDS_BUILTIN_TRANSPORTS", transport)
+    monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
+    with running(command("top_node"), DOMAIN) as node:
+        while "states are computed" not in node.stderr.readline():
+            assert node.poll() is None
+        node.send_signal(ending)
+        node.communicate(timeout=300)
+    assert node.returncode == 0
 
 
 def test_without_mcap_it_runs_and_refuses_to_record_with_the_way_out():
