@@ -5,6 +5,7 @@ import importlib
 import io
 import json
 import re
+import shlex
 import shutil
 import sys
 from pathlib import Path
@@ -115,7 +116,7 @@ def test_the_commands_of_the_page_give_a_first_score(language, name, program, te
     write_block(language, testset / name, program)
     words, shown = console(ROOT / "docs/truth.md", f" {name} ")
     for line in words:
-        command = line.replace("python ", f"{sys.executable} ")
+        command = line.replace("python ", f"{shlex.quote(sys.executable)} ")
         printed = execute(["sh", "-c", command], check=True).stdout
     # the same numbers up to the last of two digits, which the order of sums may change
     assert printed.startswith("cusps: attitude 3.")

@@ -260,7 +260,7 @@ def validate_hold(hold: Any) -> Hold:
     >>> from symtop_ros.physics import validate_hold
     >>> validate_hold("spin")
     Traceback (most recent call last):
-    ValueError: hold must be 'spin_rate' or 'spin_momentum', got 'spin'
+    symtop_ros.refusals.RefusedError: hold must be 'spin_rate' or 'spin_momentum', got 'spin'
     """
     for each in HOLDS:
         if isinstance(hold, str) and hold == each:

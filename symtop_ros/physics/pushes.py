@@ -49,7 +49,7 @@ class Pushes:
     >>> pushed = Motion(top, push_axle(top, start, pushes.impulse), pushes=pushes)
     >>> low, high = pushed.piece_at(1.0).motion.turning_angles
     >>> round(low, 3), round(high, 3)
-    (0.39, 0.397)
+    (0.384, 0.397)
     """
 
     impulse: float

@@ -136,7 +136,7 @@ class Imu:
     False
     >>> Imu(rate=0)
     Traceback (most recent call last):
-    symtop_ros.simulation.validation.RefusedError: rate must be 0.001 to 1e+06 Hz, got 0
+    symtop_ros.refusals.RefusedError: rate must be 0.001 to 1e+06 Hz, got 0
     """
 
     position: Vector = CENTRE
