@@ -1,6 +1,6 @@
 """The start of a motion as programs for each engine, next to the model files.
 
-Some engines have joint coordinates. Others (Bullet, Jolt, Rapier and DART) hold bodies in the
+Some engines have joint coordinates. Others (Bullet, Jolt, Rapier, PhysX, Havok and DART) hold bodies in the
 world: they have the place and the velocity of the centre of mass, and rates in the world frame. A
 joint holds the body in the origin there; a body without weight is left free.
 """
@@ -141,7 +141,7 @@ def format_snippets(name: str, start: State, body: Body, duration: float) -> str
 
 STEPS = 256  # to each of the 20 times
 IN_THE_WORLD = """\
-## Start in Bullet, Jolt, Rapier and DART
+## Start in Bullet, Jolt, Rapier, PhysX, Havok and DART
 
 These hold the centre of mass in the world, and angular velocities in the world frame. `world.csv`
 has these quantities at each time. Each program writes a trajectory for the scorer, with {steps}
@@ -260,6 +260,105 @@ for (let k = 1; k <= 20; k++) {{
 writeFileSync("trajectory.csv", rows.join("\\n") + "\\n");
 ```
 
+PhysX (JavaScript, `npm install physx-js-webidl`; single precision). Its module is for browsers, and
+in Node it has to be told that it is in one. Without its flag there is no gyroscopic torque:
+
+```js
+import {{ readFileSync, writeFileSync }} from "node:fs";
+
+const node = process;
+Object.assign(globalThis, {{ process: undefined, window: globalThis, document: {{}} }});
+globalThis.location ??= {{ href: "file:///" }};
+const {{ default: initPhysX }} = await import("physx-js-webidl");
+const binary = new URL(import.meta.resolve("physx-js-webidl/physx-js-webidl.wasm"));
+const PhysX = await initPhysX({{ wasmBinary: readFileSync(binary) }});
+globalThis.process = node;
+const px = PhysX.PxTopLevelFunctions.prototype;
+const vector = (...parts) => new PhysX.PxVec3(...parts);
+const place = (point, ...xyzw) => new PhysX.PxTransform(point, new PhysX.PxQuat(...xyzw));
+const errors = new PhysX.PxDefaultErrorCallback();
+const foundation = px.CreateFoundation(px.PHYSICS_VERSION, new PhysX.PxDefaultAllocator(), errors);
+const scale = new PhysX.PxTolerancesScale();
+const physics = px.CreatePhysics(px.PHYSICS_VERSION, foundation, scale);
+const settings = new PhysX.PxSceneDesc(scale);
+settings.gravity = vector(0, 0, {gravity});
+settings.cpuDispatcher = px.DefaultCpuDispatcherCreate(0);
+settings.filterShader = px.DefaultFilterShader();
+const scene = physics.createScene(settings);
+const norm = Math.hypot({xyzw});
+const attitude = [{xyzw}].map((each) => each / norm);
+const top = physics.createRigidDynamic(place(vector(0, 0, 0), ...attitude));
+top.setMass({mass});
+top.setCMassLocalPose(place(vector(0, 0, {arm}), 0, 0, 0, 1));
+top.setMassSpaceInertiaTensor(vector({moments})); // about the centre of mass
+top.setRigidBodyFlag(1024, true); // eENABLE_GYROSCOPIC_FORCES
+top.setLinearDamping(0);
+top.setAngularDamping(0);
+top.setMaxAngularVelocity(1e6);
+top.setSleepThreshold(0);
+top.setSolverIterationCounts(32, 8);
+top.setLinearVelocity(vector({velocity})); // of the centre of mass
+top.setAngularVelocity(vector({rates}));
+scene.addActor(top);{physx_joint}
+const [steps, duration] = [{steps}, {duration}];
+const rows = ["{header}"];
+for (let k = 1; k <= 20; k++) {{
+  for (let i = 0; i < steps; i++) {{
+    scene.simulate(duration / 20 / steps);
+    scene.fetchResults(true);
+  }}
+  const [{{ q }}, omega] = [top.getGlobalPose(), top.getAngularVelocity()];
+  rows.push([(duration * k) / 20, q.w, q.x, q.y, q.z, omega.x, omega.y, omega.z].join());
+}}
+writeFileSync("trajectory.csv", rows.join("\\n") + "\\n");
+```
+
+Havok (JavaScript, `npm install @babylonjs/havok`; single precision). Its moments are those of a
+body of 1 kg, and it has no gyroscopic torque: the program adds it as an impulse in each step.
+
+```js
+import HavokPhysics from "@babylonjs/havok";
+import {{ readFileSync, writeFileSync }} from "node:fs";
+
+const binary = new URL(import.meta.resolve("@babylonjs/havok/lib/esm/HavokPhysics.wasm"));
+const HP = await HavokPhysics({{ wasmBinary: readFileSync(binary) }});
+const [, world] = HP.HP_World_Create();
+HP.HP_World_SetGravity(world, [0, 0, {gravity}]);
+HP.HP_World_SetSpeedLimit(world, 1e6, 1e6);
+const [, top] = HP.HP_Body_Create();
+HP.HP_Body_SetMotionType(top, HP.MotionType.DYNAMIC);
+const moments = [{moments}]; // about the centre of mass
+const unit = moments.map((each) => each / {mass});
+HP.HP_Body_SetMassProperties(top, [[0, 0, {arm}], {mass}, unit, [0, 0, 0, 1]]);
+HP.HP_Body_SetLinearDamping(top, 0);
+HP.HP_Body_SetAngularDamping(top, 0);
+HP.HP_Body_SetQTransform(top, [[0, 0, 0], [{xyzw}]]);
+HP.HP_World_AddBody(world, top, false);
+HP.HP_Body_SetActivationControl(top, HP.ActivationControl.ALWAYS_ACTIVE);
+HP.HP_Body_SetLinearVelocity(top, [{velocity}]); // of the centre of mass
+HP.HP_Body_SetAngularVelocity(top, [{rates}]);{havok_joint}
+const turn = ([x, y, z, w], [a, b, c]) => {{
+  const [t, u, s] = [2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)];
+  return [a + w * t + y * s - z * u, b + w * u + z * t - x * s, c + w * s + x * u - y * t];
+}};
+const [steps, duration] = [{steps}, {duration}];
+const step = duration / 20 / steps;
+HP.HP_World_SetIdealStepTime(world, step);
+const rows = ["{header}"];
+for (let k = 1; k <= 20; k++) {{
+  for (let i = 0; i < steps; i++) {{
+    const [x, y, z, w] = HP.HP_Body_GetQTransform(top)[1][1];
+    const [a, b, c] = turn([-x, -y, -z, w], HP.HP_Body_GetAngularVelocity(top)[1]);
+    const size = step * (moments[0] - moments[2]) * c;
+    HP.HP_Body_ApplyAngularImpulse(top, turn([x, y, z, w], [size * b, -size * a, 0]));
+    HP.HP_World_Step(world, step);
+  }}
+  const [x, y, z, w] = HP.HP_Body_GetQTransform(top)[1][1];
+  rows.push([(duration * k) / 20, w, x, y, z, ...HP.HP_Body_GetAngularVelocity(top)[1]].join());
+}}
+writeFileSync("trajectory.csv", rows.join("\\n") + "\\n");
+```
+
 DART (Python, `pip install dartpy`), with a ball joint, whose velocities are in the body frame:
 
 ```python
@@ -295,6 +394,22 @@ JOINTS = {
 const pivot = world.createRigidBody(RAPIER.RigidBodyDesc.fixed());
 const joint = RAPIER.JointData.spherical(vector(0, 0, 0), vector(0, 0, 0));
 world.createImpulseJoint(joint, pivot, top, true);""",
+    "physx_joint": """
+const pivot = place(vector(0, 0, 0), 0, 0, 0, 1);
+px.SphericalJointCreate(physics, null, pivot, top, pivot);""",
+    "havok_joint": """
+const [, pivot] = HP.HP_Body_Create();
+HP.HP_Body_SetMotionType(pivot, HP.MotionType.STATIC);
+HP.HP_World_AddBody(world, pivot, false);
+const [, joint] = HP.HP_Constraint_Create();
+HP.HP_Constraint_SetParentBody(joint, pivot);
+HP.HP_Constraint_SetChildBody(joint, top);
+HP.HP_Constraint_SetAnchorInParent(joint, [0, 0, 0], [1, 0, 0], [0, 1, 0]);
+HP.HP_Constraint_SetAnchorInChild(joint, [0, 0, 0], [1, 0, 0], [0, 1, 0]);
+for (const name of ["LINEAR_X", "LINEAR_Y", "LINEAR_Z"])
+  HP.HP_Constraint_SetAxisMode(
+    joint, HP.ConstraintAxis[name], HP.ConstraintAxisLimitMode.LOCKED);
+HP.HP_Constraint_SetEnabled(joint, true);""",
     "jolt_joint": """
 const pivot = new Jolt.PointConstraintSettings(); // in the origin of the world
 system.AddConstraint(pivot.Create(Jolt.JoltInterface.prototype.sGetFixedToWorldBody(), top));""",

@@ -170,9 +170,9 @@ class Body:
 
         Examples
         --------
-        >>> Body.of(Top(Ix=1.0, Iz=2.0, Mgl=1.0))
+        >>> Body.of(Top(Ix=1.0, Iz=2.0, Mgl=1.0))  # doctest: +ELLIPSIS
         Traceback (most recent call last):
-        symtop_ros.refusals.RefusedError: Iz must be < 2 Ix = 2 kg m^2 for a body with Mgl = 1 J to exist, got 2
+        symtop_ros.refusals.RefusedError: Iz must be < 2 Ix = 2 kg m^2 for a body with Mgl = 1 J ...
         """
         validate_one(top)
         gravity = validate_positive("gravity", gravity, "m/s^2")

@@ -75,14 +75,14 @@ def test_the_snippet_starts_the_engine_as_the_problem_starts(engine, name, tmp_p
     assert acceleration == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())
 
 
-ENGINES = ("bullet", "rapier", "jolt", "dart")
+ENGINES = ("bullet", "rapier", "jolt", "physx", "havok", "dart")
 
 
 def copy_problem(name, folder):
     """Copy a problem; return its programs by their engines."""
     assert main(["--testset", name, "-o", str(folder)]) == 0
     _, _, text = (folder / "README.md").read_text().partition("## Start in Bullet")
-    found = re.findall(r"```(?:cpp|js|python)\n(.*?)```", text, re.DOTALL)[:4]
+    found = re.findall(r"```(?:cpp|js|python)\n(.*?)```", text, re.DOTALL)[: len(ENGINES)]
     return dict(zip(ENGINES, found, strict=True))
 
 
@@ -107,6 +107,12 @@ def test_the_programs_have_the_numbers_of_the_table(name, tmp_path):
         ("jolt", r"Quat\((.*)\)\.Norm", "x y z w"),
         ("jolt", r"mLinearVelocity = new Jolt.Vec3\((.*)\)", "vx vy vz"),
         ("jolt", r"mAngularVelocity = new Jolt.Vec3\((.*)\)", "omega_x omega_y omega_z"),
+        ("physx", r"Math.hypot\((.*)\)", "x y z w"),
+        ("physx", r"setLinearVelocity\(vector\((.*)\)\);", "vx vy vz"),
+        ("physx", r"setAngularVelocity\(vector\((.*)\)\)", "omega_x omega_y omega_z"),
+        ("havok", r"\[\[0, 0, 0\], \[(.*)\]\]", "x y z w"),
+        ("havok", r"SetLinearVelocity\(top, \[(.*)\]\)", "vx vy vz"),
+        ("havok", r"SetAngularVelocity\(top, \[(.*)\]\)", "omega_x omega_y omega_z"),
         ("dart", r"Quaternion\(([^b)]*)\)\n", "w x y z"),
     ):
         found = re.search(pattern, programs[engine])[1]
@@ -116,7 +122,7 @@ def test_the_programs_have_the_numbers_of_the_table(name, tmp_path):
 def test_a_body_without_weight_is_held_by_nothing(tmp_path):
     for name, is_held in (("gentle_cusps", True), ("gentle_free", False)):
         programs = copy_problem(name, tmp_path / name)
-        for engine in ("bullet", "rapier", "jolt"):
+        for engine in ENGINES[:-1]:
             assert ("pivot" in programs[engine]) == is_held
         assert (tmp_path / name / f"{name}.free.mjcf").exists() != is_held
         text = (tmp_path / name / "README.md").read_text()
