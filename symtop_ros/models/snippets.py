@@ -1,8 +1,8 @@
 """The start of a motion as programs for each engine, next to the model files.
 
-Some engines have joint coordinates. Others (Bullet, Jolt, Rapier, PhysX, Havok and DART) hold bodies in the
-world: they have the place and the velocity of the centre of mass, and rates in the world frame. A
-joint holds the body in the origin there; a body without weight is left free.
+Some engines have joint coordinates. Others (Bullet, Jolt, Rapier, PhysX and Havok) hold bodies in
+the world: they have the place and the velocity of the centre of mass, and rates in the world frame.
+A joint holds the body in the origin there; a body without weight is left free.
 """
 
 from symtop_ros.models.descriptions import join
