@@ -1,6 +1,7 @@
 """Layers: exactly which folders and packages each folder imports."""
 
 import ast
+import re
 import sys
 
 import pytest
@@ -102,3 +103,15 @@ def test_records_are_frozen_but_for_those_that_count():
     classes = [(node.name, ast.unparse(each)) for node in found for each in node.decorator_list]
     records = [each for each in classes if each[1].startswith("dataclass")]
     assert {name for name, decorator in records if "frozen=True" not in decorator} == CHANGING
+
+
+def scripts(folder):
+    """Folders that the page's modules of a folder import from, types included."""
+    texts = [path.read_text() for path in (PACKAGE / "web/js" / folder).glob("*.js")]
+    return {found for text in texts for found in re.findall(r'"\.\./(\w+)/\w+\.js"', text)}
+
+
+def test_what_the_page_says_does_not_import_what_it_plots():
+    assert "charts" not in scripts("words")
+    assert "charts" not in scripts("scene")
+    assert not scripts("physics") & {"charts", "words", "controls", "scene"}

@@ -26,6 +26,7 @@ MAX_REQUEST = 65_536  # bytes
 SENT = 16_384  # bytes
 # In addition to the policy of the page itself, which says what it may run and load.
 NO_FRAME = {"Content-Security-Policy": "connect-src 'self'; frame-ancestors 'none'"}
+DEEPEST = 16  # objects and lists in each other, of a request; an argument of a service has fewer
 PAGE, NEWS, REQUEST = ("/", "/index.html"), "/news", "/request"
 
 
@@ -43,6 +44,7 @@ class PageServer(ThreadingHTTPServer):
     """A server of one page, on one address and port; `node` is asked for by its pages."""
 
     daemon_threads = True
+    request_queue_size = 128  # connections that wait: a class opens its pages at once
 
     def __init__(self, host: str, port: int, page: str, node: Node | None = None) -> None:
         self.address_family = socket.AF_INET6 if ":" in host else socket.AF_INET
@@ -109,8 +111,8 @@ class PageHandler(BaseHTTPRequestHandler):
             request = json.loads(data)
         except (ValueError, RecursionError):
             request = None
-        if not isinstance(request, dict):
-            self._send(HTTPStatus.BAD_REQUEST, b"a request must be a JSON object")
+        if not isinstance(request, dict) or _is_deeper(request, DEEPEST):
+            self._send(HTTPStatus.BAD_REQUEST, b"a request must be a JSON object, 16 deep at most")
             return
         self._send(
             HTTPStatus.OK,
@@ -177,6 +179,14 @@ class PageHandler(BaseHTTPRequestHandler):
 
     def log_message(self, format: str, *args: Any) -> None:  # noqa: A002
         """Log nothing: requests are no news."""
+
+
+def _is_deeper(value: Any, depth: int) -> bool:
+    """Return True for objects and lists in each other more often than so many times."""
+    if not isinstance(value, dict | list):
+        return False
+    parts = value.values() if isinstance(value, dict) else value
+    return depth == 0 or any(_is_deeper(each, depth - 1) for each in parts)
 
 
 def _find_name(host: str) -> str:

@@ -220,3 +220,15 @@ def test_an_unexpected_exception_is_one_line(capsys):
     with serving(PAGE, Broken()) as server, pytest.raises(http.client.RemoteDisconnected):
         kick(server)
     assert capsys.readouterr().err == "top_panel: a request failed: RuntimeError('a bug')\n"
+
+
+def test_a_request_of_nested_lists_is_refused(live):
+    asked = len(live.node.asked)
+    nested = "[" * 500 + "]" * 500
+    status, _, content = kick(live, f'{{"service": "kick", "argument": {nested}}}')
+    assert (status, content) == (400, b"a request must be a JSON object, 16 deep at most")
+    assert len(live.node.asked) == asked
+
+
+def test_the_pages_of_a_class_wait_in_its_queue_at_once(static):
+    assert static.request_queue_size >= 128

@@ -24,7 +24,7 @@ window.judgeCases = async (cases) => {
   const { Course } = await import("/physics/course.js");
   const { State } = await import("/physics/state.js");
   const { judge, judgeKick } = await import("/words/verdict.js");
-  const { findConstants, findFrameTorques, findPotential } = await import("/charts/formulas.js");
+  const { findConstants, findFrameTorques, findPotential } = await import("/physics/formulas.js");
   return cases.map(({ top, angles, rates, kick }) => {
     const state = State.fromEuler(kernel, angles, rates);
     const course = new Course(kernel, top, state);
@@ -102,7 +102,7 @@ window.findImpulses = async (cases) => {
 
 /** Whether each start makes loops, and the spins at which the kinds of its motions change. */
 window.decideKinds = async (cases) => {
-  const { makesLoops, findBoundaries } = await import("/charts/kinds.js");
+  const { makesLoops, findBoundaries } = await import("/physics/kinds.js");
   return cases.map(([top, theta, phi, psi]) => [
     makesLoops(top, theta, phi, psi),
     findBoundaries(top, theta, phi),

@@ -90,3 +90,46 @@ def test_keys_drags_and_the_wheel_turn_and_move_the_view_and_do_not_touch_the_to
     assert len(opened.read_events()) == 1
     opened.press("ArrowLeft")
     assert len(opened.read_events()) == 2
+
+
+@pytest.mark.parametrize(
+    ("typed", "rate"),
+    [
+        ("200 rad/s", 200.0),
+        ("45*2*pi", 90 * math.pi),
+        ("2700 rpm", 90 * math.pi),
+        ("45 rev/s", 90 * math.pi),
+        ("90°/s", math.pi / 2),
+        ("0,500", 0.5),
+        ("0.500", 0.5),
+        ("1000", 1000.0),
+    ],
+)
+def test_a_rate_is_understood_with_its_unit(opened, typed, rate):
+    opened.enter("psi_dot", typed)
+    assert opened.say("refusal") == ""
+    assert opened.read_last().euler_rates.psi == pytest.approx(rate, rel=1e-12)
+
+
+def test_a_separator_of_thousands_is_refused_with_both_readings(opened):
+    events = opened.read_events()
+    for text, whole, part in (("1,000", "1000", "1.000"), ("12,000 rpm", "12000", "12.000")):
+        opened.enter("psi_dot", text)
+        refusal = f"must be clear: {text} can mean {whole} or {part}"
+        assert opened.say("refusal").endswith(refusal)
+    for text in ("1,000,000", "2 rad", "3 kg", "1 ** 2", "rad/s"):
+        opened.enter("psi_dot", text)
+        assert opened.say("refusal").endswith(f"must be a number, got {text}")
+    assert opened.read_events() == events
+
+
+@pytest.mark.parametrize("language", ["de", "es", "fr", "tr"])
+def test_where_numbers_have_a_comma_the_point_separates_thousands(open_page, language):
+    opened = open_page(locale=language)
+    opened.enter("psi_dot", "1.000")
+    said = opened.say("refusal")
+    assert "1000" in said
+    assert "1,000" in said
+    opened.enter("psi_dot", "1,000")
+    assert opened.say("refusal") == ""
+    assert opened.read_last().euler_rates.psi == pytest.approx(1.0, rel=1e-12)

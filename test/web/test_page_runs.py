@@ -62,6 +62,24 @@ def test_hostile_runs_are_refused_as_by_python_and_the_present_run_stays(opened,
         assert find_refusal(run).startswith("events[1]: ")
 
 
+def test_a_run_of_most_events_is_reloaded_and_takes_no_more(opened):
+    most = 10_000
+    opened.drop({**change(1), "events": change(1)["events"][:1] * most})
+    opened.until(lambda: len(opened.read_events()) == most)
+    opened.press("h")
+    assert f"at most {most} events" in opened.say("refusal")
+    assert len(opened.read_events()) == most
+    opened.reload()
+    assert len(opened.read_events()) == most
+    assert opened.say("refusal") == ""
+
+
+def test_a_refusal_of_the_kept_run_stays_where_the_address_starts_another(open_page):
+    remembered = f"history.replaceState({{run: {json.dumps(UNREADABLE[0])}}}, '');"
+    opened = open_page(LINK, script=remembered + USUAL)
+    assert " must " in opened.say("refusal")
+
+
 @pytest.mark.parametrize("number", seeds(1, len(UNREADABLE)))
 def test_a_run_that_cannot_be_read_ends_no_page_that_has_it(open_page, tmp_path, number):
     run = UNREADABLE[number]

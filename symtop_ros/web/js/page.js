@@ -128,7 +128,10 @@ export class Page {
     const isReloaded = !node && Boolean(recall().run);
     if (!node && (isCalm || (run && !isReloaded))) this.top?.take({ act: "rest" });
     if (!node && !run && !isReloaded && !location.hash && !opening) this.question.ask();
-    addEventListener("hashchange", () => this.followAddress(true));
+    addEventListener("hashchange", () => {
+      refuse("");
+      this.followAddress(true);
+    });
     this.followAddress(!isReloaded);
   }
 
@@ -146,8 +149,10 @@ export class Page {
     if (isNew && Object.keys(link).length) this.followLink(link);
   }
 
-  /** A step of the lesson has its own question and arrows, and angles in rad unless others were chosen. */
-  /** @param {string[]} layers */
+  /**
+   * A step of the lesson has its own question and arrows, and angles in rad unless others were chosen.
+   * @param {string[]} layers
+   */
   prepare(layers) {
     this.question.leave();
     this.layers.choose(layers);
@@ -168,7 +173,7 @@ export class Page {
       start: fields.join(", "),
     });
     if (this.content.node && !confirm(question)) return;
-    this.send({ act: "link", link });
+    this.top?.take({ act: "link", link }); // a refusal of the run that was to be opened stays
     if (link.scene !== undefined) this.tellStory?.(link.scene);
   }
 

@@ -1,6 +1,6 @@
 // Quantities that the chart with axes of choice can show.
 
-import { findEnergies, findRest, findTiltAcceleration } from "./formulas.js";
+import { findEnergies, findRest, findTiltAcceleration } from "../physics/formulas.js";
 import { NANO } from "../physics/course.js";
 import { findVectors } from "../scene/vectors.js";
 import { phrase } from "../words/wording.js";
@@ -8,7 +8,7 @@ import { phrase } from "../words/wording.js";
 /** @import { Course } from "../physics/course.js" */
 /** @import { State } from "../physics/state.js" */
 /** @import { Vector } from "../physics/kernel.js" */
-/** @import { Energies } from "./formulas.js" */
+/** @import { Energies } from "../physics/formulas.js" */
 /** @typedef {(time: number, state: State, course: Course) => number} Pick */
 /** @typedef {{unit: string, pick: Pick}} Quantity an angle if its unit is rad */
 

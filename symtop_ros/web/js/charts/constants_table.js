@@ -1,7 +1,7 @@
 // The table of what is constant in a motion, and by how much it has changed.
 
 import { find, make } from "../controls/document.js";
-import { findConstants } from "./formulas.js";
+import { findConstants } from "../physics/formulas.js";
 import { shorten } from "../words/quantities.js";
 import { typeset } from "../words/typeset.js";
 import { phrase } from "../words/wording.js";

@@ -64,8 +64,10 @@ export class FreeChart {
     return list;
   }
 
-  /** The sample that is nearest to the pointer is the one whose values are shown. */
-  /** @param {PointerEvent} event */
+  /**
+   * The sample that is nearest to the pointer is the one whose values are shown.
+   * @param {PointerEvent} event
+   */
   follow({ clientX, clientY }) {
     const { left, top, width } = find("free").getBoundingClientRect();
     const [x, y] = [clientX - left, clientY - top].map((each) => (each * WIDE) / width);

@@ -5,7 +5,7 @@
 // is dx/dt = sqrt(R)/2 with R = beta (u3 - u), and x grows all the time. R and phi' are sums of
 // products that keep their digits near either pole.
 
-import { findFrameTorques } from "./formulas.js";
+import { findFrameTorques } from "../physics/formulas.js";
 
 /** @import { Course } from "../physics/course.js" */
 /** @import { State } from "../physics/state.js" */

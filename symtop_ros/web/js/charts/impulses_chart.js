@@ -3,9 +3,10 @@
 // over Ix.
 
 import { find } from "../controls/document.js";
-import { findFrameTorques } from "./formulas.js";
+import { findFrameTorques } from "../physics/formulas.js";
 import { findImpulses } from "./impulses.js";
-import { draw, findSpan, Frame, spread } from "./plot.js";
+import { draw, findSpan, Frame } from "./plot.js";
+import { spread } from "../physics/spread.js";
 import { NANO } from "../physics/course.js";
 import { shorten } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
@@ -19,7 +20,6 @@ const LOWER = 20; // of the torques: their times are written below theta'
 const POINTS = 201;
 const [MILLI, DIGITS] = [1000, 4];
 const ZERO = 1e-6; // of the sizes of the parts: their sum is shown with no more digits than they are
-const STILL = 1e-7; // rad; from a turning point, where a fall or a rise begins
 /** @type {[keyof Instant["torques"], string][]} */
 const LOOKS = [
   ["gravity", "var(--theta)"],
@@ -50,15 +50,6 @@ export const writeImpulses = (course, passed) => {
   return [...parts, Math.abs(sum) <= ZERO * size ? 0 : sum].map((each) =>
     shorten(MILLI * each, DIGITS),
   );
-};
-
-/** Whether the half nutation from a start is a fall of the axis, a rise, or some of both. @param {Course} course */
-export const nameHalf = ({ start, motion, isDriven }) => {
-  const [least, most] = motion.turning_angles;
-  if (isDriven || most - least <= STILL) return "half";
-  const { theta } = start.angles;
-  if (most - theta <= STILL) return "rise";
-  return theta - least <= STILL ? "fall" : "half";
 };
 
 /** The motion that was drawn last, and its torques. @type {{course: Course | null, fall: Instant[]}} */

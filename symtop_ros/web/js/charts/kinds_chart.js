@@ -1,8 +1,9 @@
 // Chart of the kinds of motion over psi' and phi', with the present motion as a dot.
 
 import { find } from "../controls/document.js";
-import { findBoundaries, makesLoops } from "./kinds.js";
-import { draw, findSpan, Frame, spread } from "./plot.js";
+import { findBoundaries, makesLoops } from "../physics/kinds.js";
+import { draw, findSpan, Frame } from "./plot.js";
+import { spread } from "../physics/spread.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Top } from "../physics/kernel.js" */

@@ -1,13 +1,13 @@
 // Chart of the energy: what the last kick put into its parts, as bars.
 
 import { find, say } from "../controls/document.js";
-import { findRest } from "./formulas.js";
+import { findRest } from "../physics/formulas.js";
 import { ROUNDING } from "../words/ledger.js";
 import { draw, findSpan, Frame } from "./plot.js";
 import { shorten } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
-/** @import { Energies } from "./formulas.js" */
+/** @import { Energies } from "../physics/formulas.js" */
 /** @import { Ledger } from "../words/ledger.js" */
 
 const HEIGHT = 160;

@@ -100,8 +100,10 @@ export class Frame {
     return `<path d="M${LEFT} ${this.y(value).toFixed(1)}H${WIDE - RIGHT}" ${style}/>`;
   }
 
-  /** A curve, with gaps where its height is no number. */
-  /** @param {Pair[]} points @param {string} style @param {string} fill of what it goes round */
+  /**
+   * A curve, with gaps where its height is no number.
+   * @param {Pair[]} points @param {string} style @param {string} fill of what it goes round
+   */
   curve(points, style, fill = "none") {
     return `<path d="${writePath(points.map((each) => this.place(each)))}" fill="${fill}" ${style}/>`;
   }
@@ -159,10 +161,6 @@ export class Frame {
       .join("");
   }
 }
-
-/** Numbers at equal distances. @param {number} low @param {number} high @param {number} count */
-export const spread = (low, high, count) =>
-  Array.from({ length: count }, (_, k) => low + ((high - low) * k) / (count - 1));
 
 /**
  * An interval around numbers, with some room; of `least` at least, so that no rounding is shown.

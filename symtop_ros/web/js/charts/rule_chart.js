@@ -1,7 +1,8 @@
 // Chart of Perry's rule: theta'' over phi', with psi' held.
 
-import { draw, findSpan, Frame, spread } from "./plot.js";
-import { findTiltAcceleration } from "./formulas.js";
+import { draw, findSpan, Frame } from "./plot.js";
+import { spread } from "../physics/spread.js";
+import { findTiltAcceleration } from "../physics/formulas.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Facts } from "../words/facts.js" */

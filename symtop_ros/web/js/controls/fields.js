@@ -6,7 +6,7 @@
 import { NAMES } from "../physics/records.js";
 import { findAll, make, whenReleased, write } from "./document.js";
 import { refuse } from "./notices.js";
-import { angleUnit, inDegrees, parseQuantity, shorten } from "../words/quantities.js";
+import { angleUnit, findReadings, inDegrees, parseQuantity, shorten } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
 /**
@@ -66,6 +66,12 @@ class Entry {
     return this.field.isAngle && inDegrees() ? 180 / Math.PI : 1;
   }
 
+  /** Whose units may be typed. */
+  get kind() {
+    const { isAngle, isRate } = this.field;
+    return isAngle ? "angle" : isRate ? "rate" : null;
+  }
+
   followText() {
     this.text.addEventListener("keydown", ({ key }) => {
       if (key === "Enter") this.commit();
@@ -103,8 +109,9 @@ class Entry {
     const shown = this.fields.listShown(this.name).find(([value, digits]) => {
       return shorten(value * this.scale, digits) === typed;
     });
-    const value = shown?.[0] ?? parseQuantity(typed, Boolean(this.field.isAngle));
-    const refusal = this.check(value);
+    const readings = shown ? null : findReadings(typed);
+    const value = shown?.[0] ?? parseQuantity(typed, this.kind);
+    const refusal = readings ? { kind: "clear", ...readings } : this.check(value);
     if (!refusal) this.fields.change(this.name, value);
     else {
       const got = typed || phrase("nothing");

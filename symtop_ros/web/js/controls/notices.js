@@ -37,8 +37,10 @@ export const guard =
     }
   };
 
-/** What is lost, the connection or the picture, until it is back. */
-/** @param {string | null} text @param {"lost" | "picture-lost"} id */
+/**
+ * What is lost, the connection or the picture, until it is back.
+ * @param {string | null} text @param {"lost" | "picture-lost"} id
+ */
 export const showLoss = (text, id = "lost") => show(id, text ?? "");
 
 /** @param {string} id @param {string} text */

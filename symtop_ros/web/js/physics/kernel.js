@@ -182,8 +182,10 @@ export class Kernel {
     return [...rates].filter((rate) => !Number.isNaN(rate));
   }
 
-  /** The disc on an axle that moves as a top does: mass, radius, distance; NaN if there is none. */
-  /** @param {Top} top @returns {number[]} in kg and m */
+  /**
+   * The disc on an axle that moves as a top does: mass, radius, distance; NaN if there is none.
+   * @param {Top} top @returns {number[]} in kg and m
+   */
   findDisc({ Ix, Iz, Mgl }) {
     return [...this.call("find_disc", [Ix, Iz, Mgl], GRAVITY, room(3))[0]];
   }
@@ -251,8 +253,10 @@ export class Motion {
     return this.kernel.call("find_piece", ...given, room("piece"))[0];
   }
 
-  /** Integrate towards a time in so many steps; returns the time up to which states are at hand. */
-  /** @param {number} t @param {number} steps @returns {number} */
+  /**
+   * Integrate towards a time in so many steps; returns the time up to which states are at hand.
+   * @param {number} t @param {number} steps @returns {number}
+   */
   reach(t, steps) {
     return this.kernel.call("reach", this.handle, t, steps, room(1))[0][0];
   }

@@ -4,6 +4,7 @@ import { holdTorque, perform } from "./acts.js";
 import { MOST_STEPS, NANO } from "../physics/course.js";
 import { chooseWindow, describe, describeMotion, describeNow } from "../words/facts.js";
 import { nameRequest } from "../words/history.js";
+import { phrase } from "../words/wording.js";
 import { nameError } from "./errors.js";
 import { recall, remember, rememberRun } from "./memory.js";
 import { readRun } from "./reader.js";
@@ -188,9 +189,18 @@ export class LocalTop {
    * @param {import("./run.js").Asked} asked
    */
   add(kind, course, asked = {}) {
+    this.demandRoom();
     const request = nameRequest(kind, asked, course);
     this.run.add(kind, this.time, course, kind === "torque" ? asked : { ...asked, request });
     this.changed();
+  }
+
+  /** Refuse an event that no run.json could hold; the end of a torque that is held needs one more. */
+  demandRoom() {
+    const { most } = this.content.run_fields;
+    const taken = this.run.findPlace(this.time) + 1;
+    if (taken + (this.torqueUntil ? 2 : 1) > most)
+      throw new RangeError(phrase("refused.most", { most }));
   }
 
   /** @param {boolean} isRunning */

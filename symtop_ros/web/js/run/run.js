@@ -102,8 +102,10 @@ export class Run {
     return course.at(time - since);
   }
 
-  /** The state of the ghost; null if there is none, or it is not integrated so far. */
-  /** @param {number} time ns */
+  /**
+   * The state of the ghost; null if there is none, or it is not integrated so far.
+   * @param {number} time ns
+   */
   findGhost(time) {
     const { ghost } = this.find(time);
     if (!ghost) return null;

@@ -41,12 +41,16 @@ export const LAYERS = {
   [FICTITIOUS]: false,
 };
 
-/** Arrows that come one by one: each has a word in the scene, which shows it. */
-/** @type {(keyof typeof COLORS)[]} */
+/**
+ * Arrows that come one by one: each has a word in the scene, which shows it.
+ * @type {(keyof typeof COLORS)[]}
+ */
 export const ARROWS = ["torque", "L", "omega"];
 
-/** Colours that the legend names, and the layer that has them. */
-/** @type {[keyof typeof COLORS, string][]} */
+/**
+ * Colours that the legend names, and the layer that has them.
+ * @type {[keyof typeof COLORS, string][]}
+ */
 export const LEGEND = [
   ["torque", "torque"],
   ["L", "L"],

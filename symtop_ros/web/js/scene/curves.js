@@ -1,6 +1,6 @@
 // Lines of the scene as pieces between points: circles of the unit sphere, and traces.
 
-import { spread } from "../charts/plot.js";
+import { spread } from "../physics/spread.js";
 
 /** @import { Vector } from "../physics/kernel.js" */
 

@@ -1,13 +1,15 @@
 // The shapes of the scene as triangles: surfaces of revolution, in sectors of two colours that make
 // the spin visible. Lengths are in scene units: the pivot is the origin, and the axis ends at 1.
 
-import { spread } from "../charts/plot.js";
+import { spread } from "../physics/spread.js";
 import { readColor } from "./colors.js";
 
 /** @import { Color } from "./colors.js" */
 /** @typedef {[number, number][]} Profile radius and height, from the lowest point upwards */
-/** Place, normal and colour, three numbers each, of every corner of a triangle. */
-/** @typedef {number[]} Mesh */
+/**
+ * Place, normal and colour, three numbers each, of every corner of a triangle.
+ * @typedef {number[]} Mesh
+ */
 
 const SECTORS = 6; // three pairs of colours: after half a turn the colours are exchanged
 const LARGEST = 0.46; // radius of a rotor: it stays above the ground
@@ -82,8 +84,10 @@ export const createBody = ({ Ix, Iz, Mgl }) => {
   return [...createLathe(axle, STEEL), ...createRotor(radius, height)];
 };
 
-/** A box between two squares, by their half widths, places and heights: four sides. */
-/** @param {[x: number, y: number, z: number, half: number][]} ends @returns {Mesh} */
+/**
+ * A box between two squares, by their half widths, places and heights: four sides.
+ * @param {[x: number, y: number, z: number, half: number][]} ends @returns {Mesh}
+ */
 const createBeam = ([[x, y, z, half], [u, v, w, last]]) =>
   Array.from({ length: 4 }, (_, side) => {
     const [c, s] = [Math.cos((Math.PI * side) / 2), Math.sin((Math.PI * side) / 2)];

@@ -1,7 +1,7 @@
 // What a kick did, for the scene: where the axle was pushed, and the bracket between the height that the
 // top would have and the one that it reaches.
 
-import { spread } from "../charts/plot.js";
+import { spread } from "../physics/spread.js";
 import { NANO } from "../physics/course.js";
 import { findLift } from "../words/headline.js";
 import { findPoint, listPieces } from "./curves.js";

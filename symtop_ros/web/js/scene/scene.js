@@ -162,8 +162,10 @@ export class Scene {
     this.labels.put("ghost", COLORS.sphere, below, axis, name);
   }
 
-  /** The push where it was, and the bracket from the old height to the new one. */
-  /** @param {State} state @param {State[]} states */
+  /**
+   * The push where it was, and the bracket from the old height to the new one.
+   * @param {State} state @param {State[]} states
+   */
   drawPush(state, states) {
     const { push, top } = this;
     if (!push) return;
@@ -245,8 +247,10 @@ export class Scene {
     if (label) this.labels.put(label, color, tip, origin, phrase(`label.${name}`));
   }
 
-  /** Arrows along the line of nodes, head to tail: the third ends below the pivot if theta'' is 0. */
-  /** @param {State} state */
+  /**
+   * Arrows along the line of nodes, head to tail: the third ends below the pivot if theta'' is 0.
+   * @param {State} state
+   */
   drawTorques(state) {
     const { phi } = state.angles;
     const torques = findTorques(this.top.course.top, state);

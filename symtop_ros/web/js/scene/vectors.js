@@ -2,7 +2,7 @@
 
 import { NAMES } from "../physics/records.js";
 import { add } from "./matrices.js";
-import { findFrameTorques } from "../charts/formulas.js";
+import { findFrameTorques } from "../physics/formulas.js";
 
 /** @type {string[]} */
 const KINDS = NAMES.friction_kind;

@@ -6,11 +6,10 @@ import { listHistory } from "./history.js";
 import { findLedger, nameLedger } from "./ledger.js";
 import { describeOutlooks } from "./outlooks.js";
 import { describePushes } from "./pushes.js";
-import { nameHalf } from "../charts/impulses_chart.js";
-import { findTurning } from "../charts/kinds.js";
+import { findTurning, nameHalf } from "../physics/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
-import { findPotential } from "../charts/formulas.js";
-import { spread } from "../charts/plot.js";
+import { findPotential } from "../physics/formulas.js";
+import { spread } from "../physics/spread.js";
 import { phrase } from "./wording.js";
 import { shorten } from "./quantities.js";
 
@@ -32,8 +31,10 @@ const KICKS = ["kick", "push"];
 const HELD = ["push", "torque"]; // which a button may still be giving
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
 
-/** The time in s that the plots show: one turn of the precession, or some nutations. */
-/** @param {Course} course */
+/**
+ * The time in s that the plots show: one turn of the precession, or some nutations.
+ * @param {Course} course
+ */
 export const chooseWindow = ({ motion }) => {
   const { mean_precession_rate: rate, nutation_period: period } = motion.rates;
   const turn = rate ? (2 * Math.PI) / Math.abs(rate) : Infinity;

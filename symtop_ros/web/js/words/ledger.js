@@ -1,9 +1,9 @@
 // What a kick puts into the parts of the energy of a top.
 
-import { findEnergies, findRest } from "../charts/formulas.js";
+import { findEnergies, findRest } from "../physics/formulas.js";
 import { findForces } from "./headline.js";
 
-/** @import { Energies } from "../charts/formulas.js" */
+/** @import { Energies } from "../physics/formulas.js" */
 /**
  * What has changed since before a kick, in mJ: just after it, and at the turning point that is
  * farther from there.

@@ -1,7 +1,7 @@
 // What a series of pushes on the axle has done up to a time, as records: for the headline, and the one
 // that Python's `Pushed` has.
 
-import { findConstants } from "../charts/formulas.js";
+import { findConstants } from "../physics/formulas.js";
 import { NANO } from "../physics/course.js";
 import { MILLI, nameGain } from "./ledger.js";
 import { judge } from "./verdict.js";

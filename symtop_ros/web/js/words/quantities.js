@@ -25,27 +25,61 @@ export const writeAngle = (value) => {
   return `${writeNumber(Math.round(shown * 1e4) / 1e4, inDegrees() ? "1f" : "3f")} ${angleUnit()}`;
 };
 
-const NUMBER =
-  /^([+-]?)(\d+\.?\d*(?:e[+-]?\d+)?|\.\d+(?:e[+-]?\d+)?)?\s*\*?\s*(pi)?(?:\s*\/\s*(\d+\.?\d*))?$/;
-const WITH_UNIT = /^(.*?)\s*(\u00b0|deg|degrees|rad)?$/;
+const DEGREE = Math.PI / 180;
+/**
+ * Units that may be typed, each in the first one of its kind.
+ * @type {{[kind: string]: {[unit: string]: number}}}
+ */
+const UNITS = {
+  angle: { rad: 1, "\u00b0": DEGREE, deg: DEGREE, degrees: DEGREE },
+  rate: {
+    "rad/s": 1,
+    "\u00b0/s": DEGREE,
+    "deg/s": DEGREE,
+    rpm: Math.PI / 30,
+    "rev/s": 2 * Math.PI,
+  },
+};
+const QUOTIENT = /^([+-]?)([^/]*?)(?:\s*\/\s*(\d+\.?\d*))?$/;
+const FACTOR = /^(\d+\.?\d*(?:e[+-]?\d+)?|\.\d+(?:e[+-]?\d+)?)?\s*(pi)?$/;
+const THOUSANDS = /(?<![\d.,])([1-9]\d{0,2})([.,])(\d{3})(?![\d.,])/;
 
 /**
- * A number as it is typed, with a unit if it is an angle: 0.5, 1e-3, pi/4, 30°, 0.6 rad; NaN if it
- * is none. An angle without a unit is in that of the page; a multiple of pi is in rad.
- * @param {string} text @param {boolean} isAngle
+ * The two numbers that a text can mean by a separator of thousands; null if it is none in the
+ * language of the page. A zero before it leaves one meaning.
+ * @param {string} text @returns {{whole: string, part: string} | null}
  */
-export const parseQuantity = (text, isAngle) => {
+export const findReadings = (text) => {
+  const [, first, separator, rest] = text.match(THOUSANDS) ?? [];
+  if (first === undefined || separator === localize(".")) return null;
+  return { whole: `${first}${rest}`, part: localize(`${first}.${rest}`) };
+};
+
+/** A factor as it is typed; NaN if it is none. @param {string} text */
+const parseFactor = (text) => {
+  const [, size, pi] = text.trim().match(FACTOR) ?? [];
+  return size || pi ? Number(size ?? 1) * (pi ? Math.PI : 1) : NaN;
+};
+
+/**
+ * A number as it is typed, with a unit of an angle or a rate: 0.5, 1e-3, pi/4, 45*2*pi, 30°, 0.6 rad,
+ * 2700 rpm; NaN if it is none. An angle without a unit is in that of the page; a multiple of pi is
+ * in rad.
+ * @param {string} text @param {"angle" | "rate" | null} kind
+ */
+export const parseQuantity = (text, kind) => {
   const plain = text
     .trim()
     .toLowerCase()
     .replace("\u2212", "-")
-    .replace(",", ".")
-    .replace("\u03c0", "pi");
-  const [, number = "", unit] = plain.match(WITH_UNIT) ?? [];
-  const [, sign, size, pi, part] = number.match(NUMBER) ?? [];
-  if (sign === undefined || (!size && !pi) || (unit && !isAngle)) return NaN;
-  const value =
-    (Number(size ?? 1) * (pi ? Math.PI : 1) * (sign === "-" ? -1 : 1)) / Number(part ?? 1);
-  const isDegrees = unit ? unit !== "rad" : isAngle && inDegrees() && !pi;
-  return isDegrees ? (value * Math.PI) / 180 : value;
+    .replaceAll(",", ".")
+    .replaceAll("\u03c0", "pi");
+  const units = kind ? UNITS[kind] : {};
+  const unit = Object.keys(units).find((each) => plain.endsWith(each));
+  const number = plain.slice(0, plain.length - (unit ?? "").length).trim();
+  const [, sign, factors = "", part = "1"] = number.match(QUOTIENT) ?? [];
+  const size = factors.split("*").reduce((product, each) => product * parseFactor(each), 1);
+  const value = (sign === "-" ? -size : size) / Number(part);
+  if (unit) return value * units[unit];
+  return kind === "angle" && inDegrees() && !factors.includes("pi") ? value * DEGREE : value;
 };

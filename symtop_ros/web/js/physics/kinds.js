@@ -6,9 +6,14 @@
 import { findConstants } from "./formulas.js";
 
 /** @import { Top } from "../physics/kernel.js" */
-/** @import { Now } from "../words/facts.js" */
+/** @import { Course } from "./course.js" */
+/**
+ * Tilt, rates and regular rates where theta' = 0.
+ * @typedef {{theta: number, phi_dot: number, psi_dot: number, roots: number[]}} Turning
+ */
 
 const TWICE = 2; // Mgl/p_psi: phi' of the second cusp
+const STILL = 1e-7; // rad; from a turning point, where a fall or a rise begins
 const AT_REST = 1e-9; // of omega: theta' that is smaller is none
 
 /**
@@ -49,7 +54,7 @@ export const findBoundaries = ({ Ix, Iz, Mgl }, theta, phiDot) => {
 /**
  * Tilt, rates and regular rates of a motion where theta' = 0: at its start, or at the turning point next to it.
  * Null where this is on the vertical.
- * @param {import("../physics/course.js").Course} course @returns {Now | null}
+ * @param {Course} course @returns {Turning | null}
  */
 export const findTurning = ({ kernel, top, start, free }) => {
   const { theta: tilt } = start.angles;
@@ -63,4 +68,13 @@ export const findTurning = ({ kernel, top, start, free }) => {
   const phi_dot = isAtRest ? rates.phi : (vertical - L_z * u) / (top.Ix * sine * sine);
   const psi_dot = isAtRest ? rates.psi : L_z / top.Iz - phi_dot * u;
   return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
+};
+
+/** Whether the half nutation from a start is a fall of the axis, a rise, or some of both. @param {Course} course */
+export const nameHalf = ({ start, motion, isDriven }) => {
+  const [least, most] = motion.turning_angles;
+  if (isDriven || most - least <= STILL) return "half";
+  const { theta } = start.angles;
+  if (most - theta <= STILL) return "rise";
+  return theta - least <= STILL ? "fall" : "half";
 };

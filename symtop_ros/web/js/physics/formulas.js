@@ -27,8 +27,10 @@ export const findFrameTorques = ({ Ix, Iz, Mgl }, theta, rate, spin) => {
 export const findTiltAcceleration = (top, theta, rate, spin) =>
   findFrameTorques(top, theta, rate, spin).total / top.Ix;
 
-/** Energy, and the angular momentum about the axis and about the vertical. */
-/** @param {Top} top @param {State} state */
+/**
+ * Energy, and the angular momentum about the axis and about the vertical.
+ * @param {Top} top @param {State} state
+ */
 export const findConstants = ({ Ix, Iz, Mgl }, state) => {
   const [x, y, z] = state.omega;
   const [gx, gy, gz] = state.vertical;
@@ -57,8 +59,10 @@ export const findEnergies = ({ Ix, Iz, Mgl }, state) => {
 /** @param {Energies} energies */
 export const findRest = ({ weight, precession, nutation }) => weight + precession + nutation;
 
-/** The effective potential over theta, and the energy E' in it. */
-/** @param {Top} top @param {State} state */
+/**
+ * The effective potential over theta, and the energy E' in it.
+ * @param {Top} top @param {State} state
+ */
 export const findPotential = (top, state) => {
   const { L_z, "L_z'": vertical } = findConstants(top, state);
   const at = (/** @type {number} */ theta) => {
