@@ -210,6 +210,14 @@ def _read_kick(given: Any) -> Mapping[str, Any]:
     return {name: _read_field(name, TABLE["act"][name], given) for name in given}
 
 
+def _read_record(name: str, value: Any, kinds: Mapping[str, Any]) -> dict[str, Any]:
+    kind = value.get("kind") if isinstance(value, dict) else None
+    if not isinstance(kind, str) or kind not in kinds:
+        raise refuse(name, f"a record of kind {', '.join(kinds)}", value)
+    fields = {each: _read_field(each, field, value) for each, field in kinds[kind].items()}
+    return {"kind": kind, **fields}
+
+
 def _read_field(name: str, field: Mapping[str, Any], given: Mapping[str, Any]) -> Any:
     """Return a value that follows the description of its field."""
     if name not in given and "absent" in field:
@@ -217,6 +225,8 @@ def _read_field(name: str, field: Mapping[str, Any], given: Mapping[str, Any]) -
     value = given.get(name)
     if "size" in field:
         return vector(name, value, field["size"], field["limit"], field["unit"])
+    if "records" in field:
+        return _read_record(name, value, field["records"])
     if "words" in field:
         return choice(name, value, tuple(field["words"]))
     if "length" in field:

@@ -7,7 +7,8 @@ A template has placeholders, `{name}` or `{name:form}`; `name` is a field of the
 value of the field   text
 ===================  =======================================================================
 none                 nothing
-a number             by `form`, as below
+a number             by `form`, as below; or the template `form`, filled with it as ``{0}``:
+                     of `form.one` if the plural rules of the language say so
 a word, true, false  the template `form.WORD`, filled with the same record; without `form`
                      the word itself, as for a path
 a record             the template `form`, or `name` without it; if the record has a field
@@ -120,7 +121,7 @@ class _Writer:
             case bool():
                 return self._fill(f"{form}.{str(value).lower()}", record)
             case int() | float():
-                return write_number(value, form)
+                return self._count(form, value) if form in TEMPLATES else write_number(value, form)
             case str():
                 return self._fill(f"{form}.{value}", record) if form else value
             case list() | tuple():
@@ -133,6 +134,10 @@ class _Writer:
             return self._fill_numbers(form, values)
         texts = [self._write_value(name, each, form, record) for each in values]
         return TEMPLATES.get(f"{form}.join", TEMPLATES["join"]).join(texts)
+
+    def _count(self, form: str, value: float) -> str:
+        is_one = value == 1 and f"{form}.one" in TEMPLATES  # the plural rule of English
+        return self._fill(f"{form}.one" if is_one else form, {"0": value})
 
     def _fill_numbers(self, key: str, values: Sequence[float]) -> str:
         places, end = _split(key, self.variant)

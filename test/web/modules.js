@@ -10,12 +10,12 @@ const toRecord = (value) => {
 };
 
 /** Keep the kernel of these bytes, in base 64, and the texts of a language. */
-window.loadKernel = async ([module, templates]) => {
+window.loadKernel = async ([module, templates, language]) => {
   const { Kernel } = await import("/physics/kernel.js");
   const { phrase, setTemplates } = await import("/words/wording.js");
   const decode = (text) => Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
   window.kernel = await Kernel.load(decode(module));
-  setTemplates(templates);
+  setTemplates(templates, language);
   window.phrase = phrase;
 };
 

@@ -31,4 +31,4 @@ def _answer(route):
 def load_kernel(tab):
     """Have the tab keep the kernel and the English texts as `kernel` and `phrase`."""
     kernel = base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode()
-    tab.evaluate("loadKernel", [kernel, read_texts("en")])
+    tab.evaluate("loadKernel", [kernel, read_texts("en"), "en"])

@@ -174,7 +174,7 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     opened.tab.keyboard.up("Shift")
     kick = opened.read_events()[-1]
     assert kick["kind"] == "kick"
-    assert kick["request"] == "pulled by the ball"
+    assert kick["made_by"] == {"kind": "pull"}
 
 
 def test_the_impulses_of_one_fall_are_those_of_the_article(open_page):

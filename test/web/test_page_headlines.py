@@ -9,6 +9,7 @@ from web.opened import read_motion
 
 from symtop_ros.physics import Motion
 from symtop_ros.physics.kicks import push_axle
+from symtop_ros.web.join import LANGUAGES, read_texts
 
 
 def test_a_kick_under_friction_is_judged_apart_from_friction_and_said_to_be_past(opened):
@@ -20,17 +21,17 @@ def test_a_kick_under_friction_is_judged_apart_from_friction_and_said_to_be_past
     assert opened.say("why").startswith("Just after the kick: Precession ")
 
 
+def read_history(opened):
+    entries = opened.tab.locator("#entries button")
+    return entries.evaluate_all("all => all.map(e => e.dataset.text)")
+
+
 def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
     opened.enter("theta", "0.6")
     opened.tab.click("#hurry")
     opened.enter("top.Mgl", "0.05")
     opened.open_tab("history")
-
-    def read():
-        entries = opened.tab.locator("#entries button")
-        return entries.evaluate_all("all => all.map(e => e.dataset.text)")
-
-    assert read() == [
+    assert read_history(opened) == [
         "Mgl changed to 0.05",
         "hurried: phi' times 1.4",
         "started: theta 0.6 rad, phi' 6.497, psi' 200 rad/s",
@@ -39,9 +40,48 @@ def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
     opened.open_tab("view")
     opened.tab.select_option("#unit", "deg")
     opened.open_tab("history")
-    assert "started: theta 34.38°, phi' 6.497, psi' 200 rad/s" in read()
+    assert "started: theta 34.38°, phi' 6.497, psi' 200 rad/s" in read_history(opened)
     opened.tab.click("#entries button:text('started:')")
     assert opened.read_last().euler_angles.theta == pytest.approx(0.6)
+
+
+@pytest.mark.parametrize("language", choose([*LANGUAGES], ("de", "tr")))
+def test_a_run_of_one_language_is_read_in_the_words_of_another(opened, open_page, language):
+    opened.start_scene("cusps")
+    opened.enter("top.Mgl", "0.05")
+    opened.press("ArrowUp")
+    opened.press("r")
+    run = opened.read_run()
+    assert "request" not in str(run)
+    other, texts = open_page(f"#lang={language}"), read_texts(language)
+    other.drop(run)
+    changed = texts["request.parameter"].replace("{name}", "Mgl")
+    expected = [
+        texts["request.reset"],
+        texts["request.up"],
+        changed.replace("{value:4g}", f"0{texts['point']}05"),
+        texts["scene.cusps.title"],
+    ]
+    other.until(lambda: read_history(other)[:4] == expected)
+    assert other.read_events() == run["events"]
+
+
+def test_words_that_a_run_of_before_has_are_shown_as_they_are_and_make_no_buttons(opened):
+    run = opened.read_run()
+    start = {name: value for name, value in run["events"][0].items() if name != "made_by"}
+    texts = ["[x|nothing]", "Perrys Regel gilt", "theta <b>"]
+    run["events"] = [{**start, "request": text} for text in texts]
+    run["events"].append({**start, "made_by": {"kind": "scene", "name": "of another version"}})
+    named = {"kind": "parameter", "name": "[y|theta]", "value": 1}
+    run["events"].append({**start, "kind": "change", "made_by": named})
+    opened.drop(run)
+    opened.until(lambda: len(opened.read_events()) == len(run["events"]))
+    changed, started, *given = read_history(opened)
+    assert given == texts[::-1]
+    assert started.startswith("started: ")
+    assert changed == "[y|theta] changed to 1"
+    assert opened.tab.locator("#entries button button").count() == 0
+    assert opened.read_events() == run["events"]
 
 
 @pytest.mark.wording

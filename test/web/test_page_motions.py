@@ -168,3 +168,27 @@ def test_what_is_done_during_the_pushes_of_a_run_ends_them(open_page, tmp_path):
     assert to_json(events[:1]) == to_json(run[:1])
     reached = pushed.at(ExactTimes(330_000_000))
     assert np.array_equal(events[2].motion.start.orientation, reached.orientation)
+
+
+@pytest.mark.parametrize(("number", "words"), [(1, "once:"), (2, "2 times in 0.05 s:")])
+def test_pushes_are_counted_in_words(opened, number, words):
+    start = read_motion(opened.read_events()[0])
+    pushed = Motion(start.top, start.start, pushes=Pushes(2.0**-14, 20.0, number))
+    act = {**ACT, "number": float(number)}
+    run = [RunEvent("start", 0, start, {}), RunEvent("push", 0, pushed, act)]
+    opened.drop(write_run(run, SECOND // 2))
+    opened.until(lambda: opened.say("why").startswith(f"Pushed sideways {words}"))
+    assert opened.say("why") == write("push", Pushed.of(pushed, pushed.pushes, start.start))
+
+
+def test_an_act_while_a_button_pushes_ends_those_pushes_and_the_hand_goes_on(opened):
+    opened.open_tab("push")
+    button = opened.tab.locator("[data-hold=press]")
+    button.dispatch_event("pointerdown")
+    opened.until(lambda: opened.read_events()[-1]["kind"] == "push")
+    opened.press("h")
+    kinds = ["start", "push", "kick", "push"]
+    opened.until(lambda: [event["kind"] for event in opened.read_events()] == kinds)
+    opened.until(lambda: opened.read_events()[-1]["act"]["number"] > 1)
+    button.dispatch_event("pointerup")
+    assert [event["kind"] for event in opened.read_events()] == kinds

@@ -64,7 +64,7 @@ class Pushed:
     """
 
     number: int
-    duration: float  # s of the motion from the first to the last one
+    duration: float | None  # s of the motion from the first to the last one; None of one push
     driven: bool
     turning_angles: tuple[float, float] | None = None  # rad, after the last one
     former_angles: tuple[float, float] | None = None  # without them
@@ -75,7 +75,8 @@ class Pushed:
     @classmethod
     def of(cls, motion: Motion, pushes: Pushes, before: State) -> "Pushed":
         """Return the outcome of the pushes of a motion, with the state before the first one."""
-        given = pushes.number, pushes.last_time / NANOSECONDS, motion.is_driven
+        duration = pushes.last_time / NANOSECONDS if pushes.number > 1 else None
+        given = pushes.number, duration, motion.is_driven
         if motion.is_driven:
             return cls(*given)
         top, former = motion.top, Motion(motion.top, before)

@@ -20,6 +20,7 @@ import { offerScenes } from "./controls/scenes.js";
 import { SpeedList } from "./controls/speed.js";
 import { offerTabs } from "./controls/tabs.js";
 import { Timeline } from "./controls/timeline.js";
+import { typesetSymbols } from "./words/typeset.js";
 import { phrase } from "./words/wording.js";
 
 /** @import { Facts, Now } from "./words/facts.js" */
@@ -218,7 +219,7 @@ export class Page {
     find("entries").replaceChildren(
       ...history.map(([entry, text]) => {
         const button = make("button");
-        write(button, text);
+        write(button, text, typesetSymbols); // no buttons in it: another page may have written it
         button.addEventListener("click", () => this.send({ act: "restart", entry }));
         return button;
       }),

@@ -36,7 +36,8 @@ export const start = async () => {
     const { packed, ...own } = readData("top-content");
     /** @type {Content} */
     const content = { ...(await unpack(packed)), ...own, run: readData("top-run") };
-    setTemplates(content.texts[chooseLanguage(content.texts)]);
+    const language = chooseLanguage(content.texts);
+    setTemplates(content.texts[language], language);
     const page = new Page(content);
     const kernel = await Kernel.load(decode(content.kernel));
     const Top = content.node ? NodeTop : LocalTop;

@@ -44,12 +44,12 @@ export const make = (name, properties = {}, ...children) => {
 /**
  * Write a text into an element, with its symbols as formulas; one that is there already is not
  * announced again. The text itself stays with the element.
- * @param {HTMLElement} element @param {string} text
+ * @param {HTMLElement} element @param {string} text @param {typeof typeset} set its parts
  */
-export const write = (element, text) => {
+export const write = (element, text, set = typeset) => {
   if (element.dataset.text === text) return;
   element.dataset.text = text;
-  element.replaceChildren(...typeset(text));
+  element.replaceChildren(...set(text));
 };
 
 /** Do something when a slider is let go. @param {HTMLInputElement} slider @param {() => void} act */

@@ -5,7 +5,6 @@ import { NAMES } from "../physics/records.js";
 import { cross, scale, subtract } from "../scene/matrices.js";
 import { readPushes } from "./run.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
-import { phrase } from "../words/wording.js";
 
 /** @import { LocalTop, Message } from "./local.js" */
 /** @import { State } from "../physics/state.js" */
@@ -37,12 +36,11 @@ const kick = (top, { factor, hold = "spin_rate" }) => {
 /**
  * @param {LocalTop} top
  * @param {Vector} impulse N m s, in the world frame
- * @param {string} kind of the request
+ * @param {string} kind of what has made it
  */
 const addImpulse = (top, impulse, kind) => {
   const after = top.state.kick(top.course.top, "impulse", impulse);
-  const request = phrase("request", { kind });
-  addKick(top, after, { act: { angular_impulse: impulse }, hold: null, request });
+  addKick(top, after, { act: { angular_impulse: impulse }, hold: null, made_by: { kind } });
 };
 
 /** @param {LocalTop} top @param {Message} message */
@@ -74,9 +72,10 @@ const pushAlong = (top, { axle_impulse, rate = PUSH_RATE, number = top.pushes })
   top.add("push", course.continue(after, { pushes: readPushes(act) }), { act });
 };
 
-/** Push along while a button is held. @type {Act} */
+/** Push along while a button is held; another act ends those pushes, and the hand begins again. @type {Act} */
 const press = (top) => {
-  if (!top.pushUntil) pushAlong(top, {});
+  const isPushed = top.pushUntil && top.run.findEvent(top.time).kind === "push";
+  if (!isPushed) pushAlong(top, {});
   top.pushUntil = performance.now() + TORQUE_LASTS;
 };
 
@@ -115,10 +114,10 @@ const present = ({ course: { top, friction, start }, steady }) => ({
   torque: steady,
 });
 
-/** @param {LocalTop} top @param {Beginning} beginning @param {string} [request] */
-const begin = (top, { top: own, friction, torque, start }, request) => {
+/** @param {LocalTop} top @param {Beginning} beginning @param {import("./run.js").Asked} asked */
+const begin = (top, { top: own, friction, torque, start }, asked = {}) => {
   const course = new Course(top.kernel, own, start, friction, torque);
-  top.add("start", course, request === undefined ? {} : { request });
+  top.add("start", course, asked);
   top.initial = start;
 };
 
@@ -140,7 +139,7 @@ const tilt = (top, { theta, phi }) => {
 /** @param {LocalTop} top @param {Message} message */
 const chooseScene = (top, { name }) => {
   const scene = findScene(top.content.scenes, name);
-  begin(top, readScene(top.kernel, scene), phrase(`scene.${name}.title`));
+  begin(top, readScene(top.kernel, scene), { made_by: { kind: "scene", name } });
 };
 
 /** @param {LocalTop} top @param {Message} message */
@@ -149,23 +148,19 @@ const followLink = (top, { link: { scene: name, ...texts } }) => {
   const { event } = top.content.run_fields;
   const given = scene ? readScene(top.kernel, scene) : present(top);
   const beginning = readLink(top.kernel, texts, given, event);
-  begin(
-    top,
-    beginning,
-    scene && !Object.keys(texts).length ? phrase(`scene.${name}.title`) : undefined,
-  );
+  const isWhole = scene && !Object.keys(texts).length;
+  begin(top, beginning, isWhole ? { made_by: { kind: "scene", name } } : {});
 };
 
 /** @param {LocalTop} top */
 const reset = (top) => {
-  const request = phrase("request", { kind: "reset" });
-  begin(top, { ...present(top), start: top.initial }, request);
+  begin(top, { ...present(top), start: top.initial }, { made_by: { kind: "reset" } });
 };
 
-/** @param {LocalTop} top @param {Message} message */
+/** A start with the motion of an event: after a kick its own words would be false. @type {Act} */
 const restart = (top, { entry }) => {
-  const { course, asked, time } = top.run.moments[entry];
-  begin(top, { ...course, torque: top.run.findSteady(time) }, asked.request);
+  const { kind, course, asked, time } = top.run.moments[entry];
+  begin(top, { ...course, torque: top.run.findSteady(time) }, kind === "start" ? asked : {});
 };
 
 /** @param {import("../physics/kernel.js").Kernel} kernel @param {Top} own @param {string} key @param {number} value */
@@ -183,8 +178,8 @@ const setParameter = (top, { name, value }) => {
   if (group === "disc") own = changeDisc(top.kernel, own, key, value);
   else if (group === "friction") friction[NAMES.friction_kind.indexOf(key)] = value;
   else own[/** @type {keyof typeof own} */ (key)] = value;
-  const request = phrase("request", { kind: "parameter", name: key, value });
-  top.add("change", top.course.continue(top.state, { top: own, friction }), { request });
+  const made_by = { kind: "parameter", name: key, value };
+  top.add("change", top.course.continue(top.state, { top: own, friction }), { made_by });
 };
 
 /** @param {LocalTop} top */

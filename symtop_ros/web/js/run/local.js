@@ -3,7 +3,6 @@
 import { holdTorque, perform } from "./acts.js";
 import { MOST_STEPS, NANO } from "../physics/course.js";
 import { chooseWindow, describe, describeMotion, describeNow } from "../words/facts.js";
-import { nameRequest } from "../words/history.js";
 import { phrase } from "../words/wording.js";
 import { nameError } from "./errors.js";
 import { recall, remember, rememberRun } from "./memory.js";
@@ -190,8 +189,7 @@ export class LocalTop {
    */
   add(kind, course, asked = {}) {
     this.demandRoom();
-    const request = nameRequest(kind, asked, course);
-    this.run.add(kind, this.time, course, kind === "torque" ? asked : { ...asked, request });
+    this.run.add(kind, this.time, course, asked);
     this.changed();
   }
 

@@ -6,10 +6,12 @@ import { writeNumber } from "../words/numbers.js";
 
 /** @import { EventRecord } from "./run.js" */
 /**
- * A field: one of some words, a text of some length, some numbers of limited size, or a number.
+ * A field: one of some words, a text of some length, some numbers of limited size, a record of one of
+ * some kinds, or a number.
  * Without `absent` a field must be given. A kind of kick (`kick`, its name in the kernel) holds a
  * quantity, nothing (null), or the one that is `chosen`.
- * @typedef {{words?: string[], length?: number, size?: number, limit?: number, unit?: string,
+ * @typedef {{words?: string[], length?: number,
+ *   records?: {[kind: string]: {[name: string]: Field}}, size?: number, limit?: number, unit?: string,
  *   low?: number, high?: number, absent?: any, kick?: string, holds?: any}} Field
  */
 /**
@@ -57,11 +59,26 @@ const readVector = (name, { size = 0, limit = 0, unit }, value) => {
   throw reject(name, `be ${size} numbers from ${range} (${unit})`, value);
 };
 
-/** @param {string} name @param {Field} field @param {any} value */
+/**
+ * @param {string} name @param {{[kind: string]: {[name: string]: Field}}} kinds @param {any} value
+ * @returns {{[name: string]: any}}
+ */
+const readRecord = (name, kinds, value) => {
+  const kind = isObject(value) ? value.kind : undefined;
+  if (typeof kind !== "string" || !Object.hasOwn(kinds, kind))
+    throw reject(name, `be a record of kind ${Object.keys(kinds).join(", ")}`, value);
+  const fields = Object.entries(kinds[kind]).map(([each, field]) => {
+    return [each, readField(each, field, Object.hasOwn(value, each) ? value[each] : undefined)];
+  });
+  return { kind, ...Object.fromEntries(fields) };
+};
+
+/** @param {string} name @param {Field} field @param {any} value @returns {any} */
 export const readField = (name, field, value) => {
-  const { words, length, size } = field;
+  const { words, length, records, size } = field;
   if (value === undefined && "absent" in field) return field.absent;
   if (size !== undefined) return readVector(name, field, value);
+  if (records) return readRecord(name, records, value);
   if (words) {
     if (words.includes(value)) return value;
     throw reject(name, `be ${words.map((each) => `"${each}"`).join(" or ")}`, value);
@@ -107,8 +124,9 @@ const readEvent = (table, given, before) => {
     throw reject("kind", 'be "start" for the first event', read.kind);
   if (before && read.time < before.time)
     throw reject("time", "be that of the event before it or later", read.time);
-  const { request, ...event } = read;
+  const { request, made_by, ...event } = read;
   if (request) event.request = request;
+  if (made_by) event.made_by = made_by;
   if (event.kind === "push") return { ...event, act: readPushes(table.act, values) };
   if (event.kind !== "kick") return event;
   const act = readAct(table.act, values.act);

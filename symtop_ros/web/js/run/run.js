@@ -12,8 +12,14 @@ import { State } from "../physics/state.js";
 /** @typedef {"start" | "kick" | "push" | "change" | "torque"} Kind */
 /**
  * What was asked for: a kick or pushes by the names of ~/kick (`act`), the hold of a kick, null for an
- * angular impulse, and the request in words.
- * @typedef {{act?: {[name: string]: any}, hold?: Hold | null, request?: string}} Asked
+ * angular impulse, and what of the page has made the event, where its motion does not tell. Runs of
+ * 0.4.0 and before have it in words (`request`).
+ * @typedef {{act?: {[name: string]: any}, hold?: Hold | null, made_by?: Maker,
+ *   request?: string}} Asked
+ */
+/**
+ * A scene, Reset, a push of a button, a pull of the ball, or a parameter that was set.
+ * @typedef {{kind: string, name?: string, value?: number}} Maker
  */
 /**
  * An event as in run.json; its time is in s, and whole nanoseconds.

@@ -1,6 +1,6 @@
 // The history of a run: what was asked for, as records for the templates `request`.
 
-import { phrase } from "./wording.js";
+import { isKnown, phrase } from "./wording.js";
 
 /** @import { Run, Asked } from "../run/run.js" */
 /** @import { Course } from "../physics/course.js" */
@@ -29,18 +29,17 @@ const findRequest = (kind, { act = {} }, { start }) => {
 };
 
 /**
- * What was asked for, in words.
- * @param {import("../run/run.js").Kind} kind
- * @param {Asked} asked
- * @param {Course} course
+ * What was asked for, in words: in those of the page that made it, if it kept no more.
+ * @param {import("../run/run.js").Moment} moment
  * @param {Variant} variant
  */
-export const nameRequest = (kind, asked, course, variant = "radians") => {
-  const record = findRequest(kind, asked, course);
-  const text = phrase("request", record);
-  // Words that are not those of the record, such as the title of a scene, have no variant.
-  if (asked.request !== undefined && asked.request !== text) return asked.request;
-  return phrase("request", record, variant);
+const nameRequest = ({ kind, asked, course }, variant) => {
+  const { made_by: maker, request } = asked;
+  if (maker?.kind === "scene") {
+    const title = `scene.${maker.name}.title`;
+    if (isKnown(title)) return phrase(title); // another version may have other scenes
+  } else if (maker) return phrase("request", maker);
+  return request ?? phrase("request", findRequest(kind, asked, course), variant);
 };
 
 /**
@@ -52,7 +51,4 @@ export const listHistory = ({ moments }, variant) =>
     .filter(({ kind }) => kind !== "torque")
     .slice(-LISTED)
     .reverse()
-    .map((event) => {
-      const { kind, asked, course } = event;
-      return [moments.indexOf(event), nameRequest(kind, asked, course, variant)];
-    });
+    .map((event) => [moments.indexOf(event), nameRequest(event, variant)]);

@@ -34,12 +34,13 @@ export const describePushes = (run, first, time, free) => {
   const { before, course } = first;
   if (!before || course.isDriven || run.findEvent(time) !== first) return null;
   const last = run.find(time);
+  const number = last.number ?? 1;
   const { top } = free;
   const former = free.continueFree(before);
   const [energy, now] = [before, free.start].map((each) => findConstants(top, each).energy);
   const outcome = {
-    number: last.number,
-    duration: (last.time - first.time) / NANO,
+    number,
+    duration: number > 1 ? (last.time - first.time) / NANO : null,
     driven: false,
     turning_angles: free.motion.turning_angles,
     former_angles: former.motion.turning_angles,

@@ -80,7 +80,7 @@ export const typeset = (text) => {
 };
 
 /** The parts of a text, with its symbols as formulas. @param {string} text @returns {(Node | string)[]} */
-const typesetSymbols = (text) => {
+export const typesetSymbols = (text) => {
   /** @type {(Node | string)[]} */
   const parts = [];
   let end = 0;

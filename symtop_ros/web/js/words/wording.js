@@ -9,10 +9,15 @@ const PLACEHOLDER = / ?\{([\w,]+)(?::(\w+))?\}/g;
 
 /** @type {{[key: string]: string}} */
 let templates = {};
+let plurals = new Intl.PluralRules("en");
 
-/** Take all words from these templates from now on. @param {{[key: string]: string}} chosen */
-export const setTemplates = (chosen) => {
+/**
+ * Take all words from these templates of a language from now on.
+ * @param {{[key: string]: string}} chosen @param {string} language
+ */
+export const setTemplates = (chosen, language) => {
   templates = chosen;
+  plurals = new Intl.PluralRules(language);
   setPoint(chosen.point);
 };
 
@@ -54,10 +59,17 @@ const fill = (key, record, variant) =>
 const writeValue = (name, value, form, record, variant) => {
   if (value === null || value === undefined) return "";
   if (typeof value === "boolean") return fill(`${form}.${value}`, record, variant);
-  if (typeof value === "number") return writeNumber(value, form);
+  if (typeof value === "number")
+    return form in templates ? count(form, value, variant) : writeNumber(value, form);
   if (typeof value === "string") return form ? fill(`${form}.${value}`, record, variant) : value;
   if (Array.isArray(value)) return writeSeveral(name, value, form, record, variant);
   return phrase(form || name, value, variant);
+};
+
+/** So many of something. @param {string} form @param {number} value @param {Variant} variant */
+const count = (form, value, variant) => {
+  const key = `${form}.${plurals.select(value)}`;
+  return fill(key in templates ? key : form, { 0: value }, variant);
 };
 
 /**
@@ -81,10 +93,10 @@ const fillNumbers = (key, values, variant) => {
   const write = (/** @type {number} */ more) =>
     places.map(([, place, form]) => writeNumber(values[Number(place)], form, more));
   const tries = Array.from({ length: MOST_DIGITS }, (_, more) => write(more));
-  const count = (/** @type {string[]} */ texts) => new Set(texts).size;
+  const tell = (/** @type {string[]} */ texts) => new Set(texts).size;
   // The shortest of those that tell most numbers apart.
-  const texts = tries.reduce((best, each) => (count(each) > count(best) ? each : best));
-  if (count(texts) === 1 && `${key}.same` in templates)
+  const texts = tries.reduce((best, each) => (tell(each) > tell(best) ? each : best));
+  if (tell(texts) === 1 && `${key}.same` in templates)
     return fill(`${key}.same`, { ...values }, variant);
   return template.replace(PLACEHOLDER, (whole) => whole.split("{")[0] + texts.shift());
 };
