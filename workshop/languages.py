@@ -16,6 +16,7 @@ SYMBOL = re.compile(
 )
 NUMBER = re.compile(r"(?<![\w{:^_])\d+(?:[.,]\d+)?")
 SCENE = re.compile(r"scene\.\w+\.(?:title|story)")
+PLURAL = re.compile(r"\.(?:zero|one|two|few|many)$")  # forms that English does not have
 GLUED = re.compile(r"\}['\u2019]?[^\W\d_]")  # a suffix of a language at a number or a symbol
 
 
@@ -39,7 +40,8 @@ def find_faults(language: str) -> Iterator[str]:
 
 def _compare_keys(english: Mapping[str, str], texts: Mapping[str, str]) -> Iterator[str]:
     yield from (f"{key}: is missing" for key in english.keys() - texts.keys())
-    yield from (f"{key}: is no key" for key in texts.keys() - english.keys())
+    more = {key for key in texts.keys() - english.keys() if PLURAL.sub("", key) not in english}
+    yield from (f"{key}: is no key" for key in more)
     yield from (f"{key}: is empty" for key in texts if english.get(key) and not texts[key].strip())
 
 

@@ -7,8 +7,9 @@ A template has placeholders, `{name}` or `{name:form}`; `name` is a field of the
 value of the field   text
 ===================  =======================================================================
 none                 nothing
-a number             by `form`, as below; or the template `form`, filled with it as ``{0}``:
-                     of `form.one` if the plural rules of the language say so
+a number             by `form`, as below; or the template `form`, filled with it as ``{0}``;
+                     `form.once` for 1; in the page `form.few` and its like by the plural
+                     rules of a language that has such forms
 a word, true, false  the template `form.WORD`, filled with the same record; without `form`
                      the word itself, as for a path
 a record             the template `form`, or `name` without it; if the record has a field
@@ -136,8 +137,8 @@ class _Writer:
         return TEMPLATES.get(f"{form}.join", TEMPLATES["join"]).join(texts)
 
     def _count(self, form: str, value: float) -> str:
-        is_one = value == 1 and f"{form}.one" in TEMPLATES  # the plural rule of English
-        return self._fill(f"{form}.one" if is_one else form, {"0": value})
+        once = f"{form}.once"
+        return self._fill(once if value == 1 and once in TEMPLATES else form, {"0": value})
 
     def _fill_numbers(self, key: str, values: Sequence[float]) -> str:
         places, end = _split(key, self.variant)

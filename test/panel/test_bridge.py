@@ -234,7 +234,7 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node, brow
         until(lambda: "cusps" in tab.text_content("#headline"), look)
         assert tab.is_hidden("#timeline")
         tab.click("#hurry")
-        until(lambda: "without the kick" in tab.text_content("#headline"), look)
+        until(lambda: "without the push" in tab.text_content("#headline"), look)
         act = bridge._events[-1]["record"]["act"]
         assert act == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
         tab.click("#tab-start")

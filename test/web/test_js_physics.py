@@ -8,12 +8,12 @@ import re
 import numpy as np
 import pytest
 from trials import trials
+from web.page_words import write_as_page
 
 from symtop_ros import physics
 from symtop_ros.physics import Top, regular_precession_rates, theta_acceleration
 from symtop_ros.physics.values import EPS
 from symtop_ros.session.diagnostics import constants_of_motion
-from symtop_ros.wording import write
 
 HOLDS = "spin_rate", "spin_momentum"
 ARTICLE = {"Ix": 0.000228, "Iz": 0.0000572, "Mgl": 0.068}
@@ -73,7 +73,7 @@ def judge_in_python(case):
         "verdict": dataclasses.asdict(verdict),
         "record": dataclasses.asdict(record),
         "texts": [
-            write(name, each, variant)
+            write_as_page(name, each, variant)
             for variant in ("radians", "degrees")
             for name, each in (("verdict", verdict), ("kick", record))
         ],

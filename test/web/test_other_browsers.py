@@ -10,9 +10,9 @@ from physics.kernel.motions import NAMES, encode, expect, list_samples, normaliz
 from physics.kernel.test_wasm import KERNEL, SCRIPT
 from PIL import Image
 from web.opened import find_time, read_motion
+from web.page_words import write_as_page
 
 from symtop_ros.physics import Motion, Top, hurry, kick_verdict
-from symtop_ros.wording import write
 from workshop.kernel_wasm import MODULE
 
 pytestmark = pytest.mark.long
@@ -92,7 +92,9 @@ def test_a_top_is_hurried_and_the_run_survives_a_reload(driver, path):
     after = hurry(before, 1.4)
     assert kick["orientation"] == after.given_orientation.tolist()
     assert kick["angular_velocity"] == after.angular_velocity.tolist()
-    assert why == write("kick", kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_rate"))
+    assert why == write_as_page(
+        "kick", kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_rate")
+    )
     picture = driver.run("return document.querySelector('canvas').toDataURL().length;")
     assert picture > 5000
     assert driver.run("return document.querySelectorAll('#charts svg path').length;") > 20

@@ -63,9 +63,9 @@ def test_the_energy_of_a_kick_is_that_of_the_article(opened):
     before = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
     ledger = KickLedger.of(ARTICLE, before, read_state(kick))
     assert opened.say("ledger-text") == (
-        f"The kick changed E' by {ledger.kick.rest:.3g} mJ and the energy of the spin by "
+        f"The push changed E' by {ledger.kick.rest:.3g} mJ and the energy of the spin by "
         f"{ledger.kick.spin:.3g} mJ. At its highest point the weight has gained "
-        f"{ledger.far.weight:.3g} mJ since before the kick, and the precession has lost "
+        f"{ledger.far.weight:.3g} mJ since before the push, and the precession has lost "
         f"{-ledger.far.precession:.3g} mJ."
     )
     assert "1.93 mJ" in opened.say("ledger-text")

@@ -18,7 +18,7 @@ def test_a_kick_under_friction_is_judged_apart_from_friction_and_said_to_be_past
     headline = opened.say("headline")
     assert headline.endswith(" (apart from friction).") or "(apart from friction):" in headline
     assert "between" not in headline
-    assert opened.say("why").startswith("Just after the kick: Precession ")
+    assert opened.say("why").startswith("Just after the push: Precession ")
 
 
 def read_history(opened):

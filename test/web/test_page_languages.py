@@ -86,7 +86,7 @@ def test_a_chosen_language_stays_and_keeps_the_run(open_page, tmp_path):
     page.wait_for_page()
     assert is_in(page, "de")
     assert page.read_events() == run["events"]
-    assert "rad höher als ohne den Stoß" in page.say("headline")
+    assert "rad höher als ohne den Schub" in page.say("headline")
     page.reload()
     assert is_in(page, "de")
     saved = page.save("Dieser Lauf als Seite", tmp_path)

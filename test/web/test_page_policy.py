@@ -50,7 +50,7 @@ def check(frame):
     """The page works, and no attack does."""
     frame.locator("#headline:not(:empty)").wait_for()
     frame.locator("#hurry").click()
-    assert "without the kick" in frame.locator("#headline").text_content()
+    assert "without the push" in frame.locator("#headline").text_content()
     assert attack(frame) == []
 
 

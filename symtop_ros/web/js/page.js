@@ -128,7 +128,8 @@ export class Page {
     const { node, run, opening } = this.content;
     const isReloaded = !node && Boolean(recall().run);
     if (!node && (isCalm || (run && !isReloaded))) this.top?.take({ act: "rest" });
-    if (!node && !run && !isReloaded && !location.hash && !opening) this.question.ask();
+    const isPlain = /^(#(lang=[^&]*)?)?$/.test(location.hash); // a language starts nothing
+    if (!node && !run && !isReloaded && isPlain && !opening) this.question.ask();
     addEventListener("hashchange", () => {
       refuse("");
       this.followAddress(true);
@@ -197,12 +198,12 @@ export class Page {
   /** Show what follows the motion. @param {Facts} facts @param {boolean} isAct that is announced */
   showMotion(facts, isAct) {
     this.facts = facts;
-    const { headline, because, why, happened } = facts.texts[inDegrees() ? "degrees" : "radians"];
+    const { headline, because, why } = facts.texts[inDegrees() ? "degrees" : "radians"];
     find("said").ariaLive = isAct ? "polite" : "off"; // a screen reader would never end
     say("headline", headline);
     say("because", because);
     say("why", why);
-    if (isAct) this.question.follow(facts, happened);
+    if (isAct) this.question.follow(facts);
     showKinds(facts.body, facts.turning);
   }
 

@@ -9,6 +9,8 @@ import { phrase } from "../words/wording.js";
 /** @import { Facts } from "../words/facts.js" */
 
 const KEPT = "answer"; // as the browser keeps it: who comes again is not asked
+/** The kind of headline that an answer foretells. @type {{[answer: string]: string}} */
+const MEANT = { rises: "higher", falls: "lower" };
 const FAST = "fast_precession"; // the scene of the second question
 
 /** What was answered, by this visitor or an earlier one of the browser. @returns {string | null} */
@@ -51,9 +53,8 @@ export class Question {
     else delete document.body.dataset.asked;
   }
 
-  /** The push leads to what is seen, and another act ends the question. @param {Facts} facts @param {string} happened */
-  follow({ acts, half, roots, since }, happened) {
-    say("happened", happened);
+  /** The push leads to what is seen, and another act ends the question. @param {Facts} facts */
+  follow({ acts, half, roots, seen, since }) {
     const is = `${since}: ${acts}`; // a start may be at the same time as the one before
     const isNew = this.acts !== null && this.acts !== is;
     this.acts = is;
@@ -67,7 +68,8 @@ export class Question {
     if (this.answer === null || half === null || this.end < Infinity) this.leave();
     else {
       this.end = half;
-      say("predicted", phrase("predicted", { kind: this.answer }));
+      const kind = MEANT[this.answer] === seen ? "right" : "other";
+      say("compared", phrase("guess", { kind, answer: this.answer, seen }));
       this.enter("watch");
     }
   }

@@ -116,13 +116,13 @@ export const describeMotion = (run, time, free) => {
     headline: phrase("headline", headline, variant),
     because: because ? phrase("cause", because, variant).trim() : "",
     why: phrase(name, outcome, variant),
-    happened: name === "kick" ? phrase("happened", headline, variant) : "",
   });
   return {
     texts: { radians: say("radians"), degrees: say("degrees") },
     potential: describePotential(free, announced.kind === "start" ? null : announced),
     table: listRates(free),
     turning: findTurning(free),
+    seen: name === "kick" ? headline.kind : null,
   };
 };
 

@@ -68,8 +68,9 @@ const writeValue = (name, value, form, record, variant) => {
 
 /** So many of something. @param {string} form @param {number} value @param {Variant} variant */
 const count = (form, value, variant) => {
-  const key = `${form}.${plurals.select(value)}`;
-  return fill(key in templates ? key : form, { 0: value }, variant);
+  // By the plural rules alone French would have "une fois" for 1.5 as well.
+  const keys = [value === 1 ? `${form}.once` : "", `${form}.${plurals.select(value)}`];
+  return fill(keys.find((each) => each in templates) ?? form, { 0: value }, variant);
 };
 
 /**
