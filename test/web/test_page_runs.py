@@ -74,6 +74,28 @@ def test_a_run_of_most_events_is_reloaded_and_takes_no_more(opened):
     assert opened.say("refusal") == ""
 
 
+NO_ROOM = """
+const fail = () => { throw new DOMException("full", "QuotaExceededError"); };
+Storage.prototype.setItem = fail;
+"""
+FORBID = "() => { history.replaceState = () => { throw new DOMException('', 'SecurityError'); }; }"
+
+
+def test_a_browser_without_room_is_said_once(open_page):
+    opened = open_page(script=NO_ROOM + USUAL)
+    opened.open_tab("view")
+    for theme in ("dark", "light"):
+        opened.tab.select_option("#theme", theme)
+        opened.wait_for_frames()
+        expected = "the browser has no room for what this page keeps" if theme == "dark" else ""
+        assert opened.say("refusal").startswith(expected)
+        opened.press("Escape")
+        assert opened.say("refusal") == ""
+    opened.tab.evaluate(FORBID)
+    opened.press("h")
+    assert opened.say("refusal") == ""
+
+
 def test_a_refusal_of_the_kept_run_stays_where_the_address_starts_another(open_page):
     remembered = f"history.replaceState({{run: {json.dumps(UNREADABLE[0])}}}, '');"
     opened = open_page(LINK, script=remembered + USUAL)

@@ -112,6 +112,15 @@ def test_a_link_that_cannot_be_followed_is_refused(opened):
         assert opened.read_events() == events
 
 
+def test_a_refused_link_names_its_fields_as_they_are_typed_and_makes_no_button(opened):
+    opened.follow("[phi|theta]=1")
+    refused = opened.tab.locator("#refusal")
+    assert "phi_dot" in refused.inner_text()
+    assert "theta, psi" in refused.inner_text()
+    assert refused.inner_text().endswith("got [phi|theta]")
+    assert refused.locator("button, math").count() == 0
+
+
 @pytest.mark.wording
 def test_a_scene_that_is_opened_by_a_link_tells_its_story(open_page):
     page = open_page("#scene=closed_cusps")

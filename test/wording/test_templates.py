@@ -55,13 +55,15 @@ def test_every_template_names_fields_of_its_record():
 
 
 def test_the_files_have_each_key_once_and_plain_placeholders():
-    pairs = [
-        pair
-        for path in (FOLDER / "en.json", FOLDER / "programs.json")
-        for pair in json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=list)
+    files = [
+        json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8"), object_pairs_hook=list)
+        for name in ("en", "programs")
     ]
-    keys = [key for key, _ in pairs]
-    assert len(keys) == len(set(keys))
+    for file in files:
+        assert len(file) == len(dict(file))
+    page, programs = map(dict, files)
+    assert all("kick" in programs[key].lower() for key in page.keys() & programs.keys())
+    pairs = [pair for file in files for pair in file]
     for _, template in pairs:
         assert not re.search(r"[{}]", PLACEHOLDER.sub("", template))
 

@@ -8,7 +8,7 @@ import { offerFiles, openDropped, save } from "./run/files.js";
 import { actWhileHeld, listenToKeys } from "./controls/keys.js";
 import { Layers } from "./controls/layers.js";
 import { Lesson, writePredictions } from "./controls/lesson.js";
-import { recall } from "./run/memory.js";
+import { FULL, recall } from "./run/memory.js";
 import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
 import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
@@ -58,6 +58,7 @@ export class Page {
       },
       (name) => this.send({ act: "scene", name }),
     );
+    addEventListener(FULL, () => refuse(phrase("page.full")), { once: true });
     followLooks();
     keepChoice("unit", () => this.showUnit());
     this.listen();
@@ -110,7 +111,7 @@ export class Page {
     if (motion && this.facts) this.showMotion({ ...this.facts, ...motion }, false);
     if (now) this.showNow(now);
     if (samples) this.showFrame(message);
-    if (refused) refuse(this.fields.markRefused(refused));
+    if (refused) refuse(this.fields.markRefused(refused), message.isOfData);
     if (granted) this.fields.grant();
     if (said) refuse(said);
     if (lost !== undefined) showLoss(lost);

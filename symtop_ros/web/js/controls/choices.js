@@ -1,5 +1,6 @@
 // What the browser keeps when the page is closed, where it keeps anything: a frame may have no store.
 
+import { tellFull } from "../run/memory.js";
 import { find } from "./document.js";
 
 /** @param {string} id */
@@ -11,12 +12,12 @@ export const read = (id) => {
   }
 };
 
-/** @param {string} id @param {string} value */
+/** Without a store the choice is that of this page alone. @param {string} id @param {string} value */
 export const keep = (id, value) => {
   try {
     localStorage.setItem(`symtop.${id}`, value);
-  } catch {
-    // There is no store here: the choice is that of this page alone.
+  } catch (error) {
+    tellFull(error);
   }
 };
 

@@ -2,10 +2,16 @@
 
 import { nameError } from "../run/errors.js";
 import { find, write } from "./document.js";
+import { typesetSymbols } from "../words/typeset.js";
 import { phrase } from "../words/wording.js";
 
-/** A refusal or a notice stands until the next act; an empty one takes it away. @param {string} text */
-export const refuse = (text) => show("refusal", text);
+/**
+ * A refusal or a notice stands until the next act; an empty one takes it away. It has no words of
+ * arrows: what was got may be another page's.
+ * @param {string} text @param {boolean} isOfData whose names are shown as they are typed
+ */
+export const refuse = (text, isOfData = false) =>
+  show("refusal", text, isOfData ? (plain) => [plain] : typesetSymbols);
 
 /** A refusal can be put away. */
 export const dismissRefusals = () => {
@@ -43,9 +49,9 @@ export const guard =
  */
 export const showLoss = (text, id = "lost") => show(id, text ?? "");
 
-/** @param {string} id @param {string} text */
-const show = (id, text) => {
+/** @param {string} id @param {string} text @param {typeof typesetSymbols} [set] */
+const show = (id, text, set) => {
   const place = find(id);
-  write(place, text);
+  write(place, text, set);
   place.hidden = !text;
 };

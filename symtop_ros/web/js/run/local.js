@@ -31,6 +31,7 @@ const FOLLOW = 250; // ms between two texts of a motion that friction or a torqu
 const MOST_PUSHES = 1000; // of one press, as many as the kernel takes
 const CHARTS = 60; // ms between two drawings of the charts: no eye follows numbers faster
 const [AWAKE, REST] = [1000, 500]; // ms; left alone for so long, a page in a pause is drawn so rarely
+const DATA = ["link", "load"]; // acts that name their fields as they are typed
 const DONE = ["pointerdown", "pointermove", "pointerup", "wheel", "keydown", "keyup", "click"];
 const CHANGED = ["input", "change", "drop", "scroll", "toggle", "resize", "hashchange", "focus"];
 
@@ -364,7 +365,7 @@ export class LocalTop {
       Object.assign(this, { time, end, initial, isRunning });
       this.run.moments = moments;
       this.changed();
-      this.tell({ refused: nameError(error) });
+      this.tell({ refused: nameError(error), isOfData: DATA.includes(message.act) });
       this.tellFacts();
       return false;
     }

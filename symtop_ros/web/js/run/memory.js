@@ -11,6 +11,14 @@
 /** @type {Memory} */
 const memory = { ...history.state };
 
+export const FULL = "symtop-full"; // the event of a browser that has no room
+
+/** Tell the page of an error that says so; a frame without a store is none. @param {unknown} error */
+export const tellFull = (error) => {
+  const isForbidden = error instanceof DOMException && error.name === "SecurityError";
+  if (!isForbidden) dispatchEvent(new Event(FULL));
+};
+
 /** @returns {Memory} */
 export const recall = () => memory;
 
@@ -23,8 +31,8 @@ export const remember = (changes, fragment, isNew = false) => {
   Object.assign(memory, changes);
   try {
     history[isNew ? "pushState" : "replaceState"](memory, "", fragment);
-  } catch {
-    // The history is not that of this page.
+  } catch (error) {
+    tellFull(error);
   }
 };
 
