@@ -111,6 +111,18 @@ def test_a_rate_is_understood_with_its_unit(opened, typed, rate):
     assert opened.read_last().euler_rates.psi == pytest.approx(rate, rel=1e-12)
 
 
+def test_a_moment_is_understood_with_the_unit_of_its_field_and_no_other(opened):
+    for text in ("3e-4 kg m^2", "0.0003 kg m²", "3e-4"):
+        opened.enter("top.Ix", text)
+        assert opened.say("refusal") == ""
+        assert opened.read_events()[-1]["top"][0] == 3e-4
+    opened.enter("top.Mgl", "0.05 J")
+    assert opened.read_events()[-1]["top"][2] == 0.05
+    for text in ("3e-4 kg", "3e-4 J", "3 rad"):
+        opened.enter("top.Ix", text)
+        assert opened.say("refusal").endswith(f"must be a number, got {text}")
+
+
 def test_a_separator_of_thousands_is_refused_with_both_readings(opened):
     events = opened.read_events()
     for text, whole, part in (("1,000", "1000", "1.000"), ("12,000 rpm", "12000", "12.000")):

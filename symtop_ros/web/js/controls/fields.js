@@ -6,7 +6,14 @@
 import { NAMES } from "../physics/records.js";
 import { findAll, make, whenReleased, write } from "./document.js";
 import { refuse } from "./notices.js";
-import { angleUnit, findReadings, inDegrees, parseQuantity, shorten } from "../words/quantities.js";
+import {
+  angleUnit,
+  findReadings,
+  inDegrees,
+  parseQuantity,
+  shorten,
+  UNITS,
+} from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
 /**
@@ -66,10 +73,13 @@ class Entry {
     return this.field.isAngle && inDegrees() ? 180 / Math.PI : 1;
   }
 
-  /** Whose units may be typed. */
-  get kind() {
+  /** Units that may be typed: those of an angle or a rate, or that of the label. */
+  get units() {
     const { isAngle, isRate } = this.field;
-    return isAngle ? "angle" : isRate ? "rate" : null;
+    if (isAngle) return UNITS.angle;
+    if (isRate) return UNITS.rate;
+    const own = this.title.match(/\((.+)\)$/)?.[1];
+    return own ? { [own]: 1 } : {};
   }
 
   followText() {
@@ -110,7 +120,7 @@ class Entry {
       return shorten(value * this.scale, digits) === typed;
     });
     const readings = shown ? null : findReadings(typed);
-    const value = shown?.[0] ?? parseQuantity(typed, this.kind);
+    const value = shown?.[0] ?? parseQuantity(typed, this.units);
     const refusal = readings ? { kind: "clear", ...readings } : this.check(value);
     if (!refusal) this.fields.change(this.name, value);
     else {

@@ -26,11 +26,9 @@ export const writeAngle = (value) => {
 };
 
 const DEGREE = Math.PI / 180;
-/**
- * Units that may be typed, each in the first one of its kind.
- * @type {{[kind: string]: {[unit: string]: number}}}
- */
-const UNITS = {
+/** @typedef {{[unit: string]: number}} Units that may be typed, each in that of the field */
+/** @type {{angle: Units, rate: Units}} */
+export const UNITS = {
   angle: { rad: 1, "\u00b0": DEGREE, deg: DEGREE, degrees: DEGREE },
   rate: {
     "rad/s": 1,
@@ -62,24 +60,24 @@ const parseFactor = (text) => {
 };
 
 /**
- * A number as it is typed, with a unit of an angle or a rate: 0.5, 1e-3, pi/4, 45*2*pi, 30°, 0.6 rad,
- * 2700 rpm; NaN if it is none. An angle without a unit is in that of the page; a multiple of pi is
+ * A number as it is typed, with a unit or without: 0.5, 1e-3, pi/4, 45*2*pi, 30°, 0.6 rad, 2700 rpm,
+ * 2e-4 kg m^2; NaN if it is none. An angle without a unit is in that of the page; a multiple of pi is
  * in rad.
- * @param {string} text @param {"angle" | "rate" | null} kind
+ * @param {string} text @param {Units} units
  */
-export const parseQuantity = (text, kind) => {
+export const parseQuantity = (text, units) => {
   const plain = text
     .trim()
     .toLowerCase()
     .replace("\u2212", "-")
     .replaceAll(",", ".")
-    .replaceAll("\u03c0", "pi");
-  const units = kind ? UNITS[kind] : {};
-  const unit = Object.keys(units).find((each) => plain.endsWith(each));
+    .replaceAll("\u03c0", "pi")
+    .replace("^2", "\u00b2");
+  const unit = Object.keys(units).find((each) => plain.endsWith(each.toLowerCase()));
   const number = plain.slice(0, plain.length - (unit ?? "").length).trim();
   const [, sign, factors = "", part = "1"] = number.match(QUOTIENT) ?? [];
   const size = factors.split("*").reduce((product, each) => product * parseFactor(each), 1);
   const value = (sign === "-" ? -size : size) / Number(part);
   if (unit) return value * units[unit];
-  return kind === "angle" && inDegrees() && !factors.includes("pi") ? value * DEGREE : value;
+  return units === UNITS.angle && inDegrees() && !factors.includes("pi") ? value * DEGREE : value;
 };
