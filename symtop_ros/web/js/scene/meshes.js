@@ -5,6 +5,7 @@ import { spread } from "../physics/spread.js";
 import { readColor } from "./colors.js";
 
 /** @import { Color } from "./colors.js" */
+/** @import { Top } from "../physics/kernel.js" */
 /** @typedef {[number, number][]} Profile radius and height, from the lowest point upwards */
 /**
  * Place, normal and colour, three numbers each, of every corner of a triangle.
@@ -13,10 +14,32 @@ import { readColor } from "./colors.js";
 
 const SECTORS = 6; // three pairs of colours: after half a turn the colours are exchanged
 const LARGEST = 0.46; // radius of a rotor: it stays above the ground
-const FACETS = 10; // of a sector
+const FACETS = 16; // of a sector
+const PIECES = 5; // of an edge of a curve
+const SHARP = 0.6; // cosine: edges that meet in a larger angle have a crease between them
 
 /** @param {number[]} radii @param {number[]} heights @returns {Profile} */
 const createProfile = (radii, heights) => radii.map((radius, k) => [radius, heights[k]]);
+
+/**
+ * A curve through points (Catmull-Rom), for profiles and legs that shall have no kinks.
+ * @param {number[][]} points @returns {number[][]}
+ */
+const createCurve = (points) => {
+  const last = points.length - 1;
+  const curve = points.slice(1).flatMap((_, k) => {
+    const near = [Math.max(k - 1, 0), k, k + 1, Math.min(k + 2, last)].map((n) => points[n]);
+    return Array.from({ length: PIECES }, (_, piece) => mix(near, piece / PIECES));
+  });
+  return [...curve, points[last]];
+};
+
+/** Between the second and the third of four points. @param {number[][]} points @param {number} t */
+const mix = ([a, b, c, d], t) =>
+  b.map((_, k) => {
+    const [bend, turn] = [2 * a[k] - 5 * b[k] + 4 * c[k] - d[k], 3 * (b[k] - c[k]) + d[k] - a[k]];
+    return b[k] + (t * (c[k] - a[k] + t * (bend + t * turn))) / 2;
+  });
 
 /** Of the two triangles of a facet: whether a corner is at its end, and whether it is above. */
 const CORNERS = createProfile([0, 1, 0, 1, 1, 0], [0, 0, 1, 0, 1, 1]);
@@ -27,30 +50,51 @@ const ENAMEL = readColor("#96202c");
 const IVORY = readColor("#f0e6cd");
 const STONE = readColor("#8b93a1");
 
+/** The normals of the edges of a profile, outwards and up. @param {Profile} profile @returns {Profile} */
+const findNormals = (profile) =>
+  profile.slice(1).map(([s, y], k) => {
+    const [r, z] = profile[k];
+    const length = Math.hypot(y - z, r - s) || 1;
+    return [(y - z) / length, (r - s) / length];
+  });
+
 /**
- * The surface of a profile turned about z. Normals are those of a cone for each edge.
+ * The normal of an edge where another one joins it: the mean of both, unless there is a crease.
+ * @param {[number, number]} own @param {[number, number]} other @returns {[number, number]}
+ */
+const joinNormals = (own, other = own) => {
+  const cosine = own[0] * other[0] + own[1] * other[1];
+  if (cosine < SHARP) return own;
+  const size = Math.sqrt(2 + 2 * cosine);
+  return [(own[0] + other[0]) / size, (own[1] + other[1]) / size];
+};
+
+/**
+ * The surface of a profile turned about z.
  * @param {Profile} profile @param {Color} first @param {Color} second @returns {Mesh}
  */
 export const createLathe = (profile, first, second = first) => {
   /** @type {Mesh} */
   const mesh = [];
   const count = SECTORS * FACETS;
-  for (let edge = 0; edge + 1 < profile.length; edge += 1) {
-    const [[r, z], [s, y]] = [profile[edge], profile[edge + 1]];
-    const length = Math.hypot(y - z, r - s) || 1;
-    const [out, up] = [(y - z) / length, (r - s) / length];
+  const normals = findNormals(profile);
+  normals.forEach((normal, edge) => {
+    const ends = [edge - 1, edge + 1].map((each) => joinNormals(normal, normals[each]));
     for (let facet = 0; facet < count; facet += 1) {
       const color = Math.floor(facet / FACETS) % 2 ? second : first;
       for (const [corner, isUpper] of CORNERS) {
         const angle = (2 * Math.PI * (facet + corner)) / count;
-        const [c, s1] = [Math.cos(angle), Math.sin(angle)];
-        const [radius, height] = isUpper ? [s, y] : [r, z];
-        mesh.push(radius * c, radius * s1, height, out * c, out * s1, up, ...color);
+        const [c, s] = [Math.cos(angle), Math.sin(angle)];
+        const [[radius, height], [out, up]] = [profile[edge + isUpper], ends[isUpper]];
+        mesh.push(radius * c, radius * s, height, out * c, out * s, up, ...color);
       }
     }
-  }
+  });
   return mesh;
 };
+
+/** The radius of a rotor, wider for a larger Iz/Ix. @param {Top} top */
+export const findRadius = ({ Ix, Iz }) => Math.min(0.22 + 0.4 * Math.sqrt(Iz / Ix), LARGEST);
 
 /** The rotor: a flat pear, widest at the centre of mass. @param {number} radius @param {number} height */
 const createRotor = (radius, height) => {
@@ -60,28 +104,25 @@ const createRotor = (radius, height) => {
     radii.map((each) => Math.max(0.022, each * radius)),
     heights.map((each) => height + each),
   );
+  const [lower, upper] = [scaled.slice(0, 5), scaled.slice(5)].map(createCurve);
   /** @type {Profile} */
-  const rim = spread(-Math.PI / 2, Math.PI / 2, 9).map((angle) => {
+  const rim = spread(-Math.PI / 2, Math.PI / 2, 13).map((angle) => {
     return [(0.94 + 0.06 * Math.cos(angle)) * radius, height + 0.035 * Math.sin(angle)];
   });
   return [
-    ...createLathe(scaled.slice(0, 5), IVORY, ENAMEL),
-    ...createLathe(scaled.slice(5), IVORY, ENAMEL),
+    ...createLathe(/** @type {Profile} */ (lower), IVORY, ENAMEL),
+    ...createLathe(/** @type {Profile} */ (upper), IVORY, ENAMEL),
     ...createLathe(rim, BRASS),
   ];
 };
 
-/**
- * The body of a top: its rotor is at the centre of mass, and wider for a larger Iz/Ix.
- * @param {import("../physics/kernel.js").Top} top
- */
-export const createBody = ({ Ix, Iz, Mgl }) => {
-  const radius = Math.min(0.22 + 0.4 * Math.sqrt(Iz / Ix), LARGEST);
-  const height = 0.56 * Math.sign(Mgl);
+/** The body of a top: its rotor is at the centre of mass. @param {Top} top */
+export const createBody = (top) => {
+  const height = 0.56 * Math.sign(top.Mgl);
   const low = Math.min(0, height - 0.22);
   const heights = [low, low + 0.03, 0.93, 0.95, 0.985, 1];
   const axle = createProfile([0, 0.022, 0.022, 0.034, 0.034, 0], heights);
-  return [...createLathe(axle, STEEL), ...createRotor(radius, height)];
+  return [...createLathe(axle, STEEL), ...createRotor(findRadius(top), height)];
 };
 
 /**
@@ -102,15 +143,16 @@ const createBeam = ([[x, y, z, half], [u, v, w, last]]) =>
 export const createStand = () => {
   const heights = [-0.36, -0.31, -0.26, -0.2, -0.13, -0.08, -0.03];
   const widths = [0.18, 0.13, 0.096, 0.072, 0.047, 0.031, 0.022];
+  const curve = createCurve(createProfile(widths, heights));
   const legs = [0, 1, 2, 3].flatMap((leg) =>
-    heights.slice(1).flatMap((_, k) => {
-      const ends = [k, k + 1].map((n) => {
-        const [x, y] = [leg % 2 ? 1 : -1, leg > 1 ? 1 : -1].map((sign) => sign * widths[n]);
+    curve.slice(1).flatMap((end, k) => {
+      const ends = [curve[k], end].map(([width, height]) => {
+        const [x, y] = [leg % 2 ? 1 : -1, leg > 1 ? 1 : -1].map((sign) => sign * width);
         return /** @type {[number, number, number, number]} */ ([
           x,
           y,
-          heights[n],
-          0.006 + 0.06 * widths[n],
+          height,
+          0.006 + 0.06 * width,
         ]);
       });
       return createBeam(ends);
@@ -136,9 +178,12 @@ export const createArrow = (color) => ({
 /** A ball of radius 1. @param {Color} color */
 export const createBall = (color) => {
   /** @type {Profile} */
-  const profile = spread(0, Math.PI, 17).map((angle) => [Math.sin(angle), -Math.cos(angle)]);
+  const profile = spread(0, Math.PI, 33).map((angle) => [Math.sin(angle), -Math.cos(angle)]);
   return createLathe(profile, color);
 };
 
-/** A flat disc of radius 1. @param {Color} color */
-export const createDisc = (color) => createLathe(createProfile([1, 0], [0, 0]), color);
+/** A flat disc of radius 1, with its own x and y in place of a colour. @returns {Mesh} */
+export const createDisc = () => {
+  const disc = createLathe(createProfile([1, 0], [0, 0]), [0, 0, 0]);
+  return disc.map((number, k) => (k % 9 === 6 || k % 9 === 7 ? disc[k - 6] : number));
+};

@@ -67,15 +67,14 @@ void main() {
   float opacity = color.a * clamp(width + 0.5 - abs(side), 0.0, 1.0);
   result = vec4(color.rgb * opacity, opacity);
 }`;
-// A soft shadow: darkest in the middle of its disc.
+// A soft shadow: darkest in the middle of its disc, whose own x and y stand in place of a colour.
 const SHADOW_FRAGMENT = `#version 300 es
 precision highp float;
 in vec3 at, facing, paint;
-uniform mat4 pose;
 out vec4 result;
 void main() {
-  float far = length(at.xy - pose[3].xy) / 0.6;
-  result = vec4(0.0, 0.0, 0.0, 0.3 * pow(max(1.0 - far, 0.0), 1.5));
+  float dark = 1.0 - smoothstep(0.0, 1.0, length(paint.xy));
+  result = vec4(0.0, 0.0, 0.0, 0.24 * dark);
 }`;
 const CORNERS = [0, 0, 1, 1, 0, 1].map((end, k) => [end, [-1, 1, -1, -1, 1, 1][k]]);
 const SMOOTH = { antialias: true, failIfMajorPerformanceCaveat: true };

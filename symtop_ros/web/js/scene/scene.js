@@ -4,7 +4,14 @@ import { find } from "../controls/document.js";
 import { Camera } from "./camera.js";
 import { findPoint, listParallel, listPieces, listSphere } from "./curves.js";
 import { add, createPose, findSize, normalize, scale, subtract, turnTo } from "./matrices.js";
-import { createArrow, createBall, createBody, createDisc, createStand } from "./meshes.js";
+import {
+  createArrow,
+  createBall,
+  createBody,
+  createDisc,
+  createStand,
+  findRadius,
+} from "./meshes.js";
 import { COLORS, FICTITIOUS, readColor } from "./colors.js";
 import { Grip } from "./grip.js";
 import { Labels } from "./labels.js";
@@ -28,6 +35,7 @@ const BALL = 0.055;
 const PUSH = 0.34; // length of the arrow of a push
 const [WIDE, HORIZON] = [1.1, 1.65]; // rad; the axis goes below the pivot: no stand, and the whole sphere
 const GROUND = -0.365;
+const [SOFT, FOOT] = [0.18, 0.34]; // the edge of a shadow, and the stand's
 /** @type {{eye: Vector, target: Vector}[]} */
 const VIEWS = [
   { eye: [1.46, -1.7, 0.95], target: [0, 0, 0.33] },
@@ -96,7 +104,7 @@ export class Scene {
       stand: painter.loadMesh(createStand()),
       ball: painter.loadMesh(createBall(paint("ball"))),
       ghost: painter.loadMesh(createBall(paint("ghost"))),
-      disc: painter.loadMesh(createDisc([0, 0, 0])),
+      disc: painter.loadMesh(createDisc()),
       bracket: painter.loadLines([]),
       nodes: painter.loadLines([-0.4, 0, 0, 0.4, 0, 0]),
       sphere: painter.loadLines([]),
@@ -192,12 +200,32 @@ export class Scene {
     const { painter } = this;
     const axis = state.toWorld([0, 0, 1]);
     if (this.view % 3 === 0) {
-      const below = /** @type {Vector} */ ([0.56 * axis[0], 0.56 * axis[1], GROUND]);
-      painter.drawShadow(this.models.disc, createPose([1, 0, 0, 0], [0.9, 0.9, 1], below));
+      this.drawShadows(state, axis);
       painter.drawMesh(this.models.stand, STILL);
     }
     painter.drawMesh(this.models.body, createPose(state.orientation));
     if (this.top.layers.handle) this.drawHandle(axis);
+  }
+
+  /**
+   * The rotor's, as from a lamp above it: an ellipse along the line of nodes; and the stand's.
+   * @param {State} state @param {Vector} axis
+   */
+  drawShadows(state, axis) {
+    const { painter, models, top } = this;
+    const radius = findRadius(top.course.top);
+    const { phi } = state.angles;
+    const turned = /** @type {[number, number, number, number]} */ ([
+      Math.cos(phi / 2),
+      0,
+      0,
+      Math.sin(phi / 2),
+    ]);
+    const sizes = /** @type {Vector} */ ([radius + SOFT, radius * Math.abs(axis[2]) + SOFT, 1]);
+    const height = 0.56 * Math.sign(top.course.top.Mgl);
+    const below = /** @type {Vector} */ ([height * axis[0], height * axis[1], GROUND]);
+    painter.drawShadow(models.disc, createPose(turned, sizes, below));
+    painter.drawShadow(models.disc, createPose([1, 0, 0, 0], [FOOT, FOOT, 1], [0, 0, GROUND]));
   }
 
   /** @param {State} state */
