@@ -1,6 +1,5 @@
 """The lesson does what it says: every command runs, and the pictures are those of the commands."""
 
-import html
 import io
 import json
 import re
@@ -19,9 +18,8 @@ from symtop_ros.client import main as client
 from symtop_ros.client.connection import Connection
 from symtop_ros.client.main import parse_values
 from symtop_ros.panel import main as panel
-from workshop import main as report
 from workshop.lesson.page import PAGE, write_page
-from workshop.lesson.pictures import picture_of, run_step, write_sheets
+from workshop.lesson.pictures import picture_of, run_step
 from workshop.lesson.steps import read_lesson
 from workshop.load.domains import claim_domain
 
@@ -70,8 +68,7 @@ def test_the_page_has_the_steps_of_the_data():
 
 def test_the_commands_that_need_no_ros_are_options_of_their_programs():
     assert panel.make_parser().parse_args(["--lesson"]).lesson
-    assert report._parser().parse_args(["lesson", "--sheets"]).sheets
-    assert typed(BEFORE)[:2] == ["top_panel --lesson", "make -C workshop lesson ARGS=--sheets"]
+    assert typed(BEFORE)[:1] == ["top_panel --lesson"]
 
 
 @pytest.mark.parametrize("step", STEPS, ids=range(1, len(STEPS) + 1))
@@ -100,16 +97,3 @@ def test_the_commands_of_a_step_lead_to_the_motion_of_its_picture(step, tops):
 def test_a_picture_is_what_the_command_draws(number):
     drawn = io.BytesIO(picture_of(STEPS[number - 1]))
     assert_same_picture(ROOT / f"docs/lesson/step_{number:02}.png", drawn)
-
-
-def test_the_sheets_have_every_step_and_only_the_teacher_has_answers(tmp_path, monkeypatch):
-    monkeypatch.setattr("workshop.lesson.pictures.picture_of", lambda step: b"picture")
-    write_sheets(tmp_path)
-    paths = (tmp_path / "worksheet.html", tmp_path / "teacher.html")
-    worksheet, teacher = (html.unescape(path.read_text()) for path in paths)
-    for step in STEPS:
-        given = (step.title, step.predict, step.compute, step.question)
-        for text in (*given, step.seen, step.answer, *step.commands):
-            assert text in teacher
-            assert (text in worksheet) == (text in given)
-    assert teacher.count("<img ") == len(STEPS)

@@ -51,10 +51,6 @@ def _parser() -> argparse.ArgumentParser:
     of["speed"].add_argument("--full", action="store_true", help=text)
     text = "largest time of one run, 4 s (--full: 60)"
     of["speed"].add_argument("--limit", type=positive, metavar="S", help=text)
-    text = "the worksheet and the teacher's sheet (HTML, to print) instead of the pictures"
-    of["lesson"].add_argument("--sheets", action="store_true", help=text)
-    text = "language of the sheets (default: en)"
-    of["lesson"].add_argument("--language", choices=LANGUAGES, default="en", help=text)
     return parser
 
 

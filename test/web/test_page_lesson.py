@@ -1,8 +1,12 @@
 """The lesson on the page: a class presses through all steps."""
 
-import pytest
-from web.opened import read_motion
+import re
 
+import pytest
+from trials import choose
+from web.opened import FEW_FRAMES, read_motion
+
+from symtop_ros.web.join import LANGUAGES, read_texts
 from workshop.lesson.steps import read_lesson
 
 SECRET = "it falls, I think"
@@ -134,3 +138,43 @@ def test_back_is_the_step_before_and_predictions_are_saved_as_a_text(open_page, 
     assert page.tab.input_value("#prediction") == "It falls."
     text = f"The first question: it rises\n2. {STEPS[1].title}: It falls.\n"
     assert page.save("My predictions", tmp_path).read_text() == text
+
+
+NO_PRINTER = "window.print = () => {};"  # a window of its own waits for its user
+MOST_PAGES = 7
+
+
+def read_sheets(page):
+    """The texts of the paragraphs on paper."""
+    return page.tab.locator("#sheets [data-text]").evaluate_all(
+        "all => all.map(e => e.dataset.text)"
+    )
+
+
+@pytest.mark.parametrize("language", choose(LANGUAGES, ("de",)))
+def test_the_sheets_are_those_of_the_page_and_only_the_teacher_has_answers(open_page, language):
+    page, texts = (
+        open_page(f"#lang={language}", script=NO_PRINTER + FEW_FRAMES),
+        read_texts(language),
+    )
+    page.open_tab("lesson")
+    page.tab.fill("#prediction", SECRET)
+    run = page.read_run()
+    for kind in ("worksheet", "teacher"):
+        page.tab.click(f"#print-{kind}")
+        written = "\n\n".join(read_sheets(page))
+        for step in STEPS:
+            for part in ("title", "predict", "question", "seen", "answer"):
+                is_there = kind == "teacher" or part not in ("seen", "answer")
+                assert (texts[f"lesson.{step.name}.{part}"] in written) == is_there
+        assert page.tab.locator("#sheets canvas").count() == (13 if kind == "teacher" else 0)
+        assert page.tab.locator("#sheets math").count() > 50
+        given = page.tab.locator("#sheets .given").all_text_contents()
+        assert given == ([SECRET] if kind == "worksheet" else [])
+        pages = page.tab.pdf(prefer_css_page_size=True)
+        assert 1 < len(re.findall(rb"/Type\s*/Page\b", pages)) <= MOST_PAGES
+        page.tab.evaluate("dispatchEvent(new Event('afterprint'))")
+        assert read_sheets(page) == []
+    assert page.read_events() == run["events"]
+    page.tab.click("#hurry")  # the page goes on
+    assert len(page.read_events()) == len(run["events"]) + 1

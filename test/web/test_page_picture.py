@@ -60,7 +60,7 @@ def test_a_page_with_its_open_charts_is_one_sheet_of_paper(opened):
     assert len(re.findall(rb"/Type\s*/Page\b", sheets)) == 1
     opened.tab.emulate_media(media="print")
     assert opened.tab.is_visible("#headline")
-    assert opened.tab.is_visible("canvas")
+    assert opened.tab.is_visible("#printed canvas")
     for name in ("#doing", "#tabs", "summary >> text=Constants"):
         assert not opened.tab.is_visible(name)
 

@@ -1,1 +1,1 @@
-"""The lesson on paper: the pictures of its steps, the sheets, and docs/lesson.md."""
+"""The lesson on paper: the pictures of its steps, and docs/lesson.md."""

@@ -31,7 +31,6 @@ from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger
 from workshop.article.figures import plot_depth
 from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
-from workshop.lesson.sheets import Sheets
 from workshop.lesson.steps import LessonAct, LessonStep, read_lesson
 from workshop.pictures.pack import pack_figure
 
@@ -292,29 +291,12 @@ DRAWS: dict[str, tuple[Draw, Draw]] = {  # left and right, by the field `plot` o
 }
 
 
-def draw_lesson(folder: Path, sheets: bool, language: str) -> None:
-    """Write the pictures, or the sheets in a language."""
-    if sheets:
-        write_sheets(folder, language)
-    else:
-        write_lesson(folder)
-
-
 def write_lesson(folder: Path) -> None:
     """Write the pictures step_01.png, step_02.png ..."""
     steps = read_lesson()
     for number, step in enumerate(steps, start=1):
         (folder / f"step_{number:02}.png").write_bytes(picture_of(step))
     print(f"wrote {len(steps)} pictures to {folder}")
-
-
-def write_sheets(folder: Path, language: str = "en") -> None:
-    """Write the sheets in a language."""
-    sheets = Sheets(language)
-    pictures = [picture_of(step) for step in read_lesson()]
-    (folder / "worksheet.html").write_text(sheets.write_worksheet(), encoding="utf-8")
-    (folder / "teacher.html").write_text(sheets.write_teacher_sheet(pictures), encoding="utf-8")
-    print(f"wrote worksheet.html and teacher.html to {folder}; print them from a browser")
 
 
 def picture_of(step: LessonStep) -> bytes:

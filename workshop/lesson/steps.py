@@ -1,4 +1,4 @@
-"""The steps of the lesson, in each language, for docs/lesson.md, the sheets and the pictures."""
+"""The steps of the lesson, for docs/lesson.md and the pictures."""
 
 import functools
 from collections.abc import Mapping
@@ -38,7 +38,7 @@ class LessonAct:
 
 @dataclass(frozen=True, slots=True)
 class LessonStep:
-    """A step of the lesson, in a language; `lesson.yaml` says what the fields are."""
+    """A step of the lesson; `lesson.yaml` says what the fields are."""
 
     name: str
     title: str
@@ -65,9 +65,9 @@ class LessonStep:
 
 
 @functools.cache
-def read_lesson(language: str = "en") -> tuple[LessonStep, ...]:
-    """Return all steps in a language."""
-    return tuple(_read_step(step, read_texts(language)) for step in read_steps())
+def read_lesson() -> tuple[LessonStep, ...]:
+    """Return all steps, in English."""
+    return tuple(_read_step(step, read_texts("en")) for step in read_steps())
 
 
 def _read_step(step: Mapping[str, Any], texts: Mapping[str, str]) -> LessonStep:

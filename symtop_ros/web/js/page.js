@@ -17,6 +17,7 @@ import { inDegrees } from "./words/quantities.js";
 import { Question, readAnswer } from "./controls/question.js";
 import { Roots } from "./controls/roots.js";
 import { offerScenes } from "./controls/scenes.js";
+import { drawScene } from "./scene/picture.js";
 import { SpeedList } from "./controls/speed.js";
 import { offerTabs } from "./controls/tabs.js";
 import { Timeline } from "./controls/timeline.js";
@@ -58,6 +59,7 @@ export class Page {
       },
       (name) => this.send({ act: "scene", name }),
     );
+    addEventListener("beforeprint", () => find("printed").replaceChildren(drawScene()));
     addEventListener(FULL, () => refuse(phrase("page.full")), { once: true });
     followLooks();
     keepChoice("unit", () => this.showUnit());

@@ -9,6 +9,8 @@ import { guard, refuse, showLoss } from "./controls/notices.js";
 import { Page } from "./page.js";
 import { chooseLanguage } from "./controls/language.js";
 import { Scene } from "./scene/scene.js";
+import { offerSheets } from "./controls/sheets.js";
+import { createShoot } from "./scene/shots.js";
 import { copyPage, readData } from "./run/files.js";
 import { setTemplates } from "./words/wording.js";
 
@@ -53,6 +55,7 @@ export const start = async () => {
     top.begin = guard("scene", scene.begin.bind(scene));
     top.advance = guard("motion", top.advance.bind(top));
     page.connect(top, source);
+    offerSheets(content.lesson, createShoot(scene, kernel, { ...content, layers: LAYERS }));
     top.open();
   } catch (error) {
     // In English: it may be the texts that are missing.

@@ -41,6 +41,12 @@ export const writePredictions = (steps, answer) => {
   return `${lines.join("\n") || phrase("predictions", { kind: "none" })}\n`;
 };
 
+/** What a button asks for. @param {Act} act @param {string} scene */
+export const nameAct = ({ start, push, hurry: factor, hold }, scene) => {
+  if (start) return { act: "link", link: { scene, ...start } };
+  return push ? { act: "pushes", ...push } : { act: "kick", factor, hold };
+};
+
 const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
 
 export class Lesson {
@@ -157,14 +163,10 @@ export class Lesson {
   }
 
   /** @param {Act} act @param {string} scene */
-  do({ start, push, hurry: factor, hold }, scene) {
-    if (!start) {
-      this.send(push ? { act: "pushes", ...push } : { act: "kick", factor, hold });
-      return;
-    }
-    this.isAwaited = true;
-    this.send({ act: "link", link: { scene, ...start } });
-    this.send({ act: "run" });
+  do(act, scene) {
+    if (act.start) this.isAwaited = true;
+    this.send(nameAct(act, scene));
+    if (act.start) this.send({ act: "run" });
   }
 
   /**

@@ -4,7 +4,9 @@ import { find, findAll } from "../controls/document.js";
 
 const EDGE = 3; // px between a text and its frame
 const LINE = 26; // px of the sentence
-const SHOWN = ".label:not([hidden]), #legend [aria-pressed=true], #legend li:not([hidden]) > i";
+const [LARGER, WIDE] = [2, 1.3]; // labels on a small picture, and its shape
+const LABELS = ".label:not([hidden])";
+const SHOWN = `${LABELS}, #legend [aria-pressed=true], #legend li:not([hidden]) > i`;
 
 /**
  * A text where its element stands, with the frame of a label, or a mark of the legend.
@@ -13,7 +15,7 @@ const SHOWN = ".label:not([hidden]), #legend [aria-pressed=true], #legend li:not
 const drawText = (context, element, scene) => {
   const { left, top, width, height } = element.getBoundingClientRect();
   const style = getComputedStyle(element);
-  const [x, y] = [left - scene.left, top - scene.top + LINE];
+  const [x, y] = [left - scene.left, top - scene.top];
   context.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
   context.fillStyle = style.backgroundColor;
   context.strokeStyle = style.borderColor;
@@ -25,22 +27,57 @@ const drawText = (context, element, scene) => {
   context.fillText(named?.textContent ?? "", x + begin, y + height / 2);
 };
 
-/** @returns {HTMLCanvasElement} */
-export const drawPicture = () => {
+/**
+ * The scene with texts of the page where they stand, below a strip of some height.
+ * @param {string} texts that are drawn: a selector
+ * @param {number} strip px
+ */
+const compose = (texts, strip) => {
   const canvas = find("picture", HTMLCanvasElement);
   const scene = canvas.getBoundingClientRect();
   const ratio = canvas.width / scene.width;
-  const height = Math.round((scene.height + LINE) * ratio);
+  const height = Math.round((scene.height + strip) * ratio);
   const picture = Object.assign(document.createElement("canvas"), { width: canvas.width, height });
   const context = /** @type {CanvasRenderingContext2D} */ (picture.getContext("2d"));
-  const { backgroundColor, color, fontFamily } = getComputedStyle(document.body);
-  context.fillStyle = backgroundColor;
+  context.fillStyle = getComputedStyle(document.body).backgroundColor;
   context.fillRect(0, 0, picture.width, picture.height);
-  context.drawImage(canvas, 0, LINE * ratio);
+  context.drawImage(canvas, 0, strip * ratio);
   context.scale(ratio, ratio);
-  Object.assign(context, { lineWidth: 2, textBaseline: "middle", fillStyle: color });
+  context.translate(0, strip);
+  Object.assign(context, { lineWidth: 2, textBaseline: "middle" });
+  for (const each of texts ? findAll(texts) : []) drawText(context, each, scene);
+  return { picture, context, scene, ratio };
+};
+
+/** The scene with its labels. */
+export const drawScene = () => compose(LABELS, 0).picture;
+
+/** The middle of the scene, with labels that can be read where it is small. */
+export const drawSmall = () => {
+  const { picture: whole, context, scene, ratio } = compose("", 0);
+  for (const each of findAll(LABELS)) {
+    const { left, top, width, height } = each.getBoundingClientRect();
+    const [x, y] = [left + width / 2 - scene.left, top + height / 2 - scene.top];
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.translate(x, y);
+    context.scale(LARGER, LARGER);
+    context.translate(-x, -y);
+    drawText(context, each, scene);
+  }
+  const { height } = whole;
+  const width = Math.min(whole.width, Math.round(WIDE * height));
+  const picture = Object.assign(document.createElement("canvas"), { width, height });
+  const begin = (whole.width - width) / 2;
+  picture.getContext("2d")?.drawImage(whole, -begin, 0);
+  return picture;
+};
+
+/** With its sentence, and the words of the legend. */
+export const drawPicture = () => {
+  const { picture, context, scene } = compose(SHOWN, LINE);
+  const { color, fontFamily } = getComputedStyle(document.body);
+  context.fillStyle = color;
   context.font = `bold 15px ${fontFamily}`;
-  context.fillText(find("headline").textContent ?? "", EDGE, LINE / 2, scene.width - 2 * EDGE);
-  for (const each of findAll(SHOWN)) drawText(context, each, scene);
+  context.fillText(find("headline").textContent ?? "", EDGE, -LINE / 2, scene.width - 2 * EDGE);
   return picture;
 };

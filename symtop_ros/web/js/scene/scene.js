@@ -158,6 +158,24 @@ export class Scene {
     this.labels.end();
   }
 
+  /**
+   * Draw another top for a while.
+   * @template T
+   * @param {LocalTop} top @param {() => T} work with its picture
+   */
+  lend(top, work) {
+    const own = this.top;
+    try {
+      this.top = top;
+      this.begin();
+      this.draw(top.state, top.findStates(top.listTimes()));
+      return work();
+    } finally {
+      this.top = own;
+      this.begin();
+    }
+  }
+
   /** @param {State | null} ghost the top that was not pushed */
   drawGhost(ghost) {
     if (!ghost) return;

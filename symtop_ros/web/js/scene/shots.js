@@ -1,0 +1,31 @@
+// Pictures of the steps of the lesson, by a top of their own: the run of the page stays.
+
+import { NANO } from "../physics/course.js";
+import { LocalTop } from "../run/local.js";
+import { drawSmall } from "./picture.js";
+
+/** @import { Kernel } from "../physics/kernel.js" */
+/** @import { Scene } from "./scene.js" */
+/** @typedef {{messages: {[name: string]: any}[], layers: string[]}} Shot what is asked for, and shown */
+
+const LONGEST = 1; // s after an act
+
+/** Go on until much of what follows is seen. @param {LocalTop} top */
+const watch = (top) => {
+  const half = top.free.motion.nutation_period / 2;
+  top.step(Math.round(Math.min(half || LONGEST, LONGEST) * NANO));
+};
+
+/** @param {Scene} scene @param {Kernel} kernel @param {ConstructorParameters<typeof LocalTop>[1]} content */
+export const createShoot =
+  (scene, kernel, content) =>
+  (/** @type {Shot} */ { messages, layers }) => {
+    const top = new LocalTop(kernel, content);
+    top.take({ act: "scene", name: "cusps" }); // a link changes a run that is there
+    for (const message of messages) {
+      top.take(message);
+      watch(top);
+    }
+    top.layers = { ...content.layers, ...Object.fromEntries(layers.map((each) => [each, true])) };
+    return scene.lend(top, drawSmall);
+  };
