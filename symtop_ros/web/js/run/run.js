@@ -3,7 +3,7 @@
 // Between two events the motion is computed by the kernel, at any time. So a run is its events, and
 // nothing else has to be kept of it. Times are whole nanoseconds, as those of a node.
 
-import { Course, NANO } from "../physics/course.js";
+import { Course, MOST_STEPS, NANO } from "../physics/course.js";
 import { nameEvent } from "./reader.js";
 import { State } from "../physics/state.js";
 
@@ -197,13 +197,27 @@ export class Run {
     const read = new Run(this.kernel);
     const end = performance.now() + LONGEST;
     events.forEach((event, place) => {
-      nameEvent(place, () => read.append(event));
-      if (performance.now() > end)
+      const isReached = nameEvent(place, () => read.reach(event.time * NANO, end));
+      if (!isReached)
         throw new RangeError(
           `a run must be computed in ${LONGEST / 1000} s, got to event ${place}`,
         );
+      nameEvent(place, () => read.append(event));
     });
     this.moments = read.moments;
+  }
+
+  /**
+   * Integrate the last motion up to a time, as far as the page that made the run did; returns whether
+   * it is reached before a deadline.
+   * @param {number} time ns @param {number} deadline ms
+   */
+  reach(time, deadline) {
+    const { course, time: since } = this.moments.at(-1) ?? { course: null, time: 0 };
+    const passed = Math.round(time) - since;
+    while (course?.isDriven && course.reach(passed, MOST_STEPS) < passed)
+      if (performance.now() > deadline) return false;
+    return performance.now() <= deadline;
   }
 
   /** @param {EventRecord} event */
