@@ -58,6 +58,12 @@ class Motion:
         Pushes on the axle. The first one is at t = 0: `start` is the state that it leaves. The kind
         is "driven" then, and what is constant is that of the start, up to the second push;
         `piece_at` has the motion between two pushes.
+    clamped : bool
+        True if a hand holds phi, by the outer ring of a gimbal. The axis then falls as a pendulum
+        in its vertical plane, and the body turns about it at the constant rate omega_z. The hand
+        takes phi' of `start` in the first instant; theta' and the spin momentum are kept. The kind
+        is "clamped", and p_phi is not constant. The axis must be tilted, and neither friction, a
+        torque nor pushes may act.
 
     Attributes
     ----------
@@ -67,6 +73,7 @@ class Motion:
     applied_torque : (float, float, float)
         In the world frame, in N m.
     pushes : Pushes or None
+    clamped : bool
 
     Raises
     ------
@@ -96,14 +103,16 @@ class Motion:
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
         pushes: Pushes | None = None,
+        clamped: bool = False,
     ) -> "Motion":
         """Return the motion; for arrays warn, and return `Motions`."""
         validate_types(top, start, friction)
         shape = find_shape(top, start, friction, validate_torque(torque))
         if not shape:
             return object.__new__(cls)
-        if pushes:
-            raise refuse("top and start", "those of one motion, if there are pushes", shape)
+        if pushes or clamped:
+            what = "there are pushes" if pushes else "it is clamped"
+            raise refuse("top and start", f"those of one motion, if {what}", shape)
         text = "Motion(...) of arrays is Motions(...) from 0.5 on: use that"
         warnings.warn(text, DeprecationWarning, stacklevel=2)
         many: Motion = cls.make_many(top, start, friction, torque)
@@ -116,10 +125,14 @@ class Motion:
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
         pushes: Pushes | None = None,
+        clamped: bool = False,
     ) -> None:
         validate_types(top, start, friction)
         require(pushes is None or isinstance(pushes, Pushes), "pushes", "Pushes", pushes)
+        require(isinstance(clamped, bool), "clamped", "True or False", clamped)
+        require(not (pushes and clamped), "pushes", "None for a clamped motion", pushes)
         self.top, self.start, self.friction, self.pushes = top, start, friction, pushes
+        self.clamped = clamped
         self.applied_torque = validate_vector("torque", torque, TORQUE_UNIT)
         self.packed_start = pack_start(top, start, friction, self.applied_torque)
         self._open()
@@ -127,13 +140,13 @@ class Motion:
     def _open(self) -> None:
         """Make the motion in the kernel."""
         packed = self.pushes.packed if self.pushes else b""
-        self._kernel = door.KernelMotion(self.packed_start, packed)
+        self._kernel = door.KernelMotion(self.packed_start, packed, self.clamped)
         self._piece: Piece | None = None  # the last one that was asked for
 
     def restart(self, start: State) -> "Motion":
         """Return the motion of the same top from another state, under the same friction and torque.
 
-        It gets no pushes.
+        It gets no pushes, and no clamp.
 
         Parameters
         ----------
@@ -158,6 +171,7 @@ class Motion:
         motion.top, motion.start = self.top, start
         motion.friction, motion.applied_torque = self.friction, self.applied_torque
         motion.packed_start, motion.pushes = self.pack_with("start", start), None
+        motion.clamped = False
         motion._open()
         return motion
 
@@ -170,13 +184,15 @@ class Motion:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integration."""
-        return Motion, (self.top, self.start, self.friction, self.applied_torque, self.pushes)
+        acting = self.friction, self.applied_torque, self.pushes, self.clamped
+        return Motion, (self.top, self.start, *acting)
 
     def __repr__(self) -> str:
         """Return the call that makes the motion; without friction and torque, if none acts."""
         drive = (self.friction, self.applied_torque) if self.is_driven else ()
-        pushes = [f"pushes={self.pushes!r}"] if self.pushes else []
-        return f"Motion({', '.join([*map(repr, (self.top, self.start, *drive)), *pushes])})"
+        named = [f"pushes={self.pushes!r}"] if self.pushes else []
+        named += ["clamped=True"] if self.clamped else []
+        return f"Motion({', '.join([*map(repr, (self.top, self.start, *drive)), *named])})"
 
     @cached_property
     def is_driven(self) -> bool:
@@ -184,7 +200,7 @@ class Motion:
         return self.engine == "taylor"
 
     def total_torque(self, state: State) -> Real:
-        """Return the torque of gravity, friction and the applied torque about the pivot.
+        """Return the torque of gravity, friction, the applied torque and a clamp about the pivot.
 
         Parameters
         ----------
@@ -197,10 +213,14 @@ class Motion:
             In the world frame, in N m.
         """
         torque = self.top.gravity_torque(state)
-        return torque + self.added_torque(state) if self.is_driven else torque
+        return torque + self.added_torque(state) if self.is_driven or self.clamped else torque
 
     def added_torque(self, state: State) -> Real:
-        """Return the torque of friction and the applied torque, without gravity.
+        """Return the torque of friction, the applied torque and a clamp, without gravity.
+
+        A clamp turns the axle otherwise than gravity alone would: its torque is p_psi times the
+        velocity of the end of the axle, p_psi theta' in the direction in which theta grows. Of it
+        -p_psi theta' sin(theta) is about the vertical.
 
         Parameters
         ----------
@@ -211,8 +231,22 @@ class Motion:
         -------
         ndarray (..., 3)
             In the world frame, in N m.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> start = State.from_euler(theta=0.5, theta_dot=1.0, psi_dot=200.0)
+        >>> Motion(top, start, clamped=True).added_torque(start).round(5).tolist()
+        [0.0, -0.01004, -0.00548]
         """
-        return np.asarray(state.to_world(self.friction.torque(state)) + self.applied_torque)
+        torque = state.to_world(self.friction.torque(state)) + self.applied_torque
+        return np.asarray(torque + self._clamp_torque(state) if self.clamped else torque)
+
+    def _clamp_torque(self, state: State) -> Real:
+        x, y, _ = np.moveaxis(state.angular_velocity, -1, 0)
+        across = np.stack([y, -x, np.zeros_like(x)], axis=-1)  # of the axle's end, in the body
+        return state.to_world(self.top.axial_momentum(state)[..., np.newaxis] * across)
 
     @property
     def engine(self) -> Engine:
@@ -457,6 +491,7 @@ class Motion:
         times = t if isinstance(t, ExactTimes) else validate_array("t", t, unit="s")
         if self.pushes:
             raise refuse("pushes", "none for derivatives: take a piece", self.pushes)
+        require(not self.clamped, "clamped", "False for derivatives", self.clamped)
         return differentiate(self, times.ravel()).reshape(*times.shape, 6, 9)
 
     @property
@@ -467,7 +502,8 @@ class Motion:
         zero at one angle), "looping" (phi' has opposite signs), "through the pole", "asymptotic"
         (the axis approaches the vertical for ever; the separatrix) or "sleeping" (it rests on the
         vertical). The article calls a unidirectional motion spiralling. With friction or an applied
-        torque or pushes it is "driven": the angles then change, and phi' at them.
+        torque or pushes it is "driven": the angles then change, and phi' at them. If phi is held,
+        it is "clamped".
         """
         return self._kernel.kind
 
@@ -489,8 +525,9 @@ class Motion:
     def mean_precession_rate(self) -> float:
         """Mean phi' over a nutation in rad/s.
 
-        It is nan for an axis that rests on the vertical, and for one that passes through a pole:
-        there phi jumps by half a turn, to the left or to the right as rounding will have it.
+        It is nan for an axis that rests on the vertical, and for one that passes through a pole,
+        as a clamped one does: there phi jumps by half a turn, to the left or to the right as
+        rounding will have it.
         """
         return float(self._rates.mean_precession_rate)
 

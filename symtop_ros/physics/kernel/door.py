@@ -186,21 +186,27 @@ def write_to(array: NDArray[Any], count: int, code: str = "d") -> Any:
 class KernelMotion:
     """A motion in the library, which is freed with this object."""
 
-    __slots__ = ("_door", "_handle", "_pushes", "start")
+    __slots__ = ("_door", "_handle", "_is_clamped", "_pushes", "start")
 
-    def __init__(self, start: bytes, pushes: bytes = b"") -> None:
+    def __init__(self, start: bytes, pushes: bytes = b"", is_clamped: bool = False) -> None:
         """Make the motion of the 15 numbers of `symtop_start`, and of those of `symtop_pushes`."""
         self._handle: int | None = None
-        self.start, self._pushes, self._door = start, pushes, open_door()
+        self.start, self._pushes, self._is_clamped = start, pushes, is_clamped
+        self._door = open_door()
         if len(start) != 8 * START:
             raise ValueError(f"start must have {START} numbers, got {len(start) / 8:g}")
-        self._handle = self._make_pushed() if pushes else self._door.make(start)
+        special = bool(pushes) or is_clamped
+        self._handle = self._make_special() if special else self._door.make(start)
         if not self._handle:
             raise refuse_status(self._door.new(start, byref(ctypes.c_void_p())) or NO_MEMORY)
 
-    def _make_pushed(self) -> int | None:
+    def _make_special(self) -> int | None:
+        """Make a motion that is pushed or clamped."""
         handle = ctypes.c_void_p()
-        demand(self._door.new_pushed(self.start, self._pushes, byref(handle)))
+        if self._is_clamped:
+            demand(self._door.new_clamped(self.start, byref(handle)))
+        else:
+            demand(self._door.new_pushed(self.start, self._pushes, byref(handle)))
         return handle.value
 
     def __del__(self) -> None:
@@ -209,7 +215,7 @@ class KernelMotion:
 
     def __reduce__(self) -> Any:
         """Copy and pickle a motion by its start: copies share no integration."""
-        return KernelMotion, (self.start, self._pushes)
+        return KernelMotion, (self.start, self._pushes, self._is_clamped)
 
     def at(self, t: float | ExactTimes) -> tuple[float, ...] | None:
         """Return quaternion and angular velocity at one time, in s or exact; None for no state."""

@@ -44,6 +44,7 @@ class GravityMotion {
   }
 
   Kind find_kind() {
+    if (start_.is_clamped) return CLAMPED;
     prepare(SOLVED);
     return is_free_ ? free_.kind : classify(closed_);
   }
@@ -75,7 +76,7 @@ class GravityMotion {
   Rates find_rates() {
     prepare(SOLVED);
     const Kind kind = find_kind();
-    const bool has_means = kind != SLEEPING && kind != THROUGH_THE_POLE;
+    const bool has_means = kind != SLEEPING && kind != THROUGH_THE_POLE && kind != CLAMPED;
     Rates rates = is_free_ ? find_free_rates() : find_closed_rates(has_means);
     if (is_turned_over_) {
       rates.mean_precession_rate = -rates.mean_precession_rate;

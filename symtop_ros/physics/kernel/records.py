@@ -46,6 +46,7 @@ BAD_RATE = 21
 BAD_STEPS = 22
 BAD_DISC = 23
 BAD_PUSHES = 24
+BAD_CLAMP = 25
 
 Kind = Literal[
     "regular",
@@ -56,6 +57,7 @@ Kind = Literal[
     "asymptotic",
     "sleeping",
     "driven",
+    "clamped",
 ]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
@@ -293,6 +295,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "describe_status": (c_char_p, (c_int,)),
     "new": (c_int, (c_char_p, POINTER(c_void_p))),
     "new_pushed": (c_int, (c_char_p, c_char_p, POINTER(c_void_p))),
+    "new_clamped": (c_int, (c_char_p, POINTER(c_void_p))),
     "free": (None, (c_void_p,)),
     "continue": (c_int, (c_void_p, c_double, c_char_p, POINTER(c_void_p))),
     "state": (c_int, (c_void_p, c_double, POINTER(c_double), POINTER(c_double))),

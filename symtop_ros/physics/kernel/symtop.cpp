@@ -50,6 +50,8 @@ const char* symtop_describe_status(symtop_status status) {
     case SYMTOP_BAD_PUSHES:
       return "pushes must be a whole number of 1 to 1000, 0.01 to 1000 in a second, with a finite "
              "impulse";
+    case SYMTOP_BAD_CLAMP:
+      return "a clamped motion must start with a tilted axis, without friction, torque and pushes";
   }
   return "status must be one of symtop_status";
 }

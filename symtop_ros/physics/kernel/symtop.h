@@ -93,7 +93,8 @@ typedef enum {
   SYMTOP_BAD_RATE,
   SYMTOP_BAD_STEPS,
   SYMTOP_BAD_DISC,
-  SYMTOP_BAD_PUSHES
+  SYMTOP_BAD_PUSHES,
+  SYMTOP_BAD_CLAMP
 } symtop_status;
 
 /* The version of the library; SYMTOP_VERSION is that of the header. */
@@ -118,6 +119,14 @@ typedef struct {
  * the top would be too fast) there are no states: their status says why. */
 SYMTOP_API symtop_status symtop_new_pushed(const symtop_start* start, const symtop_pushes* pushes,
                                            symtop_motion** motion);
+
+/* Make a motion whose precession is held: a hand clamps the outer ring of the gimbal, so that the axis
+ * stays in its vertical plane. The clamp takes phi' at t = 0 in an instant, and holds theta' and the
+ * spin momentum; then the axis falls as a pendulum does, and the body turns about it at the constant
+ * rate omega_z. Through the vertical the plane stays, and phi jumps by pi. The axis must be tilted at
+ * t = 0, and neither friction nor a torque acts: SYMTOP_BAD_CLAMP. The angular momentum about the
+ * vertical is not constant. */
+SYMTOP_API symtop_status symtop_new_clamped(const symtop_start* start, symtop_motion** motion);
 
 SYMTOP_API void symtop_free(symtop_motion* motion); /* null is allowed */
 
@@ -177,6 +186,7 @@ typedef enum {
   SYMTOP_ASYMPTOTIC,       /* the axis approaches the vertical for ever */
   SYMTOP_SLEEPING,         /* the axis rests on the vertical */
   SYMTOP_DRIVEN,           /* friction, a torque or a series of pushes acts */
+  SYMTOP_CLAMPED,          /* a hand holds phi, and the axis moves in a vertical plane */
   SYMTOP_UNKNOWN_KIND      /* the arithmetic is bad, see above, or the motion is null */
 } symtop_kind;
 

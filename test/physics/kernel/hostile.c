@@ -602,12 +602,32 @@ static void try_pushed(void) {
   use(status, motion, to != NULL);
 }
 
+static int is_zero(double x) { return fabs(x) < 1e-100; }
+
+static void try_clamped(void) {
+  int good = 1;
+  symtop_motion *motion = NULL, **to = is_rare(40) ? NULL : &motion;
+  prepare();
+  symtop_start* start = take_starts(1, 0, &good);
+  if (start) {
+    if (is_rare(20)) start->orientation[1] = start->orientation[2] = draw_number(1e-100);
+    memset(start->friction, 0, is_rare(4) ? 0 : sizeof start->friction);
+    memset(start->torque, 0, is_rare(4) ? 0 : sizeof start->torque);
+    const double *q = start->orientation, *force = start->torque, *drag = start->friction;
+    good = is_start(start) && !(is_zero(q[0]) && is_zero(q[3])) && !(is_zero(q[1]) && is_zero(q[2]));
+    good &= force[0] == 0 && force[1] == 0 && force[2] == 0 && drag[0] == 0 && drag[1] == 0;
+  }
+  const symtop_status status = symtop_new_clamped(start, to);
+  CHECK(status, good && start && to);
+  use(status, motion, to != NULL);
+}
+
 /* Calls with so many seeds from the first one on. Returns 0, or the line of the first fault. */
 int run(unsigned first, unsigned number);
 int run(unsigned first, unsigned number) {
   static void (*const TRIALS[])(void) = {try_angles, try_orientations, try_regular_rates, try_tilts,
                                          try_discs,  try_kicks,        try_verdicts,      try_map,
-                                         try_many,   try_motion,       try_pushed};
+                                         try_many,   try_motion,       try_pushed,        try_clamped};
   hash = 14695981039346656037u, calls = answered = 0, fault = 0;
   for (unsigned seed = first; seed < first + number && !fault; seed++) {
     oddness = seed % 2 ? 6 : 60;

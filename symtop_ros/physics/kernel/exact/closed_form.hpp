@@ -69,6 +69,7 @@ struct ClosedForm {
   void solve(const Start& given, bool turned_over) {
     start = given, is_turned_over = turned_over;
     nutation = find_nutation<3>(start);
+    if (start.is_clamped) drop_precession(nutation, start);
     roots = find_roots(nutation);
     find_zeros(nutation, roots, zeros);
     // The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that would have no

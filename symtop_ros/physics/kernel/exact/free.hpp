@@ -47,22 +47,28 @@ struct FreeMotion {
 
   void solve(const Start& given, bool turned_over) {
     is_turned_over = turned_over;
-    const Precise Ix(given.Ix), L[3] = {Ix * Precise(given.wx), Ix * Precise(given.wy),
-                                        Precise(given.Iz) * Precise(given.wz)};
-    const Precise size = root(L[0] * L[0] + L[1] * L[1] + L[2] * L[2]);
+    start = normalize(given);
+    const Precise Ix(given.Ix);
+    const Precise dropped = given.is_clamped ? drop_precession(find_nutation<3>(given), start)
+                                             : Precise();
+    const Precise L[3] = {Ix * Precise(start.wx), Ix * Precise(start.wy),
+                          Precise(given.Iz) * Precise(given.wz)};
+    // Of a clamped motion the rounded parts of omega would give another rate.
+    const Precise size = given.is_clamped ? Ix * dropped
+                                          : root(L[0] * L[0] + L[1] * L[1] + L[2] * L[2]);
     turning_rate = find_turning_rate<3>(given);
     nutation_rate = size / Ix;
     const Precise rates[] = {nutation_rate.scale(-1), turning_rate.scale(-1), -turning_rate};
     steps = find_steps(rates, 3);
     for (int i = 0; i < 3; i++)
       direction[i] = size.sign ? (L[i] / size).to_double() : i == 2 ? 1.0 : 0.0;
-    start = normalize(given);
     tilt = find_angle_to_vertical(start, direction);
     Start upright = {};
     upright.w = 1.0;
     cone = find_angle_to_vertical(upright, direction);
     const bool is_resting = start.wx == 0 && start.wy == 0;
     const bool is_vertical = (start.w == 0 && start.z == 0) || (start.x == 0 && start.y == 0);
+    if (given.is_clamped && size.sign > 0) tilt = cone = PI / 2;  // L is along the line of nodes
     kind = is_resting && is_vertical ? SLEEPING : classify_free(tilt, cone);
   }
 

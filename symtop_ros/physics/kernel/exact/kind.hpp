@@ -9,7 +9,7 @@
 namespace symtop {
 
 enum Kind {
-  REGULAR, UNIDIRECTIONAL, CUSPS, LOOPING, THROUGH_THE_POLE, ASYMPTOTIC, SLEEPING, DRIVEN
+  REGULAR, UNIDIRECTIONAL, CUSPS, LOOPING, THROUGH_THE_POLE, ASYMPTOTIC, SLEEPING, DRIVEN, CLAMPED
 };
 
 // The largest sin^2(theta) of a nutation: 1 if the axis becomes horizontal.

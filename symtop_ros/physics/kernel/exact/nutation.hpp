@@ -38,7 +38,16 @@ struct Start {  // what a motion starts from; Mgl > 0 and the orientation as it 
   double Ix, Iz, Mgl;
   double w, x, y, z;
   double wx, wy, wz;
+  bool is_clamped = false;  // phi' is held at 0: see `clamp`
 };
+
+// The start of a motion whose precession is held (derivation.md, section 11). The hand takes up what
+// p_psi asks for, so that the axis moves as that of a body without axial momentum, Iz = 0, and the body
+// turns about it by omega_z: the turning rate c of Iz = 0.
+inline Start clamp(Start s) {
+  s.Iz = 0.0, s.is_clamped = true;
+  return s;
+}
 
 constexpr double EPS = 0x1p-52;
 constexpr double NORM_ROUNDING = 4 * EPS;  // normalising a norm this close to 1 would only add rounding
@@ -122,9 +131,47 @@ inline bool is_lost(const Float<N>& value, const Float<N>& term, int power = 1) 
   return value.sign && term.sign && value.exponent < term.exponent - power * LOST_BITS;
 }
 
+// The same of a motion in a vertical plane, p_phi = p_psi = 0: of the angular velocity across the axis
+// the part along the line of nodes counts alone, theta' = turn/(|A| |B|), with the norm of the
+// quaternion taken out. All sums are formed without any rounding, then each is divided once.
+template <int N>
+SYMTOP_SET_UP inline NutationOf<N> find_plane_nutation(const Start& start) {
+  typedef Float<N> Rounded;
+  const Exact Ix(start.Ix), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y), z(start.z);
+  const Exact upper = w * w + z * z, lower = x * x + y * y, norm = upper + lower;
+  const Exact turn = Exact(start.wy) * (x * z - w * y) - Exact(start.wx) * (y * z + w * x);
+  const Exact squared = turn * turn, both = upper * lower;
+  const Exact weight = (Mgl * both).scale(2);
+  const Rounded per_norm = invert(Rounded(norm)), per_both = invert(Rounded(both));
+  const Rounded per_all = per_norm * per_both / Rounded(start.Ix);
+  NutationOf<N> n;
+  n.beta = Rounded(start.Mgl).scale(1) / Rounded(start.Ix);
+  n.one_minus_u = Rounded(lower).scale(1) * per_norm;
+  n.one_plus_u = Rounded(upper).scale(1) * per_norm;
+  n.u_dot = Rounded(turn).scale(1) * per_norm;
+  n.omega_xy_squared = Rounded(squared) * per_both;
+  n.u_dot_dot = -Rounded((upper - lower) * norm * Ix * squared + weight * both) * per_all * per_norm;
+  n.alpha_minus_beta = Rounded(squared * Ix * norm - weight * lower) * per_all;
+  return n;
+}
+
+// The angular velocity across the axis without the part that a clamp takes: theta' along the line of
+// nodes. From the products of the plane, -u'/(1 - u^2) (gy, -gx), as sin(theta) is not 0.
+// Returns |theta'|.
+SYMTOP_SET_UP inline Float<3> drop_precession(const Nutation& n, Start& start) {
+  typedef Float<3> P;
+  const P w(start.w), x(start.x), y(start.y), z(start.z);
+  const P share = n.u_dot / (n.one_plus_u * n.one_minus_u);
+  const P scale = share.scale(1) / (w * w + z * z + (x * x + y * y));
+  start.wx = (-(scale * (y * z + w * x))).to_double();
+  start.wy = (scale * (x * z - w * y)).to_double();
+  return root(n.omega_xy_squared);
+}
+
 // The numbers of the table above.
 template <int N>
 inline NutationOf<N> find_nutation(const Start& start) {
+  if (start.is_clamped) return find_plane_nutation<N>(start);
   typedef Float<N> P;
   const P Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
       z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);

@@ -175,6 +175,21 @@ inline symtop_status accept(symtop_start& s) {
   return SYMTOP_OK;
 }
 
+inline bool is_driven(const symtop_start& s) {
+  for (double each : s.friction)
+    if (each != 0) return true;
+  for (double each : s.torque)
+    if (each != 0) return true;
+  return false;
+}
+
+// The axis is tilted, so that phi is defined, and nothing acts that would need a series.
+inline symtop_status accept_clamped(const symtop_start& s) {
+  const double* q = s.orientation;
+  const bool is_vertical = (q[0] == 0 && q[3] == 0) || (q[1] == 0 && q[2] == 0);
+  return is_vertical || is_driven(s) ? SYMTOP_BAD_CLAMP : SYMTOP_OK;
+}
+
 inline symtop_status accept_angles(const double* angles, size_t count) {
   return are_finite(angles, count) ? SYMTOP_OK : SYMTOP_BAD_ANGLES;
 }
@@ -218,14 +233,6 @@ inline symtop_status find_refusal(std::initializer_list<symtop_status> answers) 
 inline Start to_start(const symtop_start& s) {
   const double *q = s.orientation, *omega = s.angular_velocity;
   return {s.Ix, s.Iz, s.Mgl, q[0], q[1], q[2], q[3], omega[0], omega[1], omega[2]};
-}
-
-inline bool is_driven(const symtop_start& s) {
-  for (double each : s.friction)
-    if (each != 0) return true;
-  for (double each : s.torque)
-    if (each != 0) return true;
-  return false;
 }
 
 }  // namespace symtop

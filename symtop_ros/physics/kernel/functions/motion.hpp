@@ -7,17 +7,21 @@ struct symtop_motion {
   symtop::Stretch first;
   symtop::Stretches stretches;  // from push to push; without pushes there is the first one alone
 
-  symtop_motion(const symtop_start& s, const symtop_pushes& pushes) : first(s), stretches(pushes) {}
+  symtop_motion(const symtop_start& s, const symtop_pushes& pushes, bool clamped)
+      : first(s, clamped), stretches(pushes), is_clamped(clamped) {}
+
+  bool is_clamped;
 };
 
 namespace symtop {
 
 inline symtop_status make_motion(const symtop_start* start, const symtop_pushes& pushes,
-                                 symtop_motion** motion) {
+                                 symtop_motion** motion, bool is_clamped = false) {
   symtop_start s = *start;
-  const symtop_status status = find_refusal({accept(s), accept(pushes)});
+  symtop_status status = find_refusal({accept(s), accept(pushes)});
+  if (status == SYMTOP_OK && is_clamped) status = accept_clamped(s);
   if (status != SYMTOP_OK) return status;
-  *motion = new (std::nothrow) symtop_motion(s, pushes);
+  *motion = new (std::nothrow) symtop_motion(s, pushes, is_clamped);
   if (*motion && (*motion)->stretches.prepare(&(*motion)->first)) return SYMTOP_OK;
   delete *motion;
   *motion = nullptr;
@@ -39,6 +43,13 @@ symtop_status symtop_new_pushed(const symtop_start* start, const symtop_pushes* 
   return status == SYMTOP_OK ? symtop::make_motion(start, *pushes, motion) : status;
 }
 
+symtop_status symtop_new_clamped(const symtop_start* start, symtop_motion** motion) {
+  if (motion) *motion = nullptr;
+  const symtop_status status = symtop::admit({start, motion});
+  if (status != SYMTOP_OK) return status;
+  return symtop::make_motion(start, symtop::NO_PUSHES, motion, true);
+}
+
 void symtop_free(symtop_motion* motion) { delete motion; }
 
 symtop_status symtop_continue(symtop_motion* motion, double t, const double torque[3],
@@ -49,7 +60,8 @@ symtop_status symtop_continue(symtop_motion* motion, double t, const double torq
   symtop_start s = motion->first.start;
   std::memcpy(s.torque, torque, sizeof s.torque);
   status = symtop_state(motion, t, s.orientation, s.angular_velocity);
-  return status == SYMTOP_OK ? symtop_new(&s, continued) : status;
+  if (status != SYMTOP_OK) return status;
+  return motion->is_clamped ? symtop_new_clamped(&s, continued) : symtop_new(&s, continued);
 }
 
 symtop_status symtop_state(symtop_motion* motion, double t, double orientation[4],

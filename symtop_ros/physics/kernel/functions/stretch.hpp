@@ -30,8 +30,11 @@ struct Stretch {
   DrivenMotion driven;
   bool is_driven;
 
-  explicit Stretch(const symtop_start& s)
-      : start(s), gravity(to_start(s)), driven(to_driven(s)), is_driven(symtop::is_driven(s)) {}
+  explicit Stretch(const symtop_start& s, bool is_clamped = false)
+      : start(s),
+        gravity(is_clamped ? clamp(to_start(s)) : to_start(s)),
+        driven(to_driven(s)),
+        is_driven(symtop::is_driven(s)) {}
 
   // States at the times that `split` returns in two parts, or under gravity at `times`; *steps is
   // lowered by those taken.

@@ -9,10 +9,10 @@ import { NAMES, RECORDS, STATUS } from "./records.js";
 /** @typedef {"rises" | "falls" | "stays"} Direction */
 /**
  * What a motion starts from, in SI units: w, x, y, z, body to world; angular velocity in the body
- * frame; coefficients of friction in the order of symtop_friction_kind; the torque in the world frame; and pushes on the axle, the
- * first of which leaves this state.
+ * frame; coefficients of friction in the order of symtop_friction_kind; the torque in the world frame;
+ * pushes on the axle, the first of which leaves this state; and whether a hand holds phi.
  * @typedef {Top & {orientation: number[], angular_velocity: number[], friction?: number[],
- *   torque?: number[], pushes?: Pushes | null}} Start
+ *   torque?: number[], pushes?: Pushes | null, clamped?: boolean}} Start
  */
 /** Equal pushes: N m s, 1/s, and how many. @typedef {{impulse: number, rate: number, number: number}} Pushes */
 /** @typedef {{writes: number | string}} Room for so many doubles, a handle, or a record */
@@ -162,9 +162,9 @@ export class Kernel {
 
   /** Make a motion. @param {Start} start */
   motion(start) {
-    const { pushes } = start;
+    const { pushes, clamped } = start;
     const series = pushes ? [[pushes.impulse, pushes.rate, pushes.number]] : [];
-    const name = pushes ? "new_pushed" : "new";
+    const name = pushes ? "new_pushed" : clamped ? "new_clamped" : "new";
     return new Motion(this, this.call(name, pack(start), ...series, room("handle"))[0]);
   }
 

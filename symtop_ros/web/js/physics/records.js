@@ -29,6 +29,7 @@ export const STATUS = {
   BAD_STEPS: 22,
   BAD_DISC: 23,
   BAD_PUSHES: 24,
+  BAD_CLAMP: 25,
 };
 
 /** Names of the enums, in the order of the header. @type {{[list: string]: any[]}} */
@@ -43,6 +44,7 @@ export const NAMES = {
     "asymptotic",
     "sleeping",
     "driven",
+    "clamped",
   ],
   engine: ["closed form", "free", "taylor"],
   hold: ["spin_rate", "spin_momentum", null],
