@@ -175,6 +175,7 @@ def read_act(event: Event) -> Act:
         given.factor,
         event.outcome(),
         given if event.name == "failure" else None,
+        given.motion.clamped,
     )
 
 

@@ -145,6 +145,10 @@ def follow_keys(top: Connection) -> None:
                 print(f"{KEYS[key].name}: {'' if granted else 'refused: '}{text}", flush=True)
 
 
+def _toggle_clamp(top: Connection) -> Response:
+    return top.request("clamp", not json.loads(top.request("get_state")[1])["clamped"])
+
+
 def _toggle_pause(top: Connection) -> Response:
     return top.request("pause", json.loads(top.request("get_state")[1])["running"])
 
@@ -188,6 +192,7 @@ class Key(NamedTuple):
 KEYS = {
     "h": Key("h", "hurry: multiply phi' by the parameter hurry_factor", _ask("hurry_precession")),
     "d": Key("d", "delay: divide phi' by 1.4", _ask("kick", DELAY)),
+    "c": Key("c", "clamp the precession, or let it go", _toggle_clamp),
     " ": Key("space", "pause or resume", _toggle_pause),
     "r": Key("r", "reset", _ask("reset")),
     "\x1b[A": Key("up", "push the axle up: theta' - 1 rad/s", _push_tilt(-PUSH)),

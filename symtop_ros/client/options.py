@@ -28,7 +28,8 @@ def make_parser() -> argparse.ArgumentParser:
                 metavar="NAME=VALUE",
                 help=service.help,
             )
-    parsers["record"].add_argument("switch", choices=("on", "off"))
+    for command in ("record", "clamp"):
+        parsers[command].add_argument("switch", choices=("on", "off"))
     parsers["state"].add_argument("--json", action="store_true", help="as JSON in one line")
     commands.add_parser("resume", help="continue the motion from where it stopped")
     commands.add_parser("keys", help="send requests by single keys: hurry, delay, pause, push")

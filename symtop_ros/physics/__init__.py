@@ -45,6 +45,7 @@ from symtop_ros.physics.precession import (
 )
 from symtop_ros.physics.pushes import MOST_PUSHES, PUSH_RATES, Piece, Pushes
 from symtop_ros.physics.rule.cause import Cause
+from symtop_ros.physics.rule.clamp import ClampVerdict, clamp_verdict
 from symtop_ros.physics.rule.perry import KickVerdict, Lift, kick_verdict
 from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
@@ -61,6 +62,7 @@ __all__ = [
     "Balance",
     "Body",
     "Cause",
+    "ClampVerdict",
     "Direction",
     "EffectivePotential",
     "ExactTimes",
@@ -82,6 +84,7 @@ __all__ = [
     "angular_acceleration",
     "apply_impulse",
     "balance",
+    "clamp_verdict",
     "compare_hurried",
     "hurry",
     "kernel_version",

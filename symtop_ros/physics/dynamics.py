@@ -149,6 +149,8 @@ def _body_torque(motion: Motion, state: State) -> Real:
     torque = stack(Mgl * y, -Mgl * x, 0.0 * abs(z))
     if motion.is_driven:
         torque += motion.friction.torque(state) + state.to_body(motion.applied_torque)
+    if motion.clamped:
+        torque += motion.clamp_torque(state)
     return torque
 
 

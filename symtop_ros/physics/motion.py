@@ -240,13 +240,28 @@ class Motion:
         >>> Motion(top, start, clamped=True).added_torque(start).round(5).tolist()
         [0.0, -0.01004, -0.00548]
         """
-        torque = state.to_world(self.friction.torque(state)) + self.applied_torque
-        return np.asarray(torque + self._clamp_torque(state) if self.clamped else torque)
+        torque = self.friction.torque(state)
+        if self.clamped:
+            torque = torque + self.clamp_torque(state)
+        return np.asarray(state.to_world(torque) + self.applied_torque)
 
-    def _clamp_torque(self, state: State) -> Real:
+    def clamp_torque(self, state: State) -> Real:
+        """Return the torque of the hand that holds phi, in the body frame in N m.
+
+        Parameters
+        ----------
+        state : State
+            One state or many of a clamped motion.
+
+        Returns
+        -------
+        ndarray (..., 3)
+            p_psi times the velocity of the axle: derivation.md, section 11.
+        """
         x, y, _ = np.moveaxis(state.angular_velocity, -1, 0)
-        across = np.stack([y, -x, np.zeros_like(x)], axis=-1)  # of the axle's end, in the body
-        return state.to_world(self.top.axial_momentum(state)[..., np.newaxis] * across)
+        across = np.stack([y, -x, np.zeros_like(x)], axis=-1)  # of the axle, at 1 m
+        momentum: Real = np.asarray(self.top.axial_momentum(state))
+        return np.asarray(momentum[..., np.newaxis] * across)
 
     @property
     def engine(self) -> Engine:

@@ -5,7 +5,16 @@ from dataclasses import asdict
 from typing import Any
 
 from symtop_ros.log.recorder import Recorder
-from symtop_ros.physics import Motion, State, Top, balance, kernel_version, perrys_rule
+from symtop_ros.physics import (
+    Motion,
+    State,
+    Top,
+    Verdict,
+    balance,
+    clamp_verdict,
+    kernel_version,
+    perrys_rule,
+)
 from symtop_ros.simulation.block import GAP
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.simulation import Simulation
@@ -37,7 +46,7 @@ def motion_status(segment: Segment, stamp: int, event: int) -> Status:
     return make_status(
         "motion",
         OK,
-        str(verdict),
+        _say(motion, verdict),
         {
             **now,
             **{f"{name}.drift": value - start[name] for name, value in now.items()},
@@ -59,7 +68,7 @@ def balance_status(segment: Segment, stamp: int) -> Status:
     return make_status(
         "balance",
         OK,
-        "friction or an applied torque acts" if motion.is_driven else "only gravity acts",
+        _name_forces(motion),
         {
             **{f"friction.{name}": each for name, each in asdict(motion.friction).items()},
             "applied_torque": list(motion.applied_torque),
@@ -68,6 +77,17 @@ def balance_status(segment: Segment, stamp: int) -> Status:
             "angular_momentum.balance": found.angular_momentum.tolist(),
         },
     )
+
+
+def _say(motion: Motion, verdict: Verdict) -> str:
+    """Return what follows from the present state, or from the clamp that holds the motion."""
+    return str(clamp_verdict(motion.top, motion.start) if motion.clamped else verdict)
+
+
+def _name_forces(motion: Motion) -> str:
+    if motion.clamped:
+        return "a hand holds the precession: L_z' is not constant"
+    return "friction or an applied torque acts" if motion.is_driven else "only gravity acts"
 
 
 def _pace_status(simulation: Simulation) -> Status:
@@ -136,9 +156,10 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "friction": asdict(motion.friction),
         "applied_torque": list(motion.applied_torque),
         "regular_precession_rates": list(verdict.regular_rates),
-        "verdict": str(verdict),
-        "why": "" if motion.is_driven else str(verdict.cause),
-        "perrys_rule_holds": verdict.rule_holds,
+        "clamped": motion.clamped,
+        "verdict": _say(motion, verdict),
+        "why": "" if motion.is_driven or motion.clamped else str(verdict.cause),
+        "perrys_rule_holds": None if motion.clamped else verdict.rule_holds,
     }
 
 

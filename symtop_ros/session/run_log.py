@@ -6,7 +6,7 @@ the same nanoseconds, and records what it publishes.
 
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,8 @@ from symtop_ros.wire.diagnostics import Status
 from symtop_ros.wire.layout import NANOSECONDS
 
 NODE = "/top"  # name of the node that would have written the log
+CLAMPED = "initial.clamped"
+Values = Mapping[str, Any]
 # A run may be of another version of the kernel, whose states may differ by rounding, and an event
 # of a node may be half a nanosecond away from its place in the run.
 ROUNDING, HALF_NANOSECOND = 1e-9, 0.5e-9
@@ -94,6 +96,7 @@ class _Again:
                 {
                     **_list_values(first.motion),
                     **{f"initial.{name}": value for name, value in _start_values(first).items()},
+                    CLAMPED: first.motion.clamped,
                     "publish_rate": rate,
                     "record.enabled": True,
                     "record.directory": folder,
@@ -132,14 +135,25 @@ class _Again:
             old = _list_values(self._simulation.segment.motion)
             new = _list_values(event.motion)
             self._simulation.restart_grid(event.time)
+            if event.kind == "start":
+                self._prepare_start(event.motion, old, new)
             if changes := {key: value for key, value in new.items() if value != old[key]}:
                 self._session.apply_settings(changes)
             self._ask(event, name)
         self._compare(event, name)
 
+    def _prepare_start(self, motion: Motion, old: Values, new: Values) -> None:
+        """Let a start begin held or free, and forces act on a motion that was held."""
+        if self._simulation.settings.initial.clamped != motion.clamped:
+            self._session.apply_settings({CLAMPED: motion.clamped})
+        if self._simulation.segment.motion.clamped and old != new:
+            self._session.answer("clamp", lambda: False)
+
     def _ask(self, event: RunEvent, name: str) -> None:
         if event.kind in KICKS:
             granted, answer = self._session.answer("kick", lambda: event.act)
+        elif event.kind in ("clamp", "unclamp"):
+            granted, answer = self._session.answer("clamp", lambda: event.motion.clamped)
         elif event.kind == "start":
             granted, answer = self._session.answer(
                 "set_initial_conditions", lambda: _start_values(event)
@@ -154,7 +168,7 @@ class _Again:
 
         What was changed and changed back while the motion stood still is no change here.
         """
-        right, given = self._simulation.segment.state_at(event.time), event.motion.start
+        right, given = self._simulation.segment.state_at(event.time), event.motion.at(0.0)
         rate = float(np.abs(right.angular_velocity).max())
         near = ROUNDING + HALF_NANOSECOND * rate
         turned = min(
@@ -187,6 +201,6 @@ def _start_values(event: RunEvent) -> dict[str, Any]:
     }
 
 
-def _list_values(motion: Motion) -> dict[str, Any]:
+def _list_values(motion: Motion) -> Values:
     """Return the parameters that say what moves, and what acts on it."""
     return {**list_body(motion), "steady_torque": list(motion.applied_torque)}

@@ -27,6 +27,7 @@ SERVICES: dict[str, Service] = {
     ),
     "step": Service("named", "step", "while paused: duration=0.01"),
     "release": Service("plain", "release", "end a series of pushes that is under way"),
+    "clamp": Service("switch", "clamp", "hold the precession by hand, or let it go"),
     "hurry_precession": Service(
         "plain", "hurry", "multiply the precession rate by the parameter hurry_factor"
     ),

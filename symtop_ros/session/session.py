@@ -153,6 +153,14 @@ class Requests:
         act = Act("release", simulation.stamp, {})
         return simulation.apply_at_once(simulation.timeline.follow(act))
 
+    def clamp(self, held: bool) -> str:
+        """Hold the precession by hand, or let it go."""
+        simulation = self._simulation
+        if held == simulation.segment.motion.clamped:
+            return str(Answer("clamped" if held else "free"))
+        act = Act("clamp" if held else "unclamp", simulation.stamp, {})
+        return simulation.apply_at_once(simulation.timeline.follow(act))
+
     def hurry_precession(self) -> str:
         """Multiply the precession rate by the parameter `hurry_factor`."""
         return self.kick({"precession_rate_factor": self._simulation.settings.hurry_factor})
@@ -267,7 +275,7 @@ class Recording:
 class Answer:
     """An answer; `str` of it is its text."""
 
-    kind: Literal["recorded", "recording", "not_recording", "paused", "running"]
+    kind: Literal["recorded", "recording", "not_recording", "paused", "running", "clamped", "free"]
     path: str = ""  # of the log
 
     def __str__(self) -> str:

@@ -55,6 +55,7 @@ MOTION: dict[str, Callable[[Motion], Any]] = {
     "motion.angular_velocity": lambda motion: motion.start.angular_velocity.tolist(),
     # impulse, rate and number of the pushes that it gets from its start on
     "motion.pushes": lambda motion: astuple(motion.pushes) if motion.pushes else (),
+    "motion.clamped": lambda motion: motion.clamped,
 }
 SEGMENT: dict[str, Callable[[Segment], Any]] = {
     "motion.stamp": lambda segment: segment.stamp,
@@ -70,8 +71,8 @@ class Event:
     """A change of a run."""
 
     stamp: int  # stamp from which the new segment holds, in ns
-    # start, kick, push, release, reset, pause, resume, step, parameters, torque, pace, clock,
-    # record, failure
+    # start, kick, push, release, clamp, unclamp, reset, pause, resume, step, parameters, torque,
+    # pace, clock, record, failure
     name: str
     verdict: str  # the outcome in a sentence
     # number, request, outcome, the state before and after, and the segment that holds from then on
@@ -234,7 +235,8 @@ def _read_motion(values: Mapping[str, str]) -> Motion:
     friction, torque = Friction(*_numbers(values["friction"])), _numbers(values["applied_torque"])
     given: Any = _numbers(values.get("motion.pushes", ""))  # none in a log of before
     pushes = Pushes(*given) if given else None
-    return Motion(Top(*top), State(orientation, omega), friction, torque, pushes)
+    clamped = values.get("motion.clamped") == "true"  # nothing was, in a log of before
+    return Motion(Top(*top), State(orientation, omega), friction, torque, pushes, clamped)
 
 
 def _read_elapsed(text: str) -> Fraction:

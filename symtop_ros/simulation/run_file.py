@@ -5,7 +5,7 @@ top is watched leave no trace in it.
 """
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 from fractions import Fraction
 from math import inf
@@ -16,6 +16,7 @@ from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 from symtop_ros.refusals import (
     RefusedError,
     choice,
+    flag,
     number,
     one_line,
     refuse,
@@ -37,10 +38,12 @@ from symtop_ros.wire.layout import NANOSECONDS
 # The fields of a run, which the reader of the page follows as well. A time is at most 4e6 s: up to
 # there a double in s has its own ns.
 TABLE = json.loads(Path(__file__).with_name("run_fields.json").read_text(encoding="utf-8"))
-FORMATS: list[int] = TABLE["formats"]  # that are read; the last one is written
+FORMATS: list[int] = TABLE["formats"]  # that are read
+CLAMPED = FORMATS[-1]  # of a run in which the precession is held; others are of the one before
 KINDS: list[str] = TABLE["event"]["kind"]["words"]
-ACTS = ("start", *KICKS)
+ACTS = ("start", *KICKS, "clamp", "unclamp")
 MAX_BYTES = 100_000_000
+Field = Mapping[str, Any]
 RATE: float = PARAMETERS["publish_rate"].default  # Hz, of the log that is written of a run
 
 
@@ -72,6 +75,7 @@ class RunEvent:
             "angular_velocity": start.angular_velocity.tolist(),
             "friction": astuple(motion.friction),
             "torque": motion.applied_torque,
+            **({"clamped": True} if motion.clamped else {}),
             **({"act": self.act} if self.act else {}),
             **({"hold": find_hold(self.act)} if self.kind == "kick" else {}),
         }
@@ -142,9 +146,11 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
 
 def write_run(events: Iterable[RunEvent], end: int) -> dict[str, Any]:
     """Return the content of run.json, of a run that has reached a time in ns."""
+    listed = [*events]
+    is_clamped = any(event.motion.clamped for event in listed)
     return {
-        "format": FORMATS[-1],
-        "events": [event.to_json() for event in events],
+        "format": CLAMPED if is_clamped else CLAMPED - 1,
+        "events": [event.to_json() for event in listed],
         "end": end / NANOSECONDS,
     }
 
@@ -199,7 +205,8 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
     act = _read_kick(given.get("act")) if kind in KICKS else {}
     top, start = Top(*values["top"]), State(values["orientation"], values["angular_velocity"])
     pushes = read_pushes(act) if kind == "push" else None
-    motion = Motion(top, start, Friction(*values["friction"]), values["torque"], pushes)
+    acting = Friction(*values["friction"]), values["torque"], pushes, values["clamped"]
+    motion = Motion(top, start, *acting)
     return RunEvent(kind, time, motion, name_pushes(pushes) if pushes else act)
 
 
@@ -210,27 +217,39 @@ def _read_kick(given: Any) -> Mapping[str, Any]:
     return {name: _read_field(name, TABLE["act"][name], given) for name in given}
 
 
-def _read_record(name: str, value: Any, kinds: Mapping[str, Any]) -> dict[str, Any]:
+def _read_record(name: str, value: Any, field: Field) -> dict[str, Any]:
+    kinds = field["records"]
     kind = value.get("kind") if isinstance(value, dict) else None
     if not isinstance(kind, str) or kind not in kinds:
         raise refuse(name, f"a record of kind {', '.join(kinds)}", value)
-    fields = {each: _read_field(each, field, value) for each, field in kinds[kind].items()}
+    fields = {each: _read_field(each, found, value) for each, found in kinds[kind].items()}
     return {"kind": kind, **fields}
 
 
-def _read_field(name: str, field: Mapping[str, Any], given: Mapping[str, Any]) -> Any:
+def _read_text(name: str, value: Any, field: Field) -> str:
+    if not isinstance(value, str) or len(value) > field["length"]:
+        raise refuse(name, f"a text of at most {field['length']} characters", value)
+    return value
+
+
+# By what the description of a field has; others are numbers.
+READERS: dict[str, Callable[[str, Any, Field], Any]] = {
+    "size": lambda name, value, field: vector(
+        name, value, field["size"], field["limit"], field["unit"]
+    ),
+    "records": _read_record,
+    "flag": lambda name, value, _: flag(name, value),
+    "words": lambda name, value, field: choice(name, value, tuple(field["words"])),
+    "length": _read_text,
+}
+
+
+def _read_field(name: str, field: Field, given: Mapping[str, Any]) -> Any:
     """Return a value that follows the description of its field."""
     if name not in given and "absent" in field:
         return field["absent"]
     value = given.get(name)
-    if "size" in field:
-        return vector(name, value, field["size"], field["limit"], field["unit"])
-    if "records" in field:
-        return _read_record(name, value, field["records"])
-    if "words" in field:
-        return choice(name, value, tuple(field["words"]))
-    if "length" in field:
-        if not isinstance(value, str) or len(value) > field["length"]:
-            raise refuse(name, f"a text of at most {field['length']} characters", value)
-        return value
+    for sign, read in READERS.items():
+        if sign in field:
+            return read(name, value, field)
     return number(name, value, field["unit"], field.get("low", -inf), field.get("high", inf))

@@ -103,13 +103,15 @@ class Segment:
         top: Top | None = None,
         friction: Friction | None = None,
         torque: Sequence[float] | None = None,
+        clamped: bool | None = None,
     ) -> "Segment":
-        """Continue from a state at a stamp, with another top, friction or applied torque."""
+        """Continue from a state at a stamp, with another top, friction, torque or clamp."""
         motion = Motion(
             self.motion.top if top is None else top,
             start,
             self.motion.friction if friction is None else friction,
             self.motion.applied_torque if torque is None else torque,
+            clamped=self.motion.clamped if clamped is None else clamped,
         )
         return self.replace_motion(motion, stamp)
 

@@ -163,6 +163,7 @@ PARAMETERS: dict[str, Parameter] = {
     "initial.angular_velocity": _vector(
         "initial angular velocity", 3, MAX_RATE, "rad/s, body frame"
     ),
+    "initial.clamped": _flag(False, "hold phi from the start on, as ~/clamp does"),
     "friction.axial": _moment(0.0, "friction torque per omega_z, on the axis", "N m s", 0.0),
     "friction.transverse": _moment(0.0, "friction torque per omega across the axis", "N m s", 0.0),
     "steady_torque": _vector("constant applied torque", 3, MAX_MOMENT, "N m, world frame"),
@@ -235,6 +236,7 @@ class InitialConditions:
     orientation: tuple[float, ...]  # quaternion x, y, z, w, or empty
     # body frame, rad/s; empty: zero if there is an orientation
     angular_velocity: tuple[float, ...]
+    clamped: bool
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,6 +64,16 @@ def test_start_kick_and_state_work_together(ctl):
     assert ctl("resume").returncode == 0
 
 
+def test_a_hand_holds_the_precession_and_lets_it_go(ctl):
+    assert ctl("start", "theta=0.5", "psi_dot=200").returncode == 0
+    assert ctl("clamp", "on").stdout.startswith("Clamped, the axle falls as if ")
+    assert ctl("clamp", "on").stdout == "the precession is held already\n"
+    refused = ctl("hurry")
+    assert refused.stderr.startswith("top_ctl: kick must come while the precession is free: ")
+    assert json.loads(ctl("state", "--json").stdout)["clamped"]
+    assert ctl("clamp", "off").stdout.startswith("Let go (")
+
+
 def test_two_nodes_of_one_name_are_named_next_to_the_answer(ctl):
     with Listener(DOMAIN) as listener:
         names = listener.node.get_fully_qualified_node_names

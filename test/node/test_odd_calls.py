@@ -54,7 +54,7 @@ CALLS = st.sampled_from(list(NAMES)).flatmap(
 FRAMES = st.sampled_from(["world", "", "map", CONTROL * 100])
 TORQUES = st.tuples(st.lists(NUMBERS | SIZES, min_size=3, max_size=3), FRAMES)
 PLAIN = st.tuples(st.sampled_from(["hurry_precession", "reset", "get_state"]), st.none())
-PAUSES = st.tuples(st.just("pause"), st.booleans())
+PAUSES = st.tuples(st.sampled_from(["pause", "clamp"]), st.booleans())
 ACTS = CALLS | PLAIN | PAUSES | st.tuples(st.just("push"), TORQUES)
 CHANGEABLE = [name for name in PARAMETERS if not PARAMETERS[name].read_only]
 RESTORED = {name: PARAMETERS[name].default for name in CHANGEABLE} | {"publish_rate": RATE}
@@ -71,7 +71,8 @@ class Watched(RunningTop):
 
     def restore(self):
         """The motion and the parameters of the beginning."""
-        self.switch("pause", False)
+        for service in ("pause", "clamp"):
+            self.switch(service, False)
         assert self.change(RESTORED) == (True, "")
         assert self.set(START, theta=0.5, psi_dot=200.0)[0]
         self.spin_until(lambda: not any(self.top.simulation.timeline.held_torque))
@@ -106,7 +107,7 @@ def act(run, name, argument):
         run.state()
     elif argument is None:
         assert_one_sentence(run.trigger(name)[1])
-    elif name == "pause":
+    elif name in ("pause", "clamp"):
         assert_one_sentence(run.switch(name, argument)[1])
     else:
         for granted, reason in run.send(name, argument):

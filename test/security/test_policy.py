@@ -22,7 +22,7 @@ from workshop.load.domains import claim_domain
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
 GIVEN = {"start": ["theta=0.5"], "kick": ["precession_rate=9"], "step": ["duration=0.01"]}
-GIVEN |= {"record": ["on"]}
+GIVEN |= {"record": ["on"], "clamp": ["on"]}
 NAMES = (*(each.command for each in SERVICES.values()), "watch")
 COMMANDS = {name: (name, *GIVEN.get(name, ())) for name in NAMES}
 

@@ -118,6 +118,7 @@ def draw_changes(rng):
         "publish_rate": rng.choice((50.0, 100.0)),
         "publish_tf": rng.random() < 0.5,
         "initial.theta": rng.uniform(0.0, 1.0),
+        "initial.clamped": rng.random() < 0.5,
     }
     return {name: values[name] for name in rng.sample(sorted(values), rng.randint(1, 3))}
 
@@ -125,6 +126,7 @@ def draw_changes(rng):
 def act(rng, session, clock):
     """Do something; what is refused changes nothing."""
     kinds = "start", "kick", "kick", "release", "change", "pause", "step", "torque", "jump", "reset"
+    kinds += ("clamp", "clamp")
     kind = rng.choice(kinds)
     if kind == "change":
         try:
@@ -142,6 +144,7 @@ def act(rng, session, clock):
             "start": ("set_initial_conditions", draw_values(rng)),
             "kick": ("kick", draw_kick(rng)),
             "release": ("release", None),
+            "clamp": ("clamp", not session.simulation.segment.motion.clamped),
             "pause": ("pause", session.simulation.segment.running),
             "step": ("step", {"duration": rng.uniform(0.0, 0.1)}),
             "reset": ("reset", None),
@@ -184,7 +187,7 @@ def check(path):
 def list_exact(event):
     """The fields that an event and its repetition have in common to the last bit."""
     motion = event.motion
-    body = motion.top, motion.friction, motion.applied_torque
+    body = motion.top, motion.friction, motion.applied_torque, motion.clamped
     return event.kind, event.time, json.dumps(event.act), body
 
 
@@ -192,7 +195,7 @@ def drop_idle(events):
     """Events without those that changed back, while the motion stood still, what others changed."""
     bodies = [list_exact(event)[-1] for event in events]
     is_same = [False, *(before == after for before, after in pairwise(bodies))]
-    acts = ("start", "kick", "push")
+    acts = ("start", "kick", "push", "clamp", "unclamp")
     pairs = zip(events, is_same, strict=True)
     return [event for event, same in pairs if event.kind in acts or not same]
 

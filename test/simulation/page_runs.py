@@ -45,6 +45,7 @@ def list_hostile_runs():
     runs = []
     for name, field in TABLE["event"].items():
         values = (*HOSTILE, *(TEXTS if "length" in field else WORDS), *_list_beyond(field))
+        values = [value for value in values if not ("flag" in field and value is True)]
         runs += [(name, change(1, **{name: value})) for value in values]
     for name, field in TABLE["act"].items():
         values = (*HOSTILE, *WORDS, *_list_beyond(field))

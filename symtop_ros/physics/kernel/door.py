@@ -35,6 +35,7 @@ from symtop_ros.physics.kernel.records import (
     ClockRecord,
     ConstantsRecord,
     Engine,
+    HeldRecord,
     Kind,
     PieceRecord,
     RatesRecord,
@@ -71,7 +72,7 @@ LONG = {
     *("states", "states_of_clock", "reach", "find_piece", "find_farthest_time"),
     *("states_of_many", "describe_many", "from_angles"),
     *("find_angles", "find_angle_rates", "find_regular_rates", "find_tilt_torques"),
-    *("find_tilt_accelerations", "kick", "judge", "judge_kick", "compare_hurried"),
+    *("find_tilt_accelerations", "kick", "judge", "judge_kick", "judge_clamp", "compare_hurried"),
 }
 
 
@@ -401,6 +402,13 @@ def judge_kick(before: bytes, after: bytes, hold: int) -> VerdictRecord:
     verdict = VerdictRecord()
     demand(open_door().judge_kick(before, after, hold, verdict))
     return verdict
+
+
+def judge_clamp(start: bytes) -> HeldRecord:
+    """Return what follows if the precession of a start is held."""
+    held = HeldRecord()
+    demand(open_door().judge_clamp(start, held))
+    return held
 
 
 def compare_hurried(

@@ -138,6 +138,9 @@ LIFT_KINDS: tuple[LiftKind, ...] = get_args(LiftKind)
 Fact = Literal["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"]
 FACTS: tuple[Fact, ...] = get_args(Fact)
 
+HeldKind = Literal["falls", "swings", "rises", "turns", "rests"]
+HELD_KINDS: tuple[HeldKind, ...] = get_args(HeldKind)
+
 
 class StartRecord(Structure):
     """`symtop_start`."""
@@ -273,6 +276,19 @@ class VerdictRecord(Structure):
     ]
 
 
+class HeldRecord(Structure):
+    """`symtop_held`."""
+
+    _fields_: ClassVar = [
+        ("kind", c_int),
+        ("subject", c_int),
+        ("theta", c_double),
+        ("rate", c_double),
+        ("lowest_in", c_double),
+        ("angles_without", c_double * 2),
+    ]
+
+
 RECORDS: tuple[type[Structure], ...] = (
     StartRecord,
     PushesRecord,
@@ -287,6 +303,7 @@ RECORDS: tuple[type[Structure], ...] = (
     CauseRecord,
     LiftRecord,
     VerdictRecord,
+    HeldRecord,
 )
 
 # The result and the arguments of each; an array that is read is given as bytes.
@@ -396,6 +413,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
         ),
     ),
     "judge_kick": (c_int, (c_char_p, c_char_p, c_int, POINTER(VerdictRecord))),
+    "judge_clamp": (c_int, (c_char_p, POINTER(HeldRecord))),
     "make": (c_void_p, (c_char_p,)),
     "read": (c_int, (c_void_p, POINTER(c_double))),
     "check_arithmetic": (c_int, ()),

@@ -492,6 +492,27 @@ SYMTOP_API symtop_status symtop_compare_hurried(const symtop_top* tops, const do
 SYMTOP_API symtop_status symtop_judge_kick(const symtop_start* before, const symtop_start* after,
                                            symtop_hold hold, symtop_verdict* verdict);
 
+/* How the axis moves while its precession is held. */
+typedef enum {
+  SYMTOP_HELD_FALLS,  /* "falls": it starts at rest, and the weight falls to its lowest place */
+  SYMTOP_HELD_SWINGS, /* "swings": it moves, and the weight comes to its lowest place */
+  SYMTOP_HELD_RISES,  /* "rises": it comes to rest with the weight highest, and never falls */
+  SYMTOP_HELD_TURNS,  /* "turns": Mgl = 0, and theta' is constant */
+  SYMTOP_HELD_RESTS   /* "rests": Mgl = 0, and theta' = 0 */
+} symtop_held_kind;
+
+typedef struct {
+  symtop_held_kind kind;
+  symtop_subject subject;
+  double theta;             /* rad, where the clamp takes hold */
+  double rate;              /* |theta'| there, in rad/s */
+  double lowest_in;         /* s until the weight is lowest; NaN if it never is */
+  double angles_without[2]; /* turning angles in rad, had nothing been held */
+} symtop_held;
+
+/* What follows if the precession of a start is held: see symtop_new_clamped, which takes the same. */
+SYMTOP_API symtop_status symtop_judge_clamp(const symtop_start* start, symtop_held* held);
+
 #ifdef __cplusplus
 }
 #endif

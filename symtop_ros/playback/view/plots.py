@@ -76,7 +76,7 @@ class Plots:
             square = (momentum.numbers[:, :2] ** 2).sum(axis=1, keepdims=True)
             self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square)
         if segment:
-            if not segment.motion.pushes:  # they change the constants of motion
+            if not (segment.motion.pushes or segment.motion.clamped):  # which change the constants
                 self._send_drift(columns, segment.motion.top)
             self._send_constants(columns, segment.motion)
 
@@ -98,7 +98,7 @@ class Plots:
                 self._stream.send(
                     f"{entity}/state", euler.stamps[::step], rr.Points2D.columns(positions=points)
                 )
-            if motion.is_driven:
+            if motion.is_driven or motion.clamped:
                 self._send_drifting_curves(euler, motion)
         parts = Torques.of(columns)
         for entity, found in (
@@ -147,6 +147,8 @@ def describe_motion(
 
 def _added_torques(motion: Motion) -> dict[str, str]:
     """Return friction and applied torque; angles, period and rates then hold at the event only."""
+    if motion.clamped:
+        return {"precession": "held by hand"}
     if not motion.is_driven:
         return {}
     friction = asdict(motion.friction)

@@ -101,7 +101,7 @@ class Trace:
 
 def has_cones(motion: Motion) -> bool:
     """Return True if no torque acts at all, so that L is constant and omega stays on two cones."""
-    return motion.top.Mgl == 0 and not motion.is_driven
+    return motion.top.Mgl == 0 and not (motion.is_driven or motion.clamped)
 
 
 def log_cones(stream: entities.Stream, motion: Motion, state: State, scale: float) -> None:

@@ -5,11 +5,11 @@ compares. Nothing here has a clock, a lock or a side effect.
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from functools import partial
 from typing import Any, NamedTuple
 
-from symtop_ros.physics import KickVerdict, State, kick_verdict
+from symtop_ros.physics import KickVerdict, State, clamp_verdict, kick_verdict
 from symtop_ros.refusals import refuse
 from symtop_ros.simulation.changes.outcomes import (
     ClockJump,
@@ -22,7 +22,14 @@ from symtop_ros.simulation.changes.outcomes import (
     Step,
     Torque,
 )
-from symtop_ros.simulation.changes.requests import plan_kick, plan_pushes, plan_release
+from symtop_ros.simulation.changes.requests import (
+    demand_free,
+    plan_clamp,
+    plan_kick,
+    plan_pushes,
+    plan_release,
+    plan_unclamp,
+)
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import list_body, read_body
 from symtop_ros.wire.diagnostics import write_text
@@ -42,6 +49,7 @@ class Act:
     factor: float | None = None  # real-time factor, which the clock has with publish_clock
     told: Outcome | None = None  # where no motion shows the outcome, as the path of a log
     left: Segment | None = None  # what an action has left that failed
+    clamped: bool = False  # of a restart: whether a hand holds its precession
 
 
 class Following(NamedTuple):
@@ -97,7 +105,8 @@ Ruled = tuple[Segment, Told]  # the segment that follows, and what is said of it
 
 
 def _restart(segment: Segment, act: Act, before: State) -> Ruled:
-    segment = demand_a_day(segment.change(act.stamp, act.start or before))
+    start = act.start or before
+    segment = demand_a_day(segment.change(act.stamp, start, clamped=act.clamped))
     return segment, Start.of(segment.motion)
 
 
@@ -116,6 +125,18 @@ def _push(segment: Segment, act: Act, before: State) -> Ruled:
 def _release(segment: Segment, act: Act, _: State) -> Ruled:
     segment, pushes = plan_release(segment, act.stamp)
     return segment, Pushed.of_given(segment.motion, pushes)
+
+
+def _clamp(segment: Segment, act: Act, before: State) -> Ruled:
+    motion = plan_clamp(segment.motion, before)
+    segment = demand_a_day(segment.replace_motion(motion, act.stamp))
+    return segment, clamp_verdict(motion.top, before)
+
+
+def _unclamp(segment: Segment, act: Act, before: State) -> Ruled:
+    motion = plan_unclamp(segment.motion, before)
+    segment = demand_a_day(segment.replace_motion(motion, act.stamp))
+    return segment, Start.of(motion)
 
 
 def _pause(segment: Segment, act: Act, _: State) -> Ruled:
@@ -161,6 +182,7 @@ def _change_pace(segment: Segment, act: Act, _: State) -> Ruled:
 def _change_torque(segment: Segment, act: Act, before: State) -> Ruled:
     x, y, z = torque = act.request["torque"]
     if torque != segment.motion.applied_torque:
+        demand_free(segment.motion, "torque")
         segment = segment.change(act.stamp, before, torque=torque)
     told = replace(act.told, torque=(x, y, z)) if isinstance(act.told, Torque) else None
     return segment, told
@@ -171,6 +193,8 @@ def _change_parameters(segment: Segment, act: Act, before: State) -> Ruled:
     values = list_body(motion)
     body = read_body(values | {name: float(request[name]) for name in values if name in request})
     if body != (motion.top, motion.friction):
+        if any(astuple(body[1])):
+            demand_free(motion, "friction")
         following = following.change(act.stamp, before, *body)
     if "real_time_factor" in request and act.factor != segment.factor:
         following = following.set_factor(float(request["real_time_factor"]), act.stamp)
@@ -194,6 +218,8 @@ RULES: dict[str, Callable[[Segment, Act, State], Ruled]] = {
     "kick": _kick,
     "push": _push,
     "release": _release,
+    "clamp": _clamp,
+    "unclamp": _unclamp,
     "pause": _pause,
     "resume": _resume,
     "step": _step,

@@ -9,6 +9,7 @@ from typing import Literal
 
 from symtop_ros.arrays import Vector
 from symtop_ros.physics import (
+    ClampVerdict,
     ExactTimes,
     KickVerdict,
     Kind,
@@ -16,6 +17,7 @@ from symtop_ros.physics import (
     Pushes,
     State,
     Verdict,
+    clamp_verdict,
     perrys_rule,
     push_axle,
 )
@@ -31,11 +33,14 @@ class Start:
     """A motion that begins: its kind and what follows from its start."""
 
     motion: Kind
-    verdict: Verdict
+    verdict: Verdict | None  # None of a motion whose precession is held
+    clamp: ClampVerdict | None = None  # of such a motion
 
     @classmethod
     def of(cls, motion: Motion) -> "Start":
         """Return the outcome of the start of a motion."""
+        if motion.clamped:
+            return cls(motion.kind, None, clamp_verdict(motion.top, motion.start))
         return cls(motion.kind, perrys_rule(motion.top, motion.start))
 
 
@@ -186,6 +191,7 @@ Outcome = (
     Start
     | KickVerdict
     | Pushed
+    | ClampVerdict
     | Pause
     | Step
     | ClockJump
@@ -202,6 +208,8 @@ OUTCOMES: dict[str, type[Outcome]] = {
     "kick": KickVerdict,
     "push": Pushed,
     "release": Pushed,
+    "clamp": ClampVerdict,
+    "unclamp": Start,
     "pause": Pause,
     "resume": Pause,
     "step": Step,

@@ -83,6 +83,7 @@ def plan_kick(
     That is the quantity that it leaves unchanged; None for an angular impulse.
     """
     validate_names(request, KICK_FIELDS)
+    demand_free(motion, "kick")
     kind = exactly_one(request, KINDS)
     hold = find_hold(request)
     if "hold" in request and FIELDS[kind]["holds"] != "chosen":
@@ -128,6 +129,7 @@ def name_kick(request: Mapping[str, Any]) -> str:
 def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> tuple[Motion, Pushes]:
     """Return the motion that follows if a state of a motion is pushed again and again."""
     validate_names(request, KICK_FIELDS)
+    demand_free(motion, "pushes")
     pushes = read_pushes(request)
     first = push_axle(motion.top, state, pushes.impulse)
     pushed = Motion(motion.top, first, motion.friction, motion.applied_torque, pushes)
@@ -136,6 +138,29 @@ def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> tup
     last = first if motion.is_driven else pushed.piece_at(end).motion.start
     _limit_rates("axle_impulse", request, last)
     return pushed, pushes
+
+
+def plan_clamp(motion: Motion, state: State) -> Motion:
+    """Return the motion that follows if a hand begins to hold the precession of a motion."""
+    if motion.clamped:
+        raise RefusedError("clamp must come while the precession is free, got it held")
+    forces = motion.friction, motion.applied_torque
+    return Motion(motion.top, state, *forces, clamped=True)
+
+
+def plan_unclamp(motion: Motion, state: State) -> Motion:
+    """Return the motion that follows if that hand lets go."""
+    if not motion.clamped:
+        raise RefusedError("unclamp must come while the precession is held, got it free")
+    return motion.restart(state)
+
+
+def demand_free(motion: Motion, what: str) -> None:
+    """Refuse what would act on a precession that a hand holds."""
+    if motion.clamped:
+        raise RefusedError(
+            f"{what} must come while the precession is free: release it first (~/clamp with false)"
+        )
 
 
 def plan_release(segment: Segment, stamp: int) -> tuple[Segment, Pushes]:
@@ -179,6 +204,7 @@ def start_motion(settings: Settings) -> Motion:
         initial_state(settings.top, settings.initial, {}),
         settings.friction,
         settings.steady_torque,
+        clamped=settings.initial.clamped,
     )
 
 

@@ -60,10 +60,12 @@ class Timeline:
 
     def restart(self, stamp: int, values: Request | None = None) -> "Change":
         """Restart from named initial conditions, or without them from the last ones."""
+        clamped = self.settings.initial.clamped
         if values is None:
-            return self.follow(Act("reset", stamp, {}, start=self.start))
+            return self.follow(Act("reset", stamp, {}, self.start, clamped=clamped))
         start = initial_state(self.settings.top, self.settings.initial, values)
-        return replace(self, start=start).follow(Act("start", stamp, values, start=start))
+        act = Act("start", stamp, values, start, clamped=clamped)
+        return replace(self, start=start).follow(act)
 
     def move(self, stamp: int, now: int) -> "Change":
         """Continue the state of a stamp at the time (ns) to which the clock jumped."""

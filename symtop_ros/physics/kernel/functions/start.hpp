@@ -1,6 +1,7 @@
 // What is known of a start, a kick or a rate without a state at another time.
 #pragma once
 
+#include "../rule/clamp.hpp"
 #include "../rule/hurried.hpp"
 #include "../rule/kicks.hpp"
 #include "arguments.hpp"
@@ -170,6 +171,17 @@ symtop_status symtop_compare_hurried(const symtop_top* tops, const double* theta
     rules[i] = static_cast<unsigned char>(rule);
     return SYMTOP_OK;
   });
+}
+
+symtop_status symtop_judge_clamp(const symtop_start* start, symtop_held* held) {
+  using namespace symtop;
+  symtop_status status = admit({start, held});
+  if (status != SYMTOP_OK) return status;
+  symtop_start s = *start;
+  status = accept(s);
+  if (status == SYMTOP_OK) status = accept_clamped(s);
+  if (status == SYMTOP_OK) *held = judge_clamp(s, to_start(s));
+  return status;
 }
 
 symtop_status symtop_judge_kick(const symtop_start* before, const symtop_start* after,

@@ -85,6 +85,7 @@ export const NAMES = {
   part: ["size", "direction", "tilt"],
   lift_kind: ["unchanged", "higher", "lower"],
   fact: ["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"],
+  held_kind: ["falls", "swings", "rises", "turns", "rests"],
 };
 
 /**
@@ -182,5 +183,13 @@ export const RECORDS = {
     ["lift", "highest"],
     ["lift", "lowest"],
     ["fact bits", "contrary_facts"],
+  ],
+  held: [
+    ["held_kind", "kind"],
+    ["subject", "subject"],
+    ["double", "theta"],
+    ["double", "rate"],
+    ["double", "lowest_in"],
+    ["double 2", "angles_without"],
   ],
 };
