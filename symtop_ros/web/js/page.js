@@ -194,6 +194,7 @@ export class Page {
     this.fields.show(facts);
     this.lesson?.follow(facts);
     say("impulses-title", facts.impulses);
+    find("impulses-chart").hidden = facts.isHeld;
     for (const [name, text] of Object.entries(facts.outlooks)) say(`outlook-${name}`, text);
     showLedger(facts.ledger, facts.energies);
   }

@@ -29,7 +29,7 @@ export class Charts {
       psi_dot: (facts, samples) => drawOneSeries("psi_dot", samples, facts),
       impulses: ({ began }, samples) => {
         const { course, time } = last(samples);
-        drawImpulses(course, time / NANO - began);
+        if (!course.clamped) drawImpulses(course, time / NANO - began);
       },
       free: (_, samples) => free.draw(samples),
     };

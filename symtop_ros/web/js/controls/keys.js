@@ -2,7 +2,15 @@
 // Shift the arrows turn the view instead of the top. Buttons that act while they are held.
 
 /** @type {{[key: string]: string}} */
-const ACTS = { h: "hurry", d: "delay", " ": "pause", s: "step", r: "reset", p: "projector" };
+const ACTS = {
+  h: "hurry",
+  d: "delay",
+  c: "clamp",
+  " ": "pause",
+  s: "step",
+  r: "reset",
+  p: "projector",
+};
 /** @type {{[key: string]: string}} */
 const PUSHES = { ArrowUp: "up", ArrowDown: "down", ArrowRight: "along", ArrowLeft: "back" };
 const TURN = 20; // px of a drag

@@ -18,18 +18,28 @@ export class Course {
    * @param {number[]} friction coefficients, in the order of symtop_friction_kind
    * @param {Vector} torque
    * @param {Pushes | null} pushes of which the first leaves the start
+   * @param {boolean} clamped a hand holds phi
    */
-  constructor(kernel, top, start, friction = NO_FRICTION, torque = [0, 0, 0], pushes = null) {
+  constructor(
+    kernel,
+    top,
+    start,
+    friction = NO_FRICTION,
+    torque = [0, 0, 0],
+    pushes = null,
+    clamped = false,
+  ) {
     this.kernel = kernel;
     this.top = top;
     this.start = start;
     this.friction = friction;
     this.torque = torque;
     this.pushes = pushes;
+    this.clamped = clamped;
     const given = { orientation: start.given, angular_velocity: start.omega, friction, torque };
     /** The numbers of the motion, as the kernel takes them. */
     this.packed = pack({ ...top, ...given });
-    this.motion = kernel.motion({ ...top, ...given, pushes });
+    this.motion = kernel.motion({ ...top, ...given, pushes, clamped });
     this.isDriven = [...friction, ...torque].some((each) => each !== 0);
     /** @type {Course | null} */
     this.undriven = this.isDriven || pushes ? null : this;
@@ -98,13 +108,15 @@ export class Course {
   }
 
   /**
-   * The course that goes on from a state, with what is changed.
+   * The course that goes on from a state, with what is changed; nothing pushes or holds it else.
    * @param {State} start
-   * @param {{top?: Top, friction?: number[], torque?: Vector, pushes?: Pushes | null}} changes
+   * @param {{top?: Top, friction?: number[], torque?: Vector, pushes?: Pushes | null,
+   *   clamped?: boolean}} changes
    */
   continue(start, changes = {}) {
-    const { top = this.top, friction = this.friction, torque = this.torque, pushes } = changes;
-    return new Course(this.kernel, top, start, friction, torque, pushes);
+    const { top = this.top, friction = this.friction, torque = this.torque } = changes;
+    const { pushes, clamped } = changes;
+    return new Course(this.kernel, top, start, friction, torque, pushes, clamped);
   }
 
   /** The parameters of a top and its friction, by the names of a node. */

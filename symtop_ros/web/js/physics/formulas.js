@@ -74,3 +74,10 @@ export const findPotential = (top, state) => {
   };
   return { at, energy: findRest(findEnergies(top, state)) };
 };
+
+/** The same of an axis that is held in a vertical plane: that of the weight alone. @param {Top} top @param {State} state */
+export const findHeldPotential = (top, state) => {
+  const { weight, nutation } = findEnergies(top, state);
+  const at = (/** @type {number} */ theta) => top.Mgl * Math.cos(theta);
+  return { at, energy: weight + nutation };
+};

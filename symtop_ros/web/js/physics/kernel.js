@@ -217,6 +217,11 @@ export class Kernel {
     return this.call("judge", ...given, room("verdict"), room(1))[0];
   }
 
+  /** What follows if the precession of a start is held. @param {number[]} start @returns {Found} */
+  judgeClamp(start) {
+    return this.call("judge_clamp", start, room("held"))[0];
+  }
+
   /** @param {number[]} before @param {number[]} after @param {Hold | null} hold @returns {Found} */
   judgeKick(before, after, hold) {
     return this.call("judge_kick", before, after, NAMES.hold.indexOf(hold), room("verdict"))[0];

@@ -53,10 +53,11 @@ export const findBoundaries = ({ Ix, Iz, Mgl }, theta, phiDot) => {
 
 /**
  * Tilt, rates and regular rates of a motion where theta' = 0: at its start, or at the turning point next to it.
- * Null where this is on the vertical.
+ * Null where this is on the vertical, and where a hand holds the precession.
  * @param {Course} course @returns {Turning | null}
  */
-export const findTurning = ({ kernel, top, start, free }) => {
+export const findTurning = ({ kernel, top, start, free, clamped }) => {
+  if (clamped) return null;
   const { theta: tilt } = start.angles;
   const { rates } = start;
   const isAtRest = Math.abs(rates.theta) <= AT_REST * Math.max(...start.omega.map(Math.abs));

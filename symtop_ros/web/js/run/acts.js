@@ -4,6 +4,7 @@ import { Course, NANO } from "../physics/course.js";
 import { NAMES } from "../physics/records.js";
 import { cross, scale, subtract } from "../scene/matrices.js";
 import { readPushes } from "./run.js";
+import { phrase } from "../words/wording.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
 
 /** @import { LocalTop, Message } from "./local.js" */
@@ -106,6 +107,18 @@ export const holdTorque = (top, sign) => {
   top.tellFacts();
 };
 
+/** Hold the precession by hand, or let it go. @param {LocalTop} top */
+const clamp = (top) => {
+  const { clamped } = top.course;
+  top.add(clamped ? "unclamp" : "clamp", top.course.continue(top.state, { clamped: !clamped }));
+};
+
+/** Hold it while a button is held. @type {Act} */
+const grasp = (top) => {
+  if (!top.course.clamped) clamp(top);
+  top.graspUntil = performance.now() + TORQUE_LASTS;
+};
+
 /** The present motion, without the torque of a button. @param {LocalTop} top @returns {Beginning} */
 const present = ({ course: { top, friction, start }, steady }) => ({
   top,
@@ -115,10 +128,10 @@ const present = ({ course: { top, friction, start }, steady }) => ({
 });
 
 /** @param {LocalTop} top @param {Beginning} beginning @param {import("./run.js").Asked} asked */
-const begin = (top, { top: own, friction, torque, start }, asked = {}) => {
-  const course = new Course(top.kernel, own, start, friction, torque);
+const begin = (top, { top: own, friction, torque, start, clamped = false }, asked = {}) => {
+  const course = new Course(top.kernel, own, start, friction, torque, null, clamped);
   top.add("start", course, asked);
-  top.initial = start;
+  top.initial = { start, clamped };
 };
 
 /** @param {LocalTop} top @param {Message} message */
@@ -154,7 +167,7 @@ const followLink = (top, { link: { scene: name, ...texts } }) => {
 
 /** @param {LocalTop} top */
 const reset = (top) => {
-  begin(top, { ...present(top), start: top.initial }, { made_by: { kind: "reset" } });
+  begin(top, { ...present(top), ...top.initial }, { made_by: { kind: "reset" } });
 };
 
 /** A start with the motion of an event: after a kick its own words would be false. @type {Act} */
@@ -179,7 +192,8 @@ const setParameter = (top, { name, value }) => {
   else if (group === "friction") friction[NAMES.friction_kind.indexOf(key)] = value;
   else own[/** @type {keyof typeof own} */ (key)] = value;
   const made_by = { kind: "parameter", name: key, value };
-  top.add("change", top.course.continue(top.state, { top: own, friction }), { made_by });
+  const { clamped } = top.course;
+  top.add("change", top.course.continue(top.state, { top: own, friction, clamped }), { made_by });
 };
 
 /** @param {LocalTop} top */
@@ -190,6 +204,8 @@ const step = (top) => {
 
 /** What makes an event: what came later is no longer part of the run. @type {{[act: string]: Act}} */
 const EVENTS = {
+  clamp,
+  grasp,
   kick,
   press,
   push,
@@ -207,6 +223,9 @@ const EVENTS = {
   tilt,
   torque: (top, { sign }) => holdTorque(top, sign),
 };
+
+/** What would act on a precession that a hand holds. */
+const TOUCHES = ["kick", "press", "push", "pushes", "pull", "torque"];
 
 /** What only changes what is shown. @type {{[act: string]: Act}} */
 const VIEWS = {
@@ -226,6 +245,8 @@ const VIEWS = {
 /** Do what a page asks for; a refusal is thrown. @type {Act} */
 export const perform = (top, message) => {
   const event = EVENTS[message.act];
+  if (TOUCHES.includes(message.act) && top.course.clamped)
+    throw new RangeError(phrase("refused.held"));
   if (event) {
     event(top, message);
     top.end = top.time;

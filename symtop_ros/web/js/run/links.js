@@ -13,7 +13,7 @@ import { phrase } from "../words/wording.js";
  */
 /**
  * The angles and rates of a scene are what a link that names it leaves open.
- * @typedef {{top: Top, friction: number[], torque: Vector, start: State,
+ * @typedef {{top: Top, friction: number[], torque: Vector, start: State, clamped?: boolean,
  *   initial?: {[name: string]: number}}} Beginning
  */
 
@@ -39,8 +39,8 @@ export const findScene = (scenes, name) => {
 
 /** @param {Kernel} kernel @param {SceneFile} scene @returns {Beginning} */
 export const readScene = (kernel, { top: [Ix, Iz, Mgl], friction, torque, initial }) => {
-  const { precession, orientation, angular_velocity, ...numbers } = initial;
-  const given = { top: { Ix, Iz, Mgl }, friction, torque };
+  const { precession, orientation, angular_velocity, clamped, ...numbers } = initial;
+  const given = { top: { Ix, Iz, Mgl }, friction, torque, clamped };
   if (orientation.length) {
     const [x, y, z, w] = orientation;
     const omega = angular_velocity.length ? angular_velocity : [0, 0, 0];
@@ -92,7 +92,7 @@ const toNumber = (name, text) => {
 /** @param {[string, string | number]} pair of a link @returns {[string, number]} */
 const readNumber = ([name, text]) => {
   if (SINGLE.includes(name)) return [name, toNumber(name, text)];
-  const known = ["scene", "precession", ...SINGLE, ...VECTORS];
+  const known = ["scene", "precession", "clamped", ...SINGLE, ...VECTORS];
   throw new RangeError(`name in a link must be one of ${known.join(", ")}, got ${name}`);
 };
 
@@ -133,7 +133,7 @@ const readState = (kernel, { orientation, angular_velocity }, isNamed) => {
  * @param {{[name: string]: import("./reader.js").Field}} fields of an event in run.json
  * @returns {Beginning}
  */
-export const readLink = (kernel, { precession, ...texts }, given, fields) => {
+export const readLink = (kernel, { precession, clamped: held, ...texts }, given, fields) => {
   const vectors = readVectors(texts, fields);
   const single = Object.entries(texts).filter(([name]) => !VECTORS.includes(name));
   const numbers = Object.fromEntries(single.map(readNumber));
@@ -145,13 +145,20 @@ export const readLink = (kernel, { precession, ...texts }, given, fields) => {
   let { start } = given;
   if (vectors.orientation || vectors.angular_velocity) start = readState(kernel, vectors, isNamed);
   else if (isNamed) start = createStart(kernel, top, { ...given.initial, ...numbers }, precession);
-  return { top, friction, torque, start };
+  const clamped = held === undefined ? given.clamped : readHeld(held);
+  return { top, friction, torque, start, clamped };
+};
+
+/** @param {string} text of a link */
+const readHeld = (text) => {
+  if (text === "true" || text === "false") return text === "true";
+  throw new RangeError(`clamped must be true or false, got ${text || "nothing"}`);
 };
 
 /** The link that starts a motion with the same doubles. @param {Beginning} beginning */
-export const writeLink = ({ top, friction, torque, start }) => {
+export const writeLink = ({ top, friction, torque, start, clamped }) => {
   const coefficients = Object.fromEntries(FRICTION.map((name, k) => [name, friction[k]]));
-  const values = { ...top, ...coefficients, torque };
+  const values = { ...top, ...coefficients, torque, ...(clamped ? { clamped } : {}) };
   const state = { orientation: start.given, angular_velocity: start.omega };
   return Object.entries({ ...values, ...state })
     .map(([name, value]) => `${name}=${value}`)

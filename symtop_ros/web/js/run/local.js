@@ -56,6 +56,7 @@ export class LocalTop {
     this.layers = { ...content.layers };
     this.torqueUntil = 0;
     this.pushUntil = 0; // ms, while a button is held
+    this.graspUntil = 0; // ms, while a button is held that holds the precession
     this.pushes = MOST_PUSHES; // that a button asks for: it ends them when it is released
     this.stirred = 0; // ms; when something was done last
     this.chartsDue = 0; // ms
@@ -74,7 +75,7 @@ export class LocalTop {
     /** Ends a rest. */
     this.stir = () => {};
     /** What Reset starts from. */
-    this.initial = State.fromEuler(kernel, { theta: 0 });
+    this.initial = { start: State.fromEuler(kernel, { theta: 0 }), clamped: false };
     /** A run for comparison, from a start to an end. @type {import("./run.js").Kept | null} */
     this.kept = null;
   }
@@ -133,6 +134,7 @@ export class LocalTop {
   advance(passed, now) {
     if (this.torqueUntil && now > this.torqueUntil) holdTorque(this, 0);
     if (this.pushUntil && now > this.pushUntil) this.release();
+    if (this.graspUntil && now > this.graspUntil) this.letGo();
     if (this.isRunning) this.tryToMove(Math.min(passed, LONGEST_FRAME) / 1000);
     this.show(now);
   }
@@ -175,6 +177,12 @@ export class LocalTop {
     this.run.release(this.time);
   }
 
+  /** Let go the precession that a button has held. */
+  letGo() {
+    this.graspUntil = 0;
+    if (this.course.clamped) this.take({ act: "clamp" });
+  }
+
   /** Tell what has changed if the time has come to another motion. @param {Course} course before */
   cross(course) {
     if (this.course === course) return;
@@ -194,11 +202,11 @@ export class LocalTop {
     this.changed();
   }
 
-  /** Refuse an event that no run.json could hold; the end of a torque that is held needs one more. */
+  /** Refuse an event that no run.json could hold; the end of what is held needs one more. */
   demandRoom() {
     const { most } = this.content.run_fields;
     const taken = this.run.findPlace(this.time) + 1;
-    if (taken + (this.torqueUntil ? 2 : 1) > most)
+    if (taken + (this.torqueUntil || this.graspUntil ? 2 : 1) > most)
       throw new RangeError(phrase("refused.most", { most }));
   }
 
@@ -373,9 +381,10 @@ export class LocalTop {
 
   /** What run.json holds. */
   get json() {
-    const [format] = this.content.run_fields.formats.slice(-1);
     const run = this.run.copy();
     if (this.pushUntil) run.release(this.time);
+    const isClamped = run.moments.some(({ course }) => course.clamped);
+    const format = this.content.run_fields.formats.at(isClamped ? -1 : -2); // as run_file.py
     return { format, events: run.records, end: this.end / NANO };
   }
 
@@ -387,7 +396,7 @@ export class LocalTop {
     const { time, course } = this.run.findEvent(wanted);
     // What takes too long to integrate is reached later.
     this.time = this.end = time + course.reach(wanted - time, MOST_STEPS);
-    this.initial = this.run.moments[0].course.start;
+    this.initial = this.run.moments[0].course;
     this.isRunning = false;
     this.changed();
   }

@@ -13,6 +13,7 @@ import { phrase } from "../words/wording.js";
 /** @typedef {{service: string, argument?: any} | {torque: number[]}} Request */
 
 const RELEASE = "release"; // service, and event: pushes have ended
+const CLAMP = "clamp"; // service
 const TOLD = ["record", "failure"]; // events of which the page says what the node said
 
 export class NodeTop extends LocalTop {
@@ -94,6 +95,7 @@ export class NodeTop extends LocalTop {
   /** Show what has come: the node has the time. @param {number} _ ms @param {number} now ms */
   advance(_, now) {
     if (this.pushUntil && now > this.pushUntil) this.release();
+    if (this.graspUntil && now > this.graspUntil) this.letGo();
     this.show(now);
   }
 
@@ -122,6 +124,11 @@ export class NodeTop extends LocalTop {
     if (pushes && number < pushes.number) this.send([{ service: RELEASE }]);
   }
 
+  letGo() {
+    this.graspUntil = 0;
+    this.send([{ service: CLAMP, argument: false }]);
+  }
+
   /** The node refuses pushes of which one cannot be. */
   demandPushes() {}
 
@@ -141,12 +148,24 @@ export class NodeTop extends LocalTop {
       this.ask("kick", asked?.act);
       return;
     }
+    if (kind === "clamp" || kind === "unclamp") {
+      this.ask(CLAMP, course.clamped);
+      return;
+    }
     const changes = listChanges(this.course, course);
+    if (kind === "start") Object.assign(changes, this.listHeld(course));
     if (Object.keys(changes).length) this.ask("set_parameters_atomically", changes);
     if (kind !== "start") return;
     const [w, x, y, z] = course.start.given;
     const { omega } = course.start;
     this.ask("set_initial_conditions", { orientation: [x, y, z, w], angular_velocity: omega });
+  }
+
+  /** What a start must change so that it begins held or free. @param {Course} course */
+  listHeld({ clamped }) {
+    if (this.course.clamped) this.ask(CLAMP, false); // friction and torques may follow
+    const isHeld = this.run.moments.some((each) => each.kind === "start" && each.course.clamped);
+    return clamped || isHeld ? { "initial.clamped": clamped } : {};
   }
 
   /** @param {boolean} isRunning */

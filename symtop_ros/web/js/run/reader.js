@@ -6,11 +6,11 @@ import { writeNumber } from "../words/numbers.js";
 
 /** @import { EventRecord } from "./run.js" */
 /**
- * A field: one of some words, a text of some length, some numbers of limited size, a record of one of
- * some kinds, or a number.
+ * A field: one of some words, a text of some length, true or false (`flag`), some numbers of limited
+ * size, a record of one of some kinds, or a number.
  * Without `absent` a field must be given. A kind of kick (`kick`, its name in the kernel) holds a
  * quantity, nothing (null), or the one that is `chosen`.
- * @typedef {{words?: string[], length?: number,
+ * @typedef {{words?: string[], length?: number, flag?: boolean,
  *   records?: {[kind: string]: {[name: string]: Field}}, size?: number, limit?: number, unit?: string,
  *   low?: number, high?: number, absent?: any, kick?: string, holds?: any}} Field
  */
@@ -75,10 +75,14 @@ const readRecord = (name, kinds, value) => {
 
 /** @param {string} name @param {Field} field @param {any} value @returns {any} */
 export const readField = (name, field, value) => {
-  const { words, length, records, size } = field;
+  const { words, length, records, size, flag } = field;
   if (value === undefined && "absent" in field) return field.absent;
   if (size !== undefined) return readVector(name, field, value);
   if (records) return readRecord(name, records, value);
+  if (flag) {
+    if (typeof value === "boolean") return value;
+    throw reject(name, "be true or false", value);
+  }
   if (words) {
     if (words.includes(value)) return value;
     throw reject(name, `be ${words.map((each) => `"${each}"`).join(" or ")}`, value);

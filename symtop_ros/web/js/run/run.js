@@ -9,7 +9,7 @@ import { State } from "../physics/state.js";
 
 /** @import { Piece } from "../physics/course.js" */
 /** @import { Kernel, Vector, Quaternion, Hold, Pushes } from "../physics/kernel.js" */
-/** @typedef {"start" | "kick" | "push" | "change" | "torque"} Kind */
+/** @typedef {"start" | "kick" | "push" | "clamp" | "unclamp" | "change" | "torque"} Kind */
 /**
  * What was asked for: a kick or pushes by the names of ~/kick (`act`), the hold of a kick, null for an
  * angular impulse, and what of the page has made the event, where its motion does not tell. Runs of
@@ -24,7 +24,7 @@ import { State } from "../physics/state.js";
 /**
  * An event as in run.json; its time is in s, and whole nanoseconds.
  * @typedef {{kind: Kind, time: number, top: [number, number, number], orientation: Quaternion,
- *   angular_velocity: Vector, friction: number[], torque: Vector} & Asked} EventRecord
+ *   angular_velocity: Vector, friction: number[], torque: Vector, clamped?: boolean} & Asked} EventRecord
  */
 /**
  * A course in a run: its times count from `since`, in ns of the run.
@@ -42,6 +42,7 @@ import { State } from "../physics/state.js";
  */
 
 const LONGEST = 10_000; // ms in which the events of a run must be computed
+const LEFT_OUT = ["kick", "push", "clamp"]; // by the ghost
 const GHOST_STEPS = 3000; // of an integration, for one state of the ghost
 
 export class Run {
@@ -152,11 +153,17 @@ export class Run {
    * @returns {Placed | null}
    */
   findNextGhost(kind, time, course, last) {
-    if (kind === "kick" || kind === "push") return { course: last.course, since: last.time };
+    if (LEFT_OUT.includes(kind)) return { course: last.course, since: last.time };
     const state = this.findGhost(time);
     if (!last.ghost || !state) return null;
     const { top, friction, torque } = course;
     return { course: last.ghost.course.continue(state, { top, friction, torque }), since: time };
+  }
+
+  /** What the ghost of a time was spared: a kick, pushes or a clamp. @param {number} time ns */
+  findSpared(time) {
+    const isSpared = (/** @type {Moment} */ each) => LEFT_OUT.includes(each.kind);
+    return this.moments.findLast((each) => each.time <= time && isSpared(each))?.kind ?? null;
   }
 
   copy() {
@@ -178,7 +185,7 @@ export class Run {
   /** The events as in run.json. @returns {EventRecord[]} */
   get records() {
     return this.moments.map(({ kind, time, asked, course }) => {
-      const { top, start, friction, torque } = course;
+      const { top, start, friction, torque, clamped } = course;
       return {
         kind,
         time: time / NANO,
@@ -187,6 +194,7 @@ export class Run {
         angular_velocity: start.omega,
         friction,
         torque,
+        ...(clamped ? { clamped } : {}),
         ...asked,
       };
     });
@@ -221,11 +229,12 @@ export class Run {
   }
 
   /** @param {EventRecord} event */
-  append({ kind, time, top, orientation, angular_velocity, friction, torque, ...asked }) {
+  append({ kind, time, top, orientation, angular_velocity, friction, torque, clamped, ...asked }) {
     const [Ix, Iz, Mgl] = top;
     const start = new State(this.kernel, orientation, angular_velocity);
     const pushes = kind === "push" && asked.act ? readPushes(asked.act) : null;
-    const course = new Course(this.kernel, { Ix, Iz, Mgl }, start, friction, torque, pushes);
+    const body = { Ix, Iz, Mgl };
+    const course = new Course(this.kernel, body, start, friction, torque, pushes, clamped);
     course.demandPushes();
     this.add(kind, Math.round(time * NANO), course, asked);
   }

@@ -176,14 +176,15 @@ export class Scene {
     }
   }
 
-  /** @param {State | null} ghost the top that was not pushed */
+  /** @param {State | null} ghost the top that was not pushed, or not clamped */
   drawGhost(ghost) {
     if (!ghost) return;
     const { painter, models } = this;
     painter.drawMesh(models.body, createPose(ghost.orientation), GHOST_OPACITY);
     const [axis, size] = [ghost.toWorld([0, 0, 1]), 0.8 * BALL];
     painter.drawMesh(models.ghost, createPose([1, 0, 0, 0], [size, size, size], axis), 0.8);
-    const name = phrase("scene.ghost");
+    const isFree = this.top.run.findSpared(this.top.time) === "clamp";
+    const name = phrase(isFree ? "scene.ghost_free" : "scene.ghost");
     const below = add(scale(axis, 1 - 2 * BALL), scale(normalize([axis[0], axis[1], 0]), 2 * BALL));
     this.labels.put("ghost", COLORS.sphere, below, axis, name);
   }

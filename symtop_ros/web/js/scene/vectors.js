@@ -15,15 +15,18 @@ const KINDS = NAMES.friction_kind;
  * @param {State} state
  * @returns {{L: Vector, omega: Vector, torque: Vector}}
  */
-export const findVectors = ({ top: { Ix, Iz, Mgl }, friction, torque }, state) => {
+export const findVectors = ({ top: { Ix, Iz, Mgl }, friction, torque, clamped }, state) => {
   const [x, y, z] = state.omega;
   const [a, b] = state.toWorld([0, 0, Mgl]);
   const [axial, transverse] = ["axial", "transverse"].map((each) => friction[KINDS.indexOf(each)]);
   const damping = state.toWorld([-transverse * x, -transverse * y, -axial * z]);
+  // p_psi times the velocity of the axle: derivation.md, section 11
+  const held = clamped ? Iz * z : 0;
+  const hand = state.toWorld([held * y, -held * x, 0]);
   return {
     L: state.toWorld([Ix * x, Ix * y, Iz * z]),
     omega: state.toWorld(state.omega),
-    torque: add(add([-b, a, 0], damping), torque),
+    torque: add(add(add([-b, a, 0], damping), torque), hand),
   };
 };
 

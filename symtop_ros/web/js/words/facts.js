@@ -8,7 +8,7 @@ import { describeOutlooks } from "./outlooks.js";
 import { describePushes } from "./pushes.js";
 import { findTurning, nameHalf } from "../physics/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
-import { findPotential } from "../physics/formulas.js";
+import { findHeldPotential, findPotential } from "../physics/formulas.js";
 import { spread } from "../physics/spread.js";
 import { phrase } from "./wording.js";
 import { shorten } from "./quantities.js";
@@ -46,10 +46,11 @@ export const chooseWindow = ({ motion }) => {
  * The box of the potential, its curve in it, and the curve before the last change.
  * @param {Course} free @param {Moment | null} change
  */
-const describePotential = ({ top: body, start, motion }, change) => {
-  const potential = findPotential(body, start);
-  const former =
-    change?.before && change.last ? findPotential(change.last.top, change.before) : null;
+const describePotential = ({ top: body, start, motion, clamped }, change) => {
+  const find = (/** @type {boolean} */ held) => (held ? findHeldPotential : findPotential);
+  const potential = find(clamped)(body, start);
+  const { before, last } = change ?? {};
+  const former = before && last ? find(last.clamped)(last.top, before) : null;
   const angles = motion.turning_angles;
   const tilts = spread(1e-4, Math.PI - 1e-4, SEARCHED);
   const heights = tilts.map((tilt) => potential.at(tilt));
@@ -157,7 +158,8 @@ export const describe = (run, time) => {
     energies: phrase("ledger", nameLedger(announced)),
     body: course.top,
     impulses: phrase("impulses", { kind: nameHalf(course) }),
-    outlooks: describeOutlooks(HELD.includes(kind) ? null : course),
+    outlooks: describeOutlooks(HELD.includes(kind) || course.clamped ? null : course),
+    isHeld: course.clamped,
     isFresh: kind === "start",
   };
 };

@@ -1,6 +1,6 @@
 // What an event led to, as records: for the headline of the page, and for the reason below it.
 
-import { judge, judgeKick } from "./verdict.js";
+import { judge, judgeClamp, judgeKick } from "./verdict.js";
 
 /** @import { Course } from "../physics/course.js" */
 /** @import { Moment } from "../run/run.js" */
@@ -12,7 +12,7 @@ const SEEN = 5e-4; // rad; a tilt that differs by less looks the same, and reads
 const OPPOSITE = { higher: "falls", lower: "rises" };
 const WAVES = ["cusps", "looping", "unidirectional"];
 /** @type {{[kind: string]: string}} */
-const KINDS = { start: "start", change: "changed", torque: "released" };
+const KINDS = { start: "start", change: "changed", torque: "released", unclamp: "let_go" };
 
 /** @param {Course} course @returns {Forces} */
 export const findForces = ({ friction, torque }) => {
@@ -102,6 +102,15 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
       ? { headline: kicked, name: "after_kick", outcome: { verdict: outcome }, because }
       : { headline: kicked, name: "kick", outcome, because };
   }
+  if (course.clamped) {
+    const held = judgeClamp(course);
+    return {
+      headline: { ...held, kind: `held_${held.kind}` },
+      name: "clamp",
+      outcome: held,
+      because: null,
+    };
+  }
   const verdict = judge(free);
   const { turning_angles } = verdict;
   const moves = free.motion.kind;
@@ -113,7 +122,7 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
       motion: findMoves(moves, turning_angles, verdict.reason.kind),
     },
     name: forces ? "driven" : "start",
-    outcome: { motion: moves, forces, verdict },
+    outcome: { motion: moves, forces, verdict, clamp: null },
     because: forces ? null : verdict.cause,
   };
 };

@@ -18,6 +18,7 @@ const findRequest = (kind, { act = {} }, { start }) => {
   const { phi: phi_dot, psi: psi_dot } = start.rates;
   const { precession_rate_factor: factor, precession_rate_change: change, axle_impulse } = act;
   if (kind === "change") return { kind: "change" };
+  if (kind === "clamp" || kind === "unclamp") return { kind };
   if (kind === "push") return { kind: "sideways", rate: act.rate };
   if (kind !== "kick") return { kind: "started", theta: start.angles.theta, phi_dot, psi_dot };
   if (factor !== undefined) return { kind: factor > 1 ? "hurried" : "delayed", factor };

@@ -55,6 +55,12 @@ export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_rate") => {
   };
 };
 
+/** What follows while a hand holds the precession of a course. @param {Course} course @returns {Found} */
+export const judgeClamp = ({ kernel, packed }) => {
+  const { lowest_in, ...held } = kernel.judgeClamp(packed);
+  return { ...held, lowest_in: Number.isNaN(lowest_in) ? null : lowest_in };
+};
+
 /**
  * The verdict on the kick with which a course begins.
  * @param {Course} course
