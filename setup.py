@@ -57,6 +57,7 @@ REPORT = [
 REFERENCE = [
     "mpmath>=1.4",
     "gmpy2>=2.1",  # mpmath uses it, and takes a third of the time
+    "python-flint>=0.9",  # balls: reference.proved
 ]
 # Programs that `make -C workshop report` compares with, if they are installed.
 PEERS = [
