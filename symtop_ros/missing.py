@@ -3,6 +3,7 @@
 NAME = "symtop_ros"
 # Packages of PyPI by the modules that are imported, where the names differ; mcap brings its codecs.
 PACKAGES = {"lz4": "mcap", "zstandard": "mcap", "yaml": "pyyaml", "PIL": "pillow"}
+PACKAGES["flint"] = "python-flint"
 PACKAGES |= dict.fromkeys(("rerun", "rerun_cli"), "rerun-sdk")
 PLAIN = ("ahrs", "matplotlib", "mcap", "mpmath", "numpy", "pyarrow", "scipy", "tqdm")
 

@@ -16,7 +16,7 @@ TABLE = {
     # text from records of any kind, so it is below them
     "wording": " | ",
     # flint, mpmath: only in reference, cupy: only in gpu, which nothing imports
-    "physics": "wording | cupy flint mpmath numpy",
+    "physics": "missing wording | cupy flint mpmath numpy",
     "wire": " | numpy",
     "simulation": "__init__ physics wire wording | numpy scipy yaml",
     "log": "__init__ simulation wire | lz4 mcap numpy zstandard",

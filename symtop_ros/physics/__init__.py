@@ -14,6 +14,7 @@ Examples
 """
 
 from symtop_ros.physics.body import Body
+from symtop_ros.physics.certificate import Certificate
 from symtop_ros.physics.dynamics import (
     STANDARD_GRAVITY,
     Balance,
@@ -62,6 +63,7 @@ __all__ = [
     "Balance",
     "Body",
     "Cause",
+    "Certificate",
     "ClampVerdict",
     "Direction",
     "EffectivePotential",

@@ -1,6 +1,7 @@
 """The motion to any number of digits, slowly: what the numbers of the kernel are compared with.
 
-Nothing of `symtop_ros.physics` imports this, and it uses no number of the kernel. It is written to
+Of `symtop_ros.physics` only certificates import this, when one is asked for, and it uses no number
+of the kernel. It is written to
 be read next to docs/derivation.md, and needs mpmath: `pip install -e '.[reference]'` in a checkout.
 """
 

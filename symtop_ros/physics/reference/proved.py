@@ -1,62 +1,130 @@
-"""States under gravity alone as balls whose radius is a proof, in ball arithmetic (FLINT).
+"""States as balls whose radius is a proof, and proved bounds of the errors of doubles.
 
-All constants but |q| are rational in the doubles. So equal roots, a start at a turning point and an
-axis on the vertical are decided in fractions, and no tolerance is needed. The rest is computed with
-more bits until the balls are small. Each of the numbers A, B and conj(omega)
-of docs/derivation.md is C theta_k(X + xi)/theta_4(X) exp(rate t), k = 4, 3, 3.
-
-Assumed: FLINT, Python's fractions, and the formulas, which are proved on paper.
+Under gravity alone by `fall`, in closed form; with friction or a torque by `enclosure`. What is
+computed in balls is computed with more bits until they are small.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
-from typing import Any, NamedTuple
 
-from flint import acb, arb, ctx, fmpq
+from flint import arb, ctx
 
+from symtop_ros.physics.reference.balls import Ball, ProvedState, TooFewBitsError, norm
+from symtop_ros.physics.reference.enclosure import NO_DRIVE, Enclosure
+from symtop_ros.physics.reference.fall import find_fall
 from symtop_ros.physics.reference.series import Inputs
 
-Ball = Any  # of FLINT: arb or acb
 MOST_BITS = 200_000
-I = acb(0, 1)  # noqa: E741, as in the derivation
+BITS_PER_DIGIT = math.log2(10)
+ERROR_BITS = 256  # in which errors of doubles are computed
+Solve = Callable[[Fraction], ProvedState]
 
 
-class TooFewBitsError(ArithmeticError):
-    """A ball is too wide at this precision, or at the largest."""
+def prove_state(
+    inputs: Inputs,
+    t: float | Fraction,
+    digits: int = 30,
+    friction: Sequence[float] = NO_DRIVE[0],
+    torque: Sequence[float] = NO_DRIVE[1],
+) -> ProvedState:
+    """Return the state at a time as balls, each with a radius that is a proof.
 
-
-class ProvedState(NamedTuple):
-    """A state in balls: each contains the exact number.
-
-    Attributes
+    Parameters
     ----------
-    orientation : tuple of flint.arb
-        Unit quaternion (w, x, y, z), body to world.
-    angular_velocity : tuple of flint.arb
-        Angular velocity in the body frame, in rad/s.
-    size : flint.arb
-        The largest abs(omega_xy) of the motion, in rad/s.
+    inputs : Inputs
+        A top and its start, as exact fractions.
+    t : float or Fraction
+        Time in s, of any sign.
+    digits : int
+        The radius is 10^-digits at most, of rates relative to the `size` of the state.
+    friction : (float, float)
+        Axial and transverse coefficient in N m s.
+    torque : (float, float, float)
+        A constant torque in the world frame, in N m.
+
+    Returns
+    -------
+    ProvedState
+        Orientation and angular velocity.
+
+    Raises
+    ------
+    ValueError
+        If the time is not finite.
+    TooFewBitsError
+        If more than 200 000 bits are needed.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State, Top
+    >>> from symtop_ros.physics.reference import Inputs
+    >>> from symtop_ros.physics.reference.proved import prove_state
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> cusps = State.from_euler(theta=0.5, psi_dot=200.0)
+    >>> found = prove_state(Inputs.of(top, cusps), 10.0)
+    >>> print(found.orientation[0].str(20, radius=False))
+    0.58317990347338077042
+    >>> bool(found.orientation[0].rad() < 1e-30)
+    True
     """
-
-    orientation: tuple[Ball, ...]
-    angular_velocity: tuple[Ball, ...]
-    size: Ball
+    return prove_states(inputs, [t], digits, friction, torque)[0]
 
 
-def prove_state(inputs: Inputs, t: float | Fraction, digits: int = 30) -> ProvedState:
-    """Return balls of radius 10^-digits at most, that of rates relative to `size`."""
+def prove_states(
+    inputs: Inputs,
+    times: Iterable[float | Fraction],
+    digits: int = 30,
+    friction: Sequence[float] = NO_DRIVE[0],
+    torque: Sequence[float] = NO_DRIVE[1],
+) -> list[ProvedState]:
+    """Return the states at some times, as `prove_state` does; a driven motion is followed once."""
+    exact = [_to_fraction(t) for t in times]
+    if not (any(friction) or any(torque)):
+        return [_prove_fall(inputs, t, digits) for t in exact]
+    farthest = max(map(abs, exact), default=Fraction(0))
+    bits = _estimate_bits(inputs, farthest, digits) + _estimate_growth(inputs, farthest, torque)
+    return _refine(lambda bits: Enclosure(inputs, bits, friction, torque).at, exact, digits, bits)
+
+
+def _prove_fall(inputs: Inputs, t: Fraction, digits: int) -> ProvedState:
+    bits = _estimate_bits(inputs, abs(t), digits)
+    return _refine(lambda _: lambda time: find_fall(inputs, time), [t], digits, bits)[0]
+
+
+def _to_fraction(t: float | Fraction) -> Fraction:
     if not math.isfinite(t):
         raise ValueError(f"t must be a finite number, got {t} s")
-    t = Fraction(t)
-    turned = abs(t) * max(map(abs, (*inputs.angular_velocity, inputs.Mgl / inputs.Ix, Fraction(1))))
-    bits = int(3.33 * digits) + 40 + int(turned + 1).bit_length()
+    return Fraction(t)
+
+
+def _estimate_bits(inputs: Inputs, time: Fraction, digits: int) -> int:
+    """Return the bits of the digits, of the angle by which a motion turns, and some more."""
+    turned = time * max(map(abs, (*inputs.angular_velocity, inputs.Mgl / inputs.Ix, Fraction(1))))
+    return int(BITS_PER_DIGIT * digits) + 40 + int(turned + 1).bit_length()
+
+
+def _estimate_growth(inputs: Inputs, time: Fraction, torque: Sequence[float]) -> int:
+    """Return about the bits that the bound of a driven motion loses until a time."""
+    Ix, Iz, Mgl, _, omega = inputs
+    pull = abs(Mgl) / Ix + sum(map(abs, map(Fraction, torque))) / min(Ix, Iz)
+    swing = math.sqrt(pull)
+    nods = float(pull) / max(abs(float(omega[2] * Iz / Ix)), swing, math.ulp(0.0))
+    across = abs(float((Ix - Iz) / Ix)) * (math.hypot(*map(float, omega[:2])) + nods) / 2
+    return int(float(time) * (swing + across) / math.log(2))
+
+
+def _refine(
+    make: Callable[[int], Solve], times: Sequence[Fraction], digits: int, bits: int
+) -> list[ProvedState]:
+    """Return states with small radii, of solvers that are made with more and more bits."""
     while bits <= MOST_BITS:
         try:
             with ctx.workprec(bits):
-                found = find_state(inputs, t)
-                if _is_small(found, arb(10) ** -digits):
+                found, least = list(map(make(bits), times)), arb(10) ** -digits
+                if all(each.is_within(least) for each in found):
                     return found
         except (TooFewBitsError, ValueError, ZeroDivisionError):
             pass  # a wide ball contains a zero or a pole
@@ -64,174 +132,21 @@ def prove_state(inputs: Inputs, t: float | Fraction, digits: int = 30) -> Proved
     raise TooFewBitsError(f"the state needs more than {MOST_BITS} bits")
 
 
-def _is_small(found: ProvedState, least: Ball) -> bool:
-    limits = [least] * 4 + [least * found.size] * 3
-    balls = (*found.orientation, *found.angular_velocity)
-    # a comparison with nan is False, so a ball that is not finite must be looked for
-    return all(
-        b.is_finite() and bool(b.is_exact() or b.rad() <= limit)
-        for b, limit in zip(balls, limits, strict=True)
-    )
+def bound_errors(
+    exact: ProvedState, orientation: Sequence[float], angular_velocity: Sequence[float]
+) -> tuple[Ball, Ball]:
+    """Return the errors of doubles as balls, of the attitude in rad and of the rates in rad/s.
 
-
-def _real(x: Fraction) -> Ball:
-    return arb(fmpq(x.numerator, x.denominator))
-
-
-def _rf(*arguments: Ball) -> Ball:
-    return acb.elliptic_rf(*map(acb, arguments)).real
-
-
-def find_state(inputs: Inputs, t: Fraction) -> ProvedState:
-    """Return the state at the precision of FLINT's context, however wide the balls are."""
-    if inputs.Mgl >= 0:
-        return _Fall(inputs).at(t)
-    w, x, y, z = inputs.orientation  # turn the world by pi about x'
-    turned = inputs._replace(Mgl=-inputs.Mgl, orientation=(-x, w, -z, y))
-    (w, x, y, z), omega, size = _Fall(turned).at(t)
-    return ProvedState((x, -w, z, -y), omega, size)
-
-
-class _Fall:
-    """The constants of a motion with Mgl >= 0 [derivation, 1]."""
-
-    def __init__(self, inputs: Inputs) -> None:
-        Ix, Iz, Mgl, (w, x, y, z), (wx, wy, self.wz) = inputs
-        square = w * w + x * x + y * y + z * z
-        self.u = (w * w + z * z - x * x - y * y) / square
-        gx, gy = 2 * (x * z - w * y) / square, 2 * (w * x + y * z) / square
-        self.a, self.c = self.wz * Iz / Ix, self.wz * (Ix - Iz) / Ix
-        self.beta, self.energy = 2 * Mgl / Ix, wx * wx + wy * wy
-        self.slope = wy * gx - wx * gy  # of u
-        self.b, self.alpha = wx * gx + wy * gy + self.a * self.u, self.energy + self.beta * self.u
-        norm = _real(square).sqrt()
-        self.A, self.B = acb(_real(w), _real(z)) / norm, acb(_real(x), _real(y)) / norm
-        self.W = acb(_real(wx), _real(-wy))
-
-    def at(self, t: Fraction) -> ProvedState:
-        """Return the state at a time, by the kind of motion that the fractions decide."""
-        T = _real(t)
-        if not self.beta:
-            return self._turn_freely(T)
-        if not self.slope and not self.f1(self.u):  # u rests: regular precession, sleeping, hanging
-            found = [self._turn(*part, T) for part in self.parts()]
-            return self._pack(found, _real(self.energy).sqrt())
-        nutation = _Nutation(self)
-        return self._pack([nutation.value(k, T) for k in range(3)], nutation.largest)
-
-    def f(self, v: Fraction) -> Fraction:
-        """Return u'^2 at a height."""
-        return (self.alpha - self.beta * v) * (1 - v * v) - (self.b - self.a * v) ** 2
-
-    def f1(self, v: Fraction) -> Fraction:
-        """Return the derivative of `f`."""
-        pull = -self.beta * (1 - v * v) - 2 * v * (self.alpha - self.beta * v)
-        return pull + 2 * self.a * (self.b - self.a * v)
-
-    def parts(self) -> list[tuple[Ball, Ball, Fraction, Fraction]]:
-        """Return A, B, conj(omega): value and slope, the u of its zero, a constant rotation."""
-        A, B, W = self.A, self.B, self.W
-        return [
-            (A, -W * B / 2, Fraction(-1), self.c / 2),
-            (B, W.conjugate() * A / 2, Fraction(1), -self.c / 2),
-            (W, _real(self.beta) * A * B.conjugate(), self.alpha / self.beta, self.c + self.a / 2),
-        ]
-
-    def _turn(self, P: Ball, _: Ball, v: Fraction, share: Fraction, T: Ball) -> Ball:
-        if self.u == v:
-            return acb(0)
-        rate = share + (self.b - self.a * v) / (2 * abs(self.u - v))
-        return P * (I * _real(rate) * T).exp()
-
-    def _turn_freely(self, T: Ball) -> ProvedState:
-        """Turn about the axis by c t, and about L by |L| t/Ix."""
-        half = _real(self.energy + self.a * self.a).sqrt() * T / 2
-        along = acb(half.cos(), _real(self.a) * T / 2 * half.sinc())
-        over, turn = self.W.conjugate() * T / 2 * half.sinc(), (I * _real(self.c) * T / 2).exp()
-        A = (self.A * along - self.B * over.conjugate()) * turn
-        B = (self.A * over + self.B * along.conjugate()) / turn
-        return self._pack([A, B, self.W * turn * turn], _real(self.energy).sqrt())
-
-    def _pack(self, found: list[Ball], size: Ball) -> ProvedState:
-        A, B, W = found
-        omega = (W.real, -W.imag, _real(self.wz))
-        return ProvedState((A.real, B.real, B.imag, A.imag), omega, size)
-
-
-class _Nutation:
-    """Weierstrass's p = beta u/4 - (alpha + a^2)/12, and quotients of theta functions."""
-
-    def __init__(self, fall: _Fall) -> None:
-        self.fall, self.parts = fall, fall.parts()
-        self._find_roots()
-        d1, d2, d3 = self.gaps(fall.u)
-        x = (-d3).sqrt() * _rf(self.e13 * d2, self.e23 * d1, self.e13 * self.e23)
-        self.largest, root = (_real(fall.energy) - 4 * d3).sqrt(), self.e13.sqrt()
-        if self.simple:
-            w1, w3 = (arb.pi() / 2 / root.agm(e.sqrt()) for e in (self.e12, self.e23))
-            self.unit, self.tau = 2 * w1, acb(0, w3 / w1)
-        else:  # the separatrix: the real period is infinite
-            self.unit = 1 / root
-        self.X0 = x * (-1 if fall.slope < 0 else 1) / self.unit
-
-    def _find_roots(self) -> None:
-        a, b, alpha, beta = self.fall.a, self.fall.b, self.fall.alpha, self.fall.beta
-        self.shift, slope = (alpha + a * a) / 12, 2 * a * b - beta
-        g2 = 12 * self.shift**2 - beta * slope / 4
-        g3 = 8 * self.shift**3 - beta * slope * self.shift / 4 - beta**2 * (alpha - b * b) / 16
-        square, pi = g2**3 - 27 * g3**2, arb.pi()
-        size, self.simple = (_real(g2) / 3).sqrt(), bool(square)
-        phi = arb.atan2(_real(square).sqrt(), arb(27).sqrt() * _real(g3)) / 3
-        self.e = [size * (phi + turn * pi / 3).cos() for turn in (0, -2, 2)]
-        scale = arb(3).sqrt() * size
-        self.e12 = scale * (pi / 3 - phi).sin() if self.simple else arb(0)
-        self.e13, self.e23 = scale * (pi / 3 + phi).sin(), scale * phi.sin()
-
-    def gaps(self, v: Fraction) -> list[Ball]:
-        """Return e1 - p, e2 - p, e3 - p at a height: exactly zero where it is a root."""
-        p = self.fall.beta * v / 4 - self.shift
-        found = [each - _real(p) for each in self.e]
-        if not self.fall.f(v):
-            found[1 if self.fall.f1(v) < 0 else 0 if p > 0 else 2] = arb(0)
-        return found
-
-    def theta(self, k: int, z: Ball, slopes: int = 0) -> Ball:
-        """Return theta_k, k = 1, 2, 3, 4, or its derivative."""
-        if self.simple:
-            return acb(z).modular_theta(self.tau, slopes)[k - 1]
-        sinh, cosh, one, zero = acb(z).sinh(), acb(z).cosh(), acb(1), acb(0)
-        return ((sinh, one, one, cosh), (cosh, zero, zero, sinh))[slopes][k - 1]
-
-    def value(self, k: int, T: Ball) -> Ball:
-        """Return A, B or conj(omega) at a time."""
-        P, slope, v, share = self.parts[k]
-        above, beside = (3, 2) if k else (4, 1)
-        xi, X = self._find_xi(k, v), self._reduce(self.X0 + T / self.unit)
-        rate = I * _real(share) - self.theta(beside, xi, 1) / self.theta(beside, xi) / self.unit
-        start = (
-            P / self.theta(above, self.X0 + xi)
-            if self.fall.u != v
-            else (
-                slope * self.unit / self.theta(above, self.X0 + xi, 1)  # of the zero at the start
-            )
+    The attitude's is the angle of the rotation that would correct it, that of the rates the length
+    of the difference.
+    """
+    with ctx.workprec(ERROR_BITS):
+        (a, b, c, d), (w, x, y, z) = exact.orientation, map(arb, orientation)
+        across = (  # vector part of the conjugate exact quaternion times the other
+            a * x - b * w - c * z + d * y,
+            a * y + b * z - c * w - d * x,
+            a * z - b * y + c * x - d * w,
         )
-        quotient = self.theta(above, X + xi) / self.theta(4, X)
-        return start * self.theta(4, self.X0) * quotient * (rate * T).exp()
-
-    def _find_xi(self, k: int, v: Fraction) -> Ball:
-        d1, d2, d3 = self.gaps(v)
-        if k == 0:
-            y = _rf(d1, d2, d3)
-        elif self.simple:
-            y = d1.sqrt() * _rf(self.e12 * self.e13, -self.e12 * d3, -self.e13 * d2)
-        else:
-            y = arb(0)
-        return acb(0, y / self.unit * (-1 if self.fall.b < self.fall.a * v else 1))
-
-    def _reduce(self, X: Ball) -> Ball:
-        if not self.simple:
-            return X
-        turns = X.mid().floor().unique_fmpz()  # the quotients have the period 1
-        if turns is None:
-            raise TooFewBitsError
-        return X - turns
+        angle = 2 * arb.atan2(norm(across), abs(a * w + b * x + c * y + d * z))
+        pairs = zip(exact.angular_velocity, map(arb, angular_velocity), strict=True)
+        return angle, norm([p - r for p, r in pairs])

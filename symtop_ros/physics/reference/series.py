@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 Number = Any  # of mpmath: mpf or mpc
 Integers = list[Any]  # of the type of GMP, or of Python
+SLOWER = 2  # power of two
 TERMS_PER_DIGIT = 1.2  # of a series; found to take the least time
 W, X, Y, Z, OMEGA_X, OMEGA_Y, OMEGA_Z = range(7)
 
@@ -100,17 +101,19 @@ class Series:
         axial, transverse = along / Iz, across / Ix
         pull = (abs(Mgl) + max(map(abs, map(Fraction, torque)))) / Ix
         fastest = max(math.sqrt(pull), *map(float, map(abs, (*omega, axial, transverse))))
-        self._second = Fraction(2) ** math.ceil(math.log2(fastest or 1.0))  # in units of time
+        # in units of time, in which a body turns by some rad: in a shorter one the last of the
+        # coefficients would vanish, and steps be short
+        self.second = Fraction(2) ** (math.ceil(math.log2(fastest or 1.0)) - SLOWER)
         self._cross = self._to_integer((Ix - Iz) / Ix)
-        self._weight = self._to_integer(Mgl / Ix / self._second**2)
+        self._weight = self._to_integer(Mgl / Ix / self.second**2)
         decays = transverse, transverse, axial
-        self._decays = [self._to_integer(each / self._second) for each in decays]
+        self._decays = [self._to_integer(each / self.second) for each in decays]
         self._pulls = [
-            [self._to_integer(Fraction(part) / inertia / self._second**2) for part in torque]
+            [self._to_integer(Fraction(part) / inertia / self.second**2) for part in torque]
             for inertia in (Ix, Ix, Iz)
         ]
         self._is_driven = any(friction) or any(torque)
-        rates = [self._to_integer(rate / self._second) for rate in omega]
+        rates = [self._to_integer(rate / self.second) for rate in omega]
         start = self._normalize(orientation) + rates
         self._forward, self._back = Way(1, start), Way(-1, start)
 
@@ -118,24 +121,29 @@ class Series:
         """Return the state at t in s."""
         with mp.workprec(self.bits + 10):
             w, x, y, z, *rates = (mpf(each) / 2**self.bits for each in self._find(Fraction(t)))
-            wx, wy, wz = (rate * mpf(self._second) for rate in rates)
+            wx, wy, wz = (rate * mpf(self.second) for rate in rates)
             return ExactState((w, x, y, z), (wx, wy, wz))
 
     def _find(self, t: Fraction) -> Integers:
         """Return the seven numbers at a time in s; rates are those in the unit of time."""
-        time = self._to_integer(t * self._second)
-        way, distance = (self._back if time < 0 else self._forward), abs(time)
-        while way.begins[-1] < distance or not way.steps:
+        time = self._to_integer(t * self.second)
+        way = self.reach(-1 if time < 0 else 1, abs(time))
+        step = min(max(bisect_right(way.begins, abs(time)) - 1, 0), len(way.steps) - 1)
+        return self._sum(way.steps[step], time - way.sign * way.begins[step])
+
+    def reach(self, sign: int, time: Any) -> Way:
+        """Return the steps forward (1) or back in time (-1), up to a time in units of 2^-bits."""
+        way = self._forward if sign > 0 else self._back
+        while way.begins[-1] < time or not way.steps:
             self._advance(way)
-        step = min(max(bisect_right(way.begins, distance) - 1, 0), len(way.steps) - 1)
-        return self._sum(way.steps[step], way.sign * (distance - way.begins[step]))
+        return way
 
     def _advance(self, way: Way) -> None:
         """Add a step, as long as the last term stays as small as the unit."""
         series = self._expand(way.end)
         last = max(abs(each[-1]) for each in series) or 1
         reach = -last.bit_length() / self._terms  # log2 of the length
-        length = MPZ(2.0 ** min(reach + 40, 41)) << max(self.bits - 40, 0)
+        length = MPZ(2.0 ** (40 + min(reach, 4))) << max(self.bits - 40, 0)
         way.steps.append(series)
         way.begins.append(way.begins[-1] + length)
         way.end = self._sum(series, way.sign * length)

@@ -1,0 +1,66 @@
+"""Balls: numbers with a radius that is a proof, in the arithmetic of FLINT.
+
+Assumed: that FLINT and Python's fractions are right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from flint import acb, arb, fmpq
+
+Ball = Any  # of FLINT: arb or acb
+
+
+class TooFewBitsError(ArithmeticError):
+    """A ball is too wide at this precision, or at the largest."""
+
+
+class ProvedState(NamedTuple):
+    """A state in balls: each contains the exact number.
+
+    Attributes
+    ----------
+    orientation : tuple of flint.arb
+        Unit quaternion (w, x, y, z), body to world.
+    angular_velocity : tuple of flint.arb
+        Angular velocity in the body frame, in rad/s.
+    size : flint.arb
+        The largest abs(omega_xy) of the motion in rad/s; with friction or a torque the fastest rate
+        of the start, or that of a swing.
+    """
+
+    orientation: tuple[Ball, ...]
+    angular_velocity: tuple[Ball, ...]
+    size: Ball
+
+    def is_within(self, least: Ball) -> bool:
+        """Return True if radii are at most `least`, those of rates times `size`."""
+        limits = [least] * 4 + [least * self.size] * 3
+        balls = (*self.orientation, *self.angular_velocity)
+        # a comparison with nan is False, so a ball that is not finite must be looked for
+        return all(
+            b.is_finite() and bool(b.is_exact() or b.rad() <= limit)
+            for b, limit in zip(balls, limits, strict=True)
+        )
+
+
+def to_ball(x: Fraction) -> Ball:
+    """Return a rational number."""
+    return arb(fmpq(x.numerator, x.denominator))
+
+
+def carlson_rf(*arguments: Ball) -> Ball:
+    """Return Carlson's R_F of real numbers >= 0."""
+    return acb.elliptic_rf(*map(acb, arguments)).real
+
+
+def norm(parts: Sequence[Ball]) -> Ball:
+    """Return the Euclidean norm; of balls about 0 the root of a negative number is avoided."""
+    least, most = (
+        sum((bound**2 for bound in bounds), arb(0)).sqrt()
+        for bounds in ([p.abs_lower() for p in parts], [p.abs_upper() for p in parts])
+    )
+    return least.union(most)

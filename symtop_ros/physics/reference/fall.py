@@ -1,0 +1,189 @@
+"""States under gravity alone as balls: theta functions of whole numbers of the input.
+
+All constants but |q| are rational in the doubles. So equal roots, a start at a turning point and an
+axis on the vertical are decided in fractions, and no tolerance is needed. Each of the numbers A, B
+and conj(omega) of docs/derivation.md is C theta_k(X + xi)/theta_4(X) exp(rate t), k = 4, 3, 3:
+for one of these P, with its zero at p(v) of Weierstrass's p,
+P'/P = (p'(s) - p'(v))/(2 (p(s) - p(v))) = zeta(s + v) - zeta(s) - zeta(v), and a constant.
+
+Assumed: these formulas, which are proved on paper. Tests compare them with `enclosure`, which
+shares none.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import acb, arb
+
+from symtop_ros.physics.reference.balls import (
+    Ball,
+    ProvedState,
+    TooFewBitsError,
+    carlson_rf,
+    to_ball,
+)
+from symtop_ros.physics.reference.series import Inputs
+
+I = acb(0, 1)  # noqa: E741, as in the derivation
+
+
+def find_fall(inputs: Inputs, t: Fraction) -> ProvedState:
+    """Return the state at the precision of FLINT's context, however wide the balls are."""
+    if inputs.Mgl >= 0:
+        return Fall(inputs).at(t)
+    w, x, y, z = inputs.orientation  # turn the world by pi about x'
+    turned = inputs._replace(Mgl=-inputs.Mgl, orientation=(-x, w, -z, y))
+    (w, x, y, z), omega, size = Fall(turned).at(t)
+    return ProvedState((x, -w, z, -y), omega, size)
+
+
+class Fall:
+    """The constants of a motion with Mgl >= 0 [derivation, 1]."""
+
+    def __init__(self, inputs: Inputs) -> None:
+        Ix, Iz, Mgl, (w, x, y, z), (wx, wy, self.wz) = inputs
+        square = w * w + x * x + y * y + z * z
+        self.u = (w * w + z * z - x * x - y * y) / square
+        gx, gy = 2 * (x * z - w * y) / square, 2 * (w * x + y * z) / square
+        self.a, self.c = self.wz * Iz / Ix, self.wz * (Ix - Iz) / Ix
+        self.beta, self.energy = 2 * Mgl / Ix, wx * wx + wy * wy
+        self.slope = wy * gx - wx * gy  # of u
+        self.b, self.alpha = wx * gx + wy * gy + self.a * self.u, self.energy + self.beta * self.u
+        norm = to_ball(square).sqrt()
+        self.A, self.B = acb(to_ball(w), to_ball(z)) / norm, acb(to_ball(x), to_ball(y)) / norm
+        self.W = acb(to_ball(wx), to_ball(-wy))
+
+    def at(self, t: Fraction) -> ProvedState:
+        """Return the state at a time, by the kind of motion that the fractions decide."""
+        T = to_ball(t)
+        if not self.beta:
+            return self._turn_freely(T)
+        if not self.slope and not self.f1(self.u):  # u rests: regular precession, sleeping, hanging
+            found = [self._turn(*part, T) for part in self.parts()]
+            return self._pack(found, to_ball(self.energy).sqrt())
+        nutation = Nutation(self)
+        return self._pack([nutation.value(k, T) for k in range(3)], nutation.largest)
+
+    def f(self, v: Fraction) -> Fraction:
+        """Return u'^2 at a height."""
+        return (self.alpha - self.beta * v) * (1 - v * v) - (self.b - self.a * v) ** 2
+
+    def f1(self, v: Fraction) -> Fraction:
+        """Return the derivative of `f`."""
+        pull = -self.beta * (1 - v * v) - 2 * v * (self.alpha - self.beta * v)
+        return pull + 2 * self.a * (self.b - self.a * v)
+
+    def parts(self) -> list[tuple[Ball, Ball, Fraction, Fraction]]:
+        """Return A, B, conj(omega): value and slope, the u of its zero, a constant rotation."""
+        A, B, W = self.A, self.B, self.W
+        return [
+            (A, -W * B / 2, Fraction(-1), self.c / 2),
+            (B, W.conjugate() * A / 2, Fraction(1), -self.c / 2),
+            (
+                W,
+                to_ball(self.beta) * A * B.conjugate(),
+                self.alpha / self.beta,
+                self.c + self.a / 2,
+            ),
+        ]
+
+    def _turn(self, P: Ball, _: Ball, v: Fraction, share: Fraction, T: Ball) -> Ball:
+        if self.u == v:
+            return acb(0)
+        rate = share + (self.b - self.a * v) / (2 * abs(self.u - v))
+        return P * (I * to_ball(rate) * T).exp()
+
+    def _turn_freely(self, T: Ball) -> ProvedState:
+        """Turn about the axis by c t, and about L by |L| t/Ix."""
+        half = to_ball(self.energy + self.a * self.a).sqrt() * T / 2
+        along = acb(half.cos(), to_ball(self.a) * T / 2 * half.sinc())
+        over, turn = self.W.conjugate() * T / 2 * half.sinc(), (I * to_ball(self.c) * T / 2).exp()
+        A = (self.A * along - self.B * over.conjugate()) * turn
+        B = (self.A * over + self.B * along.conjugate()) / turn
+        return self._pack([A, B, self.W * turn * turn], to_ball(self.energy).sqrt())
+
+    def _pack(self, found: list[Ball], size: Ball) -> ProvedState:
+        A, B, W = found
+        omega = (W.real, -W.imag, to_ball(self.wz))
+        return ProvedState((A.real, B.real, B.imag, A.imag), omega, size)
+
+
+class Nutation:
+    """Weierstrass's p = beta u/4 - (alpha + a^2)/12, and quotients of theta functions."""
+
+    def __init__(self, fall: Fall) -> None:
+        self.fall, self.parts = fall, fall.parts()
+        self._find_roots()
+        d1, d2, d3 = self.gaps(fall.u)
+        x = (-d3).sqrt() * carlson_rf(self.e13 * d2, self.e23 * d1, self.e13 * self.e23)
+        self.largest, root = (to_ball(fall.energy) - 4 * d3).sqrt(), self.e13.sqrt()
+        if self.simple:
+            w1, w3 = (arb.pi() / 2 / root.agm(e.sqrt()) for e in (self.e12, self.e23))
+            self.unit, self.tau = 2 * w1, acb(0, w3 / w1)
+        else:  # the separatrix: the real period is infinite
+            self.unit = 1 / root
+        self.X0 = x * (-1 if fall.slope < 0 else 1) / self.unit
+
+    def _find_roots(self) -> None:
+        a, b, alpha, beta = self.fall.a, self.fall.b, self.fall.alpha, self.fall.beta
+        self.shift, slope = (alpha + a * a) / 12, 2 * a * b - beta
+        g2 = 12 * self.shift**2 - beta * slope / 4
+        g3 = 8 * self.shift**3 - beta * slope * self.shift / 4 - beta**2 * (alpha - b * b) / 16
+        square, pi = g2**3 - 27 * g3**2, arb.pi()
+        size, self.simple = (to_ball(g2) / 3).sqrt(), bool(square)
+        phi = arb.atan2(to_ball(square).sqrt(), arb(27).sqrt() * to_ball(g3)) / 3
+        self.e = [size * (phi + turn * pi / 3).cos() for turn in (0, -2, 2)]
+        scale = arb(3).sqrt() * size
+        self.e12 = scale * (pi / 3 - phi).sin() if self.simple else arb(0)
+        self.e13, self.e23 = scale * (pi / 3 + phi).sin(), scale * phi.sin()
+
+    def gaps(self, v: Fraction) -> list[Ball]:
+        """Return e1 - p, e2 - p, e3 - p at a height: exactly zero where it is a root."""
+        p = self.fall.beta * v / 4 - self.shift
+        found = [each - to_ball(p) for each in self.e]
+        if not self.fall.f(v):
+            found[1 if self.fall.f1(v) < 0 else 0 if p > 0 else 2] = arb(0)
+        return found
+
+    def theta(self, k: int, z: Ball, slopes: int = 0) -> Ball:
+        """Return theta_k, k = 1, 2, 3, 4, or its derivative."""
+        if self.simple:
+            return acb(z).modular_theta(self.tau, slopes)[k - 1]
+        sinh, cosh, one, zero = acb(z).sinh(), acb(z).cosh(), acb(1), acb(0)
+        return ((sinh, one, one, cosh), (cosh, zero, zero, sinh))[slopes][k - 1]
+
+    def value(self, k: int, T: Ball) -> Ball:
+        """Return A, B or conj(omega) at a time."""
+        P, slope, v, _ = self.parts[k]
+        xi, X, above = self._find_xi(k, v), self._reduce(self.X0 + T / self.unit), 3 if k else 4
+        if self.fall.u != v:
+            start = P / self.theta(above, self.X0 + xi)
+        else:  # of a zero at the start the slopes
+            start = slope * self.unit / self.theta(above, self.X0 + xi, 1)
+        quotient = self.theta(above, X + xi) / self.theta(4, X)
+        return start * self.theta(4, self.X0) * quotient * (self.find_rate(k) * T).exp()
+
+    def find_rate(self, k: int) -> Ball:
+        """Return the rate of the exponential, i times the mean rate of the argument."""
+        _, _, v, share = self.parts[k]
+        xi, beside = self._find_xi(k, v), 2 if k else 1
+        return I * to_ball(share) - self.theta(beside, xi, 1) / self.theta(beside, xi) / self.unit
+
+    def _find_xi(self, k: int, v: Fraction) -> Ball:
+        d1, d2, d3 = self.gaps(v)
+        if k == 0:
+            y = carlson_rf(d1, d2, d3)
+        elif self.simple:
+            y = d1.sqrt() * carlson_rf(self.e12 * self.e13, -self.e12 * d3, -self.e13 * d2)
+        else:
+            y = arb(0)
+        return acb(0, y / self.unit * (-1 if self.fall.b < self.fall.a * v else 1))
+
+    def _reduce(self, X: Ball) -> Ball:
+        if not self.simple:
+            return X
+        turns = X.mid().floor().unique_fmpz()  # the quotients have the period 1
+        if turns is None:
+            raise TooFewBitsError
+        return X - turns
