@@ -88,8 +88,8 @@ def judge(texts: Sequence[str], exact: ProvedState, digits: int) -> Iterator[str
     q = exact.orientation
     with ctx.workprec(64):  # q and -q are one attitude
         product = sum((arb(a) * b for a, b in zip(texts[:4], q, strict=True)), arb(0))
-    q = tuple(-each for each in q) if product < 0 else q
     with ctx.workprec(2000):  # a difference of numbers whose digits are the same
+        q = tuple(-each for each in q) if product < 0 else q
         for part, balls in ((texts[:4], q), (texts[4:], exact.angular_velocity)):
             size = max(abs(Decimal(text)) for text in part)
             yield from (_judge(*each, size, digits) for each in zip(part, balls, strict=True))

@@ -19,7 +19,7 @@ import numpy as np
 from drawn import Numbers
 from mpmath import mp, mpf
 from physics import differences
-from physics.exact_motions import find_largest
+from physics.proofs import ATTITUDE, RATES, find_errors
 from physics.tops import (
     EPS,
     FAMILIES,
@@ -142,25 +142,14 @@ def normalize(q: Genes) -> Any:
     return np.array(q) / math.sqrt(sum(each * each for each in q))
 
 
-def follow(genes: Genes) -> tuple[State, Any, float]:
-    """Return the state of a case, the exact one, and the largest |omega_xy| of the motion."""
-    motion, t = build_motion(genes)
-    state, inputs = motion.at(t), Inputs.of(motion.top, motion.start)
-    exact = ClosedForm(inputs, 50)
-    return state, exact.at(t), find_largest(inputs, exact)
-
-
 def measure_attitude(genes: Genes) -> float:
-    """20 eps as an angle, twice the distance of the quaternions."""
-    state, (q, _), _ = follow(genes)
-    return 2 * attitude_error(q, state.orientation) / (20 * EPS)
+    """20 eps as an angle; a bound that is proved."""
+    return float(find_errors(*build_motion(genes))[0].upper()) / ATTITUDE
 
 
 def measure_angular_velocity(genes: Genes) -> float:
-    """10 eps of the largest |omega_xy|."""
-    state, (_, omega), largest = follow(genes)
-    off = error(omega[:2], state.angular_velocity[:2])
-    return off / (10 * EPS * largest) if largest else off
+    """10 eps of the largest |omega_xy|; a bound that is proved."""
+    return float(find_errors(*build_motion(genes))[1].upper()) / RATES
 
 
 def draw_passage(rng: Numbers) -> Genes:

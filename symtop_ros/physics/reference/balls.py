@@ -5,6 +5,7 @@ Assumed: that FLINT and Python's fractions are right.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -36,6 +37,12 @@ class ProvedState(NamedTuple):
     angular_velocity: tuple[Ball, ...]
     size: Ball
 
+    def __str__(self) -> str:
+        """Return the digits that are known."""
+        parts = {"orientation": self.orientation, "angular_velocity": self.angular_velocity}
+        lines = (f"{name}: {' '.join(map(_show, balls))}" for name, balls in parts.items())
+        return "\n".join(lines)
+
     def is_within(self, least: Ball) -> bool:
         """Return True if radii are at most `least`, those of rates times `size`."""
         limits = [least] * 4 + [least * self.size] * 3
@@ -45,6 +52,12 @@ class ProvedState(NamedTuple):
             b.is_finite() and bool(b.is_exact() or b.rad() <= limit)
             for b, limit in zip(balls, limits, strict=True)
         )
+
+
+def _show(ball: Ball) -> str:
+    """Return the digits of a ball; of an exact one those of a double."""
+    digits = 17 if ball.is_exact() else int(ball.rel_accuracy_bits() * math.log10(2))
+    return str(ball.str(max(digits, 1), radius=ball.rel_accuracy_bits() < 4))
 
 
 def to_ball(x: Fraction) -> Ball:
