@@ -26,7 +26,7 @@ NUMPYS = {"1": "numpy<2", "2": "numpy>=2,<3"}
 # The oldest Rerun of setup.py, and the newest.
 RERUNS = ("rerun-sdk~=0.38.0", "rerun-sdk")
 PLAYBACK_TESTS = ("test/playback/view", "test/playback/test_other_readers.py")
-TOOLS = ("pytest", "coverage", "hypothesis", "mpmath", "rosbags", "pillow")
+TOOLS = ("pytest", "coverage", "hypothesis", "mpmath", "python-flint", "rosbags", "pillow")
 PACKAGES = ("numpy", "scipy", "ros-rclpy", "rerun-sdk")
 # An active environment, and that of ROS wheels, would reach into the cell.
 FOREIGN = ("PYTHONPATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")

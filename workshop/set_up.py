@@ -37,7 +37,7 @@ LIBRARY = "symtop_ros/physics/kernel/libsymtop.*"
 ZIG = re.search(r'ZIG = "(.+?)"', (ROOT / "build_kernel.py").read_text())[1]  # type: ignore[index]
 # The first that needs no `wheel`; without a build environment pip asks for nothing from PyPI.
 SETUPTOOLS = "setuptools>=70.1"
-TOOLS = ("pytest", "hypothesis", "mpmath", "rosbags", "coverage")
+TOOLS = ("pytest", "hypothesis", "mpmath", "python-flint", "rosbags", "coverage")
 IDENTIFY = "import os, sys; print(f'Python {sys.version_info[0]}.{sys.version_info[1]}"
 IDENTIFY += "{sys.abiflags} in {os.path.realpath(sys.base_prefix)}')"
 PERIOD = 10.0  # s between two lines: pip may be silent for minutes

@@ -69,7 +69,7 @@ def _bound(motion: "Motion", times: list[Fraction], states: "State") -> list[tup
         exact = proved.prove_states(inputs, times, 30, *drive)
     except balls.TooFewBitsError:
         farthest = Words(f"{float(max(map(abs, times))):g} s")
-        raise refuse("t", f"one that {proved.MOST_BITS} bits can prove", farthest) from None
+        raise refuse("t", f"one that {balls.MOST_BITS} bits can prove", farthest) from None
     rows = zip(exact, states.orientation.tolist(), states.angular_velocity.tolist(), strict=True)
     errors = (proved.bound_errors(*row) for row in rows)
     return [(_round_up(attitude), _round_up(rates)) for attitude, rates in errors]

@@ -104,6 +104,6 @@ def test_without_the_extra_a_certificate_is_refused_in_words(module: str, packag
 
 
 def test_a_proof_of_too_many_bits_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("symtop_ros.physics.reference.proved.MOST_BITS", 100)
+    monkeypatch.setattr("symtop_ros.physics.reference.balls.MOST_BITS", 100)
     with pytest.raises(ValueError, match="t must be one that 100 bits can prove, got 1 s"):
         Motion(Top(1.0, 0.5, 2.0), CUSPS).certify(1.0)

@@ -6,13 +6,15 @@ Assumed: that FLINT and Python's fractions are right.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
-from flint import acb, arb, fmpq
+from flint import acb, arb, ctx, fmpq
 
 Ball = Any  # of FLINT: arb or acb
+Found = TypeVar("Found")
+MOST_BITS = 200_000
 
 
 class TooFewBitsError(ArithmeticError):
@@ -58,6 +60,20 @@ def _show(ball: Ball) -> str:
     """Return the digits of a ball; of an exact one those of a double."""
     digits = 17 if ball.is_exact() else int(ball.rel_accuracy_bits() * math.log10(2))
     return str(ball.str(max(digits, 1), radius=ball.rel_accuracy_bits() < 4))
+
+
+def refine(compute: Callable[[int], Found], is_small: Callable[[Found], bool], bits: int) -> Found:
+    """Return what is computed with a precision of more and more bits, until its balls are small."""
+    while bits <= MOST_BITS:
+        try:
+            with ctx.workprec(bits):
+                found = compute(bits)
+                if is_small(found):
+                    return found
+        except (TooFewBitsError, ValueError, ZeroDivisionError):
+            pass  # a wide ball contains a zero or a pole
+        bits += bits // 2
+    raise TooFewBitsError(f"the balls need more than {MOST_BITS} bits")
 
 
 def to_ball(x: Fraction) -> Ball:

@@ -30,12 +30,19 @@ I = acb(0, 1)  # noqa: E741, as in the derivation
 
 def find_fall(inputs: Inputs, t: Fraction) -> ProvedState:
     """Return the state at the precision of FLINT's context, however wide the balls are."""
+    found = Fall(turn_world(inputs)).at(t)
     if inputs.Mgl >= 0:
-        return Fall(inputs).at(t)
-    w, x, y, z = inputs.orientation  # turn the world by pi about x'
-    turned = inputs._replace(Mgl=-inputs.Mgl, orientation=(-x, w, -z, y))
-    (w, x, y, z), omega, size = Fall(turned).at(t)
-    return ProvedState((x, -w, z, -y), omega, size)
+        return found
+    w, x, y, z = found.orientation
+    return found._replace(orientation=(x, -w, z, -y))
+
+
+def turn_world(inputs: Inputs) -> Inputs:
+    """Return the motion with Mgl >= 0: in a world that is turned by pi about x', or as it is."""
+    if inputs.Mgl >= 0:
+        return inputs
+    w, x, y, z = inputs.orientation
+    return inputs._replace(Mgl=-inputs.Mgl, orientation=(-x, w, -z, y))
 
 
 class Fall:
@@ -59,11 +66,16 @@ class Fall:
         T = to_ball(t)
         if not self.beta:
             return self._turn_freely(T)
-        if not self.slope and not self.f1(self.u):  # u rests: regular precession, sleeping, hanging
+        if self.rests:  # regular precession, sleeping, hanging
             found = [self._turn(*part, T) for part in self.parts()]
             return self._pack(found, to_ball(self.energy).sqrt())
         nutation = Nutation(self)
         return self._pack([nutation.value(k, T) for k in range(3)], nutation.largest)
+
+    @property
+    def rests(self) -> bool:
+        """True if the height of the axis is constant."""
+        return not self.slope and not self.f1(self.u)
 
     def f(self, v: Fraction) -> Fraction:
         """Return u'^2 at a height."""

@@ -12,12 +12,11 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from symtop_ros.physics.reference.balls import Ball, ProvedState, TooFewBitsError, norm
+from symtop_ros.physics.reference.balls import Ball, ProvedState, norm, refine
 from symtop_ros.physics.reference.enclosure import NO_DRIVE, Enclosure
 from symtop_ros.physics.reference.fall import find_fall
 from symtop_ros.physics.reference.series import Inputs
 
-MOST_BITS = 200_000
 BITS_PER_DIGIT = math.log2(10)
 ERROR_BITS = 256  # in which errors of doubles are computed
 Solve = Callable[[Fraction], ProvedState]
@@ -120,16 +119,11 @@ def _refine(
     make: Callable[[int], Solve], times: Sequence[Fraction], digits: int, bits: int
 ) -> list[ProvedState]:
     """Return states with small radii, of solvers that are made with more and more bits."""
-    while bits <= MOST_BITS:
-        try:
-            with ctx.workprec(bits):
-                found, least = list(map(make(bits), times)), arb(10) ** -digits
-                if all(each.is_within(least) for each in found):
-                    return found
-        except (TooFewBitsError, ValueError, ZeroDivisionError):
-            pass  # a wide ball contains a zero or a pole
-        bits += bits // 2
-    raise TooFewBitsError(f"the state needs more than {MOST_BITS} bits")
+
+    def is_small(found: list[ProvedState]) -> bool:
+        return all(each.is_within(arb(10) ** -digits) for each in found)
+
+    return refine(lambda bits: list(map(make(bits), times)), is_small, bits)
 
 
 def bound_errors(

@@ -127,7 +127,7 @@ WRONG = {
 def test_a_wrong_sign_in_a_formula_is_noticed(
     formula: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("symtop_ros.physics.reference.proved.MOST_BITS", 1000)
+    monkeypatch.setattr("symtop_ros.physics.reference.balls.MOST_BITS", 1000)
     owner, name, change = WRONG[formula]
     monkeypatch.setattr(owner, name, change(getattr(owner, name)))
     noticed = []

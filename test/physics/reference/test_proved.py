@@ -46,8 +46,8 @@ def test_radii_are_as_small_as_is_asked_for(name: str, friction: tuple[float, fl
 
 
 def test_a_state_that_would_take_too_many_bits_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("symtop_ros.physics.reference.proved.MOST_BITS", 200)
-    with pytest.raises(TooFewBitsError, match="needs more than 200 bits"):
+    monkeypatch.setattr("symtop_ros.physics.reference.balls.MOST_BITS", 200)
+    with pytest.raises(TooFewBitsError, match="need more than 200 bits"):
         prove_state(Inputs.of(*CASES["tilted"]), 1.0, 100)
 
 

@@ -1,0 +1,153 @@
+"""What is constant in a motion under gravity: kind, period, turning angles, mean rates, in balls.
+
+The kind is that of exactly the doubles given, decided in fractions: where the kernel takes numbers
+that differ by rounding as equal, this does not.
+"""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import NamedTuple
+
+from flint import acb, arb
+
+from symtop_ros.physics.reference.balls import Ball, norm, refine, to_ball
+from symtop_ros.physics.reference.fall import Fall, Nutation, turn_world
+from symtop_ros.physics.reference.series import Inputs
+
+ENDLESS = ("sleeping", "asymptotic")  # kinds without a period
+WITHOUT_MEANS = (*ENDLESS, "through the pole")  # phi jumps at a pole
+
+
+class ProvedConstants(NamedTuple):
+    """Constants of a motion under gravity; balls contain the exact numbers.
+
+    Attributes
+    ----------
+    kind : str
+        As `Motion.kind`, for exactly the doubles given.
+    period : flint.arb
+        Period of theta in s, of a regular precession that of a small nutation; infinite if the axis
+        rests on the vertical or approaches it for ever.
+    turning_angles : (flint.arb, flint.arb)
+        Smallest and largest theta in rad.
+    mean_rates : (flint.arb, flint.arb)
+        Mean phi' and psi' over a nutation in rad/s; nan on the vertical, through it and towards it.
+    """
+
+    kind: str
+    period: Ball
+    turning_angles: tuple[Ball, Ball]
+    mean_rates: tuple[Ball, Ball]
+
+
+def prove_constants(inputs: Inputs, digits: int = 30) -> ProvedConstants:
+    """Return the constants of a motion under gravity alone.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        A top, of which Mgl is not 0, and its start.
+    digits : int
+        Radii are 10^-digits at most: of angles, of the period relative to itself, and of the rates
+        relative to the larger one.
+
+    Raises
+    ------
+    ValueError
+        If Mgl is 0.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State, Top
+    >>> from symtop_ros.physics.reference import Inputs
+    >>> from symtop_ros.physics.reference.constants import prove_constants
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> found = prove_constants(Inputs.of(top, State.from_euler(theta=0.5, psi_dot=200.0)))
+    >>> found.kind, found.period.str(20, radius=False)
+    ('cusps', '0.15954481400192355269')
+    """
+    if not inputs.Mgl:
+        raise ValueError("Mgl must be other than 0 J, got 0")
+
+    def is_small(found: ProvedConstants) -> bool:
+        return _is_small(found, arb(10) ** -digits)
+
+    return refine(lambda _: find_constants(inputs), is_small, int(digits * math.log2(10)) + 60)
+
+
+def find_constants(inputs: Inputs) -> ProvedConstants:
+    """Return the constants at the precision of FLINT's context."""
+    fall = Fall(turn_world(inputs))
+    found = _find_resting(fall) if fall.rests else _find_nutation(fall)
+    if inputs.Mgl > 0:
+        return found
+    least, most = found.turning_angles
+    phi_dot, psi_dot = found.mean_rates
+    angles = arb.pi() - most, arb.pi() - least
+    return found._replace(turning_angles=angles, mean_rates=(-phi_dot, psi_dot))
+
+
+def _is_small(found: ProvedConstants, least: Ball) -> bool:
+    """Return True if radii are small, of balls that are finite: others are too wide."""
+    limits = [(each, arb(1)) for each in found.turning_angles]
+    if found.kind not in ENDLESS:
+        limits.append((found.period, found.period))
+    if found.kind not in WITHOUT_MEANS:
+        limits += [(each, norm(found.mean_rates)) for each in found.mean_rates]
+    return all(x.is_finite() and bool(x.rad() <= least * size) for x, size in limits)
+
+
+def _find_resting(fall: Fall) -> ProvedConstants:
+    """Return what regular precession has, and an axis on the vertical."""
+    u, nan = to_ball(fall.u), arb.nan()
+    if fall.u**2 == 1:
+        angle = arb(0) if fall.u > 0 else arb.pi()
+        return ProvedConstants("sleeping", arb.pos_inf(), (angle, angle), (nan, nan))
+    phi_dot = (fall.b - fall.a * fall.u) / (1 - fall.u**2)
+    rates = to_ball(phi_dot), to_ball(fall.wz - phi_dot * fall.u)
+    # u'' = f'(u)/2 next to the double root
+    period = 2 * arb.pi() / to_ball(fall.alpha + fall.a**2 - 3 * fall.beta * fall.u).sqrt()
+    return ProvedConstants("regular", period, (u.acos(), u.acos()), rates)
+
+
+def _find_nutation(fall: Fall) -> ProvedConstants:
+    nutation = Nutation(fall)
+    kind = _decide_kind(fall, nutation)
+    heights = [_find_height(fall, nutation, k) for k in (1, 2)]
+    angles = heights[0].acos(), heights[1].acos()
+    nan = arb.nan()
+    if kind == "asymptotic":
+        return ProvedConstants(kind, arb.pos_inf(), angles, (nan, nan))
+    if kind == "through the pole":
+        return ProvedConstants(kind, nutation.unit, angles, (nan, nan))
+    of_A, of_B = (acb(nutation.find_rate(k)).imag for k in (0, 1))
+    return ProvedConstants(kind, nutation.unit, angles, (of_A + of_B, of_A - of_B))
+
+
+def _find_height(fall: Fall, nutation: Nutation, k: int) -> Ball:
+    """Return u at a turning angle: the root e_(k + 1), or a pole if that is decided."""
+    if k == 1 and (_turns_at(fall, 1) or not nutation.simple):
+        return arb(1)
+    if k == 2 and _turns_at(fall, -1):
+        return arb(-1)
+    return 4 * (nutation.e[k] + to_ball(nutation.shift)) / to_ball(fall.beta)
+
+
+def _turns_at(fall: Fall, pole: int) -> bool:
+    """Return True if the motion turns at a pole: a root of f, but not the one beyond all motion."""
+    return fall.b == pole * fall.a and pole * fall.f1(Fraction(pole)) < 0
+
+
+def _decide_kind(fall: Fall, nutation: Nutation) -> str:
+    if not nutation.simple:
+        return "asymptotic"
+    if _turns_at(fall, 1) or _turns_at(fall, -1):
+        return "through the pole"
+    if fall.a and fall.alpha * fall.a == fall.beta * fall.b:
+        return "cusps"  # b - a u vanishes at b/a, and f there
+    signs = [to_ball(fall.b) - to_ball(fall.a) * _find_height(fall, nutation, k) for k in (1, 2)]
+    if any(sign.contains(0) for sign in signs):
+        raise ValueError("a sign must be decided")
+    return "looping" if (signs[0] > 0) != (signs[1] > 0) else "unidirectional"

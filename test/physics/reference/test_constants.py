@@ -1,0 +1,105 @@
+"""Constants in balls: against those that are stored, which two precisions gave, and the kernel."""
+
+from fractions import Fraction
+from typing import Any
+
+import pytest
+from flint import arb, ctx
+from physics.exact_motions import DIGITS, read_motions
+from physics.reference.cases import ASYMPTOTIC, CASES
+
+from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.constants import find_constants, prove_constants
+from symtop_ros.physics.reference.fall import Fall
+
+UNDER_GRAVITY = [
+    each for each in read_motions() if not each.motion.is_driven and each.motion.top.Mgl
+]
+# The kernel takes numbers as equal that differ by the rounding of a start.
+ROUNDED = "regular", "through the pole", "cusps"
+
+
+def _is_near(ball: arb, text: str) -> bool:
+    """Return whether a stored number may be that of a ball, to half a unit and the radius."""
+    with ctx.workdps(60):
+        stored = arb(text)
+        return (ball - stored).overlaps(abs(stored) * arb(0, 0.5 * 10 ** (1.0 - DIGITS)))
+
+
+def test_periods_and_mean_rates_that_are_stored_are_proved() -> None:
+    compared = 0
+    for each in UNDER_GRAVITY:
+        found = prove_constants(each.inputs, 35)
+        if found.period.is_finite():
+            assert _is_near(found.period, each.row["period"])
+        if each.row["rates"] and found.mean_rates[0].is_finite():
+            compared += 1
+            assert all(map(_is_near, found.mean_rates, each.row["rates"])), each.family
+    assert compared > 1000
+
+
+def test_kinds_are_those_of_the_kernel_but_for_what_it_takes_as_equal() -> None:
+    for each in UNDER_GRAVITY:
+        exact, kind = prove_constants(each.inputs, 10).kind, each.motion.kind
+        assert exact == kind or (kind in ROUNDED and exact not in ("asymptotic", "sleeping"))
+
+
+def test_turning_angles_are_those_of_the_kernel() -> None:
+    for each in UNDER_GRAVITY:
+        found = prove_constants(each.inputs, 20).turning_angles
+        # a turning angle next to a pole is as uncertain as the root of a rounding
+        pairs = zip(found, each.motion.turning_angles, strict=True)
+        assert all(abs(float(a) - b) < 3e-8 for a, b in pairs), each.family
+
+
+@pytest.mark.parametrize("name", [name for name in CASES if name != "no weight"])
+def test_balls_contain_those_of_more_bits(name: str) -> None:
+    inputs = Inputs.of(*CASES[name])
+    few, many = prove_constants(inputs, 20), prove_constants(inputs, 200)
+    assert few.kind == many.kind
+    with ctx.workprec(1000):
+        for a, b in zip((*few[2], *few[3]), (*many[2], *many[3]), strict=True):
+            assert a.contains(b) or (a.is_nan() and b.is_nan())
+
+
+def test_equal_roots_are_decided_and_an_ulp_next_to_them_is_not_equal() -> None:
+    top, start, _ = ASYMPTOTIC
+    inputs = Inputs.of(top, start)
+    assert prove_constants(inputs).kind == "asymptotic"
+    nudged = inputs._replace(Mgl=inputs.Mgl * (1 - Fraction(1, 2**52)))
+    found = prove_constants(nudged)
+    assert found.kind != "asymptotic"
+    assert found.period.is_finite()
+
+
+def test_a_pendulum_passes_the_lower_pole_and_a_cone_is_regular() -> None:
+    swings = Motion(Top(1.0, 0.5, 2.0), State((0.8, 0.6, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    found = prove_constants(Inputs.of(swings.top, swings.start))
+    assert (found.kind, swings.kind) == ("through the pole", "through the pole")
+    half = Inputs.exact(1, Fraction(1, 2), Fraction(1, 2), (1, 1, 0, 0), (0, 0, 0))
+    cone = half._replace(angular_velocity=(Fraction(0), Fraction(1), Fraction(1)))
+    assert prove_constants(cone).kind == "regular"  # horizontal: a phi' = Mgl/Ix
+    assert prove_constants(cone).mean_rates[0].overlaps(arb(1))
+
+
+def test_without_weight_it_is_refused() -> None:
+    with pytest.raises(ValueError, match="Mgl must be other than 0 J, got 0"):
+        prove_constants(Inputs.of(*CASES["no weight"]))
+
+
+def test_a_wrong_sign_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    right = Fall.parts
+
+    def parts(self: Fall) -> list[tuple[Any, ...]]:
+        A, *others = right(self)
+        return [(*A[:3], -A[3]), *others]
+
+    each = next(
+        each
+        for each in UNDER_GRAVITY
+        if each.row["rates"] and each.motion.start.angular_velocity[2]
+    )
+    assert all(map(_is_near, find_constants(each.inputs).mean_rates, each.row["rates"]))
+    monkeypatch.setattr(Fall, "parts", parts)
+    assert not any(map(_is_near, find_constants(each.inputs).mean_rates, each.row["rates"]))
