@@ -54,14 +54,16 @@ REPORT = [
     "tqdm>=4.60",  # progress bars
 ]
 # Motions with any number of digits: symtop_ros.physics.reference.
-REFERENCE = [
+REFERENCE = ["python-flint>=0.9"]  # balls, numbers with a proved radius
+# The same without a proof, for tests and the report of a checkout.
+DIGITS = [
+    *REFERENCE,
     "mpmath>=1.4",
     "gmpy2>=2.1",  # mpmath uses it, and takes a third of the time
-    "python-flint>=0.9",  # balls: reference.proved
 ]
 # Programs that `make -C workshop report` compares with, if they are installed.
 PEERS = [
-    *REFERENCE,  # errors are measured from it
+    *DIGITS,  # errors are measured from it
     "heyoka>=7",
     "cyrk>=0.20",
     "mujoco>=3.3",
@@ -82,7 +84,7 @@ TEST = [
     "pillow>=10",  # rendered scenes are compared
     "playwright>=1.40",  # drives a browser that is installed
     "axe-playwright-python>=0.1.7",  # looks for what keeps people from using the page
-    *REFERENCE,
+    *DIGITS,
     "mujoco>=3.3",  # reads the MJCF of the top
     "ahrs>=0.4",  # filters that are fed with its sensor
     "docutils>=0.18",  # reads the changelog

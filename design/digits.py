@@ -15,7 +15,8 @@ from fractions import Fraction
 from mpmath import mp, mpf
 
 from symtop_ros.physics import State, Top
-from symtop_ros.physics.reference import ClosedForm, Inputs
+from symtop_ros.physics.reference import Inputs
+from workshop.digits import ClosedForm
 
 TRIED, ENOUGH = (16, 28, 38, 50, 57), 120
 TURNS = (1e3, 1e9, 1e15)

@@ -8,7 +8,8 @@ rounding, or zero, where the true rate is in proportion to the weight.
 """
 
 from symtop_ros.physics import State, Top
-from symtop_ros.physics.reference import ClosedForm, Inputs
+from symtop_ros.physics.reference import Inputs
+from workshop.digits import ClosedForm
 
 WEIGHTS = (1e-3, 1e-12, 1e-24, 1e-30, 1e-36, 1e-48, 1e-60)  # J
 START = State.from_euler(theta=1.0, theta_dot=0.3, phi_dot=2.0)

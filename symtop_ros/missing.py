@@ -5,7 +5,7 @@ NAME = "symtop_ros"
 PACKAGES = {"lz4": "mcap", "zstandard": "mcap", "yaml": "pyyaml", "PIL": "pillow"}
 PACKAGES["flint"] = "python-flint"
 PACKAGES |= dict.fromkeys(("rerun", "rerun_cli"), "rerun-sdk")
-PLAIN = ("ahrs", "matplotlib", "mcap", "mpmath", "numpy", "pyarrow", "scipy", "tqdm")
+PLAIN = ("ahrs", "matplotlib", "mcap", "numpy", "pyarrow", "scipy", "tqdm")
 
 
 def find_package(module: str) -> str:

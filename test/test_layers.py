@@ -15,8 +15,8 @@ TOP = {"__init__", "__main__", "arrays", "command", "missing", "programs", "refu
 TABLE = {
     # text from records of any kind, so it is below them
     "wording": " | ",
-    # flint, mpmath: only in reference, cupy: only in gpu, which nothing imports
-    "physics": "missing wording | cupy flint mpmath numpy",
+    # flint: only in reference, cupy: only in gpu
+    "physics": "missing wording | cupy flint numpy",
     "wire": " | numpy",
     "simulation": "__init__ physics wire wording | numpy scipy yaml",
     "log": "__init__ simulation wire | lz4 mcap numpy zstandard",

@@ -530,8 +530,8 @@ class Motion:
         Raises
         ------
         ValueError
-            If a time is refused by `at`, if the motion has pushes, if python-flint or mpmath is
-            missing, or if a proof would take more than 200 000 bits.
+            If a time is refused by `at`, if the motion has pushes, if python-flint is missing, or
+            if a proof would take more than 200 000 bits.
 
         Examples
         --------

@@ -142,7 +142,7 @@ def _show_all(rows: Sequence[Numbers]) -> list[list[str]]:
 
 
 def show(number: Decimal) -> str:
-    """Return a number with the digits of the set, as mpmath shows it."""
+    """Return a number with the digits of the set."""
     rounded = ROUNDED.normalize(number)
     text = f"{rounded:{'f' if not rounded or abs(rounded) > FIXED else 'e'}}"
     return text if "." in text else f"{text}.0"

@@ -40,7 +40,8 @@ from symtop_ros.physics import (
     regular_precession_rates,
     set_precession_rate,
 )
-from symtop_ros.physics.reference import ClosedForm, Inputs, Series
+from symtop_ros.physics.reference import Inputs
+from workshop.digits import ClosedForm, Series
 
 EVALUATIONS = 20_000
 KEPT, DRAWN = 30, 5  # cases to climb from; one in so many is drawn anew

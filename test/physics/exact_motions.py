@@ -17,7 +17,8 @@ from typing import Any
 from mpmath import mp, mpf
 
 from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
+from symtop_ros.physics.reference import Inputs
+from workshop.digits import ClosedForm, ExactState, Series
 from workshop.testset.exact import distance
 
 PATH = Path(__file__).with_name("exact_motions.json.xz")

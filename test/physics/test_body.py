@@ -12,7 +12,7 @@ from symtop_ros.physics import Body, Friction, Motion, State, Top
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY, point_acceleration
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.precession import theta_acceleration, theta_torque
-from symtop_ros.physics.reference import ClosedForm
+from workshop.digits import ClosedForm
 from workshop.testset.exact import DIGITS
 
 # Weights of the second derivative by central differences, order 8 (Fornberg 1988, table 1).

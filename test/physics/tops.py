@@ -11,7 +11,8 @@ from drawn import Numbers, cos, sin
 from mpmath import mp, mpf
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
-from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
+from symtop_ros.physics.reference import Inputs
+from workshop.digits import ClosedForm, ExactState, Series
 from workshop.testset.exact import DIGITS
 
 EPS = 2.0**-52
@@ -39,10 +40,6 @@ class Case:
     def exact(self) -> ExactState:
         """Orientation and angular velocity to 30 digits or more."""
         return ClosedForm(self.inputs, DIGITS).at(self.t)
-
-    @property
-    def found(self) -> State:
-        return Motion(self.top, self.start).at(self.t)
 
 
 def random_case(seed: int, family: str) -> Case:

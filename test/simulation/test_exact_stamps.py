@@ -14,8 +14,9 @@ from physics.tops import EPS, attitude_error, error, exact_euler, turn
 from simulation.runs import SECOND, ListSink, Run
 from trials import choose, trials
 
-from symtop_ros.physics.reference import ClosedForm, Inputs
+from symtop_ros.physics.reference import Inputs
 from symtop_ros.simulation.topics import STATE_TOPICS
+from workshop.digits import ClosedForm
 
 pytestmark = pytest.mark.untraced
 

@@ -13,9 +13,10 @@ from programs import run_python
 from testset.trajectories import make_table, write
 
 from symtop_ros.physics import Motion, State, Top, point_acceleration
-from symtop_ros.physics.reference import ClosedForm, Inputs
+from symtop_ros.physics.reference import Inputs
 from symtop_ros.testset.score import main, read_problems
 from symtop_ros.testset.tables import FORCES, STATES, WORLD
+from workshop.digits import ClosedForm
 from workshop.testset.exact import DIGITS
 from workshop.testset.links import find_link_effect
 from workshop.testset.problems import COUNT, SETTINGS

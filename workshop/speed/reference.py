@@ -19,8 +19,9 @@ from numpy.typing import ArrayLike
 from symtop_ros.arrays import Real
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.physics.arguments import NO_TORQUE
-from symtop_ros.physics.reference import Inputs, Series
+from symtop_ros.physics.reference import Inputs
 from symtop_ros.testset.score import measure_angles, read_problems, split_decimals
+from workshop.digits import Series
 from workshop.speed.peers.peer import initial_values
 
 FILE = Path(__file__).with_name("reference.json.xz")

@@ -8,7 +8,8 @@ from typing import Any
 
 from mpmath import mp, mpc
 
-from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series
+from symtop_ros.physics.reference import Inputs
+from workshop.digits import ClosedForm, ExactState, Series
 
 DIGITS = 80
 
@@ -42,10 +43,10 @@ class ReturningSeries(Series):
         """Angles by which A and B turn in a period, if the height returns."""
         for part in range(7):  # at a time at which neither of them vanishes
             begin = self._period * part / 13
-            w, x, y, z, *_ = before = self._find(begin)
+            w, x, y, z, *_ = before = self.find(begin)
             if min(w * w + z * z, x * x + y * y) >> (2 * self.bits - 20):
                 break
-        v, r, s, u, *_ = after = self._find(begin + self._period)
+        v, r, s, u, *_ = after = self.find(begin + self._period)
         for old, new in zip(self._height(before), self._height(after), strict=True):
             if abs(old - new) >> (3 * self.bits // 2):  # half of the digits
                 raise ValueError(f"the height must return after {float(self._period)} s")

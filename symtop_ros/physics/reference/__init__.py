@@ -1,35 +1,37 @@
 """The motion to any number of digits, slowly: what the numbers of the kernel are compared with.
 
 `exact_state` has states as balls, numbers with a proved radius: under gravity by `fall`, with
-friction and torques by `enclosure`. `closed_form` and `series` give the same motions in mpmath;
-the first is written to be read next to docs/derivation.md.
+friction and torques by `enclosure`, whose polynomials come from `series`. `exact_constants` has
+what is constant under gravity.
 
 Of `symtop_ros.physics` only certificates import this, when one is asked for, and it uses no number
-of the kernel. It needs python-flint and mpmath: `pip install -e '.[reference]'` in a checkout.
+of the kernel. It needs python-flint: `pip install -e '.[reference]'` in a checkout.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from symtop_ros.physics.reference.balls import ProvedState
-from symtop_ros.physics.reference.closed_form import ClosedForm
+from symtop_ros.physics.reference.constants import ProvedConstants, prove_constants
 from symtop_ros.physics.reference.proved import prove_state
-from symtop_ros.physics.reference.series import ExactState, Inputs, Series
+from symtop_ros.physics.reference.series import Inputs
+from symtop_ros.physics.times import SECOND, ExactTimes
 
 if TYPE_CHECKING:
     from symtop_ros.physics.state import State
     from symtop_ros.physics.top import Friction, Top
 
-__all__ = ["ClosedForm", "ExactState", "Inputs", "ProvedState", "Series", "exact_state"]
+__all__ = ["Inputs", "ProvedConstants", "ProvedState", "exact_constants", "exact_state"]
 
 
 def exact_state(
     top: Top,
     start: State,
-    t: float,
+    t: float | ExactTimes,
     digits: int = 50,
     friction: Friction | None = None,
     torque: Sequence[float] = (0.0, 0.0, 0.0),
@@ -45,8 +47,8 @@ def exact_state(
         One top; its doubles are taken as exact.
     start : State
         The state at t = 0. Its `given_orientation` is normalised with all digits.
-    t : float
-        Time in s, of any sign.
+    t : float or ExactTimes
+        Time in s, of any sign, or one exact time.
     digits : int
         The radius is 10^-digits at most: of the quaternion, and of the angular velocity relative to
         the `size` of the state.
@@ -63,7 +65,10 @@ def exact_state(
     Raises
     ------
     ValueError
-        If the top or the start are many, the time is not finite, or digits are not positive.
+        If the top or the start are many, the time is not one finite number, the torque not three,
+        or digits are not positive.
+    ArithmeticError
+        If more than 200 000 bits are needed.
 
     Examples
     --------
@@ -74,16 +79,62 @@ def exact_state(
     >>> exact_state(top, cusps, 10.0).orientation[0].str(25, radius=False)
     '0.5831799034733807704174033'
     """
-    _check(top, start, t, digits)
+    _check(top, start, digits)
+    if len(torque) != 3 or not all(map(math.isfinite, torque)):
+        raise ValueError(f"torque must be three finite numbers, got {torque}")
     drag = friction.coefficients if friction else (0.0, 0.0)
-    return prove_state(Inputs.of(top, start), t, digits, drag, torque)
+    return prove_state(Inputs.of(top, start), _read_time(t), digits, drag, torque)
 
 
-def _check(top: Top, start: State, t: float, digits: int) -> None:
+def exact_constants(top: Top, start: State, digits: int = 50) -> ProvedConstants:
+    """Return kind, period, turning angles and mean rates of a motion under gravity as balls.
+
+    Parameters
+    ----------
+    top : Top
+        One top, of which Mgl is not 0.
+    start : State
+        The state at t = 0.
+    digits : int
+        Radii are 10^-digits at most: of angles, of the period relative to itself, and of the rates
+        relative to the larger one.
+
+    Returns
+    -------
+    ProvedConstants
+        The constants; the kind is decided in fractions.
+
+    Raises
+    ------
+    ValueError
+        If the top or the start are many, Mgl is 0, or digits are not positive.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State, Top
+    >>> from symtop_ros.physics.reference import exact_constants
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> found = exact_constants(top, State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> found.kind, found.period.str(20, radius=False)
+    ('cusps', '0.15954481400192355269')
+    """
+    _check(top, start, digits)
+    return prove_constants(Inputs.of(top, start), digits)
+
+
+def _check(top: Top, start: State, digits: int) -> None:
     if top.shape or start.given_orientation.shape != (4,):
         shapes = f"shapes {top.shape} and {start.given_orientation.shape[:-1]}"
         raise ValueError(f"top and start must be those of one motion, got {shapes}")
-    if not math.isfinite(t):
-        raise ValueError(f"t must be a finite number, got {t} s")
     if digits < 1:
         raise ValueError(f"digits must be 1 or more, got {digits}")
+
+
+def _read_time(t: float | ExactTimes) -> float | Fraction:
+    if isinstance(t, ExactTimes):
+        if not isinstance(t.nanoseconds, int):
+            raise ValueError(f"t must be one time, got shape {t.shape}")
+        return t.advance(t.nanoseconds) / SECOND
+    if not math.isfinite(t):
+        raise ValueError(f"t must be a finite number, got {t} s")
+    return t

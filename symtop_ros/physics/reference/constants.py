@@ -42,32 +42,8 @@ class ProvedConstants(NamedTuple):
     mean_rates: tuple[Ball, Ball]
 
 
-def prove_constants(inputs: Inputs, digits: int = 30) -> ProvedConstants:
-    """Return the constants of a motion under gravity alone.
-
-    Parameters
-    ----------
-    inputs : Inputs
-        A top, of which Mgl is not 0, and its start.
-    digits : int
-        Radii are 10^-digits at most: of angles, of the period relative to itself, and of the rates
-        relative to the larger one.
-
-    Raises
-    ------
-    ValueError
-        If Mgl is 0.
-
-    Examples
-    --------
-    >>> from symtop_ros.physics import State, Top
-    >>> from symtop_ros.physics.reference import Inputs
-    >>> from symtop_ros.physics.reference.constants import prove_constants
-    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-    >>> found = prove_constants(Inputs.of(top, State.from_euler(theta=0.5, psi_dot=200.0)))
-    >>> found.kind, found.period.str(20, radius=False)
-    ('cusps', '0.15954481400192355269')
-    """
+def prove_constants(inputs: Inputs, digits: int) -> ProvedConstants:
+    """Return the constants of a motion under gravity alone: see `exact_constants`."""
     if not inputs.Mgl:
         raise ValueError("Mgl must be other than 0 J, got 0")
 
@@ -145,8 +121,9 @@ def _decide_kind(fall: Fall, nutation: Nutation) -> str:
         return "asymptotic"
     if _turns_at(fall, 1) or _turns_at(fall, -1):
         return "through the pole"
-    if fall.a and fall.alpha * fall.a == fall.beta * fall.b:
-        return "cusps"  # b - a u vanishes at b/a, and f there
+    # b - a u vanishes at b/a, and f there; beyond the poles there is no motion
+    if abs(fall.b) < abs(fall.a) and fall.alpha * fall.a == fall.beta * fall.b:
+        return "cusps"
     signs = [to_ball(fall.b) - to_ball(fall.a) * _find_height(fall, nutation, k) for k in (1, 2)]
     if any(sign.contains(0) for sign in signs):
         raise ValueError("a sign must be decided")

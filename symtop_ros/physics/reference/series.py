@@ -3,11 +3,7 @@
 It shares no formula with the closed form: Euler's equations and q' = q omega/2 in the body frame
 are expanded in time. No root, no elliptic function, no angle and no other frame is used.
 
-A number is an integer in units of 2^-bits, of mpmath's type: with gmpy2 it is GMP's, which
-multiplies integers of some hundred bits three times as fast as Python.
-
-What a motion starts from are exact fractions, and what it comes to are numbers of mpmath; so they
-are for the closed form.
+What a motion starts from are exact fractions. A number is an integer in units of 2^-bits.
 """
 
 from __future__ import annotations
@@ -17,35 +13,16 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from fractions import Fraction
 from operator import mul
-from typing import TYPE_CHECKING, Any, NamedTuple
-
-from mpmath import mp, mpf
-from mpmath.libmp import MPZ
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 if TYPE_CHECKING:
     from symtop_ros.physics.state import State
     from symtop_ros.physics.top import Top
 
-Number = Any  # of mpmath: mpf or mpc
-Integers = list[Any]  # of the type of GMP, or of Python
+Integers = list[Any]  # of Python, or of a faster type
 SLOWER = 2  # power of two
 TERMS_PER_DIGIT = 1.2  # of a series; found to take the least time
 W, X, Y, Z, OMEGA_X, OMEGA_Y, OMEGA_Z = range(7)
-
-
-class ExactState(NamedTuple):
-    """A state in numbers of mpmath.
-
-    Attributes
-    ----------
-    orientation : tuple of mpf
-        Unit quaternion (w, x, y, z), body to world.
-    angular_velocity : tuple of mpf
-        Angular velocity in the body frame, in rad/s.
-    """
-
-    orientation: tuple[Number, ...]
-    angular_velocity: tuple[Number, ...]
 
 
 class Inputs(NamedTuple):
@@ -75,7 +52,7 @@ class Way:
 
     def __init__(self, sign: int, state: Integers) -> None:
         self.sign, self.end = sign, state  # the state at the end of the last step
-        self.begins: Integers = [MPZ(0)]  # of the steps, as times from the start
+        self.begins: Integers = [0]  # of the steps, as times from the start
         self.steps: list[list[Integers]] = []  # series of each
 
 
@@ -85,6 +62,8 @@ class Series:
     `digits` must cover the answer, and what the motion magnifies. The friction is (axial,
     transverse), the torque is applied in the world frame.
     """
+
+    integer: ClassVar[Any] = int
 
     def __init__(
         self,
@@ -117,14 +96,7 @@ class Series:
         start = self._normalize(orientation) + rates
         self._forward, self._back = Way(1, start), Way(-1, start)
 
-    def at(self, t: float | Fraction) -> ExactState:
-        """Return the state at t in s."""
-        with mp.workprec(self.bits + 10):
-            w, x, y, z, *rates = (mpf(each) / 2**self.bits for each in self._find(Fraction(t)))
-            wx, wy, wz = (rate * mpf(self.second) for rate in rates)
-            return ExactState((w, x, y, z), (wx, wy, wz))
-
-    def _find(self, t: Fraction) -> Integers:
+    def find(self, t: Fraction) -> Integers:
         """Return the seven numbers at a time in s; rates are those in the unit of time."""
         time = self._to_integer(t * self.second)
         way = self.reach(-1 if time < 0 else 1, abs(time))
@@ -143,14 +115,14 @@ class Series:
         series = self._expand(way.end)
         last = max(abs(each[-1]) for each in series) or 1
         reach = -last.bit_length() / self._terms  # log2 of the length
-        length = MPZ(2.0 ** (40 + min(reach, 4))) << max(self.bits - 40, 0)
+        length = self.integer(2.0 ** (40 + min(reach, 4))) << max(self.bits - 40, 0)
         way.steps.append(series)
         way.begins.append(way.begins[-1] + length)
         way.end = self._sum(series, way.sign * length)
 
     def _to_integer(self, value: Fraction) -> Any:
         """Return a number in units of 2^-bits."""
-        return (MPZ(value.numerator) << self.bits) // value.denominator
+        return (self.integer(value.numerator) << self.bits) // value.denominator
 
     def _normalize(self, q: Sequence[Fraction]) -> Integers:
         square = sum(c * c for c in q)

@@ -7,15 +7,15 @@ import pytest
 from flint import arb, ctx
 from physics.exact_motions import DIGITS, read_motions
 from physics.reference.cases import ASYMPTOTIC, CASES
+from trials import trials
 
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference import Inputs, exact_constants
 from symtop_ros.physics.reference.constants import find_constants, prove_constants
 from symtop_ros.physics.reference.fall import Fall
 
-UNDER_GRAVITY = [
-    each for each in read_motions() if not each.motion.is_driven and each.motion.top.Mgl
-]
+FALLS = [each for each in read_motions() if not each.motion.is_driven and each.motion.top.Mgl]
+STEPS = trials(10, 1)  # every tenth of them, or all
 # The kernel takes numbers as equal that differ by the rounding of a start.
 ROUNDED = "regular", "through the pole", "cusps"
 
@@ -27,26 +27,29 @@ def _is_near(ball: arb, text: str) -> bool:
         return (ball - stored).overlaps(abs(stored) * arb(0, 0.5 * 10 ** (1.0 - DIGITS)))
 
 
-def test_periods_and_mean_rates_that_are_stored_are_proved() -> None:
+@pytest.mark.parametrize("step", STEPS)
+def test_periods_and_mean_rates_that_are_stored_are_proved(step: int) -> None:
     compared = 0
-    for each in UNDER_GRAVITY:
+    for each in FALLS[::step]:
         found = prove_constants(each.inputs, 35)
         if found.period.is_finite():
             assert _is_near(found.period, each.row["period"])
         if each.row["rates"] and found.mean_rates[0].is_finite():
             compared += 1
             assert all(map(_is_near, found.mean_rates, each.row["rates"])), each.family
-    assert compared > 1000
+    assert compared > 1000 / step
 
 
-def test_kinds_are_those_of_the_kernel_but_for_what_it_takes_as_equal() -> None:
-    for each in UNDER_GRAVITY:
+@pytest.mark.parametrize("step", STEPS)
+def test_kinds_are_those_of_the_kernel_but_for_what_it_takes_as_equal(step: int) -> None:
+    for each in FALLS[::step]:
         exact, kind = prove_constants(each.inputs, 10).kind, each.motion.kind
         assert exact == kind or (kind in ROUNDED and exact not in ("asymptotic", "sleeping"))
 
 
-def test_turning_angles_are_those_of_the_kernel() -> None:
-    for each in UNDER_GRAVITY:
+@pytest.mark.parametrize("step", STEPS)
+def test_turning_angles_are_those_of_the_kernel(step: int) -> None:
+    for each in FALLS[::step]:
         found = prove_constants(each.inputs, 20).turning_angles
         # a turning angle next to a pole is as uncertain as the root of a rounding
         pairs = zip(found, each.motion.turning_angles, strict=True)
@@ -56,7 +59,7 @@ def test_turning_angles_are_those_of_the_kernel() -> None:
 @pytest.mark.parametrize("name", [name for name in CASES if name != "no weight"])
 def test_balls_contain_those_of_more_bits(name: str) -> None:
     inputs = Inputs.of(*CASES[name])
-    few, many = prove_constants(inputs, 20), prove_constants(inputs, 200)
+    few, many = (prove_constants(inputs, digits) for digits in (20, 200))
     assert few.kind == many.kind
     with ctx.workprec(1000):
         for a, b in zip((*few[2], *few[3]), (*many[2], *many[3]), strict=True):
@@ -65,27 +68,38 @@ def test_balls_contain_those_of_more_bits(name: str) -> None:
 
 def test_equal_roots_are_decided_and_an_ulp_next_to_them_is_not_equal() -> None:
     top, start, _ = ASYMPTOTIC
-    inputs = Inputs.of(top, start)
-    assert prove_constants(inputs).kind == "asymptotic"
-    nudged = inputs._replace(Mgl=inputs.Mgl * (1 - Fraction(1, 2**52)))
-    found = prove_constants(nudged)
+    assert exact_constants(top, start).kind == "asymptotic"
+    nudged = Top(*top.moments[:2], top.Mgl * (1 - 2.0**-52))
+    found = exact_constants(nudged, start)
     assert found.kind != "asymptotic"
     assert found.period.is_finite()
 
 
 def test_a_pendulum_passes_the_lower_pole_and_a_cone_is_regular() -> None:
     swings = Motion(Top(1.0, 0.5, 2.0), State((0.8, 0.6, 0.0, 0.0), (0.0, 0.0, 0.0)))
-    found = prove_constants(Inputs.of(swings.top, swings.start))
+    found = exact_constants(swings.top, swings.start)
     assert (found.kind, swings.kind) == ("through the pole", "through the pole")
     half = Inputs.exact(1, Fraction(1, 2), Fraction(1, 2), (1, 1, 0, 0), (0, 0, 0))
     cone = half._replace(angular_velocity=(Fraction(0), Fraction(1), Fraction(1)))
-    assert prove_constants(cone).kind == "regular"  # horizontal: a phi' = Mgl/Ix
-    assert prove_constants(cone).mean_rates[0].overlaps(arb(1))
+    found = prove_constants(cone, 30)
+    assert found.kind == "regular"  # horizontal: a phi' = Mgl/Ix
+    assert found.mean_rates[0].overlaps(arb(1))
 
 
-def test_without_weight_it_is_refused() -> None:
+def test_a_root_beyond_the_pole_at_which_phi_would_rest_makes_no_cusps() -> None:
+    """b/a = alpha/beta = 2: both terms of u'^2 vanish at u = 2, and phi' is positive on the way."""
+    motion = Motion(Top(1.0, 1.0, 0.5), State((0.5, 0.5, 0.5, 0.5), (1.0, 1.0, 0.5)))
+    assert exact_constants(motion.top, motion.start).kind == motion.kind == "unidirectional"
+
+
+def test_what_is_not_one_motion_under_gravity_is_refused() -> None:
     with pytest.raises(ValueError, match="Mgl must be other than 0 J, got 0"):
-        prove_constants(Inputs.of(*CASES["no weight"]))
+        exact_constants(*CASES["no weight"])
+    top, start = CASES["tilted"]
+    with pytest.raises(ValueError, match="top and start must be those of one motion"):
+        exact_constants(Top([1.0, 2.0], 0.5, 2.0), start)
+    with pytest.raises(ValueError, match="digits must be 1 or more, got 0"):
+        exact_constants(top, start, 0)
 
 
 def test_a_wrong_sign_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -96,9 +110,7 @@ def test_a_wrong_sign_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
         return [(*A[:3], -A[3]), *others]
 
     each = next(
-        each
-        for each in UNDER_GRAVITY
-        if each.row["rates"] and each.motion.start.angular_velocity[2]
+        each for each in FALLS if each.row["rates"] and each.motion.start.angular_velocity[2]
     )
     assert all(map(_is_near, find_constants(each.inputs).mean_rates, each.row["rates"]))
     monkeypatch.setattr(Fall, "parts", parts)

@@ -4,14 +4,14 @@ from fractions import Fraction
 
 import pytest
 from flint import arb, ctx
-from mpmath import nstr
 from physics.reference.cases import CASES
 from trials import choose
 
-from symtop_ros.physics.reference import Inputs, Series
-from symtop_ros.physics.reference.balls import ProvedState, TooFewBitsError
+from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.balls import ProvedState, TooFewBitsError, to_ball
 from symtop_ros.physics.reference.enclosure import Enclosure, Field
 from symtop_ros.physics.reference.proved import prove_state, prove_states
+from symtop_ros.physics.reference.series import Series
 
 DRIVES = {
     "friction": ((0.03, 0.02), (0.0, 0.0, 0.0)),
@@ -36,12 +36,14 @@ def _drive(name: str, inputs: Inputs) -> tuple[list[float], list[float]]:
 def test_balls_agree_with_a_series_of_more_digits(name: str, drive: str, t: float) -> None:
     inputs = Inputs.of(*CASES[name])
     found = prove_state(inputs, t, 30, *_drive(drive, inputs))
-    series = Series(inputs, 60, *_drive(drive, inputs)).at(t)
+    series = Series(inputs, 60, *_drive(drive, inputs))
     with ctx.workprec(400):
         # the series has no proof: of 60 digits it has 40 and more
-        doubt = arb(0, 1e-40) * (1 + found.size)
-        pairs = zip(_balls(found), (*series[0], *series[1]), strict=True)
-        assert all(ball.overlaps(arb(nstr(other, 60)) + doubt) for ball, other in pairs)
+        doubt, second = arb(0, 1e-40) * (1 + found.size), to_ball(series.second)
+        numbers = [arb(each) / 2**series.bits for each in series.find(Fraction(t))]
+        numbers[4:] = [each * second for each in numbers[4:]]
+        pairs = zip(_balls(found), numbers, strict=True)
+        assert all(ball.overlaps(other + doubt) for ball, other in pairs)
 
 
 @pytest.mark.parametrize(

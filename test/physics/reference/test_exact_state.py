@@ -1,16 +1,21 @@
 """The reference: its digits, against stored motions, other means, and itself."""
 
 import ast
+import math
+from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
 import pytest
 from flint import arb, ctx
 from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS
 from programs import run_python
 
-from symtop_ros.physics import Friction, State, Top, reference
-from symtop_ros.physics.reference import ClosedForm, ExactState, Inputs, Series, exact_state
+from symtop_ros.physics import ExactTimes, Friction, State, Top, reference
+from symtop_ros.physics.reference import Inputs, exact_state
+from symtop_ros.physics.reference.proved import prove_state
+from workshop.digits import ClosedForm, ExactState, Series
 from workshop.testset.exact import ReturningSeries, distance
 
 pytestmark = pytest.mark.untraced
@@ -44,6 +49,34 @@ def test_balls_contain_those_of_more_digits_and_have_the_digits_of_both_referenc
         assert_same(ClosedForm(Inputs.of(ARTICLE, CUSPS), 100).at(t), *to_mpmath(many), 60)
     series = Series(Inputs.of(ARTICLE, CUSPS), 60).at(0.5)
     assert_same(series, *to_mpmath(exact_state(ARTICLE, CUSPS, 0.5)), 40)
+
+
+def test_an_exact_time_is_taken_exactly():
+    """A day and a nanosecond: the nearest double of seconds is 7 ps off."""
+    times, factor = 86_400 * 10**9 + 1, 0.1
+    found = exact_state(ARTICLE, CUSPS, ExactTimes(times, factor))
+    t = Fraction(factor) * times / 10**9
+    with ctx.workdps(60):
+        right, rounded = (prove_state(Inputs.of(ARTICLE, CUSPS), each) for each in (t, float(t)))
+        assert found.orientation[0].overlaps(right.orientation[0])
+        assert not found.orientation[0].overlaps(rounded.orientation[0])
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"t": math.nan}, "t must be a finite number, got nan s"),
+        ({"t": math.inf}, "t must be a finite number, got inf s"),
+        ({"t": ExactTimes(np.arange(3))}, r"t must be one time, got shape \(3,\)"),
+        ({"digits": 0}, "digits must be 1 or more, got 0"),
+        ({"torque": (0.0, math.nan, 0.0)}, "torque must be three finite numbers"),
+        ({"torque": (1.0,)}, "torque must be three finite numbers"),
+        ({"top": Top([1.0, 2.0], 0.5, 2.0)}, r"must be those of one motion, got shapes \(2,\)"),
+    ],
+)
+def test_what_has_no_single_state_is_refused(change, reason):
+    with pytest.raises(ValueError, match=reason):
+        exact_state(**{"top": ARTICLE, "start": CUSPS, "t": 1.0} | change)
 
 
 def test_a_state_is_printed_with_the_digits_that_are_known():
@@ -95,10 +128,9 @@ def test_it_imports_nothing_of_the_kernel_and_nothing_imports_it():
         if isinstance(each, ast.ImportFrom)
     }
     ours = {name for name in found if name.startswith("symtop_ros")}
+    ours.remove("symtop_ros.physics.times")
     assert all(name.startswith("symtop_ros.physics.reference.") for name in ours)
-    done = run_python(
-        "import sys, symtop_ros.physics; assert not sys.modules.keys() & {'flint', 'mpmath'}"
-    )
+    done = run_python("import sys, symtop_ros.physics; assert 'flint' not in sys.modules")
     assert (done.returncode, done.stderr) == (0, "")
 
 

@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 from mpmath import agm, conj, cos, elliprf, exp, expj, inf, mp, mpc, mpf, nan, nint, pi, sin, sqrt
 
-from symtop_ros.physics.reference.series import ExactState, Inputs, Number
+from symtop_ros.physics.reference import Inputs
+from workshop.digits.state import ExactState, Number
 
 
 class ClosedForm:
