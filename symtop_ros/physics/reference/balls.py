@@ -10,7 +10,13 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple, TypeVar
 
-from flint import acb, arb, ctx, fmpq
+from symtop_ros.missing import name_remedy
+
+try:
+    from flint import acb, arb, ctx, fmpq
+except ModuleNotFoundError as error:
+    words = f"No module named 'flint': {name_remedy('flint')}"
+    raise ModuleNotFoundError(words, name="flint") from error
 
 Ball = Any  # of FLINT: arb or acb
 Found = TypeVar("Found")

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from flint import arb, ctx
 from mpmath import mp, mpf
-from physics.tops import ARTICLE, CUSPS
+from physics.tops import ARTICLE, CUSPS, EPS
 from programs import run_python
 
-from symtop_ros.physics import ExactTimes, Friction, State, Top, reference
-from symtop_ros.physics.reference import Inputs, exact_state
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, reference
+from symtop_ros.physics.reference import Inputs, exact_constants, exact_state
 from symtop_ros.physics.reference.proved import prove_state
 from workshop.digits import ClosedForm, ExactState, Series
 from workshop.testset.exact import ReturningSeries, distance
@@ -128,10 +128,33 @@ def test_it_imports_nothing_of_the_kernel_and_nothing_imports_it():
         if isinstance(each, ast.ImportFrom)
     }
     ours = {name for name in found if name.startswith("symtop_ros")}
-    ours.remove("symtop_ros.physics.times")
+    ours -= {"symtop_ros.missing", "symtop_ros.physics.times"}
     assert all(name.startswith("symtop_ros.physics.reference.") for name in ours)
     done = run_python("import sys, symtop_ros.physics; assert 'flint' not in sys.modules")
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_without_the_extra_the_import_says_what_to_install():
+    code = "import sys; sys.modules['flint'] = None\n"
+    code += "try: import symtop_ros.physics.reference\nexcept ImportError as error: print(error)"
+    advice = "pip install python-flint, on Debian and Ubuntu into a venv"
+    assert run_python(code).stdout == f"No module named 'flint': {advice}\n"
+
+
+TINY, HUGE = 1e-100, 1e100
+
+
+@pytest.mark.parametrize("moments", [(1, 0.5, TINY), (TINY, TINY, HUGE), (HUGE, TINY, -HUGE)])
+@pytest.mark.parametrize("omega", [(TINY, 0, 0), (1, 2, HUGE), (HUGE, 0, TINY), (0, 0, 0)])
+@pytest.mark.parametrize("q", [(0.7, 0.5, 0.1, -0.5), (1, TINY, 0, 0), (0, 1, 0, 0)])
+def test_numbers_of_extreme_sizes_have_states_and_constants(moments, omega, q):
+    motion = Motion(Top(*moments), State(q, omega))
+    t = min(1.0, motion.farthest_time / 2)
+    found = exact_state(motion.top, motion.start, t, 20)
+    assert found.is_within(arb(10) ** -20)
+    constants = exact_constants(motion.top, motion.start, 20)
+    assert all(angle.rad() <= 1e-20 for angle in constants.turning_angles)
+    assert motion.certify(t).attitude < 20 * EPS
 
 
 @pytest.mark.parametrize("periods", [1.4, -3.7, 1e9 + 0.2])
