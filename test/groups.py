@@ -31,7 +31,7 @@ OUTPUT = Path(sys.prefix, "test-output")
 AT_A_TIME = 4
 PERIOD = 15.0  # s between two lines of progress
 NODES = ("test/node", "test/system", "test/load", "test/client")
-PLAIN = ("test/speed", "test/wire", "test/models", "test/testset")
+PLAIN = ("test/digits", "test/speed", "test/wire", "test/models", "test/testset")
 JUDGE = ("test/judge", "test/imu", "test/check")
 # These run once more as on an old processor, on which BLAS, NumPy and libm round otherwise; those
 # that take long compare bits, or have no input of these libraries (`make test-elsewhere` runs all).
