@@ -63,7 +63,7 @@ class Series:
     transverse), the torque is applied in the world frame.
     """
 
-    integer: ClassVar[Any] = int
+    integer: ClassVar[Any] = int  # a subclass may have a faster type
 
     def __init__(
         self,
