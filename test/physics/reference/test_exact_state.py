@@ -112,7 +112,7 @@ TINY, HUGE = 1e-100, 1e100
 
 @pytest.mark.parametrize("moments", [(1, 0.5, TINY), (TINY, TINY, HUGE), (HUGE, TINY, -HUGE)])
 @pytest.mark.parametrize("omega", [(TINY, 0, 0), (1, 2, HUGE), (HUGE, 0, TINY), (0, 0, 0)])
-@pytest.mark.parametrize("q", [(0.7, 0.5, 0.1, -0.5), (1, TINY, 0, 0), (0, 1, 0, 0)])
+@pytest.mark.parametrize("q", [(0.7, 0.5, 0.1, -0.5), (1, TINY, 0, 0)])
 def test_numbers_of_extreme_sizes_have_states_and_constants(moments, omega, q):
     motion = Motion(Top(*moments), State(q, omega))
     t = min(1.0, motion.farthest_time / 2)

@@ -8,7 +8,7 @@ import pytest
 from flint import arb, ctx
 from physics.families import DRAWS, draw_motion
 from physics.reference.cases import CASES
-from trials import trials
+from trials import choose, trials
 
 from symtop_ros.physics.reference import Inputs
 from symtop_ros.physics.reference.balls import ProvedState
@@ -78,14 +78,14 @@ def _agree(inputs: Inputs, t: Fraction) -> bool:
 
 
 @pytest.mark.parametrize("name", CASES)
-@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("sign", choose((1, -1), (-1,)))
 def test_hard_cases_agree_with_the_series_which_shares_no_formula(name: str, sign: int) -> None:
     inputs = Inputs.of(*CASES[name])
     assert _agree(inputs, sign * _find_time(inputs))
 
 
 @pytest.mark.parametrize("family", DRAWS)
-@pytest.mark.parametrize("count", trials(2, 25))  # 500 motions of 20 families
+@pytest.mark.parametrize("count", trials(1, 25))  # 500 motions of 20 families
 def test_random_motions_agree_with_the_series_which_shares_no_formula(
     family: str, count: int
 ) -> None:

@@ -6,6 +6,7 @@ import pytest
 from flint import arb, ctx
 from physics.proofs import find_errors
 from physics.reference.cases import ASYMPTOTIC, CASES, PENDULUM
+from trials import choose
 
 from symtop_ros.physics import Motion
 from symtop_ros.physics.reference import Inputs
@@ -36,7 +37,7 @@ def test_a_time_that_is_not_finite_is_refused(t: float) -> None:
 
 
 @pytest.mark.parametrize("name", CASES)
-@pytest.mark.parametrize("friction", [(0.0, 0.0), (0.01, 0.02)])
+@pytest.mark.parametrize("friction", choose(((0.0, 0.0), (0.01, 0.02)), ((0.0, 0.0),)))
 def test_radii_are_as_small_as_is_asked_for(name: str, friction: tuple[float, float]) -> None:
     inputs = Inputs.of(*CASES[name])
     drag = [each * float(inputs.Ix) for each in friction]
