@@ -10,7 +10,7 @@ from workshop.digits.state import ExactState
 
 
 class Series(series.Series):
-    """A motion that is integrated as far as it is asked for, and kept."""
+    """A motion that is integrated up to the times of `at`, and kept."""
 
     integer = MPZ  # with gmpy2 GMP's, which multiplies in half of the time
 

@@ -1,4 +1,4 @@
-"""What is constant in a motion under gravity: kind, period, turning angles, mean rates, in balls.
+"""Constants of a motion under gravity in balls: kind, period, turning angles, mean rates.
 
 The kind is that of exactly the doubles given, decided in fractions: where the kernel takes numbers
 that differ by rounding as equal, this does not.

@@ -39,7 +39,7 @@ NO_DRIVE = (0.0, 0.0), (0.0, 0.0, 0.0)
 
 
 class Enclosure:
-    """A motion that is integrated and proved as far as it is asked for, and kept.
+    """A motion that is integrated and proved up to the times of `at`, and kept.
 
     The friction is (axial, transverse), the torque is applied in the world frame.
     """

@@ -38,7 +38,7 @@ def find_fall(inputs: Inputs, t: Fraction) -> ProvedState:
 
 
 def turn_world(inputs: Inputs) -> Inputs:
-    """Return the motion with Mgl >= 0: in a world that is turned by pi about x', or as it is."""
+    """Return a motion with Mgl >= 0: if Mgl < 0, in a world that is turned by pi about x'."""
     if inputs.Mgl >= 0:
         return inputs
     w, x, y, z = inputs.orientation

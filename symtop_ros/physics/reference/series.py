@@ -57,7 +57,7 @@ class Way:
 
 
 class Series:
-    """A motion that is integrated as far as it is asked for, and kept.
+    """A motion that is integrated up to the times of `find`, and kept.
 
     `digits` must cover the answer, and what the motion magnifies. The friction is (axial,
     transverse), the torque is applied in the world frame.
