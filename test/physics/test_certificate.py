@@ -15,13 +15,13 @@ from symtop_ros.physics.reference.proved import prove_state
 FRICTION = Friction(axial=2e-6, transverse=1e-5)
 
 
-def test_a_bound_of_an_attitude_is_the_largest_error_that_climbs_have_found() -> None:
+def test_a_bound_of_an_attitude_next_to_the_separatrix_is_a_large_error() -> None:
     top, start, t = ASYMPTOTIC
     found = Motion(top, start).certify(t)
     assert 10 * EPS < found.attitude < 11 * EPS
 
 
-def test_a_bound_of_a_rate_is_the_largest_error_that_climbs_have_found() -> None:
+def test_a_bound_of_a_rate_of_a_pendulum_is_a_large_error() -> None:
     top, start, t = PENDULUM
     largest = float(prove_state(Inputs.of(top, start), t).size.mid())
     found = Motion(top, start).certify(t)

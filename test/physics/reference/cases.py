@@ -1,8 +1,8 @@
-"""Motions that are singular, or of extreme sizes, and the two largest errors of climbs."""
+"""Motions that are singular, or of extreme sizes, and two large errors."""
 
 from symtop_ros.physics import State, Top
 
-# The largest errors that climbs have found, of attitude and of rates, with the time in s.
+# Large errors that climbs have found, of attitude and of rates, with the time in s.
 ASYMPTOTIC = (
     Top(1.0, 1.0, 50.222816944122314),
     State((0.5, 0.5, 0.5, 0.5), (5.55078125, -8.3447265625, -8.3447265625)),
