@@ -64,6 +64,8 @@ def _bound(motion: "Motion", times: list[Fraction], states: "State") -> list[tup
         remedy = name_remedy(error.name or "")
         raise RefusedError(f"a certificate needs {error.name}: {remedy}") from None
     inputs = Inputs.of(motion.top, motion.start)
+    if motion.clamped:
+        inputs = inputs.clamp()
     drive = motion.friction.coefficients, motion.applied_torque
     try:
         exact = proved.prove_states(inputs, times, 30, *drive)

@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from mpmath import mp, mpf
+from physics.clamped import follow_clamped
 from physics.reference.cases import ASYMPTOTIC, CASES, PENDULUM
 from physics.tops import ARTICLE, CUSPS, EPS
 from programs import run_python
@@ -71,6 +73,22 @@ def test_shapes_are_those_of_the_times() -> None:
     assert motion.certify(np.zeros((2, 3))).attitude.shape == (2, 3)
     assert motion.certify([]).angular_velocity.shape == (0,)
     assert isinstance(motion.certify(0.125).angular_velocity, float)
+
+
+@pytest.mark.parametrize("Mgl", [0.068, -0.068, 0.0])
+def test_a_clamped_motion_is_proved_as_one_in_its_vertical_plane(Mgl: float) -> None:
+    top = Top(ARTICLE.Ix, ARTICLE.Iz, Mgl)
+    start = State.from_euler(
+        theta=0.5, phi=1.0, psi=2.0, theta_dot=-3.0, phi_dot=4.0, psi_dot=200.0
+    )
+    found = Motion(top, start, clamped=True).certify([0.0, 0.1, -2.0, 1e3])
+    assert found.attitude.max() < 20 * EPS
+    assert found.angular_velocity.max() < 10 * EPS * 50  # rad/s: the fastest fall has 35
+    exact = prove_state(Inputs.of(top, start).clamp(), 0.1)
+    with mp.workdps(40):
+        q, omega = follow_clamped(top, start, 0.1)
+        pairs = zip(exact.orientation + exact.angular_velocity, q + omega, strict=True)
+        assert all(abs(mpf(ball.mid().str(38, radius=False)) - x) < 1e-28 for ball, x in pairs)
 
 
 @pytest.mark.parametrize("t", [math.nan, math.inf, [1.0, -math.inf], "soon"])

@@ -46,6 +46,18 @@ class Inputs(NamedTuple):
         q, omega = (tuple(map(Fraction, each)) for each in (orientation, angular_velocity))
         return cls(Fraction(Ix), Fraction(Iz), Fraction(Mgl), q, omega)
 
+    def clamp(self) -> Inputs:
+        """Return a free motion with the states of this one while a hand holds phi.
+
+        It is that of a body without momentum along its axis, in its vertical plane [derivation,
+        11]. The axis must be tilted.
+        """
+        (w, x, y, z), (a, b, c) = self.orientation, self.angular_velocity
+        node = -(w * x + y * z), x * z - w * y  # along the line of nodes, of any length
+        part = (a * node[0] + b * node[1]) / (node[0] ** 2 + node[1] ** 2)
+        rates = part * node[0], part * node[1], c
+        return self._replace(Iz=Fraction(0), angular_velocity=rates)
+
 
 class Way:
     """The steps of an integration forward or back in time."""
