@@ -514,7 +514,8 @@ class Motion:
         """Return proved bounds of the errors of the states that `at` gives.
 
         The exact states are computed in ball arithmetic, without a number of the kernel. Under
-        gravity alone a state takes some ms; 10 s of a driven top of 200 rad/s take half a minute.
+        gravity alone, and clamped, a state takes some ms; 10 s of a driven top of 200 rad/s take
+        half a minute.
         The extra `reference` must be installed.
 
         Parameters
