@@ -48,7 +48,7 @@ class ProvedState(NamedTuple):
     def __str__(self) -> str:
         """Return the digits that are known."""
         parts = {"orientation": self.orientation, "angular_velocity": self.angular_velocity}
-        lines = (f"{name}: {' '.join(map(_show, balls))}" for name, balls in parts.items())
+        lines = (f"{name}: {' '.join(map(show, balls))}" for name, balls in parts.items())
         return "\n".join(lines)
 
     def is_within(self, least: Ball) -> bool:
@@ -62,8 +62,10 @@ class ProvedState(NamedTuple):
         )
 
 
-def _show(ball: Ball) -> str:
+def show(ball: Ball) -> str:
     """Return the digits of a ball; of an exact one those of a double."""
+    if not ball.mid().is_finite():
+        return str(float(ball.mid()))
     digits = 17 if ball.is_exact() else int(ball.rel_accuracy_bits() * math.log10(2))
     return str(ball.str(max(digits, 1), radius=ball.rel_accuracy_bits() < 4))
 

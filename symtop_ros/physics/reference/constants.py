@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from flint import acb, arb
 
-from symtop_ros.physics.reference.balls import Ball, norm, refine, to_ball
+from symtop_ros.physics.reference.balls import Ball, norm, refine, show, to_ball
 from symtop_ros.physics.reference.fall import Fall, Nutation, turn_world
 from symtop_ros.physics.reference.series import Inputs
 
@@ -40,6 +40,13 @@ class ProvedConstants(NamedTuple):
     period: Ball
     turning_angles: tuple[Ball, Ball]
     mean_rates: tuple[Ball, Ball]
+
+    def __str__(self) -> str:
+        """Return the digits that are known."""
+        parts = {"period": (self.period,), "turning_angles": self.turning_angles}
+        parts["mean_rates"] = self.mean_rates
+        lines = (f"{name}: {' '.join(map(show, balls))}" for name, balls in parts.items())
+        return "\n".join((f"kind: {self.kind}", *lines))
 
 
 def prove_constants(inputs: Inputs, digits: int) -> ProvedConstants:

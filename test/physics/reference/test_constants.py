@@ -91,6 +91,15 @@ def test_a_root_beyond_the_pole_at_which_phi_would_rest_makes_no_cusps() -> None
     assert exact_constants(motion.top, motion.start).kind == motion.kind == "unidirectional"
 
 
+def test_constants_are_printed_with_the_digits_that_are_known() -> None:
+    text = str(exact_constants(*CASES["sleeping"])).splitlines()
+    assert text == ["kind: sleeping", "period: inf", "turning_angles: 0 0", "mean_rates: nan nan"]
+    kind, period, *_ = str(exact_constants(*CASES["tilted"], 40)).splitlines()
+    exact = exact_constants(*CASES["tilted"], 60).period
+    assert kind == "kind: looping"
+    assert period.startswith(f"period: {exact.str(40, radius=False)[:40]}")
+
+
 def test_what_is_not_one_motion_under_gravity_is_refused() -> None:
     with pytest.raises(ValueError, match="Mgl must be other than 0 J, got 0"):
         exact_constants(*CASES["no weight"])
