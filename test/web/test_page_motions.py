@@ -35,7 +35,9 @@ def test_every_scene_starts_with_the_doubles_of_a_node_and_says_what_acts(opened
         assert event["friction"] == [motion.friction.axial, motion.friction.transverse]
         assert event["torque"] == list(motion.applied_torque)
         said.add(acts := (any(event["friction"]), any(event["torque"])))
-        assert opened.say("headline").startswith(SAID[acts])
+        assert event.get("clamped", False) == motion.clamped
+        expected = "Clamped, the " if motion.clamped else SAID[acts]
+        assert opened.say("headline").startswith(expected)
         assert not any(acts) or opened.say("why").startswith("Without ")
     assert said >= {(True, False), (False, True)}
 

@@ -97,7 +97,7 @@ REFUSED = [
     ("orientation=1,0,0,0", "orientation in a link must be given with angular_velocity, and "),
     ("angular_velocity=1,0,0&theta=1", "orientation in a link must be given with "),
     ("orientation=1,1,0,0&angular_velocity=0,0,1", "orientation "),
-    ("__proto__=1", "name in a link must be one of scene, precession, Ix, "),
+    ("__proto__=1", "name in a link must be one of scene, precession, clamped, "),
     ("theta=1e999", "theta must be a number, got 1e999"),
     ("Ix=1e-300", "Ix, Iz and Mgl must be finite"),
     ("scene=__proto__", "scene must be one of "),
