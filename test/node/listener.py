@@ -24,6 +24,8 @@ class Listener:
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()  # else shared memory ends before what uses it
         rclpy.shutdown(context=self.context)
 
     def collect(self, kind: Any, topic: str, qos: Any = 1000, raw: bool = False) -> list[Any]:

@@ -3,12 +3,16 @@
 import signal
 import sys
 import time
+from contextlib import contextmanager, nullcontext
 from itertools import product
 
 import pytest
+from exact_log import assert_exact
+from geometry_msgs.msg import QuaternionStamped
 from node.listener import Listener
 from odd_values import assert_one_sentence
 from programs import command, environment, execute, run, running, set_parameters, write_without
+from std_srvs.srv import Trigger
 from trials import choose
 
 from symtop_ros.client.connection import Connection
@@ -92,24 +96,62 @@ WAY_OUT = (
 )
 
 
-TRANSPORTS = ("SHM", "UDPv4", "DEFAULT", "LARGE_DATA")
+# What Fast DDS talks over; for the range LOCALHOST rmw_fastrtps adds shared memory itself.
+TRANSPORTS = ("SHM", "UDPv4", "LOCALHOST", "DEFAULT", "LARGE_DATA")
+VARIABLES = ("FASTDDS_BUILTIN_TRANSPORTS", "ROS_AUTOMATIC_DISCOVERY_RANGE")
+BUSY = ("alone", "with a client", "recording", "in a request")
+TRIALS = [*product(TRANSPORTS, BUSY, SIGNALS, range(17))]  # 204 ends on each transport
+OFTEN = [("SHM", busy, signal.SIGTERM, 0) for busy in BUSY]
 
 
-TRIALS = [*product(TRANSPORTS, SIGNALS, range(17))]
-
-
-@pytest.mark.parametrize("trial", choose(TRIALS, TRIALS[17 : 3 * 17 : 17]))
-def test_it_ends_without_a_fault_on_every_transport(trial, monkeypatch):
+@pytest.mark.parametrize("trial", choose(TRIALS, OFTEN))
+def test_it_ends_without_a_fault_on_every_transport(trial, monkeypatch, tmp_path):
     """With shared memory alone the middleware ended after the semaphores that it needs."""
-    transport, ending, _ = trial
-    monkeypatch.setenv("FASTDDS_BUILTIN_TRANSPORTS", transport)
-    monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
-    with running(command("top_node"), DOMAIN) as node:
+    transport, busy, ending, number = trial
+    _use_transport(monkeypatch, transport)
+    folder = tmp_path if busy == "recording" else None
+    with running(_record_into(folder), DOMAIN) as node:
         while "states are computed" not in node.stderr.readline():
             assert node.poll() is None
-        node.send_signal(ending)
-        node.communicate(timeout=300)
-    assert node.returncode == 0
+        with _followed() if busy in BUSY[1::2] else nullcontext() as connection:
+            if busy == "in a request":
+                _ask(connection, number * 1e-4)
+            node.send_signal(ending)
+            _, rest = node.communicate(timeout=300)
+    assert (node.returncode, "Traceback" in rest) == (0, False)
+    assert all(assert_exact(path) for path in tmp_path.iterdir())
+    assert len([*tmp_path.iterdir()]) == (folder is not None)
+
+
+def _use_transport(monkeypatch, name):
+    """Let programs, and nodes of this process, use a transport, whatever they used before."""
+    for variable in VARIABLES:
+        monkeypatch.delenv(variable, raising=False)
+    monkeypatch.setenv(VARIABLES[name == "LOCALHOST"], name)
+
+
+def _record_into(folder):
+    options = folder and ("-p", "record.enabled:=true", "-p", f"record.directory:={folder}")
+    return command("top_node", "--ros-args", *(options or ()))
+
+
+@contextmanager
+def _followed():
+    """A client that receives samples and has had an answer."""
+    with Listener(DOMAIN) as user:
+        samples = user.collect(QuaternionStamped, "/top/orientation")
+        connection = Connection(user.node, timeout=300.0)
+        assert connection.request("hurry_precession")[0]
+        connection.spin_until(lambda: samples, 300.0)
+        yield connection
+        connection.close()
+
+
+def _ask(connection, seconds):
+    """Send a request, and return when it is being answered, or after its answer."""
+    client = connection._client(Trigger, "hurry_precession")
+    client.call_async(Trigger.Request())
+    connection.spin_until(lambda: False, seconds)
 
 
 def test_without_mcap_it_runs_and_refuses_to_record_with_the_way_out():
