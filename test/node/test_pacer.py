@@ -1,13 +1,15 @@
-"""The thread that calls for ticks, and its real-time scheduling."""
+"""The thread that calls for ticks, and its scheduling."""
 
+import ctypes
 import os
+import platform
 import threading
 
 import pytest
 from geometry_msgs.msg import QuaternionStamped
 from waiting import TIMEOUT
 
-from symtop_ros.node.host import Pacer
+from symtop_ros.node.host import SLICE, Pacer, SchedulerAttributes
 
 
 class Ticks:
@@ -80,3 +82,34 @@ def test_the_node_runs_with_and_without_the_right(monkeypatch, start_top, capfd,
     top.wait_for(top.collect(QuaternionStamped, "/top/orientation"))
     assert asked == [(0, os.SCHED_FIFO, 50)]
     assert ("scheduling_priority 50 has no effect" in capfd.readouterr().err) == (not granted)
+
+
+GET_SCHEDULER = {"x86_64": 315, "aarch64": 275}  # the system call sched_getattr
+
+
+def read_scheduling():
+    """Return niceness and slice (ns; 0: the usual one) of this thread."""
+    found = SchedulerAttributes()
+    number = GET_SCHEDULER[platform.machine()]
+    size = ctypes.sizeof(found)
+    assert ctypes.CDLL(None).syscall(number, 0, ctypes.byref(found), size, 0) == 0
+    return found.niceness, found.runtime
+
+
+@pytest.mark.skipif(platform.machine() not in GET_SCHEDULER, reason="of another processor")
+@pytest.mark.skipif(
+    tuple(map(int, platform.release().split(".")[:2])) < (6, 12), reason="needs Linux 6.12"
+)
+def test_it_alone_has_a_short_slice_and_keeps_its_niceness():
+    found, ended = [], threading.Event()
+
+    def tick():
+        found.append(read_scheduling())
+        ended.set()
+
+    pacer = Pacer(tick, lambda _: ended.set())
+    assert ended.wait(TIMEOUT)
+    pacer.stop()
+    niceness, usual = read_scheduling()
+    assert found[0] == (niceness, SLICE)
+    assert usual != SLICE
