@@ -4,7 +4,7 @@ import signal
 import sys
 import time
 from contextlib import contextmanager, nullcontext
-from itertools import product
+from itertools import chain, product
 
 import pytest
 from exact_log import assert_exact
@@ -99,7 +99,7 @@ WAY_OUT = (
 # What Fast DDS talks over; for the range LOCALHOST rmw_fastrtps adds shared memory itself.
 TRANSPORTS = ("SHM", "UDPv4", "LOCALHOST", "DEFAULT", "LARGE_DATA")
 VARIABLES = ("FASTDDS_BUILTIN_TRANSPORTS", "ROS_AUTOMATIC_DISCOVERY_RANGE")
-BUSY = ("alone", "with a client", "recording", "in a request")
+BUSY = ("alone", "with a client", "in a recording", "in a request")
 TRIALS = [*product(TRANSPORTS, BUSY, SIGNALS, range(17))]  # 204 ends on each transport
 OFTEN = [("SHM", busy, signal.SIGTERM, 0) for busy in BUSY]
 
@@ -109,11 +109,11 @@ def test_it_ends_without_a_fault_on_every_transport(trial, monkeypatch, tmp_path
     """With shared memory alone the middleware ended after the semaphores that it needs."""
     transport, busy, ending, number = trial
     _use_transport(monkeypatch, transport)
-    folder = tmp_path if busy == "recording" else None
+    folder = tmp_path if busy == "in a recording" else None
     with running(_record_into(folder), DOMAIN) as node:
         while "states are computed" not in node.stderr.readline():
             assert node.poll() is None
-        with _followed() if busy in BUSY[1::2] else nullcontext() as connection:
+        with nullcontext() if busy == "alone" else _followed() as connection:
             if busy == "in a request":
                 _ask(connection, number * 1e-4)
             node.send_signal(ending)
@@ -121,6 +121,33 @@ def test_it_ends_without_a_fault_on_every_transport(trial, monkeypatch, tmp_path
     assert (node.returncode, "Traceback" in rest) == (0, False)
     assert all(assert_exact(path) for path in tmp_path.iterdir())
     assert len([*tmp_path.iterdir()]) == (folder is not None)
+
+
+# Those of a row see each other; UDPv4 is what the programs use if nothing is set.
+TOGETHER = (("UDPv4", "DEFAULT", "LOCALHOST"), ("SHM",), ("LARGE_DATA",), ("UDPv6", "DEFAULTv6"))
+SEEN = 4.0  # s within which a client finds a node
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("row", TOGETHER, ids=str)
+def test_clients_see_a_node_whose_transports_are_theirs(row, monkeypatch):
+    for transport in row:
+        _use_transport(monkeypatch, transport)
+        with running(command("top_node"), DOMAIN) as node:
+            while "states are computed" not in node.stderr.readline():
+                assert node.poll() is None
+            seen = {each for each in chain(*TOGETHER) if _is_seen_by(monkeypatch, each)}
+            assert seen == {*row}
+
+
+def _is_seen_by(monkeypatch, transport):
+    _use_transport(monkeypatch, transport)
+    with Listener(DOMAIN) as user:
+        samples = user.collect(QuaternionStamped, "/top/orientation")
+        end = time.monotonic() + SEEN
+        while not samples and time.monotonic() < end:
+            user.spin(0.05)
+        return bool(samples)
 
 
 def _use_transport(monkeypatch, name):
