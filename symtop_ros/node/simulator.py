@@ -1,13 +1,15 @@
 """The standard interface of simulators, for programs that are written for any of them.
 
 It is offered where the package simulation_interfaces is installed, under the names that Gazebo
-gives it. One step is a period of publish_rate; a reset goes back to the parameters `initial.*`, in
-the state and not in the time, which a clock shares with others.
+gives it. One step is a period of publish_rate. A reset of the state goes back to the parameters
+`initial.*`, and one of the time to 0 if the node owns the clock (publish_clock): another clock is
+shared with others, and stays.
 
 Versions of the package differ. Those before 2.1 (Humble, Jazzy, Kilted) have no flags in
 SetEntityState for what is to be set, and some no code for an invalid pose.
 """
 
+from collections import deque
 from collections.abc import Callable, Generator
 from typing import Any, cast
 
@@ -34,6 +36,7 @@ from symtop_ros.physics import State, angular_acceleration
 from symtop_ros.refusals import RefusedError, one_line, refuse, vector
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.changes.outcomes import Failure
+from symtop_ros.simulation.own_time import OwnTimeSimulation
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import MAX_RATE
 from symtop_ros.wire.layout import NANOSECONDS
@@ -50,7 +53,7 @@ FEATURES = (
     SimulatorFeatures.STEP_SIMULATION_MULTIPLE,
     SimulatorFeatures.STEP_SIMULATION_ACTION,
 )
-INFO = f"symtop_ros {__version__}: one top; a reset leaves the time unchanged"
+INFO = f"symtop_ros {__version__}: one top"
 STOPPED, PLAYING, PAUSED = (
     SimulationState.STATE_STOPPED,
     SimulationState.STATE_PLAYING,
@@ -92,6 +95,7 @@ class Simulator:
         self._node, self._session, self._wake = node, session, wake
         self._simulation = session.simulation
         self._stopped: Segment | None = None  # what a stop has led to
+        self._goals: deque[Any] = deque()  # of the action; the first one steps
         for kind, name, act in (
             (GetSimulatorFeatures, "get_simulator_features", self._get_features),
             (GetSimulationState, "get_simulation_state", self._get_state),
@@ -148,7 +152,9 @@ class Simulator:
     # The simulation
 
     def _get_features(self, _: Any, response: Any) -> None:
-        response.features = SimulatorFeatures(features=[*FEATURES], custom_info=INFO)
+        owns_clock = isinstance(self._simulation, OwnTimeSimulation)
+        features = [*FEATURES, *[SimulatorFeatures.SIMULATION_RESET_TIME] * owns_clock]
+        response.features = SimulatorFeatures(features=features, custom_info=INFO)
 
     @property
     def _state(self) -> int:
@@ -179,11 +185,20 @@ class Simulator:
             self._stopped = self._simulation.segment
 
     def _reset(self, request: Any, _: Any) -> str:
-        """Reset the state, for each scope that includes it; nothing is ever spawned."""
-        scope = request.scope or ALL
-        if not scope & STATE or (scope != ALL and scope & ~(TIME | STATE | SPAWNED)):
-            condition = f"one that includes the state ({STATE}), 0 or {ALL}"
-            raise ResultError(UNSUPPORTED, refuse("scope", condition, request.scope))
+        """Reset state and time, as the scope says and as far as they can be; nothing is spawned."""
+        scope, simulation = request.scope or ALL, self._simulation
+        own_time = simulation if isinstance(simulation, OwnTimeSimulation) else None
+        needed = STATE | TIME if own_time else STATE
+        if not scope & needed or (scope != ALL and scope & ~(TIME | STATE | SPAWNED)):
+            parts = f"the state ({STATE})" + f" or the time ({TIME})" * bool(own_time)
+            raise ResultError(
+                UNSUPPORTED,
+                refuse("scope", f"one that includes {parts}, 0 or {ALL}", request.scope),
+            )
+        if own_time and scope & TIME:
+            own_time.reset_time(with_state=bool(scope & STATE))
+            self._wake()
+            return ""
         self._demand("set_initial_conditions", {})
         return TIME_IS_KEPT if scope & TIME else ""
 
@@ -194,6 +209,19 @@ class Simulator:
         self._demand("step", {"duration": request.steps * period / NANOSECONDS})
 
     async def _simulate_steps(self, goal: Any) -> Any:
+        """Carry out a goal when those before it have ended: each then advances by its own steps."""
+        self._goals.append(goal)
+        try:
+            while self._goals[0] is not goal:
+                if goal.is_cancel_requested:
+                    goal.canceled()
+                    return SimulateSteps.Result(result=Result(result=Result.RESULT_OK))
+                await self._let_others_work()
+            return await self._carry_out(goal)
+        finally:
+            self._goals.remove(goal)
+
+    async def _carry_out(self, goal: Any) -> Any:
         """Step until all is done, a step is refused or the client cancels."""
         steps, step = goal.request.steps, self._handler("simulate_steps", self._step)
         single = StepSimulation.Request(steps=min(steps, 1))  # 0 is refused
@@ -210,13 +238,17 @@ class Simulator:
         return result
 
     async def _tell(self, goal: Any, done: int, left: int) -> None:
-        """Send feedback, and let the executor do its other work."""
+        """Send feedback to the clients, if they are still there."""
         feedback = SimulateSteps.Feedback(completed_steps=done, remaining_steps=left)
         try:
             goal.publish_feedback(feedback)
         except RuntimeError:
             if self._node.context.ok():
                 raise
+        await self._let_others_work()
+
+    async def _let_others_work(self) -> None:
+        """Let the executor do its other work, and then continue."""
         if self._node.executor:
             self._node.executor.wake()  # it sleeps until there is something to do
         await NextSpin()

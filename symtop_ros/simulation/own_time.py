@@ -1,8 +1,8 @@
 """A simulation in its own time (parameter publish_clock), as Gazebo's.
 
 Its stamps are the elapsed time of the run, which is published on /clock: it advances by the
-real-time factor, stands still in a pause and never goes back, so that rates are derivatives by the
-stamps at every factor. The factor of its segments is 1.
+real-time factor, stands still in a pause and goes back only if a reset of the time is asked for, so
+that rates are derivatives by the stamps at every factor. The factor of its segments is 1.
 """
 
 from symtop_ros.simulation.block import GAP
@@ -47,7 +47,7 @@ class RunClock:
         self.factor = factor
 
     def set(self, time: int) -> None:
-        """Continue from a time (ns), which must not precede the last stamp."""
+        """Continue from a time (ns); one that precedes the last stamp is a jump back."""
         self._time, self._since = time, self._real.now
 
     def stop(self, time: int) -> None:
@@ -167,6 +167,21 @@ class OwnTimeSimulation(Simulation):
         self.publish()
         self.pause(True)
         return verdict
+
+    def reset_time(self, with_state: bool) -> None:
+        """Set the time back to 0, where the motion continues, or starts as the parameters say.
+
+        Call it in a turn. The sample at 0 is published, in a pause too.
+        """
+        stamp, self.last = self.stamp, -1
+        self._clock.set(0)
+        self.restart_grid(0)
+        self.apply(self.timeline.move(stamp, 0))
+        if with_state:
+            self.apply(self.timeline.restart(0, {}))
+        self.publish()
+        if not self._clock.is_running:
+            self._stop()
 
     def apply_settings(self, settings: Settings) -> None:
         """Continue with other settings, of which the clock has the factor."""

@@ -174,6 +174,39 @@ def test_a_reset_goes_back_to_the_parameters_and_says_that_the_time_does_not(cli
         assert refused.error_message == f"scope must be {condition}, got {scope}"
 
 
+def test_a_node_that_owns_the_clock_sets_it_back_and_its_log_is_exact(start_top, tmp_path):
+    run = start_top(realtime=True, publish_clock=True, record=tmp_path)
+    client, clocks = Client(run), run.collect(Clock, "/clock")
+    assert 21 in client.features().features
+    assert client.set_entity(**twist({"angular": {"z": 5.0}})).result == OK
+    for scope in (1, 3, 0, 255, 2):
+        run.wait_for(clocks, 20)
+        before, simulation = nanoseconds(clocks[-1].clock), run.top.simulation
+        done = client.reset(scope)
+        assert (done.result, done.error_message) == (OK, "")
+        assert (simulation.stamp < before) == (scope != 2)
+        is_new = simulation.segment.motion.start == run.top.simulation.timeline.start
+        assert (is_new, simulation.timeline.since[:5]) == (True, "start")
+        run.wait_for(clocks, 20)
+        assert (0 in map(nanoseconds, (each.clock for each in clocks))) == (scope != 2)
+        clocks.clear()
+    assert client.set_state(PAUSED).result == OK
+    for scope in (1, 0):
+        assert client.reset(scope).result == OK
+        assert client.step(2).result == OK
+        assert run.top.simulation.now == 2 * PERIOD
+    refused = client.reset(4).error_message
+    assert (
+        refused == "scope must be one that includes the state (2) or the time (1), 0 or 255, got 4"
+    )
+    assert client.set_state(PLAYING).result == OK
+    importlib.import_module("exact_log").assert_exact(run.end_log())
+
+
+def nanoseconds(time):
+    return time.sec * 10**9 + time.nanosec
+
+
 def test_entities_are_filtered_by_name(client):
     assert client.entities().entities == ["top"]
     assert client.entities(filter="^t.p$").entities == ["top"]
@@ -297,6 +330,56 @@ def test_the_action_is_cancelled_and_refused(client):
     none = client.simulate(0).get_result_async()
     run.spin_until(none.done)
     assert none.result().result.result.error_message == "steps must be at least 1, got 0"
+
+
+def test_goals_that_come_together_are_carried_out_one_after_the_other(client):
+    run, ends = client.run, []
+    client.set_state(STOPPED)
+    goals = [client.simulate(steps) for steps in (300, 10**6, 40)]
+    results = [each.get_result_async() for each in goals]
+    for number, result in enumerate(results):
+        result.add_done_callback(lambda _, number=number: ends.append((number, times(client))))
+    run.spin_until(results[0].done)
+    cancelled = goals[1].cancel_goal_async()
+    run.spin_until(lambda: cancelled.done() and len(ends) == 3)
+    assert [number for number, _ in ends] == [0, 1, 2]
+    assert [each.result().status for each in results] == [4, 5, 4]  # succeeded, canceled
+    # An end is told when the next goal has made some steps, at most those of this one.
+    assert 300 <= float(ends[0][1]) / PERIOD < 320
+    assert 20 < float(ends[2][1] - ends[1][1]) / PERIOD < 60
+
+
+def test_a_goal_that_waits_is_cancelled_at_once_and_makes_no_step(client):
+    run = client.run
+    client.set_state(STOPPED)
+    first, second = client.simulate(10**6), client.simulate(10**6)
+    result = second.get_result_async()
+    second.cancel_goal_async()
+    run.spin_until(result.done)
+    assert (result.result().status, result.result().result.result.result) == (5, OK)
+    ended = first.get_result_async()
+    first.cancel_goal_async()
+    run.spin_until(ended.done)
+    steps = round(float(times(client)) / PERIOD)
+    run.spin(0.1)
+    assert round(float(times(client)) / PERIOD) == steps > 0
+
+
+def test_the_goal_of_a_client_that_leaves_goes_on_and_can_be_cancelled_by_others(client):
+    run = client.run
+    client.set_state(STOPPED)
+    client.simulate(10**6)
+    client.steps.destroy()
+    before = times(client)
+    run.spin_until(lambda: times(client) > before + 20 * PERIOD)
+    assert client.entity().result.result == OK
+    kind = importlib.import_module("action_msgs.srv").CancelGoal
+    name = "simulate_steps/_action/cancel_goal"
+    cancelled = run.connection._call(kind, name, kind.Request())  # without an id: all goals
+    assert len(cancelled.goals_canceling) == 1
+    again = Client(run).simulate(3).get_result_async()
+    run.spin_until(again.done)
+    assert again.result().result.result.result == OK
 
 
 def test_a_stop_and_a_play_are_events_from_which_the_log_is_computed(start_top, tmp_path):

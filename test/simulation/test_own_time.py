@@ -125,3 +125,44 @@ def test_a_motion_that_becomes_too_fast_for_doubles_is_paused_there(publish_cloc
     assert run.simulation.state == run.simulation.timeline.start
     run.assert_recomputed()
     assert list(find_mismatches(run.sink.events)) == []
+
+
+def assert_recomputed_in_order(run):
+    """Each sample is that of the last event that was sent before it: stamps repeat."""
+    samples, events = iter(run.sink.samples), iter(run.sink.events)
+    for name in run.sink.order:
+        if name != "sample":
+            segment = next(events).segment()
+            continue
+        stamp, numbers = next(samples)
+        w, x, y, z = segment.state_at(stamp).orientation.tolist()
+        assert numbers == [x, y, z, w]
+
+
+@pytest.mark.parametrize("with_state", [False, True])
+@pytest.mark.parametrize("paused", [False, True])
+def test_a_reset_of_the_time_goes_back_to_0_with_a_sample_there(paused, with_state):
+    run = start(seconds=0.333, real_time_factor=2.0)
+    assert run.ask("kick", {"precession_rate_change": 3.0})[0]
+    assert run.ask("pause", paused)[0]
+    simulation = run.simulation
+    before, count = simulation.state, len(run.sink.samples)
+    simulation.take_turn("reset", lambda: simulation.reset_time(with_state))
+    assert run.stamps[count:] == [0]
+    assert simulation.now == 0
+    first = [each for each in run.sink.events if each.name == "clock"][-1].segment().state_at(0)
+    assert np.array_equal(first.orientation, before.orientation)
+    segment = simulation.segment
+    is_new = segment.motion.start == simulation.timeline.start and not segment.elapsed
+    assert is_new == with_state
+    run.advance(0.1)
+    assert (len(run.stamps) == count + 1) == paused
+    assert run.ask("pause", True)[0]
+    assert run.ask("step", {"duration": 1e-3})[0]  # less than a period after a sample
+    assert run.ask("pause", False)[0]
+    run.advance(0.1)
+    again = run.stamps[count:]
+    assert again == sorted(set(again))
+    assert simulation.last == again[-1] == simulation.now
+    assert_recomputed_in_order(run)
+    assert list(find_mismatches(run.sink.events)) == []
