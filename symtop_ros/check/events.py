@@ -5,12 +5,12 @@ diagnostics those of the motion and of balances are computed again. Pace, log an
 describe the machine.
 """
 
+import html
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
-from xml.sax.saxutils import unescape
 
 import numpy as np
 from mcap.records import Message
@@ -237,7 +237,7 @@ class TextCheck:
             return self._leave(DESCRIPTION.name)
         text = Reader(message.data).string()
         link = re.search(r'<link name="([^"]*)"/>', text)  # the first is that of the world
-        world = unescape(link[1], {"&quot;": '"'}) if link else ""
+        world = html.unescape(link[1]) if link else ""
         right = [
             robot_description(
                 top, world, frame, tf_moves_it=moves, body=find_body(top, rig.gravity)

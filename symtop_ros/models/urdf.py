@@ -6,8 +6,8 @@ joined to the world by a floating joint, which robot_state_publisher leaves alon
 joints ends in an empty link. If the node does not publish /tf, the chain ends in the body.
 """
 
+import html  # xml.sax.saxutils would import http and ssl
 import math
-from xml.sax.saxutils import escape
 
 from symtop_ros.models.descriptions import (
     PLAIN,
@@ -38,7 +38,9 @@ def robot_description(
     described: Description = PLAIN,
 ) -> str:
     """Return the URDF of a top, with a body that moves as it does; by default one is chosen."""
-    world_frame, top_frame = (escape(n, {'"': "&quot;"}) for n in (world_frame, top_frame))
+    world_frame, top_frame = (
+        html.escape(name, quote=False).replace('"', "&quot;") for name in (world_frame, top_frame)
+    )
     end = f"{top_frame}_spin" if tf_moves_it else top_frame
     floating = f"""
   <link name="{end}"/>
@@ -81,7 +83,7 @@ def describe_inertial(top: Top, body: Body | None, described: Description = PLAI
     try:
         body = body or Body.of(top)
     except ValueError as error:
-        return f"<!-- No body moves like this top: {escape(str(error))}. -->"
+        return f"<!-- No body moves like this top: {html.escape(str(error), quote=False)}. -->"
     inertia = _inertial(described.link(body)) if described.share else MASSLESS
     return f"<!-- {describe_body(top, body)} -->\n    {inertia}"
 

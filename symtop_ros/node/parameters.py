@@ -5,7 +5,6 @@ Each has a type, because readers in C++ insist on it. Values are validated befor
 package, at start-up as well as later.
 """
 
-import difflib
 from collections.abc import Callable, Iterable, Sequence
 from copy import copy
 from functools import partial
@@ -113,7 +112,7 @@ def _check_unknown_names(node: Node) -> None:
     for name in node._parameter_overrides:
         if name in known or node.has_parameter(name) or name.startswith(QOS):
             continue
-        nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
+        nearest = _find_nearest(name, known)
         if name.partition(".")[0] in GROUPS:
             raise refuse("parameter name", f"known (the nearest is {nearest})", name)
         node.get_logger().warning(
@@ -126,10 +125,16 @@ def warn_of_unused_qos(node: Node) -> None:
     known = sorted(node.get_parameters_by_prefix(QOS.rstrip(".")))
     for name in node._parameter_overrides:
         if name.startswith(QOS) and not node.has_parameter(name):
-            nearest = difflib.get_close_matches(name.removeprefix(QOS), known, n=1, cutoff=0.0)
+            nearest = _find_nearest(name.removeprefix(QOS), known)
             node.get_logger().warning(
-                f"parameter {name!r} is unknown and not used (nearest: {QOS}{nearest[0]})"
+                f"parameter {name!r} is unknown and not used (nearest: {QOS}{nearest})"
             )
+
+
+def _find_nearest(name: str, known: list[str]) -> str:
+    import difflib  # noqa: PLC0415 - few runs need it
+
+    return difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
 
 
 def _descriptor(description: str, condition: str, read_only: bool) -> ParameterDescriptor:

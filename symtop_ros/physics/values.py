@@ -4,6 +4,7 @@ Every refused argument raises a ValueError of one form: "NAME must be CONDITION,
 """
 
 import math
+import sys
 from collections.abc import Callable, Iterable, Sequence
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -80,7 +81,7 @@ def validate_array(name: str, value: Any, size: int | None = None, unit: str = "
     try:
         array = np.asarray(value)
         are_real = array.dtype.kind in "iuf" or all(map(is_real, array.flat))
-        if np.ma.isMaskedArray(value) or not are_real:
+        if _is_masked(value) or not are_real:
             raise TypeError
         array = array.astype(np.float64)  # OverflowError: an int too large for a double
     except (TypeError, ValueError, OverflowError):
@@ -91,6 +92,12 @@ def validate_array(name: str, value: Any, size: int | None = None, unit: str = "
     if not (np.isfinite(array).all() if array.ndim else math.isfinite(array)):
         raise refuse(name, _with_unit("an array of finite numbers", unit), Words(_find_odd(array)))
     return array
+
+
+def _is_masked(value: Any) -> bool:
+    """Return True for an array of numpy.ma, which NumPy 2 imports (20 ms) when it is first used."""
+    masked = sys.modules.get("numpy.ma")
+    return masked is not None and bool(masked.isMaskedArray(value))
 
 
 def _find_odd(array: Real) -> str:
