@@ -10,10 +10,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import yaml
 import zstandard
 from exact_log import assert_agrees, compare_samples
 from log_files import Run, topic
-from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.highlevel import AnyReader
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 from session.test_outputs import SECOND, Program, advance, start
 
@@ -27,12 +29,15 @@ from symtop_ros.simulation.topics import EVENTS, STATE_TOPICS
 RUN = Run(seconds=1.5)
 TYPES = {each.name: each.type for each in (EVENTS, *STATE_TOPICS.values())}
 STORAGES = [StoragePlugin.MCAP, StoragePlugin.SQLITE3]
+MODES = [CompressionMode.NONE, CompressionMode.FILE, CompressionMode.MESSAGE]
 STORE = get_typestore(Stores.ROS2_JAZZY)
 
 
-def write(folder, messages, storage=StoragePlugin.MCAP, node="/top"):
+def write(folder, messages, storage=StoragePlugin.MCAP, node="/top", mode=CompressionMode.NONE):
     """A folder as `ros2 bag record` leaves it, by an independent writer."""
-    with Writer(folder, version=9, storage_plugin=storage) as writer:
+    written = Writer(folder, version=9, storage_plugin=storage)
+    written.set_compression(mode, CompressionFormat.ZSTD)
+    with written as writer:
         channels = {
             name: writer.add_connection(topic(name, node), kind, typestore=STORE)
             for name, kind in TYPES.items()
@@ -179,6 +184,44 @@ def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path,
     assert_complete([folder])
     gc.collect()
     assert list((tmp_path / "copies").iterdir()) == []
+
+
+@pytest.mark.parametrize("mode", MODES, ids=lambda mode: mode.name)
+@pytest.mark.parametrize("storage", STORAGES)
+def test_a_split_bag_with_latched_messages_at_each_head_is_read_as_rosbags_reads_it(
+    storage, mode, tmp_path
+):
+    """As `ros2 bag record -a --max-bag-duration 1 --repeat-transient-local ...` leaves it."""
+    cuts = np.linspace(0, len(RUN.messages), 4).astype(int)
+    folders = []
+    for begin, end in itertools.pairwise(cuts):
+        part, before = RUN.messages[begin:end], RUN.messages[:begin]
+        head = [(name, part[0][1], data) for name, _, data in before if name == EVENTS.name]
+        folder = tmp_path / f"bag_{begin}"
+        folders.append(write(folder, head + part, storage, mode=mode))
+    bag = join(folders, tmp_path / "bag")
+    assert_complete([bag])
+    with AnyReader([bag]) as reader:
+        found = [(each.topic, data) for each, _, data in reader.messages()]
+    assert {*found} == {(topic(name), data) for name, _, data in RUN.messages}
+    assert len(found) == len(RUN.messages) + 3  # the start twice, the kick once
+
+
+def join(folders, target):
+    """One bag of several, with the metadata that rosbag2 writes for split files."""
+    target.mkdir()
+    parts = [yaml.safe_load((each / "metadata.yaml").read_text()) for each in folders]
+    about, *others = (each["rosbag2_bagfile_information"] for each in parts)
+    for folder in folders:
+        for file in folder.glob("bag_*"):
+            file.rename(target / file.name)
+    for each in others:
+        for name in ("relative_file_paths", "files"):
+            about[name] += each[name]
+        about["message_count"] += each["message_count"]
+        about["duration"]["nanoseconds"] += each["duration"]["nanoseconds"]
+    (target / "metadata.yaml").write_text(yaml.safe_dump(parts[0]))
+    return target
 
 
 def test_compressed_messages_that_are_damaged_are_counted(tmp_path):
