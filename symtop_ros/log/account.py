@@ -66,6 +66,7 @@ class Account:
     ordered: Ordered  # its events
     stretches: tuple[Stretch, ...]  # in the order of the run
     end: int | None  # stamp (ns) of the last sample; None without samples
+    count: int  # messages of all topics
     losses: tuple[Loss, ...]  # as reading the files has found them
     never_recorded: tuple[str, ...]  # topics that the node has and the log lacks, by our names
     problems: tuple[str, ...]  # everything that is damaged, missing or there twice
@@ -100,6 +101,11 @@ class Account:
             is_open = each.event is None
             found += [each] if each.event else []
         return found
+
+    @property
+    def lacks_only_its_end(self) -> bool:
+        """True if nothing but the end of the log is lost, as after `kill -9`."""
+        return len(self.problems) == len(self.losses) == 1 and self.losses[0].place == self.count
 
     @property
     def has_top(self) -> bool:
@@ -175,6 +181,7 @@ class _Conclusions:
             ordered=self._ordered,
             stretches=self._stretches,
             end=self._end,
+            count=file.count,
             losses=tuple(file.losses),
             never_recorded=lacking,
             problems=tuple(self._list_problems()),

@@ -30,7 +30,10 @@ def check(log: TopLog, strict: bool = False) -> int:
     for line in list_problems([_describe(account, each) for each in found.mismatches]):
         _print_problem(line)
     is_whole = not account.problems and not found.unjudged
-    _print_verdict(found, is_whole)
+    _print_verdict(found)
+    if found.samples_agree and not is_whole:
+        ends_early = account.lacks_only_its_end and not found.unjudged
+        print("the log ends early" if ends_early else "the log is damaged or incomplete")
     _print_topics(account, found)
     lacks = strict and bool(account.never_recorded)
     return 0 if found.samples_agree and not found.mismatches and is_whole and not lacks else 1
@@ -40,7 +43,7 @@ def _print_problem(text: str) -> None:
     print(f"top_replay: {text}", file=sys.stderr)
 
 
-def _print_verdict(found: Findings, is_whole: bool) -> None:
+def _print_verdict(found: Findings) -> None:
     if any(each.samples for each in found.deviations.values()):
         print(f"the samples {'agree' if found.samples_agree else 'DO NOT agree'} with the events")
     if found.mismatches:
@@ -50,8 +53,6 @@ def _print_verdict(found: Findings, is_whole: bool) -> None:
     if found.foreign:
         by = f"symtop_ros {', '.join(found.versions)}" if found.versions else "another engine"
         print(f"{found.foreign} events are of {by}: their words and verdicts are not judged")
-    if found.samples_agree and not is_whole:
-        print("the log is damaged or incomplete")
 
 
 def _describe(account: Account, mismatch: Mismatch) -> str:

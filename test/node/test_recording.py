@@ -12,14 +12,16 @@ from exact_log import assert_exact, assert_no_deviation, read_messages
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from node.listener import Listener
 from node.running_top import LATCHED, torque_of
-from programs import command, environment, set_parameters
+from programs import PATIENT, command, environment, execute, set_parameters
 from trials import choose, trials
 from waiting import until
 
 from symtop_ros.log.reader import McapFile
+from symtop_ros.log.top_log import TopLog
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
+PUSHES = "kick", "axle_impulse=5e-5", "rate=20", "number=100"
 SIGNALS = signal.SIGTERM, signal.SIGINT, signal.SIGHUP
 
 
@@ -104,6 +106,8 @@ def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attemp
         folder = tmp_path / str(attempt)
         folder.mkdir()
         node, path = started(folder)
+        if attempt % 2 == 0:  # in a series of pushes
+            execute(command("top_ctl", *PATIENT, *PUSHES), check=True, env=environment(DOMAIN))
         time.sleep(rng.uniform(0.5, 1.5))
         killed = time.time()
         os.kill(node.pid, signal.SIGKILL)
@@ -114,3 +118,4 @@ def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attemp
         assert killed - latest * 1e-9 < 0.6
         (problem,) = file.problems
         assert "messages after" in problem
+        assert TopLog(McapFile(path)).account.lacks_only_its_end

@@ -232,6 +232,8 @@ def test_each_reader_says_what_is_wrong_first(name, reader, log, remapped, tmp_p
     assert "DO NOT agree" not in out
     if reader == "check":
         assert ("not compared: the motion is not known" in out) == case.unjudged
+        assert ("the log ends early\n" in out) == (name == "the end cut")
+        assert ("the log is damaged or incomplete\n" in out) == (status and name != "the end cut")
     if reader == "judge" and (case.unjudged or BEGINNING in case.says):
         assert "cannot be judged: the motion is not known there" in err
     if reader in ("judge", "clock"):
