@@ -19,7 +19,7 @@ SET_UP = @python='$(PYTHON)'; \
   "$$python" -IS workshop/set_up.py $(ASKED)
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-newcomer test-ubuntu test-kilted lint style types docs wheels kernel-wasm clean
+.PHONY: help demo panel test $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-newcomer test-ubuntu test-kilted test-cyclone lint style types docs wheels kernel-wasm clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 20
@@ -70,6 +70,10 @@ test-kilted:  ## tests of node, client and log on ROS 2 Kilted
 	@.venv/kilted/bin/python workshop/messages.py
 	@.venv/kilted/bin/python -m pytest -q -m "not realtime and not long" --ignore=test/log/test_definitions.py \
 	  test/node test/client test/log test/simulation/test_simulation.py
+
+test-cyclone:  ## tests of the node on CycloneDDS; CYCLONE=FOLDER: its libraries, as docs/ros.md says
+	$(SET_UP) test
+	@$(BIN)/python test/cyclone.py '$(CYCLONE)'
 
 lint: style types  ## ruff, codespell and mypy; Biome and TypeScript for the page
 

@@ -191,20 +191,23 @@ def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path,
 def test_a_split_bag_with_latched_messages_at_each_head_is_read_as_rosbags_reads_it(
     storage, mode, tmp_path
 ):
-    """As `ros2 bag record -a --max-bag-duration 1 --repeat-transient-local ...` leaves it."""
-    cuts = np.linspace(0, len(RUN.messages), 4).astype(int)
-    folders = []
-    for begin, end in itertools.pairwise(cuts):
-        part, before = RUN.messages[begin:end], RUN.messages[:begin]
-        head = [(name, part[0][1], data) for name, _, data in before if name == EVENTS.name]
-        folder = tmp_path / f"bag_{begin}"
-        folders.append(write(folder, head + part, storage, mode=mode))
-    bag = join(folders, tmp_path / "bag")
+    bag = split_with_heads(tmp_path, storage, mode)
     assert_complete([bag])
     with AnyReader([bag]) as reader:
         found = [(each.topic, data) for each, _, data in reader.messages()]
     assert {*found} == {(topic(name), data) for name, _, data in RUN.messages}
     assert len(found) == len(RUN.messages) + 3  # the start twice, the kick once
+
+
+def split_with_heads(folder, storage=StoragePlugin.MCAP, mode=CompressionMode.NONE):
+    """A bag as `ros2 bag record -a --max-bag-duration 1 --repeat-transient-local ...` leaves it."""
+    cuts = np.linspace(0, len(RUN.messages), 4).astype(int)
+    folders = []
+    for begin, end in itertools.pairwise(cuts):
+        part, before = RUN.messages[begin:end], RUN.messages[:begin]
+        head = [(name, part[0][1], data) for name, _, data in before if name == EVENTS.name]
+        folders.append(write(folder / f"bag_{begin}", head + part, storage, mode=mode))
+    return join(folders, folder / "bag")
 
 
 def join(folders, target):

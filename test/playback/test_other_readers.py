@@ -1,6 +1,7 @@
 """Rerun's own MCAP reader finds no fault in our logs."""
 
 import pytest
+from log.test_bag import split_with_heads
 from log_files import LAYOUTS, Run, topic
 from programs import execute
 
@@ -22,3 +23,12 @@ def test_rerun_finds_no_fault_in_a_log_that_is_complete_or_repaired(part, tmp_pa
     done = execute([viewer.PROGRAM, "mcap", "check", "--full", path])
     assert done.returncode == 0, done.stdout
     assert all(topic(name) in done.stdout for name in LAYOUTS)
+
+
+def test_rerun_finds_no_fault_in_a_split_bag_with_repeated_latched_messages(tmp_path):
+    files = sorted(split_with_heads(tmp_path).glob("*.mcap"))
+    assert len(files) == 3
+    for path in files:
+        done = execute([viewer.PROGRAM, "mcap", "check", "--full", path])
+        assert done.returncode == 0, done.stdout
+        assert all(topic(name) in done.stdout for name in LAYOUTS)
