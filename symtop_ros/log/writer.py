@@ -44,6 +44,7 @@ class LogFile:
         self._head = dict(sorted(head.items()))
         self._first: int | None = None
         self._last = 0
+        self._has_messages = False  # True if complete chunks have some
         self._writer = Writer(self._file, CHUNK_SIZE, CompressionType.ZSTD, enable_data_crcs=True)
         try:
             self._writer.start(Profile.ROS2, f"symtop_ros {__version__}")
@@ -77,6 +78,7 @@ class LogFile:
         if not self._exists():
             raise FileNotFoundError("the file was removed")
         self.size = self._file.tell()
+        self._has_messages = self._first is not None
 
     @property
     def duration(self) -> float:
@@ -100,14 +102,14 @@ class LogFile:
     def abandon(self) -> None:
         """Close after an error: cut an incomplete chunk and end the file without an index.
 
-        A file without any chunk is removed.
+        A file without any message is removed.
         """
         if self._file.closed:
             return
         with suppress(OSError):
             self._file.close()
         with suppress(OSError):
-            if not self.size:
+            if not self._has_messages:
                 self.path.unlink()
             os.truncate(self.path, self.size)
             with self.path.open("ab") as file:

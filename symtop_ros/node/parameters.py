@@ -41,6 +41,7 @@ TYPES = {
 }
 GROUPS = {name.partition(".")[0] for name in PARAMETERS if "." in name}
 MAX_COUNT = 1000  # parameters of a request; a file with all of them has a tenth
+MAX_UNUSED = 5  # unknown names that are named: a file for /** may have those of many nodes
 VALUE_FIELDS = (
     *("bool_value", "integer_value", "double_value", "string_value"),
     *("bool_array_value", "integer_array_value", "double_array_value", "string_array_value"),
@@ -109,26 +110,34 @@ def _check_unknown_names(node: Node) -> None:
     A parameter file for /** holds the parameters of other nodes too.
     """
     known = [*PARAMETERS, "scene", "use_sim_time"]
-    for name in node._parameter_overrides:
-        if name in known or node.has_parameter(name) or name.startswith(QOS):
-            continue
-        nearest = _find_nearest(name, known)
+    unknown = [
+        name
+        for name in node._parameter_overrides
+        if not (name in known or node.has_parameter(name) or name.startswith(QOS))
+    ]
+    for name in unknown:
         if name.partition(".")[0] in GROUPS:
-            raise refuse("parameter name", f"known (the nearest is {nearest})", name)
-        node.get_logger().warning(
-            f"parameter {name!r} is unknown and not used (nearest: {nearest})"
-        )
+            condition = f"known (the nearest is {_find_nearest(name, known)})"
+            raise refuse("parameter name", condition, name)
+    _warn_of_unused(node, unknown, known)
 
 
 def warn_of_unused_qos(node: Node) -> None:
     """Warn about overrides of QoS for topics that there are not; call it when all are there."""
-    known = sorted(node.get_parameters_by_prefix(QOS.rstrip(".")))
-    for name in node._parameter_overrides:
-        if name.startswith(QOS) and not node.has_parameter(name):
-            nearest = _find_nearest(name.removeprefix(QOS), known)
-            node.get_logger().warning(
-                f"parameter {name!r} is unknown and not used (nearest: {QOS}{nearest})"
-            )
+    known = [QOS + name for name in sorted(node.get_parameters_by_prefix(QOS.rstrip(".")))]
+    overrides = (name for name in node._parameter_overrides if name.startswith(QOS))
+    _warn_of_unused(node, [name for name in overrides if not node.has_parameter(name)], known)
+
+
+def _warn_of_unused(node: Node, unknown: list[str], known: list[str]) -> None:
+    """Warn about the first unknown names, and of the number of the others."""
+    for name in unknown[:MAX_UNUSED]:
+        node.get_logger().warning(
+            f"parameter {name!r} is unknown and not used (nearest: {_find_nearest(name, known)})"
+        )
+    more = len(unknown) - MAX_UNUSED
+    if more > 0:
+        node.get_logger().warning(f"{more} more parameters are unknown and not used")
 
 
 def _find_nearest(name: str, known: list[str]) -> str:

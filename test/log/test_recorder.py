@@ -161,6 +161,18 @@ def test_a_full_disk_stops_the_recording_and_what_was_written_opens(tmp_path):
     assert stamps_of(path, "/plain") == [stamp]
 
 
+def test_a_full_disk_is_left_without_an_empty_log(tmp_path):
+    with mounted(tmp_path / "small", "size=300k") as folder:
+        (folder / "other").write_bytes(bytes(292 * 1024))  # two pages are left
+        recorder = create(folder)
+        recorder.start({})
+        for stamp in range(100):
+            recorder.add(1, stamp, os.urandom(400))
+        until(lambda: recorder.failure)
+        assert os.strerror(errno.ENOSPC) in recorder.failure
+        assert [each.name for each in folder.iterdir()] == ["other"]
+
+
 def test_messages_of_the_first_channel_are_written_before_the_others(tmp_path):
     recorder = create(tmp_path)
     path = recorder.start({})

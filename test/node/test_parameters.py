@@ -204,6 +204,14 @@ def test_unknown_parameters_of_other_nodes_are_warned_about(start_from, capfd):
     assert "'camera.exposure' is unknown" in capfd.readouterr().err
 
 
+def test_a_thousand_parameters_of_other_nodes_are_six_lines(start_from, capfd):
+    lines = "".join(f"    camera_{number}: {number}\n" for number in range(1000))
+    start_from(f"/**:\n  ros__parameters:\n{lines}")
+    said = [line for line in capfd.readouterr().err.splitlines() if "not used" in line]
+    assert len(said) == 6
+    assert said[-1].endswith("995 more parameters are unknown and not used")
+
+
 def test_an_override_of_qos_for_a_topic_that_there_is_not_is_warned_about(start_top, capfd):
     start_top(**{"qos_overrides./top/orientatio.publisher.depth": 5})
     said = capfd.readouterr().err
