@@ -34,7 +34,12 @@ DISCOVERIES = [
     ({**LOCAL, **LOOPBACK}, {**LOCAL, **TO_THE_TOP}, False),
     ({**OFF, PEERS: ADDRESSES[1]}, {**OFF, **TO_THE_TOP}, False),
 ]
-BAD = Weather(loss=0.05, delay=0.020, jitter=0.005, reorder=0.10)
+# With the longest time to an answer, s. A repetition takes a heartbeat and two ways, at most 0.2 s
+# on the second link, and fails there with 1 - 0.8**3; 25 of them fail with 5e-8.
+BAD = [
+    (Weather(loss=0.05, delay=0.020, jitter=0.005, reorder=0.10), 1.0),
+    (Weather(loss=0.20, delay=0.050, jitter=0.010, reorder=0.10), 5.0),
+]
 
 
 @pytest.fixture(scope="module")
@@ -87,13 +92,14 @@ def test_the_top_is_found_from_another_host_where_the_settings_say_so(hosts):
     assert found == [expected for *_, expected in DISCOVERIES]
 
 
-def test_on_a_link_that_loses_delays_and_reorders_no_message_is_missing(hosts):
+@pytest.mark.parametrize(("weather", "longest"), BAD, ids=["5 %", "20 %"])
+def test_on_a_link_that_loses_delays_and_reorders_no_message_is_missing(weather, longest, hosts):
     here, there, cable = hosts
     witness = bound([sys.executable, str(WITNESS)])
     with top(here, 10, LOSSY), running(there, 10, LOSSY, *witness) as user:
         ask(user, "kick")
         report_of(user, lambda report: len(report["samples"]) == 5)
-        cable.weather = BAD
+        cable.weather = weather
         try:
             waits = [ask(user, "kick") for _ in range(40)]
             report_of(user, lambda report: counted(report) > 4000)
@@ -101,6 +107,6 @@ def test_on_a_link_that_loses_delays_and_reorders_no_message_is_missing(hosts):
             cable.weather = Weather()
         report = report_of(user, lambda report: report["events"] == ["start", *["kick"] * 41])
         assert cable.lost > 100
-        assert max(waits) < 1.0
+        assert max(waits) < longest
         assert not any(samples["unordered"] for samples in report["samples"].values())
         report_of(user, lambda report: most_lost(report) <= report["missed"])
