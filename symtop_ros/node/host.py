@@ -227,9 +227,9 @@ def use_real_time(priority: int) -> str | None:
 
 
 def shorten_slice() -> None:
-    """Let this thread run soon after it wakes, beside threads that keep all processors busy.
+    """Let this thread, and those that it starts, run soon after they wake on a busy machine.
 
-    It gets no more time than before. Linux lets a thread that runs use up its slice, up to some
+    They get no more time than before. Linux lets a thread that runs use up its slice, up to some
     ms, before one that wakes; from 6.12 on one that wakes with a shorter slice is preferred. It
     needs no right, and older systems ignore it.
     """

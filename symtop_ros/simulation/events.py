@@ -66,6 +66,10 @@ SEGMENT: dict[str, Callable[[Segment], Any]] = {
 }
 
 
+def do_nothing() -> None:
+    """Let the work continue: nobody waits."""
+
+
 @dataclass(frozen=True, slots=True)
 class Event:
     """A change of a run."""
@@ -90,12 +94,14 @@ class Event:
         top_frame: str = "top",
         number: int = 1,
         pushes: int | None = None,
+        between: Callable[[], object] = do_nothing,
     ) -> "Event":
         """Return the event after which the segment `following` holds.
 
         `top_frame` is the child frame of the top on /tf, which is shared by many publishers.
         `number` counts the events of a run from 1 on. `pushes` are those that the motion before the
-        event has got, if it was pushed.
+        event has got, if it was pushed. `between` is called when the fields are written, before the
+        sentence: each takes longer than a sample may wait.
         """
         after, motion = following.state_at(stamp), following.motion
         values = {
@@ -117,6 +123,7 @@ class Event:
             "kernel_version": kernel_version(),
             "version": __version__,
         }
+        between()
         return cls(stamp, name, write(name, outcome) if outcome else "", values)
 
     def encode(self, frame: str, node: str = "") -> bytes:

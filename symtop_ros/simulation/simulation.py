@@ -312,16 +312,23 @@ class Simulation:
         return self._announce(change.event(self.event_number + 1))
 
     def apply_at_once(self, change: Change) -> str:
-        """Like `apply`, but publish samples that are due before the event is written, and after it.
+        """Like `apply`, but publish samples that are due before and while the event is written.
 
         In the log the event still precedes its samples.
         """
         self.timeline = change.following
         with self._sink.put_events_first():
-            self.publish()
-            event = change.event(self.event_number + 1)
+            if self.publish():
+                self._prepare_sample()
+            event = change.event(self.event_number + 1, self.publish)
             self.publish()
             return self._announce(event)
+
+    def _prepare_sample(self) -> None:
+        """Compute the next sample before it is due, and publish it as soon as it is."""
+        block = self._block
+        while block.work():
+            self.publish()
 
     def _announce(self, event: Event) -> str:
         self.event_number += 1

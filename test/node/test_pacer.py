@@ -4,12 +4,15 @@ import ctypes
 import os
 import platform
 import threading
+from pathlib import Path
 
 import pytest
 from geometry_msgs.msg import QuaternionStamped
+from programs import command, running
 from waiting import TIMEOUT
 
 from symtop_ros.node.host import SLICE, Pacer, SchedulerAttributes
+from workshop.load.domains import claim_domain
 
 
 class Ticks:
@@ -87,19 +90,36 @@ def test_the_node_runs_with_and_without_the_right(monkeypatch, start_top, capfd,
 GET_SCHEDULER = {"x86_64": 315, "aarch64": 275}  # the system call sched_getattr
 
 
-def read_scheduling():
-    """Return niceness and slice (ns; 0: the usual one) of this thread."""
+def read_scheduling(thread=0):
+    """Return niceness and slice (ns; 0: the usual one) of a thread; 0 is this one."""
     found = SchedulerAttributes()
     number = GET_SCHEDULER[platform.machine()]
     size = ctypes.sizeof(found)
-    assert ctypes.CDLL(None).syscall(number, 0, ctypes.byref(found), size, 0) == 0
+    assert ctypes.CDLL(None).syscall(number, thread, ctypes.byref(found), size, 0) == 0
     return found.niceness, found.runtime
 
 
-@pytest.mark.skipif(platform.machine() not in GET_SCHEDULER, reason="of another processor")
-@pytest.mark.skipif(
-    tuple(map(int, platform.release().split(".")[:2])) < (6, 12), reason="needs Linux 6.12"
+skip_without_slices = pytest.mark.skipif(
+    platform.machine() not in GET_SCHEDULER
+    or tuple(map(int, platform.release().split(".")[:2])) < (6, 12),
+    reason="needs Linux 6.12, on a processor that is known here",
 )
+
+
+@skip_without_slices
+def test_the_program_and_its_middleware_have_a_short_slice():
+    """A request comes through threads of both."""
+    with running(command("top_node"), claim_domain()) as node:
+        while "states are computed" not in node.stderr.readline():
+            assert node.poll() is None
+        threads = [*Path(f"/proc/{node.pid}/task").iterdir()]
+        own = [each for each in threads if (each / "comm").read_text().startswith("dds.")]
+        assert own
+        found = {read_scheduling(int(each.name))[1] for each in own}
+        assert {*found, read_scheduling(node.pid)[1]} == {SLICE}
+
+
+@skip_without_slices
 def test_it_alone_has_a_short_slice_and_keeps_its_niceness():
     found, ended = [], threading.Event()
 

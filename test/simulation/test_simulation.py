@@ -8,6 +8,7 @@ import pytest
 from simulation.runs import SECOND, Run
 from waiting import until
 
+from symtop_ros.simulation import events
 from symtop_ros.simulation.budget import SHARE
 from symtop_ros.simulation.changes.outcomes import Failure
 from symtop_ros.simulation.simulation import MAX_BLOCK
@@ -36,6 +37,39 @@ def test_a_tick_computes_one_topic_of_the_samples_to_come_at_most():
         counts.append(len(computed))
     assert max(counts) == 1
     assert sum(counts) == 10 * len(STATE_TOPICS)
+
+
+def test_after_a_kick_the_next_sample_is_ready_when_it_is_due():
+    run, computed = Run("hurry_slow", publish_rate=1000.0, seconds=0.02), []
+    run.sink.encode = lambda name, stamps, _: computed.append(name) or [b""] * len(stamps)
+    run.sink.send_sample = lambda stamp, block: [block.message(n, stamp) for n in STATE_TOPICS]
+    run.advance(0.003, step=0.001)
+    assert run.ask("hurry_precession")[0]
+    computed.clear()
+    run.clock.now += MS
+    assert run.simulation.publish()
+    assert computed == []
+
+
+def test_a_sample_that_is_due_does_not_wait_for_the_rest_of_an_event(monkeypatch):
+    run = Run("hurry_slow", publish_rate=1000.0, seconds=0.02)
+    write_fields, write, sent = events.write_fields, events.write, []
+
+    def take_a_period(*given):
+        run.clock.now += MS
+        return write_fields(*given)
+
+    def count(*given):
+        sent.append(len(run.sink.samples))
+        return write(*given)
+
+    monkeypatch.setattr(events, "write_fields", take_a_period)
+    monkeypatch.setattr(events, "write", count)
+    before = len(run.sink.samples)
+    assert run.ask("hurry_precession")[0]
+    assert sent == [before + 1]
+    run.assert_recomputed()
+    assert run.sink.order[-2:] == ["kick", "sample"]  # as a log has them
 
 
 def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():

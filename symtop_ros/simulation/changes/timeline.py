@@ -6,7 +6,7 @@ Nothing here has a clock, a lock or a side effect; `simulation` decides at which
 takes effect.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -17,7 +17,7 @@ from symtop_ros.simulation.budget import Shortfall
 from symtop_ros.simulation.changes.follow import Act, Following, Request, demand_a_day, follow
 from symtop_ros.simulation.changes.outcomes import Pace, Start, Torque
 from symtop_ros.simulation.changes.requests import initial_state, start_motion
-from symtop_ros.simulation.events import Event
+from symtop_ros.simulation.events import Event, do_nothing
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings
 from symtop_ros.wire.layout import NANOSECONDS
@@ -141,18 +141,21 @@ class Change:
     found: Following
     is_new: bool = False  # False if the motion is unchanged
 
-    def event(self, number: int) -> Event:
-        """Return the event, with its number in the run."""
+    def event(self, number: int, between: Callable[[], object] = do_nothing) -> Event:
+        """Return the event, with its number in the run; `between` is called between its parts."""
+        outcome = self.found.outcome
+        between()
         return Event.of(
             self.act.stamp,
             self.act.name,
-            self.found.outcome,
+            outcome,
             self.act.request,
             self.found.before,
             self.following.segment,
             self.following.settings.top_frame,
             number,
             self.found.pushes,
+            between,
         )
 
 
