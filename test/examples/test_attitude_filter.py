@@ -14,7 +14,7 @@ from symtop_ros.arrays import compose, invert
 PROMISE = np.radians(1.7)
 REMAPPED = ["--ros-args", "-r", "~/imu:=imu/data_raw", "-r", "~/magnetic_field:=imu/mag"]
 SENSOR = {"imu__enabled": True, "magnetic_field__enabled": True, "initial__phi": 2.0}
-COUNT = 400  # samples at 200 Hz: one turn of the pendulum
+COUNT = 200  # samples at 200 Hz: half a turn of the pendulum
 
 
 def read_attitudes(messages):
