@@ -172,8 +172,13 @@ def pushed_along():
     return numbers
 
 
+def held():
+    half = Motion(TOP, SLOW_STATE, clamped=True).nutation_period / 2
+    return [f"{half:.2f}", f"{10 * half:.1f}"]
+
+
 NUMBERS = {1: let_go, 3: depths, 4: slow_root, 5: fast_root, 6: three_pushes, 7: below_and_above}
-NUMBERS |= {8: hurry_on, 10: observer, 11: disc, 12: one_fall, 13: pushed_along}
+NUMBERS |= {8: hurry_on, 10: observer, 11: disc, 12: one_fall, 13: pushed_along, 14: held}
 
 
 STEPS = read_lesson()

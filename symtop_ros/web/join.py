@@ -28,7 +28,7 @@ MODULES = FOLDER.resolve() / "js"
 MAIN = MODULES / "start.js"
 IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.[./\w]*)\.js";\n', re.M)
 # What the page takes of a button and of a step of the lesson, and what stands for what is left out.
-ACT = {"start": None, "hurry": None, "hold": "spin_rate", "push": None}
+ACT = {"start": None, "hurry": None, "hold": "spin_rate", "push": None, "clamp": None}
 STEP = {"name": "", "scene": "cusps", "charts": (), "layers": ()}
 PART = re.compile(r"/\*([A-Z]+)\*/")  # of page.html
 EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)

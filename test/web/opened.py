@@ -207,8 +207,9 @@ def read_state(event):
 
 
 def read_motion(event):
-    friction = Friction(*event["friction"])
-    return Motion(Top(*event["top"]), read_state(event), friction, event["torque"])
+    acting = Friction(*event["friction"]), event["torque"]
+    clamped = event.get("clamped", False)
+    return Motion(Top(*event["top"]), read_state(event), *acting, clamped=clamped)
 
 
 def find_time(before, event):

@@ -6,19 +6,14 @@ import numpy as np
 import pytest
 from physics.tops import ARTICLE, CUSPS, EPS
 from web.modules import load_kernel, open_tab
+from web.opened import read_motion
 from web.page_words import write_as_page
 
-from symtop_ros.physics import Motion, State, Top, clamp_verdict
+from symtop_ros.physics import Motion, State, clamp_verdict
 from symtop_ros.wire.layout import NANOSECONDS
 
 LINK = "#theta=0.5&psi_dot=200&precession=slow"
 HELD = "the precession is clamped: let it go first (key c)"
-
-
-def read_motion(event):
-    """The motion of an event."""
-    start = State(event["orientation"], event["angular_velocity"])
-    return Motion(Top(*event["top"]), start, clamped=event.get("clamped", False))
 
 
 def list_kinds(opened):

@@ -27,11 +27,18 @@ ANGLES = (
     ((0.5, 0.5), (0.5, 0.544), (0.5, 0.5), (0.362, 0.5), (0.5, 0.5), (0.5, 0.8)),
     ((0.5, 0.664),),
     ((0.5, 0.5), (0.489, 0.5), (0.5, 0.5), (0.5, 0.506)),  # after the first push
+    ((0.5, 0.5), (0.5, 3.142)),
 )
 
 
 def list_names(page, selector):
     return page.tab.locator(selector).evaluate_all("all => all.map(e => e.dataset.chart)")
+
+
+def name_event(act):
+    if act.start:
+        return "start"
+    return "clamp" if act.clamp else "push" if act.push else "kick"
 
 
 def press(page, act, turning):
@@ -41,7 +48,7 @@ def press(page, act, turning):
     event = page.read_events()[-1]
     assert page.say("refusal") == ""
     assert page.say("why")
-    assert event["kind"] == ("start" if act.start else "push" if act.push else "kick")
+    assert event["kind"] == name_event(act)
     assert event["friction"] == [0, 0]
     # half of the last of three digits
     assert read_motion(event).turning_angles == pytest.approx(turning, abs=5e-4)
@@ -167,7 +174,7 @@ def test_the_sheets_are_those_of_the_page_and_only_the_teacher_has_answers(open_
             for part in ("title", "predict", "question", "seen", "answer"):
                 is_there = kind == "teacher" or part not in ("seen", "answer")
                 assert (texts[f"lesson.{step.name}.{part}"] in written) == is_there
-        assert page.tab.locator("#sheets canvas").count() == (13 if kind == "teacher" else 0)
+        assert page.tab.locator("#sheets canvas").count() == (14 if kind == "teacher" else 0)
         assert page.tab.locator("#sheets math").count() > 50
         given = page.tab.locator("#sheets .given").all_text_contents()
         assert given == ([SECRET] if kind == "worksheet" else [])

@@ -94,7 +94,14 @@ class KickedMotion:
     def kick(self, time: float, change: Callable[[State], State]) -> "KickedMotion":
         """Return the motion with a kick at a time in s, after all other kicks."""
         begin, motion = self.pieces[-1]
-        after = Motion(motion.top, change(motion.at(time - begin)))
+        return self._follow(time, Motion(motion.top, change(motion.at(time - begin))))
+
+    def clamp(self, time: float) -> "KickedMotion":
+        """Return the motion whose precession is held from a time in s on."""
+        begin, motion = self.pieces[-1]
+        return self._follow(time, Motion(motion.top, motion.at(time - begin), clamped=True))
+
+    def _follow(self, time: float, after: Motion) -> "KickedMotion":
         return KickedMotion((*self.pieces, (time, after)))
 
     def at(self, times: Real) -> State:

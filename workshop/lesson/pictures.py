@@ -52,9 +52,8 @@ def run_step(step: LessonStep) -> Runs:
         if act.start is None:
             _, run = runs.popitem()
             runs.pop(NOT_KICKED, None)
-            held = HELD["spin_momentum" if act.push else act.hold]
             rate = run.pieces[0][1].start.euler_rates.phi
-            runs[f"from {rate:.3g} rad/s, {held} held"] = _kick(run, act)
+            runs[f"from {rate:.3g} rad/s, {_name_held(act)} held"] = _kick(run, act)
             runs[NOT_KICKED] = run
         else:
             start = initial_state(settings.top, settings.initial, act.start or {})
@@ -64,8 +63,14 @@ def run_step(step: LessonStep) -> Runs:
     return runs
 
 
+def _name_held(act: LessonAct) -> str:
+    return r"$\phi$" if act.clamp else HELD["spin_momentum" if act.push else act.hold]
+
+
 def _kick(run: KickedMotion, act: LessonAct) -> KickedMotion:
-    """Return a run with the hurry or the pushes of a button."""
+    """Return a run with the hurry, the pushes or the clamp of a button."""
+    if act.clamp:
+        return run.clamp(KICK)
     if not act.push:
         return run.kick(KICK, partial(hurry, factor=act.hurry or 1.0, hold=act.hold))
     top, impulse = run.pieces[0][1].top, act.push["axle_impulse"]

@@ -15,13 +15,14 @@ NODES = {"cusps": "", "perry_fails": "--node /disc "}
 
 @dataclass(frozen=True, slots=True)
 class LessonAct:
-    """A button of a step: a start, or a hurry or pushes of the motion that was started last."""
+    """A button of a step: a start, or what is done to the motion that was started last."""
 
     button: str
     start: Mapping[str, float | str] | None = None  # fields of ~/set_initial_conditions
     hurry: float | None = None  # factor of the precession rate
     hold: Hold = "spin_rate"  # the quantity that the hurry leaves unchanged
     push: Mapping[str, float] | None = None  # fields of ~/kick for a series of pushes
+    clamp: bool = False  # whether a hand takes hold of the precession
 
     @property
     def command(self) -> str:
@@ -29,6 +30,8 @@ class LessonAct:
         fields = [f"{name}={value}" for name, value in (self.start or {}).items()]
         if fields:
             return " ".join(["start", *fields])
+        if self.clamp:
+            return "clamp on"
         if self.push:
             return " ".join(["kick", *(f"{name}={value:g}" for name, value in self.push.items())])
         if self.hold == "spin_rate":

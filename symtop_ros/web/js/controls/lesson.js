@@ -8,7 +8,7 @@ import { isKnown, phrase } from "../words/wording.js";
 /**
  * A button of a step, as in lesson.yaml.
  * @typedef {{start: {[name: string]: any} | null, hurry: number | null, hold: string,
- *   push: {[name: string]: number} | null}} Act
+ *   push: {[name: string]: number} | null, clamp: boolean | null}} Act
  */
 /** @typedef {{name: string, acts: Act[], scene: string, charts: string[], layers: string[]}} Step */
 /** @typedef {(message: {[name: string]: any}) => void} Send */
@@ -42,7 +42,8 @@ export const writePredictions = (steps, answer) => {
 };
 
 /** What a button asks for. @param {Act} act @param {string} scene */
-export const nameAct = ({ start, push, hurry: factor, hold }, scene) => {
+export const nameAct = ({ start, push, clamp, hurry: factor, hold }, scene) => {
+  if (clamp) return { act: "clamp" };
   if (start) return { act: "link", link: { scene, ...start } };
   return push ? { act: "pushes", ...push } : { act: "kick", factor, hold };
 };
