@@ -32,9 +32,10 @@ from symtop_ros.simulation.settings import Settings
 KINDS = {  # scenes by the kind of their motion
     "regular": "regular_precession fast_precession hurry_slow hurry_fast perry_fails "
     "conical_pendulum toy_gyroscope bicycle_wheel",
-    "cusps": "cusps sleeping_unstable closed_cusps gray_fall",
+    "cusps": "cusps second_cusp sleeping_unstable closed_cusps gray_fall",
     "looping": "looping backward_start",
-    "unidirectional": "unidirectional hanging disc free spin_reversal spherical_pendulum",
+    "unidirectional": "unidirectional hanging disc free spin_reversal spherical_pendulum "
+    "below_slow_root below_fast_root above_fast_root",
     "sleeping": "sleeping",
     "through the pole": "through_the_pole",
     "asymptotic": "separatrix",
@@ -268,8 +269,41 @@ def test_held_by_hand_it_falls_as_a_top_that_does_not_spin_and_let_go_it_loops()
         assert held.restart(held.at(t)).kind == "looping"
 
 
+@pytest.mark.parametrize(
+    ("scene", "root", "falls", "end"),
+    [
+        ("below_slow_root", 0, True, "0.587"),
+        ("unidirectional", 0, False, "0.439"),
+        ("below_fast_root", 1, False, "0.474"),
+        ("above_fast_root", 1, True, "0.528"),
+    ],
+)
+def test_next_to_a_regular_rate_the_top_rises_between_the_roots_and_falls_outside(
+    scene, root, falls, end
+):
+    motion = motion_of(scene)
+    rates = regular_precession_rates(motion.top, 0.5, 200.0)
+    phi_dot = float(motion.start.euler_rates.phi)
+    assert abs(phi_dot - rates[root]) < 4
+    assert falls == (not rates[0] < phi_dot < rates[1])
+    low, high = motion.turning_angles
+    assert (low == 0.5) == falls
+    assert f"{high if falls else low:.3f}" == end
+
+
+def test_the_second_cusp_is_a_cusp_at_its_highest_point():
+    motion = motion_of("second_cusp")
+    p_psi = float(motion.top.axial_momentum(motion.start))
+    assert motion.start.euler_rates.phi == pytest.approx(2 * motion.top.Mgl / p_psi, rel=8 * EPS)
+    top = motion.at(motion.nutation_period / 2)
+    assert f"{top.euler_angles.theta:.3f}" == "0.384"
+    assert np.abs(top.angular_velocity[:2]).max() < 1e-6  # at rest, to the root of rounding
+
+
 CAUSES = {  # scenes under gravity alone, by what explains their motion
-    "with_momentum": "backward_start closed_cusps cusps disc hanging looping unidirectional",
+    "with_momentum": "backward_start below_slow_root closed_cusps cusps disc hanging looping "
+    "second_cusp unidirectional",
+    "about_momentum": "below_fast_root above_fast_root",
     "steady": "bicycle_wheel conical_pendulum fast_precession hurry_fast hurry_slow perry_fails "
     "regular_precession toy_gyroscope",
     "free": "free",
