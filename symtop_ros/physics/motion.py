@@ -36,6 +36,11 @@ from symtop_ros.physics.values import validate_array, validate_number, validate_
 from symtop_ros.refusals import refuse, require
 
 
+def find_period(rate: float) -> float:
+    """Return the time in s of one turn at a rate in rad/s; infinite for a rate of 0."""
+    return 2 * math.pi / abs(rate) if rate else math.inf
+
+
 class Motion:
     """The motion of a top from a state.
 
@@ -581,6 +586,22 @@ class Motion:
         rounding will have it.
         """
         return float(self._rates.mean_precession_rate)
+
+    @property
+    def precession_period(self) -> float:
+        """Mean time of one turn of the precession in s: 2 pi over the mean |phi'|.
+
+        It is infinite if the mean phi' is 0, and nan where that is.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+        >>> round(motion.precession_period, 6)
+        0.946534
+        """
+        return find_period(self.mean_precession_rate)
 
     @property
     def mean_spin_rate(self) -> float:

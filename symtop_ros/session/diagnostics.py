@@ -1,6 +1,7 @@
 """The motion in numbers and words, for `~/get_state`, and the statuses of `/diagnostics`."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import asdict
 from typing import Any
 
@@ -15,8 +16,10 @@ from symtop_ros.physics import (
     kernel_version,
     perrys_rule,
 )
+from symtop_ros.physics.motion import find_period
 from symtop_ros.simulation.block import GAP
 from symtop_ros.simulation.segment import Segment
+from symtop_ros.simulation.sensor.imu import find_body
 from symtop_ros.simulation.simulation import Simulation
 from symtop_ros.wire.diagnostics import ERROR, OK, WARN, Status, write_text
 
@@ -156,11 +159,34 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "friction": asdict(motion.friction),
         "applied_torque": list(motion.applied_torque),
         "regular_precession_rates": list(verdict.regular_rates),
+        "regular_precession_periods": _keep(map(find_period, verdict.regular_rates)),
+        "seen_from_above": _name_way(float(state.euler_rates.phi)),
+        "critical_spin": _keep([float(top.critical_spin)])[0],
+        "pivot_force": _find_pivot_force(segment, motion, state),
         "clamped": motion.clamped,
         "verdict": _say(motion, verdict),
         "why": "" if motion.is_driven or motion.clamped else str(verdict.cause),
         "perrys_rule_holds": None if motion.clamped else verdict.rule_holds,
     }
+
+
+def _name_way(phi_dot: float) -> str:
+    """Return the direction of the precession as seen from above; empty if there is none."""
+    if phi_dot == 0:
+        return ""
+    return "counterclockwise" if phi_dot > 0 else "clockwise"
+
+
+def _find_pivot_force(segment: Segment, motion: Motion, state: State) -> list[float] | None:
+    """Return the force of the pivot on the top (world, N); None if no body is such a top."""
+    body = find_body(motion.top, segment.rig.gravity)
+    force = body.pivot_force(motion, state).tolist() if body else [math.nan]
+    return force if all(map(math.isfinite, force)) else None
+
+
+def _keep(numbers: Iterable[float]) -> list[float | None]:
+    """Return numbers that JSON has: None if infinite or undefined."""
+    return [number if math.isfinite(number) else None for number in numbers]
 
 
 def constants_of_motion(top: Top, state: State) -> dict[str, float]:
@@ -184,6 +210,7 @@ def summarize_motion(motion: Motion, state: State) -> dict[str, Any]:
     numbers = {
         "nutation_period": free.nutation_period,
         "mean_precession_rate": free.mean_precession_rate,
+        "precession_period": free.precession_period,
         "mean_spin_rate": free.mean_spin_rate,
         "precession_per_nutation": free.precession_per_nutation,
         "nutation_rate": free.nutation_rate,

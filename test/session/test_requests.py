@@ -240,3 +240,27 @@ def test_a_hurry_is_by_the_factor_that_is_set():
     assert run.ask("reset")[0]
     assert run.ask("hurry_precession")[0]
     assert run.sink.events[-1].outcome().factor == pytest.approx(0.5, rel=1e-14)  # of two rates
+
+
+def test_the_state_has_the_time_of_a_turn_and_the_force_of_the_pivot():
+    run = Run("regular_precession")
+    segment, stamp = run.simulation.segment, run.simulation.stamp
+    found = summarize_state(segment, stamp)
+    rate = found["mean_precession_rate"]
+    assert found["precession_period"] == 2 * math.pi / rate
+    slow, fast = found["regular_precession_rates"]
+    assert found["regular_precession_periods"] == [2 * math.pi / slow, 2 * math.pi / fast]
+    assert found["seen_from_above"] == "counterclockwise"
+    body = find_body(segment.motion.top, segment.rig.gravity)
+    x, y, z = found["pivot_force"]
+    turning = body.mass * body.arm * math.sin(0.5) * slow**2  # towards the vertical
+    assert math.hypot(x, y) == pytest.approx(turning)
+    assert z == pytest.approx(body.mass * segment.rig.gravity)
+    assert found["critical_spin"] == segment.motion.top.critical_spin
+
+
+def test_what_is_undefined_of_a_state_is_null():
+    sleeping = Run("sleeping").simulation
+    found = summarize_state(sleeping.segment, sleeping.stamp)
+    assert found["precession_period"] is None
+    assert found["seen_from_above"] == ""

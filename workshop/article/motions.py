@@ -146,17 +146,12 @@ def seven_motions(top: Top = TOP) -> list[Motion]:
     return [*(Motion(top, start(rate.phi_dot)) for rate in RATES), cusps(top)]
 
 
-def precession_period(motion: Motion) -> float:
-    """Return the time in s of one turn of the precession."""
-    return float(2 * np.pi / abs(motion.mean_precession_rate))
-
-
 def first_turn(motion: Motion) -> float:
     """Return the time in s at which phi has first grown or fallen by 2 pi.
 
-    A nutation that does not fit into a turn puts it off `precession_period`, which is a mean.
+    A nutation that does not fit into a turn puts it off the `precession_period`, which is a mean.
     """
-    times = np.linspace(0.0, 1.5 * precession_period(motion), 6001)
+    times = np.linspace(0.0, 1.5 * motion.precession_period, 6001)
     phi = np.unwrap(motion.at(times).euler_angles.phi)
     k = int(np.argmax(np.abs(phi - phi[0]) >= 2 * np.pi))
 

@@ -11,7 +11,6 @@ from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, PALE, RED, new_figur
 from symtop_ros.physics import Motion, State
 from symtop_ros.playback.view.entities import draw_meridian, draw_parallel
 from workshop.article.answers.fictitious import draw_arrow
-from workshop.article.motions import precession_period
 
 Axes3D = Any  # matplotlib has no types for its 3D axes
 SIGHT = 34.0, -52.0  # elevation and azimuth of the line of sight in degrees
@@ -169,7 +168,7 @@ def _draw_axis(axes: Axes3D, motion: Motion) -> None:
         circles = [draw_parallel(angle, COUNT) for angle in (low, high)]
         _line(axes, circles[0], color=RED, lw=1.1, ls="--", label="turning angles")
         _line(axes, circles[1], color=RED, lw=1.1, ls="--")
-    times = np.linspace(0.0, precession_period(motion), POINTS)
+    times = np.linspace(0.0, motion.precession_period, POINTS)
     ends = motion.at(times).to_world([0.0, 0.0, 1.0])
     _line(axes, ends, color=INK, lw=2.0, label="end of the top's axis, one turn")
 

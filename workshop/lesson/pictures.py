@@ -30,7 +30,7 @@ from workshop.article.answers.fictitious import draw_arrow, plot_torques
 from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger
 from workshop.article.figures import plot_depth
-from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion, precession_period
+from workshop.article.motions import PSI_DOT, THETA, TOP, KickedMotion
 from workshop.lesson.steps import LessonAct, LessonStep, read_lesson
 from workshop.pictures.pack import pack_figure
 
@@ -151,7 +151,7 @@ def _draw_from_above(axes: Axes, runs: Runs) -> None:
         begin, motion = run.pieces[-1]
         for angle in motion.turning_angles:
             axes.plot(*draw_parallel(angle, 181)[:, :2].T, color=GREY, lw=0.7, ls=":")
-        times = np.linspace(begin, begin + min(TRACE, TURNS * precession_period(motion)), 3001)
+        times = np.linspace(begin, begin + min(TRACE, TURNS * motion.precession_period), 3001)
         ends = run.at(times).to_world([0.0, 0.0, 1.0])
         axes.plot(ends[:, 0], ends[:, 1], color=color, ls=dash, lw=1.4)
     axes.plot(0, 0, "+", color=INK)

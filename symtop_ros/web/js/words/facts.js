@@ -93,6 +93,11 @@ const listRates = ({ motion }) => {
     rows.push([phrase("table.nutation_period"), `${shorten(nutation_period)} s`]);
   if (Number.isFinite(mean_precession_rate))
     rows.push([phrase("table.mean_phi_dot"), `${shorten(mean_precession_rate)} rad/s`]);
+  if (Number.isFinite(1 / mean_precession_rate))
+    rows.push([
+      phrase("table.turn"),
+      `${shorten((2 * Math.PI) / Math.abs(mean_precession_rate))} s`,
+    ]);
   return rows;
 };
 
