@@ -619,6 +619,10 @@ static void try_clamped(void) {
   }
   const symtop_status status = symtop_new_clamped(start, to);
   CHECK(status, good && start && to);
+  symtop_held held, *room = is_rare(40) ? NULL : &held;
+  const symtop_status judged = symtop_judge_clamp(start, room);
+  CHECK(judged, good && start && room);
+  if (judged == SYMTOP_OK && !(held.theta >= 0 && held.rate >= 0)) fault = fault ? fault : __LINE__;
   use(status, motion, to != NULL);
 }
 

@@ -69,6 +69,8 @@ int main(int count, char** words) {
   show(symtop_new_pushed(&start, &pushes, &refused), q, 0);
   symtop_free(refused);
   show(symtop_new_clamped(&start, &refused), q, 0);
+  symtop_held held;
+  show(symtop_judge_clamp(&start, &held), q, 0);
   clear(q, 4), clear(omega, 3);
   show(symtop_from_angles(angles, rates, 1, q, omega, &done), q, 4);
   show(symtop_find_angles(start.orientation, 1, few), few, 3);
