@@ -34,7 +34,7 @@ from symtop_ros.physics.kicks import (
     set_precession_rate,
     validate_hold,
 )
-from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.motion import Motion, find_period
 from symtop_ros.physics.motions import Motions
 from symtop_ros.physics.potential import EffectivePotential
 from symtop_ros.physics.precession import (
@@ -88,6 +88,7 @@ __all__ = [
     "balance",
     "clamp_verdict",
     "compare_hurried",
+    "find_period",
     "hurry",
     "kernel_version",
     "kick_verdict",

@@ -37,7 +37,20 @@ from symtop_ros.refusals import refuse, require
 
 
 def find_period(rate: float) -> float:
-    """Return the time in s of one turn at a rate in rad/s; infinite for a rate of 0."""
+    """Return the time in s of one turn at a rate in rad/s; infinite for a rate of 0.
+
+    Parameters
+    ----------
+    rate : float
+        Of either sign.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import Top, find_period, regular_precession_rates
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> [round(find_period(rate), 4) for rate in regular_precession_rates(top, 0.5, 200.0)]
+    [0.9671, 0.09]
+    """
     return 2 * math.pi / abs(rate) if rate else math.inf
 
 

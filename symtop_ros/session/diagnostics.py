@@ -13,10 +13,10 @@ from symtop_ros.physics import (
     Verdict,
     balance,
     clamp_verdict,
+    find_period,
     kernel_version,
     perrys_rule,
 )
-from symtop_ros.physics.motion import find_period
 from symtop_ros.simulation.block import GAP
 from symtop_ros.simulation.segment import Segment
 from symtop_ros.simulation.sensor.imu import find_body

@@ -25,7 +25,7 @@ UNKNOWN = r"parameter name must be known \(the nearest is top.Mgl\), got 'top.Mg
 @pytest.mark.parametrize(
     ("values", "words"),
     [
-        ({"scene": "nowhere"}, "scene must be one of backward_start, bicycle_wheel,"),
+        ({"scene": "nowhere"}, "scene must be one of above_fast_root, backward_start,"),
         ({"top__Mg": 1.0}, UNKNOWN),
         (CLOCKS, "publish_clock must be false together with use_sim_time, got true"),
         *(({f"{QOS}.{k}": value}, f"{QOS} must be valid, got: .*{value}") for k, value in BAD),
