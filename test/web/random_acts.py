@@ -15,7 +15,10 @@ from symtop_ros.simulation.presets import scene_names
 from symtop_ros.web.join import write_file
 
 HOSTILE = [run for _, run in list_hostile_runs()]
-KEYS = (*"hhhddssr ", *(f"{shift}Arrow{way}" for way in ("Up", "Left") for shift in ("", "Shift+")))
+KEYS = (
+    *"hhhddccssr ",
+    *(f"{shift}Arrow{way}" for way in ("Up", "Left") for shift in ("", "Shift+")),
+)
 FIELDS = ("theta", "psi_dot", "phi_dot", "factor", "top.Ix", "top.Mgl", "friction.axial")
 TEXTS = ("0", "1", "pi/3", "-5", "1e-9", "1e20", "-1e99", "1e300", "abc", "")
 SPEEDS = ("1", "0.1", "0.01")
@@ -115,8 +118,9 @@ class Trial:
         self.page.reload()
 
     def do_save_and_open(self):
-        run = self.page.read_run()
         saved = self.page.save("This run as a page", self.folder)
+        text = saved.read_text(encoding="utf-8").split('id="top-run">')[1]
+        run = json.loads(text.split("</script>")[0])  # a torque may have ended on the way
         self.page.close()
         self.page = self.open(saved)
         if self.page.say("pause") == "Run":  # what could not be loaded would run
