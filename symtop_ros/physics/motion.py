@@ -602,7 +602,7 @@ class Motion:
 
     @property
     def precession_period(self) -> float:
-        """Mean time of one turn of the precession in s: 2 pi over the mean |phi'|.
+        """Mean time of one turn of the precession in s: 2 pi over the size of the mean phi'.
 
         It is infinite if the mean phi' is 0, and nan where that is.
 

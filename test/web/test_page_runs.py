@@ -75,6 +75,17 @@ def test_a_run_of_most_events_is_reloaded_and_takes_no_more(opened):
     assert opened.say("refusal") == ""
 
 
+def test_a_reset_after_a_run_was_opened_keeps_the_top_that_was_changed(opened):
+    content = change(2, top=[0.000228, 0.0000572, 0.05], friction=[0, 0], torque=[0, 0, 0])
+    opened.drop(content)
+    opened.until(lambda: len(opened.read_events()) == 3)
+    opened.press("r")
+    event = opened.read_events()[-1]
+    assert event["kind"] == "start"
+    assert event["top"] == content["events"][2]["top"]
+    assert event["orientation"] == content["events"][0]["orientation"]
+
+
 NO_ROOM = """
 const fail = () => { throw new DOMException("full", "QuotaExceededError"); };
 Storage.prototype.setItem = fail;

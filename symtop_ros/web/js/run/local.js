@@ -396,7 +396,8 @@ export class LocalTop {
     const { time, course } = this.run.findEvent(wanted);
     // What takes too long to integrate is reached later.
     this.time = this.end = time + course.reach(wanted - time, MOST_STEPS);
-    this.initial = this.run.moments[0].course;
+    const { start, clamped } = this.run.moments[0].course;
+    this.initial = { start, clamped };
     this.isRunning = false;
     this.changed();
   }
