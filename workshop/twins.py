@@ -149,7 +149,7 @@ def _wrap(head: str, parts: Sequence[str], tail: str, indent: str = "") -> str:
 
 
 def _name_record(name: str) -> str:
-    return f"{name.title()}Record"
+    return f"{''.join(part.title() for part in name.split('_'))}Record"
 
 
 def _write_record(header: Header, name: str, fields: Sequence[Field]) -> str:
@@ -160,8 +160,9 @@ def _write_record(header: Header, name: str, fields: Sequence[Field]) -> str:
 
 def _find_ctype(header: Header, field: Field) -> str:
     if field.kind in header.records:
-        return _name_record(field.kind)
-    one = "c_int" if field.kind in header.enums else CTYPES[field.kind]
+        one = _name_record(field.kind)
+    else:
+        one = "c_int" if field.kind in header.enums else CTYPES[field.kind]
     return f"{one} * {field.length}" if field.length else one
 
 

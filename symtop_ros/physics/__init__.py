@@ -36,6 +36,7 @@ from symtop_ros.physics.kicks import (
 )
 from symtop_ros.physics.motion import Motion, find_period
 from symtop_ros.physics.motions import Motions
+from symtop_ros.physics.parts import Part
 from symtop_ros.physics.potential import EffectivePotential
 from symtop_ros.physics.precession import (
     FrameTorques,
@@ -50,6 +51,7 @@ from symtop_ros.physics.rule.clamp import ClampVerdict, clamp_verdict
 from symtop_ros.physics.rule.perry import KickVerdict, Lift, kick_verdict
 from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
+from symtop_ros.physics.starts import Solution, solve_start
 from symtop_ros.physics.state import Angles, State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -77,8 +79,10 @@ __all__ = [
     "Lift",
     "Motion",
     "Motions",
+    "Part",
     "Piece",
     "Pushes",
+    "Solution",
     "State",
     "Top",
     "Verdict",
@@ -99,6 +103,7 @@ __all__ = [
     "push_axle",
     "regular_precession_rates",
     "set_precession_rate",
+    "solve_start",
     "specific_force",
     "theta_acceleration",
     "theta_torque",

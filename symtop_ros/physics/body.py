@@ -6,16 +6,19 @@ chosen here that exists for every top for which any exists.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from symtop_ros.arrays import Real, Vector
+from symtop_ros.arrays import Real
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY, specific_force
 from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel.records import PART_KINDS
 from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.parts import Part
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import validate_number, validate_one, validate_positive
-from symtop_ros.refusals import require
+from symtop_ros.refusals import Words, require
 
 LONGEST_ARM = 10.0  # m, of a body that is chosen: a weight of 1e-9 J would have kilometres
 SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user
@@ -80,13 +83,8 @@ class Body:
         ValueError
             If a moment is out of the range of a `Top`.
         """
-        return Top(*self._moments)
-
-    @property
-    def _moments(self) -> Vector:
-        """Ix and Iz about the pivot, and Mgl. The square of a long arm could overflow."""
-        lever = self.mass * self.arm
-        return self.Ix + lever * self.arm, self.Iz, lever * self.gravity
+        found = door.find_body_top((self.mass, self.arm, self.Ix, self.Iz), self.gravity)
+        return Top(found.Ix, found.Iz, found.Mgl)
 
     @classmethod
     def about_pivot(
@@ -145,12 +143,44 @@ class Body:
         >>> Body.disc(mass=0.5, radius=0.25, distance=0.125, gravity=10.0).top
         Top(Ix=0.015625, Iz=0.015625, Mgl=0.625)
         """
-        mass = validate_positive("mass", mass, "kg")
-        radius = validate_positive("radius", radius, "m")
-        distance = validate_number("distance", distance, "m")
+        return cls.of_parts([Part("disc", mass, distance, radius)], gravity)
+
+    @classmethod
+    def of_parts(cls, parts: Iterable[Part], gravity: float = STANDARD_GRAVITY) -> "Body":
+        """Return the body that parts on an axle without mass make.
+
+        Parameters
+        ----------
+        parts : iterable of Part
+            At least one. Moments about the centre of each part are those of a thin rod, hoop or
+            disc and of a solid ball; Steiner's theorem adds them.
+        gravity : float
+            Acceleration of gravity in m/s^2, > 0.
+
+        Raises
+        ------
+        ValueError
+            If a value is refused, there is no part, or the parts have no moment about the axis.
+
+        Examples
+        --------
+        A disc of 1.7 kg that a counterweight of 0.9 kg keeps almost in balance.
+
+        >>> from symtop_ros.physics import Body, Part
+        >>> disc = Part("disc", mass=1.7, distance=0.141, size=0.128)
+        >>> body = Body.of_parts([disc, Part("point", mass=0.9, distance=-0.253, spins=False)])
+        >>> round(body.mass, 3), round(body.top.Mgl, 5)
+        (2.6, 0.11772)
+        """
+        given = [*parts]
+        for each in given:
+            require(isinstance(each, Part), "parts", "of type Part", each)
+        require(given, "parts", "at least one", Words("none"))
         gravity = validate_positive("gravity", gravity, "m/s^2")
-        Ix, Iz, _ = door.find_disc_top(mass, radius, 0.0, gravity)  # about its centre
-        return cls(mass, distance, float(Ix), float(Iz), gravity)
+        kinds = [PART_KINDS.index(each.kind) for each in given]
+        numbers = [(each.mass, each.size, each.distance) for each in given]
+        found = door.find_body(kinds, numbers)
+        return cls(found.mass, found.arm, found.Ix, found.Iz, gravity)
 
     @classmethod
     def of(cls, top: Top, gravity: float = STANDARD_GRAVITY) -> "Body":
@@ -237,7 +267,7 @@ class Body:
         True
         """
         validate_one(motion, "motion")
-        pairs = zip(self._moments, motion.top.moments, strict=True)
+        pairs = zip(self.top.moments, motion.top.moments, strict=True)
         is_own = all(math.isclose(mine, its, rel_tol=SAME) for mine, its in pairs)
         require(is_own, "motion.top", f"{self.top}, that of the body", motion.top)
         force = specific_force(motion, state, (0.0, 0.0, self.arm), self.gravity)

@@ -617,6 +617,31 @@ class Motion:
         return find_period(self.mean_precession_rate)
 
     @property
+    def rounding_shows_at(self) -> float:
+        """Time in s from which on the rounding of the start decides where the axis is.
+
+        It is finite if an asymptotic motion lies within 64 EPS of the start, and one last place of
+        one of its numbers turns the axis by 0.01 rad within two nutations: such a start is next to
+        the separatrix, and in exact numbers it may be of another kind. It is infinite otherwise,
+        and for motions with friction, a torque, pushes or a clamp.
+
+        Examples
+        --------
+        In exact numbers this axis approaches the vertical for ever; its doubles pass through it.
+
+        >>> import math
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> rate = 2 / math.sqrt(3)
+        >>> start = State.from_euler(theta=math.pi / 3, phi_dot=rate, psi_dot=rate)
+        >>> motion = Motion(Top(Ix=1.0, Iz=1.0, Mgl=1.0), start)
+        >>> motion.kind, round(motion.rounding_shows_at)
+        ('through the pole', 63)
+        """
+        if self.is_driven or self.clamped:
+            return math.inf
+        return door.find_doubt(self.packed_start)
+
+    @property
     def mean_spin_rate(self) -> float:
         """Mean psi' over a nutation in rad/s; nan where the mean phi' is."""
         return float(self._rates.mean_spin_rate)

@@ -118,13 +118,11 @@ def test_a_body_and_its_top_lead_to_each_other():
     assert Body.about_pivot(15.0, 1.0, body.top.Ix, body.top.Iz) == body
 
 
-def test_a_disc_is_the_top_that_the_kernel_makes_of_it_and_back():
+def test_a_disc_leads_back_to_itself():
     numbers = Numbers(56)
     for _ in range(200):
         mass, radius, distance = (numbers.uniform(2.0**-6, 4.0) for _ in range(3))
         top = Body.disc(mass, radius, distance).top
-        found = door.find_disc_top(mass, radius, distance, STANDARD_GRAVITY)
-        assert found.tolist() == list(top.moments)
         # Ix - Iz/2 loses the digits of Iz/2: those of (radius/(2 distance))^2
         lost = 8 * EPS * (1 + (radius / distance) ** 2)
         back = find_disc(top.moments)

@@ -8,7 +8,7 @@ that threads may use one motion together. The library is loaded when it is first
 import ctypes
 import hashlib
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint8
 from functools import cache, wraps
 from pathlib import Path
@@ -32,6 +32,7 @@ from symtop_ros.physics.kernel.records import (
     RECORDS,
     TOO_FAR,
     VERTICAL,
+    BodyRecord,
     ClockRecord,
     ConstantsRecord,
     Engine,
@@ -39,6 +40,7 @@ from symtop_ros.physics.kernel.records import (
     Kind,
     PieceRecord,
     RatesRecord,
+    SolutionsRecord,
     StartRecord,
     TopRecord,
     VerdictRecord,
@@ -73,6 +75,7 @@ LONG = {
     *("states_of_many", "describe_many", "from_angles"),
     *("find_angles", "find_angle_rates", "find_regular_rates", "find_tilt_torques"),
     *("find_tilt_accelerations", "kick", "judge", "judge_kick", "judge_clamp", "compare_hurried"),
+    "find_doubt",
 }
 
 
@@ -365,11 +368,27 @@ def find_regular_rates(tops: Real, thetas: Real, spins: Real, hold: int) -> Real
     )
 
 
-def find_disc_top(mass: float, radius: float, distance: float, gravity: float) -> Real:
-    """Return Ix, Iz and Mgl of a flat disc on an axle."""
-    found, disc = TopRecord(), np.array([mass, radius, distance])
-    demand(open_door().find_disc_top(read_from(disc), gravity, found))
-    return np.array([found.Ix, found.Iz, found.Mgl])
+def find_body(kinds: Sequence[int], parts: Sequence[Sequence[float]]) -> BodyRecord:
+    """Return mass, arm and moments about the centre of parts: mass, size, distance of each."""
+    found, count = BodyRecord(), len(kinds)
+    given = np.array(kinds, np.int32).tobytes(), np.array(parts, np.float64).tobytes()
+    demand(open_door().find_body(*given, count, found, c_size_t()))
+    return found
+
+
+def find_body_top(body: Sequence[float], gravity: float) -> TopRecord:
+    """Return Ix, Iz and Mgl of a body: mass, arm and moments about its centre."""
+    found = TopRecord()
+    demand(open_door().find_body_top(bytes(BodyRecord(*body)), gravity, found))
+    return found
+
+
+def solve_start(top: Sequence[float], seen: int, known: Sequence[float]) -> SolutionsRecord:
+    """Return the starts that have what is known of them, or why there is none."""
+    found, numbers = SolutionsRecord(), (*known, 0.0)[:3]
+    given = bytes(TopRecord(*top)), seen, bytes(Rates(*numbers))
+    demand(open_door().solve_start(*given, found))
+    return found
 
 
 def kick(
@@ -409,6 +428,13 @@ def judge_clamp(start: bytes) -> HeldRecord:
     held = HeldRecord()
     demand(open_door().judge_clamp(start, held))
     return held
+
+
+def find_doubt(start: bytes) -> float:
+    """Return the time in s from which rounding shows in a motion; infinite for never."""
+    shows_at = c_double()
+    demand(open_door().find_doubt(start, shows_at))
+    return shows_at.value
 
 
 def compare_hurried(

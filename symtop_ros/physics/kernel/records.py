@@ -47,6 +47,8 @@ BAD_STEPS = 22
 BAD_DISC = 23
 BAD_PUSHES = 24
 BAD_CLAMP = 25
+BAD_QUESTION = 26
+BAD_PART = 27
 
 Kind = Literal[
     "regular",
@@ -64,8 +66,35 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 Engine = Literal["closed form", "free", "taylor"]
 ENGINES: tuple[Engine, ...] = get_args(Engine)
 
+PartKind = Literal["point", "rod", "hoop", "disc", "ball"]
+PART_KINDS: tuple[PartKind, ...] = get_args(PartKind)
+
 Hold = Literal["spin_rate", "spin_momentum"]
 HOLDS: tuple[Hold | None, ...] = ("spin_rate", "spin_momentum", None)
+
+Question = Literal[
+    "theta precession_period",
+    "theta psi_dot",
+    "psi_dot precession_period",
+    "theta dip",
+    "theta nutation_period",
+    "energy p_phi p_psi",
+    "alpha a b",
+]
+QUESTIONS: tuple[Question, ...] = get_args(Question)
+
+Demand = Literal["finite", "between", "positive", "least", "size", "regular", "unequal", "weight"]
+DEMANDS: tuple[Demand | None, ...] = (
+    None,
+    "finite",
+    "between",
+    "positive",
+    "least",
+    "size",
+    "regular",
+    "unequal",
+    "weight",
+)
 
 KickKind = Literal["rate", "change", "factor", "impulse", "axle"]
 KICK_KINDS: tuple[KickKind, ...] = get_args(KickKind)
@@ -203,6 +232,42 @@ class TopRecord(Structure):
     _fields_: ClassVar = [("Ix", c_double), ("Iz", c_double), ("Mgl", c_double)]
 
 
+class PartOfBodyRecord(Structure):
+    """`symtop_part_of_body`."""
+
+    _fields_: ClassVar = [("mass", c_double), ("size", c_double), ("distance", c_double)]
+
+
+class BodyRecord(Structure):
+    """`symtop_body`."""
+
+    _fields_: ClassVar = [("mass", c_double), ("arm", c_double), ("Ix", c_double), ("Iz", c_double)]
+
+
+class SolutionRecord(Structure):
+    """`symtop_solution`."""
+
+    _fields_: ClassVar = [
+        ("theta", c_double),
+        ("theta_dot", c_double),
+        ("phi_dot", c_double),
+        ("psi_dot", c_double),
+    ]
+
+
+class SolutionsRecord(Structure):
+    """`symtop_solutions`."""
+
+    _fields_: ClassVar = [
+        ("demand", c_int),
+        ("which", c_double),
+        ("least", c_double),
+        ("most", c_double),
+        ("number", c_double),
+        ("each", SolutionRecord * 4),
+    ]
+
+
 class PlaceRecord(Structure):
     """`symtop_place`."""
 
@@ -297,6 +362,10 @@ RECORDS: tuple[type[Structure], ...] = (
     RatesRecord,
     ConstantsRecord,
     TopRecord,
+    PartOfBodyRecord,
+    BodyRecord,
+    SolutionRecord,
+    SolutionsRecord,
     PlaceRecord,
     ReasonRecord,
     AverageRecord,
@@ -369,7 +438,8 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     ),
     "find_angles": (c_int, (c_char_p, c_size_t, POINTER(c_double))),
     "find_angle_rates": (c_int, (c_char_p, c_char_p, c_size_t, POINTER(c_double))),
-    "find_disc_top": (c_int, (c_char_p, c_double, POINTER(TopRecord))),
+    "find_body": (c_int, (c_char_p, c_char_p, c_size_t, POINTER(BodyRecord), POINTER(c_size_t))),
+    "find_body_top": (c_int, (c_char_p, c_double, POINTER(TopRecord))),
     "find_disc": (c_int, (c_char_p, c_double, POINTER(c_double))),
     "find_regular_rates": (
         c_int,
@@ -380,6 +450,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
         (c_char_p, c_char_p, c_char_p, c_char_p, c_size_t, POINTER(c_double)),
     ),
     "find_tilt_accelerations": (c_int, (c_char_p, c_int, c_char_p, c_size_t, POINTER(c_double))),
+    "solve_start": (c_int, (c_char_p, c_int, c_char_p, POINTER(SolutionsRecord))),
     "kick": (
         c_int,
         (
@@ -414,6 +485,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     ),
     "judge_kick": (c_int, (c_char_p, c_char_p, c_int, POINTER(VerdictRecord))),
     "judge_clamp": (c_int, (c_char_p, POINTER(HeldRecord))),
+    "find_doubt": (c_int, (c_char_p, POINTER(c_double))),
     "make": (c_void_p, (c_char_p,)),
     "read": (c_int, (c_void_p, POINTER(c_double))),
     "check_arithmetic": (c_int, ()),

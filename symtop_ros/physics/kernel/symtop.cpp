@@ -4,7 +4,7 @@
 #include "no_fma.hpp"
 #include "symtop.h"
 
-#include "functions/disc.hpp"
+#include "functions/body.hpp"
 #include "functions/library.hpp"
 #include "functions/many.hpp"
 #include "functions/motion.hpp"
@@ -45,13 +45,15 @@ const char* symtop_describe_status(symtop_status status) {
     case SYMTOP_BAD_KICK_KIND: return "kind of kick must be one of symtop_kick_kind";
     case SYMTOP_BAD_RATE: return "rates must be finite, at most 1e100 rad/s in size";
     case SYMTOP_BAD_STEPS: return "most_steps must be >= 0";
-    case SYMTOP_BAD_DISC:
-      return "disc must be of finite numbers, with mass and radius > 0, and gravity finite";
+    case SYMTOP_BAD_DISC: return "gravity must be finite";
     case SYMTOP_BAD_PUSHES:
       return "pushes must be a whole number of 1 to 1000, 0.01 to 1000 in a second, with a finite "
              "impulse";
     case SYMTOP_BAD_CLAMP:
       return "a clamped motion must start with a tilted axis, without friction, torque and pushes";
+    case SYMTOP_BAD_QUESTION: return "question must be one of symtop_question";
+    case SYMTOP_BAD_PART:
+      return "parts must be one or more, each of a kind, with mass and size > 0, and finite numbers";
   }
   return "status must be one of symtop_status";
 }

@@ -94,7 +94,9 @@ typedef enum {
   SYMTOP_BAD_STEPS,
   SYMTOP_BAD_DISC,
   SYMTOP_BAD_PUSHES,
-  SYMTOP_BAD_CLAMP
+  SYMTOP_BAD_CLAMP,
+  SYMTOP_BAD_QUESTION,  /* no symtop_question */
+  SYMTOP_BAD_PART
 } symtop_status;
 
 /* The version of the library; SYMTOP_VERSION is that of the header. */
@@ -274,9 +276,28 @@ typedef struct {
   double Ix, Iz, Mgl; /* as in symtop_start */
 } symtop_top;
 
-/* The top that a flat disc makes on an axle without mass: mass in kg and radius in m, both > 0,
- * distance of its centre from the pivot in m (negative: on the other side), and gravity in m/s^2. */
-SYMTOP_API symtop_status symtop_find_disc_top(const double disc[3], double gravity,
+/* What a body on the axis is made of, thin where it has a length or a radius: a point, a rod along the
+ * axis, a hoop and a disc across it, a ball. */
+typedef enum { SYMTOP_POINT, SYMTOP_ROD, SYMTOP_HOOP, SYMTOP_DISC, SYMTOP_BALL } symtop_part_kind;
+
+typedef struct {
+  double mass;     /* kg, > 0 */
+  double size;     /* m, > 0: the length of a rod, or a radius; of a point it is not read */
+  double distance; /* of its centre from the pivot, m; negative on the other side */
+} symtop_part_of_body;
+
+typedef struct {
+  double mass, arm; /* kg; m, the distance of the centre of mass, negative on the other side */
+  double Ix, Iz;    /* kg m^2, about the centre of mass */
+} symtop_body;
+
+/* The body that parts make on an axle without mass. SYMTOP_BAD_PART: *done is how many are valid. */
+SYMTOP_API symtop_status symtop_find_body(const symtop_part_kind* kinds,
+                                          const symtop_part_of_body* parts, size_t count,
+                                          symtop_body* body, size_t* done);
+
+/* The top that a body makes, about the pivot, with gravity in m/s^2. */
+SYMTOP_API symtop_status symtop_find_body_top(const symtop_body* body, double gravity,
                                               symtop_top* top);
 
 /* The disc that moves as a top does; NaN if there is none, as for Mgl = 0 and for Iz = 2 Ix. */
@@ -306,6 +327,51 @@ SYMTOP_API symtop_status symtop_find_tilt_torques(const symtop_top* tops, const 
 SYMTOP_API symtop_status symtop_find_tilt_accelerations(const symtop_start* start, symtop_hold hold,
                                                         const double* phi_dots, size_t count,
                                                         double* theta_ddots);
+
+/* ---- A start from what is seen ---- */
+
+/* What is known of a motion, in the order of the numbers. In the first three the tilt is constant; in
+ * the next two the axis is let go at rest. The dip is how far theta goes until the weight is lowest. */
+typedef enum {
+  SYMTOP_TILT_AND_TURN,     /* "theta precession_period" */
+  SYMTOP_TILT_AND_SPIN,     /* "theta psi_dot" */
+  SYMTOP_SPIN_AND_TURN,     /* "psi_dot precession_period" */
+  SYMTOP_TILT_AND_DIP,      /* "theta dip" */
+  SYMTOP_TILT_AND_NUTATION, /* "theta nutation_period" */
+  SYMTOP_CONSTANTS,         /* "energy p_phi p_psi" */
+  SYMTOP_GOLDSTEIN          /* "alpha a b": 2 E/Ix - Iz omega_z^2/Ix, p_psi/Ix, p_phi/Ix */
+} symtop_question;
+
+/* What a number, or the top, would have to be for a motion to exist. */
+typedef enum {
+  SYMTOP_DEMANDS_NOTHING,  /* "": there are solutions */
+  SYMTOP_DEMANDS_FINITE,   /* "finite": at most 1e100 in size, in SI units */
+  SYMTOP_DEMANDS_BETWEEN,  /* "between": above `least` and below `most` */
+  SYMTOP_DEMANDS_POSITIVE, /* "positive": above 0, and at most `most`, which may be infinite */
+  SYMTOP_DEMANDS_LEAST,    /* "least": at least `least` */
+  SYMTOP_DEMANDS_SIZE,     /* "size": at least `least` in size */
+  SYMTOP_DEMANDS_REGULAR,  /* "regular": such that a tilt is constant; of an interval or two */
+  SYMTOP_DEMANDS_UNEQUAL,  /* "unequal": the top must have Ix and Iz that differ */
+  SYMTOP_DEMANDS_WEIGHT    /* "weight": the top must have Mgl other than 0 */
+} symtop_demand;
+
+typedef struct {
+  double theta, theta_dot, phi_dot, psi_dot; /* at phi = psi = 0 */
+} symtop_solution;
+
+typedef struct {
+  symtop_demand demand;
+  double which;       /* of the numbers it is made of, from 0; of no meaning for one of the top */
+  double least, most; /* NaN where they say nothing */
+  double number;      /* of the solutions, 0 to 4 */
+  symtop_solution each[4]; /* NaN for what there is not */
+} symtop_solutions;
+
+/* All starts of a top that have what is known: two numbers, or three, of which a function reads three.
+ * Those that precess with phi' > 0, or spin with psi' > 0, come first; of one motion the start at its
+ * smaller theta does. On the vertical, where phi' is undefined, it is 0. */
+SYMTOP_API symtop_status symtop_solve_start(const symtop_top* top, symtop_question seen,
+                                            const double known[3], symtop_solutions* solutions);
 
 /* ---- Kicks ---- */
 
@@ -512,6 +578,11 @@ typedef struct {
 
 /* What follows if the precession of a start is held: see symtop_new_clamped, which takes the same. */
 SYMTOP_API symtop_status symtop_judge_clamp(const symtop_start* start, symtop_held* held);
+
+/* Whether rounding decides the kind of a motion under gravity alone: within the rounding of its start,
+ * 64 * 2^-52 of it, is an asymptotic motion, and one last place of one number of the start
+ * turns the axis by 0.01 rad later on. *shows_at is the time of that in s; infinite without a doubt. */
+SYMTOP_API symtop_status symtop_find_doubt(const symtop_start* start, double* shows_at);
 
 #ifdef __cplusplus
 }

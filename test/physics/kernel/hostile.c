@@ -336,14 +336,58 @@ static void try_discs(void) {
   symtop_status status = symtop_find_disc(top, gravity, disc);
   CHECK(status, good && !has_null && isfinite(gravity));
   ROOM_OR_NAN(status, disc, 3);
+}
+
+static int is_part(int kind, const double* part) {
+  return kind >= SYMTOP_POINT && kind <= SYMTOP_BALL && part[0] > 0 && isfinite(part[0]) &&
+         isfinite(part[2]) && (kind == SYMTOP_POINT || (part[1] > 0 && isfinite(part[1])));
+}
+
+static void try_bodies(void) {
+  int good = 1;
+  double gravity = draw_number(10.0);
   prepare();
-  disc = take_numbers(3, 1.0);
-  double* room = take_room(3);
-  status = symtop_find_disc_top(disc, gravity, (symtop_top*)(void*)room);
+  const size_t count = draw_count(&good), n = bound(count);
+  double* parts = take_numbers(3 * n, 1.0);
+  double* room = take_room(4);
+  size_t* done = take_done();
+  symtop_part_kind kinds[MOST];
+  for (size_t k = 0; k < n; k++) {
+    kinds[k] = (symtop_part_kind)draw_enum(5);
+    if (parts) good &= is_part((int)kinds[k], parts + 3 * k);
+  }
+  symtop_body* body = (symtop_body*)(void*)room;
+  symtop_status status =
+      symtop_find_body(kinds, (const symtop_part_of_body*)(void*)parts, count, body, done);
+  CHECK(status, good && n && !has_null);
+  if (status != SYMTOP_OK || has_overlap) return;
+  symtop_top top;
+  status = symtop_find_body_top(body, gravity, &top);
   /* the top that is found may be none */
-  if (status == SYMTOP_OK)
-    CHECK(status, !has_null && are_finite(disc, 3) && isfinite(gravity) && disc[0] > 0 && disc[1] > 0);
-  ROOM(status, room, 3);
+  if (status == SYMTOP_OK) CHECK(status, is_top(&top) && isfinite(gravity));
+}
+
+static void check_solution(const symtop_solution* each) {
+  const double *x = &each->theta, pi = 3.141592653589793;
+  if (!(x[0] >= 0 && x[0] <= pi)) fault = fault ? fault : __LINE__;
+  for (int k = 1; k < 4; k++)
+    if (!(fabs(x[k]) <= 1e100)) fault = fault ? fault : __LINE__;
+}
+
+static void try_starts(void) {
+  int good = 1;
+  const int seen = draw_enum(7);
+  prepare();
+  symtop_top* top = take_tops(1, &good);
+  double* known = take_numbers(3, 2.0);
+  double* room = take_room(sizeof(symtop_solutions) / sizeof(double));
+  symtop_solutions* found = (symtop_solutions*)(void*)room;
+  const symtop_status status = symtop_solve_start(top, (symtop_question)seen, known, found);
+  CHECK(status, good && !has_null && seen >= 0 && seen < 7);
+  if (status != SYMTOP_OK || has_overlap) return;
+  const int number = (int)found->number;
+  if ((number == 0) != (found->demand != SYMTOP_DEMANDS_NOTHING)) fault = fault ? fault : __LINE__;
+  for (int k = 0; k < number; k++) check_solution(&found->each[k]);
 }
 
 static void try_kicks(void) {
@@ -623,6 +667,10 @@ static void try_clamped(void) {
   const symtop_status judged = symtop_judge_clamp(start, room);
   CHECK(judged, good && start && room);
   if (judged == SYMTOP_OK && !(held.theta >= 0 && held.rate >= 0)) fault = fault ? fault : __LINE__;
+  double shows_at = 0.0, *place = is_rare(40) ? NULL : &shows_at;
+  const symtop_status doubted = symtop_find_doubt(start, place);
+  CHECK(doubted, start && is_start(start) && place);
+  if (doubted == SYMTOP_OK && !(shows_at > 0)) fault = fault ? fault : __LINE__;
   use(status, motion, to != NULL);
 }
 
@@ -630,7 +678,8 @@ static void try_clamped(void) {
 int run(unsigned first, unsigned number);
 int run(unsigned first, unsigned number) {
   static void (*const TRIALS[])(void) = {try_angles, try_orientations, try_regular_rates, try_tilts,
-                                         try_discs,  try_kicks,        try_verdicts,      try_map,
+                                         try_discs,  try_bodies,       try_starts,
+                                         try_kicks,  try_verdicts,     try_map,
                                          try_many,   try_motion,       try_pushed,        try_clamped};
   hash = 14695981039346656037u, calls = answered = 0, fault = 0;
   for (unsigned seed = first; seed < first + number && !fault; seed++) {

@@ -76,8 +76,15 @@ int main(int count, char** words) {
   show(symtop_find_angles(start.orientation, 1, few), few, 3);
   show(symtop_find_regular_rates(&top, angles + 1, rates + 2, 1, SYMTOP_SPIN_RATE, few), q, 0);
   show(symtop_find_disc(&top, 9.81, few), q, 0);
+  const symtop_part_of_body part = {1.0, 0.5, 0.25};
+  const symtop_part_kind kind = SYMTOP_DISC;
+  symtop_body body = {1.0, 0.25, 0.0625, 0.125};
   symtop_top made;
-  show(symtop_find_disc_top(few, 9.81, &made), q, 0);
+  symtop_solutions solutions;
+  show(symtop_find_body(&kind, &part, 1, &body, &done), q, 0);
+  show(symtop_find_body_top(&body, 9.81, &made), q, 0);
+  show(symtop_solve_start(&top, SYMTOP_TILT_AND_SPIN, angles, &solutions), q, 0);
+  show(symtop_find_doubt(&start, few), q, 0);
   show(symtop_find_tilt_torques(&top, angles + 1, rates, rates + 2, 1, few), q, 0);
   show(symtop_compare_hurried(&top, angles + 1, rates, rates + 2, 1, 1.5, SYMTOP_SPIN_RATE, few,
                               &rule),

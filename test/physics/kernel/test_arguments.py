@@ -1,7 +1,7 @@
 """What the functions of symtop.h refuse, and what they normalise, whoever calls them."""
 
 import math
-from ctypes import byref, c_double, c_size_t, c_void_p
+from ctypes import byref, c_double, c_int, c_size_t, c_void_p
 from functools import partial
 
 import numpy as np
@@ -12,7 +12,7 @@ from physics.tops import ARTICLE, EPS
 
 from symtop_ros.physics import Motion, State, hurry, set_precession_rate
 from symtop_ros.physics.kernel import door
-from symtop_ros.physics.kernel.records import TopRecord
+from symtop_ros.physics.kernel.records import BodyRecord, SolutionsRecord, TopRecord
 
 DOOR = door.open_door()
 SPIN_RATE, SPIN_MOMENTUM, NOTHING = range(3)
@@ -20,6 +20,8 @@ NEW_RATE, CHANGE_OF_RATE, FACTOR_OF_RATE, IMPULSE, AXLE_IMPULSE = range(5)
 # Of symtop_status.
 TOP, ORIENTATION, RATE_OF_BODY, KICK = 2, 3, 4, 14
 POINTER, COUNT, HOLD, KIND, RATE, STEPS, DISC = range(17, 24)
+SEEN, PART = 26, 27
+DISC_KIND = 3
 START = State.from_euler(theta=0.5, phi=0.3, psi=-1.1, phi_dot=6.5, psi_dot=200.0)
 TOP_ROW = np.array(ARTICLE.moments)
 TURN, OMEGA = START.parts
@@ -155,12 +157,29 @@ def test_rates_and_amounts_that_are_not_finite_are_refused():
         assert DOOR.find_tilt_torques(*given) == RATE
 
 
-def test_a_disc_has_a_mass_and_a_radius():
+def find_body(kind, *part, count=1):
+    found = BodyRecord()
+    return DOOR.find_body(bytes(c_int(kind)), pack(*part), count, found, c_size_t())
+
+
+def test_a_part_has_a_kind_a_mass_and_a_size():
+    for part in ((0.0, 0.1, 0.1), (1.0, -0.1, 0.1), (1.0, 0.0, 0.1), (1.0, 0.1, NAN)):
+        assert find_body(DISC_KIND, *part) == PART
+    for kind in (-1, 5, 2**31 - 1):
+        assert find_body(kind, 1.0, 0.1, 0.1) == PART
+    assert find_body(DISC_KIND, 1.0, 0.1, 0.1, count=0) == PART
+    assert find_body(DISC_KIND, 1.0, 0.1, 0.1) == find_body(0, 1.0, NAN, 0.1) == door.OK
+
+
+def test_gravity_is_finite():
     found = TopRecord()
-    for disc in ((0.0, 0.1, 0.1), (1.0, -0.1, 0.1), (1.0, 0.1, NAN)):
-        assert DOOR.find_disc_top(pack(*disc), 9.81, found) == DISC
-    assert DOOR.find_disc_top(pack(1.0, 0.1, 0.1), NAN, found) == DISC
+    assert DOOR.find_body_top(pack(1.0, 0.1, 0.1, 0.1), NAN, found) == PART
     assert DOOR.find_disc(pack(*TOP_ROW), INF, (c_double * 3)()) == DISC
+
+
+def test_what_is_seen_is_one_of_seven():
+    for seen in (-1, 7, 2**31 - 1):
+        assert DOOR.solve_start(pack(*TOP_ROW), seen, pack(1, 1, 1), SolutionsRecord()) == SEEN
 
 
 def test_null_pointers_are_refused_and_arrays_without_elements_may_be_null():
@@ -190,9 +209,9 @@ def test_a_count_beyond_all_memory_and_steps_that_are_no_number_are_refused():
 
 def test_every_status_has_a_sentence():
     unknown = DOOR.describe_status(99)
-    sentences = [DOOR.describe_status(each) for each in range(26)]
-    assert len({*sentences, unknown}) == 27
-    assert {DOOR.describe_status(each) for each in (-1, 26, 2**31 - 1)} == {unknown}
+    sentences = [DOOR.describe_status(each) for each in range(28)]
+    assert len({*sentences, unknown}) == 29
+    assert {DOOR.describe_status(each) for each in (-1, 28, 2**31 - 1)} == {unknown}
 
 
 @pytest.mark.parametrize("phi", [1e300, 1.7e308, -1e217])

@@ -16,7 +16,9 @@ SYMTOP_API extern const uint32_t symtop_sizes[];
 const uint32_t symtop_sizes[] = {sizeof(symtop_start),   sizeof(symtop_pushes),
                                  sizeof(symtop_clock),   sizeof(symtop_piece),
                                  sizeof(symtop_rates),   sizeof(symtop_constants),
-                                 sizeof(symtop_top),     sizeof(symtop_place),
+                                 sizeof(symtop_top),     sizeof(symtop_part_of_body),
+                                 sizeof(symtop_body),    sizeof(symtop_solution),
+                                 sizeof(symtop_solutions), sizeof(symtop_place),
                                  sizeof(symtop_reason),  sizeof(symtop_average),
                                  sizeof(symtop_cause),   sizeof(symtop_lift),
                                  sizeof(symtop_verdict), sizeof(symtop_held)};

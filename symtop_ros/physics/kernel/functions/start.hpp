@@ -2,8 +2,10 @@
 #pragma once
 
 #include "../rule/clamp.hpp"
+#include "../rule/doubt.hpp"
 #include "../rule/hurried.hpp"
 #include "../rule/kicks.hpp"
+#include "../rule/starts.hpp"
 #include "arguments.hpp"
 
 symtop_status symtop_normalize(const double* orientation, const double* angular_velocity,
@@ -112,6 +114,20 @@ symtop_status symtop_find_tilt_accelerations(const symtop_start* start, symtop_h
   return SYMTOP_OK;
 }
 
+symtop_status symtop_solve_start(const symtop_top* top, symtop_question seen, const double known[3],
+                                 symtop_solutions* solutions) {
+  using namespace symtop;
+  symtop_status status = admit({top, known, solutions});
+  if (status != SYMTOP_OK) return status;
+  const symtop_top given = *top;
+  status = accept(given);
+  if (status != SYMTOP_OK) return status;
+  if (!is_number_of(read_number(seen), SYMTOP_GOLDSTEIN)) return SYMTOP_BAD_QUESTION;
+  const double numbers[] = {known[0], known[1], known[2]};
+  *solutions = solve_start(given, seen, numbers);
+  return SYMTOP_OK;
+}
+
 symtop_status symtop_kick(const symtop_top* tops, const double* orientation,
                           const double* angular_velocity, symtop_kick_kind kind, symtop_hold hold,
                           const double* amounts, size_t count, double* kicked, size_t* done) {
@@ -195,4 +211,14 @@ symtop_status symtop_judge_kick(const symtop_start* before, const symtop_start* 
   GravityMotion without(to_start(was)), with(to_start(now));
   *verdict = judge_kick(was, now, without, with, is_driven(now), hold);
   return SYMTOP_OK;
+}
+
+symtop_status symtop_find_doubt(const symtop_start* start, double* shows_at) {
+  using namespace symtop;
+  symtop_status status = admit({start, shows_at});
+  if (status != SYMTOP_OK) return status;
+  symtop_start s = *start;
+  status = accept(s);
+  if (status == SYMTOP_OK) *shows_at = is_driven(s) ? INFINITY : find_doubt(to_start(s));
+  return status;
 }

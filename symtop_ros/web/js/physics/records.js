@@ -30,6 +30,8 @@ export const STATUS = {
   BAD_DISC: 23,
   BAD_PUSHES: 24,
   BAD_CLAMP: 25,
+  BAD_QUESTION: 26,
+  BAD_PART: 27,
 };
 
 /** Names of the enums, in the order of the header. @type {{[list: string]: any[]}} */
@@ -47,7 +49,18 @@ export const NAMES = {
     "clamped",
   ],
   engine: ["closed form", "free", "taylor"],
+  part_kind: ["point", "rod", "hoop", "disc", "ball"],
   hold: ["spin_rate", "spin_momentum", null],
+  question: [
+    "theta precession_period",
+    "theta psi_dot",
+    "psi_dot precession_period",
+    "theta dip",
+    "theta nutation_period",
+    "energy p_phi p_psi",
+    "alpha a b",
+  ],
+  demand: [null, "finite", "between", "positive", "least", "size", "regular", "unequal", "weight"],
   kick_kind: ["rate", "change", "factor", "impulse", "axle"],
   subject: ["top", "axis"],
   direction: ["rises", "falls", "stays"],
@@ -133,6 +146,31 @@ export const RECORDS = {
     ["double", "Ix"],
     ["double", "Iz"],
     ["double", "Mgl"],
+  ],
+  part_of_body: [
+    ["double", "mass"],
+    ["double", "size"],
+    ["double", "distance"],
+  ],
+  body: [
+    ["double", "mass"],
+    ["double", "arm"],
+    ["double", "Ix"],
+    ["double", "Iz"],
+  ],
+  solution: [
+    ["double", "theta"],
+    ["double", "theta_dot"],
+    ["double", "phi_dot"],
+    ["double", "psi_dot"],
+  ],
+  solutions: [
+    ["demand", "demand"],
+    ["double", "which"],
+    ["double", "least"],
+    ["double", "most"],
+    ["double", "number"],
+    ["solution 4", "each"],
   ],
   place: [
     ["place_kind", "kind"],

@@ -1,0 +1,291 @@
+// Starts of a top from what is seen of its motion (derivation.md, section 12).
+//
+// Numbers that are given are doubles, and exact. What would cancel is formed with 134 digits, and
+// rounded at the end.
+#pragma once
+
+#include "regular.hpp"
+
+namespace symtop {
+
+const int SOLUTIONS = sizeof(symtop_solutions::each) / sizeof(symtop_solution);
+
+inline void refuse(symtop_solutions& found, symtop_demand demand, double which = 0.0,
+                   double least = NAN, double most = NAN) {
+  found.demand = demand, found.which = which, found.least = least, found.most = most;
+}
+
+inline bool is_in_range(double x) { return std::fabs(x) <= LARGEST; }
+
+inline void keep(symtop_solutions& found, const symtop_solution& start) {
+  const bool is_kept = is_in_range(start.theta_dot) && is_in_range(start.phi_dot) &&
+                       is_in_range(start.psi_dot);
+  if (is_kept) found.each[static_cast<int>(found.number++)] = start;
+}
+
+// ---- Regular precession ----
+
+// psi' of the tilt and phi' = +-2 pi/T: the quadratic of regular precession is linear in psi'.
+inline void solve_tilt_and_turn(const symtop_top& top, double theta, double period,
+                                symtop_solutions& found) {
+  const Long centrifugal = (Long(top.Ix) - Long(top.Iz)) * find_long_cosine(theta);
+  for (const double sign : {1.0, -1.0}) {
+    const Long rate = Long(TWO_PI) / Long(sign * period);
+    const Long spin = (centrifugal * rate * rate + Long(top.Mgl)) / (Long(top.Iz) * rate);
+    keep(found, {theta, 0.0, rate.to_double(), spin.to_double()});
+  }
+  if (found.number == 0) refuse(found, SYMTOP_DEMANDS_REGULAR, 1);
+}
+
+// A spin below 2 sqrt((Ix - Iz) cos(theta) Mgl)/Iz has no regular rate.
+inline void solve_tilt_and_spin(const symtop_top& top, double theta, double psi_dot,
+                                symtop_solutions& found) {
+  double rates[2];
+  find_regular_rates(top, theta, psi_dot, SYMTOP_SPIN_RATE, rates);
+  for (const bool is_positive : {true, false})
+    for (const double rate : rates)
+      if ((rate > 0) == is_positive) keep(found, {theta, 0.0, rate, psi_dot});
+  if (found.number > 0) return;
+  const Long product = (Long(top.Ix) - Long(top.Iz)) * find_long_cosine(theta) * Long(top.Mgl);
+  const double least = product.sign > 0 ? (root(product).scale(1) / Long(top.Iz)).to_double() : 0.0;
+  refuse(found, least > 0 ? SYMTOP_DEMANDS_SIZE : SYMTOP_DEMANDS_REGULAR, 1, least);
+}
+
+// cos(theta) = N/D with N = Iz psi' p - Mgl and D = (Ix - Iz) p^2. The half angle has the tangent
+// sqrt((D - N)/(D + N)): an arc cosine would lose half the digits next to the vertical.
+inline void solve_spin_and_turn(const symtop_top& top, double psi_dot, double period,
+                                symtop_solutions& found) {
+  const Long difference = Long(top.Ix) - Long(top.Iz);
+  if (!difference.sign) return refuse(found, SYMTOP_DEMANDS_UNEQUAL);
+  for (const double sign : {1.0, -1.0}) {
+    const Long rate = Long(TWO_PI) / Long(sign * period);
+    const Long whole = difference * rate * rate;
+    const Long share = Long(top.Iz) * Long(psi_dot) * rate - Long(top.Mgl);
+    const Long above = whole - share, below = whole + share;
+    if (above.sign * below.sign <= 0) continue;  // |N| < |D| does not hold
+    const double tangent = root(above / below).to_double();
+    keep(found, {2 * arc_tangent(tangent, 1.0), 0.0, rate.to_double(), psi_dot});
+  }
+  if (found.number == 0) refuse(found, SYMTOP_DEMANDS_REGULAR, 1);
+}
+
+// ---- Let go at rest ----
+
+// With p_psi^2 = 2 |Mgl| Ix x, and both signs.
+inline void keep_spins(const symtop_top& top, double theta, double x, symtop_solutions& found) {
+  const double momentum = std::sqrt(2 * x) * std::sqrt(std::fabs(top.Mgl)) * std::sqrt(top.Ix);
+  keep(found, {theta, 0.0, 0.0, momentum / top.Iz});
+  if (momentum > 0) keep(found, {theta, 0.0, 0.0, -momentum / top.Iz});
+}
+
+// sin(a + b) with what the sum has lost (Knuth's two-sum): next to pi that is more than rounding.
+inline double find_sine_of_sum(double a, double b) {
+  const double total = a + b, part = total - a, lost = (a - (total - part)) + (b - part);
+  const Pair turn = find_tilt(total, false);
+  return turn.y + turn.x * lost;
+}
+
+// The axis comes to rest again where x (cos(theta) - cos(end)) = sin(end)^2, x as above. The
+// difference is 2 sin(theta + dip/2) sin(dip/2).
+inline void solve_tilt_and_dip(const symtop_top& top, double theta, double dip,
+                               symtop_solutions& found) {
+  if (top.Mgl == 0) return refuse(found, SYMTOP_DEMANDS_WEIGHT);
+  const double way = std::copysign(dip, top.Mgl), end = theta + way;
+  const double most = top.Mgl > 0 ? PI - theta : theta;
+  if (!(end >= 0 && end <= PI)) return refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, most);
+  const double sine = find_sine_of_sum(theta, way), half = find_sine_of_sum(theta, way / 2);
+  keep_spins(top, theta, sine / (2 * half) * (sine / find_tilt(dip / 2, false).y), found);
+}
+
+// sqrt(r)/agm(1, sqrt(1 + r^2)): the nutation period in its unit. It grows up to LONGEST_AT.
+inline double find_relative_period(double r) {
+  const double modulus = find_modulus({1.0, r});
+  // agm(1, m) = m agm(1, 1/m), of which the quarter period is pi/2 over the second factor.
+  return std::sqrt(r) / modulus * quarter_period(1 / modulus) / (PI / 2);
+}
+
+const double LONGEST_AT = 2.179660431678698;
+
+// The r between two, in which the period grows or falls, at which it is a given one.
+inline double find_period_at(double period, double low, double high, bool grows) {
+  for (;;) {
+    const double middle = std::sqrt(low) * std::sqrt(high);
+    if (!(low < middle && middle < high)) return low;
+    ((find_relative_period(middle) < period) == grows ? low : high) = middle;
+  }
+}
+
+// With r between 0, for an infinite spin, and R = cot(theta/2), for none, of a top with Mgl > 0.
+inline void solve_tilt_and_nutation(const symtop_top& top, double theta, double period,
+                                    symtop_solutions& found) {
+  if (top.Mgl == 0) return refuse(found, SYMTOP_DEMANDS_WEIGHT);
+  const Pair half = find_tilt(theta, true);
+  const double sine = find_tilt(theta, false).y;
+  const double R = top.Mgl > 0 ? half.x / half.y : half.y / half.x;
+  const double unit = 2 * PI * std::sqrt(top.Ix / (2 * std::fabs(top.Mgl))) / std::sqrt(sine);
+  const double longest = find_relative_period(std::fmin(R, LONGEST_AT));
+  double asked = period / unit;
+  if (asked > longest && asked <= (1 + 16 * EPS) * longest) asked = longest;  // up to its rounding
+  if (!(asked <= longest)) return refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, longest * unit);
+  const auto keep_at = [&](double r) {
+    keep_spins(top, theta, std::fmax(0.0, sine * (R - r) * (1 + 1 / (r * R))), found);
+  };
+  const double low = asked * asked / 2;  // agm(1, ...) >= 1, so that r >= asked^2
+  keep_at(find_period_at(asked, std::fmin(low, R / 2), std::fmin(R, LONGEST_AT), true));
+  if (R > LONGEST_AT && asked >= find_relative_period(R) && asked < longest)
+    keep_at(find_period_at(asked, LONGEST_AT, R, false));
+  if (found.number == 0) refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, longest * unit);
+}
+
+// ---- Constants ----
+
+// Goldstein's alpha, a and b, and Mgl/Ix. With q = tan(theta/2)^2 the axis can be where
+//
+//   h(q) = 4 alpha q (1 + q) - 8 (Mgl/Ix) q (1 - q) - (1 + q) ((b - a) + (b + a) q)^2 >= 0,
+//
+// as theta'^2 = h/(4 q (1 + q)). Its sums are formed of numbers of 134 digits.
+struct Well {
+  Long alpha, a, b, weight;
+
+  Long at(const Long& q) const {
+    const Long one(1.0), turn = (b - a) + (b + a) * q;
+    return (alpha.scale(2) * q - turn * turn) * (one + q) - weight.scale(3) * q * (one - q);
+  }
+
+  // The sign of the slope of the effective potential: it has one zero, the bottom.
+  int find_slope(const Long& q) const {
+    const Long one(1.0), square = (one + q) * (one + q);
+    const Long out = (b - a) * (b - a), in = (b + a) * (b + a) * q * q;
+    return ((in - out) * square - weight.scale(4) * q * q).sign;
+  }
+
+  // theta'^2 at a place, in 1/s^2: below 0 it is what the energy lacks, times 2/Ix.
+  Long find_square(const Long& q) const { return at(q) / ((Long(1.0) + q) * q).scale(2); }
+};
+
+const double LEAST_Q = 0x1p-1000, MOST_Q = 0x1p1000;  // the tilts of which the axis is vertical
+
+// The place at which `is_below` becomes false, between two doubles, and then with 60 bits more.
+template <class Below>
+Long bisect(double low, double high, const Below& is_below) {
+  for (;;) {
+    // Roots, as the product could overflow.
+    const double middle =
+        high > 2 * low ? std::sqrt(low) * std::sqrt(high) : low + (high - low) / 2;
+    if (!(low < middle && middle < high)) break;
+    (is_below(Long(middle)) ? low : high) = middle;
+  }
+  Long from(low), to(high);
+  for (int bits = 0; bits < 60; bits++) {
+    const Long middle = (from + to).scale(-1);
+    (is_below(middle) ? from : to) = middle;
+  }
+  return from;
+}
+
+// On the vertical the axis has all of theta'^2, and psi' counts the whole spin.
+inline symtop_solution start_on_vertical(const Well& well, bool is_upright, const Long& spin) {
+  const Long weight = well.weight.scale(1), square = well.alpha + (is_upright ? -weight : weight);
+  const double rate = square.sign > 0 ? root(square).to_double() : 0.0;
+  return {is_upright ? 0.0 : PI, rate, 0.0, spin.to_double()};
+}
+
+inline symtop_solution start_at(const Well& well, const Long& q, const Long& spin) {
+  const double place = q.to_double(), theta = 2 * arc_tangent(std::sqrt(place), 1.0);
+  // Next to pi, too: there phi' would be that of a place that no double is.
+  if (place <= 2 * LEAST_Q || theta >= PI) return start_on_vertical(well, place < 1, spin);
+  const Long one(1.0), turn = (well.b - well.a) + (well.b + well.a) * q;
+  const Long rate = turn * (one + q) / q.scale(2);
+  const Long psi_dot = spin - rate * (one - q) / (one + q);
+  return {theta, 0.0, rate.to_double(), psi_dot.to_double()};
+}
+
+// The turning angles of what has these constants. `rounding` is that of the energy, times 2/Ix, up to
+// which a regular precession has too little of it. Returns what the energy lacks, times 2/Ix, or 0.
+inline Long solve_well(const Well& well, const Long& spin, const Long& rounding,
+                       symtop_solutions& found) {
+  const auto falls = [&](const Long& q) { return well.find_slope(q) < 0; };
+  const Long bottom = bisect(LEAST_Q, MOST_Q, falls), square = well.find_square(bottom);
+  if (square.sign < 0 && -square > rounding) return -square;
+  const double middle = bottom.to_double();
+  if (square.sign <= 0) {
+    keep(found, start_at(well, bottom, spin));
+    return Long();
+  }
+  const auto lacks = [&](const Long& q) { return well.at(q).sign < 0; };
+  const auto has = [&](const Long& q) { return well.at(q).sign >= 0; };
+  const symtop_solution high = start_at(well, bisect(LEAST_Q, middle, lacks), spin);
+  const symtop_solution low = start_at(well, bisect(middle, MOST_Q, has), spin);
+  // What only approaches the vertical starts at its other turning angle.
+  const auto moves = [](const symtop_solution& start) {
+    return start.theta_dot > 0 || (start.theta > 0 && start.theta < PI);
+  };
+  if (moves(high) || !moves(low)) keep(found, high);
+  if (moves(low) && low.theta != high.theta) keep(found, low);
+  return Long();
+}
+
+inline void solve_constants(const symtop_top& top, const double known[3], symtop_solutions& found) {
+  const Long Ix(top.Ix), momentum(known[2]), spin = momentum / Long(top.Iz);
+  const Long along = momentum * spin;
+  const Well well = {(Long(known[0]).scale(1) - along) / Ix, momentum / Ix, Long(known[1]) / Ix,
+                     Long(top.Mgl) / Ix};
+  const Long terms = (size(Long(known[0])).scale(1) + along + size(Long(top.Mgl)).scale(1)) / Ix;
+  const Long lacking = solve_well(well, spin, terms * Long(START_ROUNDING), found);
+  if (found.number > 0) return;
+  const Long least = Long(known[0]) + (lacking * Ix).scale(-1);
+  refuse(found, SYMTOP_DEMANDS_LEAST, 0, least.to_double());
+}
+
+inline void solve_goldstein(const symtop_top& top, const double known[3], symtop_solutions& found) {
+  const Long Ix(top.Ix), a(known[1]), spin = a * Ix / Long(top.Iz);
+  const Well well = {Long(known[0]), a, Long(known[2]), Long(top.Mgl) / Ix};
+  const Long terms = size(well.alpha) + size(well.weight).scale(1);
+  const Long lacking = solve_well(well, spin, terms * Long(START_ROUNDING), found);
+  if (found.number > 0) return;
+  refuse(found, SYMTOP_DEMANDS_LEAST, 0, (well.alpha + lacking).to_double());
+}
+
+// ---- All of them ----
+
+struct Question {
+  int numbers;
+  int tilt, duration;  // which of them must be between 0 and pi, and which above 0; -1 for none
+  void (*solve)(const symtop_top&, const double*, symtop_solutions&);
+};
+
+template <void (*solve)(const symtop_top&, double, double, symtop_solutions&)>
+void solve_two(const symtop_top& top, const double* known, symtop_solutions& found) {
+  solve(top, known[0], known[1], found);
+}
+
+// In the order of symtop_question.
+inline const Question& find_question(symtop_question seen) {
+  static const Question QUESTIONS[] = {
+      {2, 0, 1, solve_two<solve_tilt_and_turn>},     {2, 0, -1, solve_two<solve_tilt_and_spin>},
+      {2, -1, 1, solve_two<solve_spin_and_turn>},    {2, 0, 1, solve_two<solve_tilt_and_dip>},
+      {2, 0, 1, solve_two<solve_tilt_and_nutation>}, {3, -1, -1, solve_constants},
+      {3, -1, -1, solve_goldstein},
+  };
+  return QUESTIONS[seen];
+}
+
+inline symtop_solutions solve_start(const symtop_top& top, symtop_question seen, const double* known) {
+  symtop_solutions found = {SYMTOP_DEMANDS_NOTHING, 0.0, NAN, NAN, 0.0, {}};
+  for (symtop_solution& each : found.each) each = {NAN, NAN, NAN, NAN};
+  const Question& question = find_question(seen);
+  for (int k = 0; k < question.numbers; k++) {
+    const double x = known[k];
+    if (!is_in_range(x))
+      refuse(found, SYMTOP_DEMANDS_FINITE, k);
+    else if (k == question.tilt && !(x > 0 && x < PI))
+      refuse(found, SYMTOP_DEMANDS_BETWEEN, k, 0.0, PI);
+    else if (k == question.duration && !(x > 0))
+      refuse(found, SYMTOP_DEMANDS_POSITIVE, k, NAN, INFINITY);
+    if (found.demand != SYMTOP_DEMANDS_NOTHING) return found;
+  }
+  question.solve(top, known, found);
+  return found;
+}
+
+}  // namespace symtop

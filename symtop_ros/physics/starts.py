@@ -1,0 +1,157 @@
+"""Starts from what is seen: a tilt, a time of one turn, a dip, a nutation period, or constants.
+
+The formulas are in the kernel (`kernel/rule/starts.hpp`; docs/derivation.md, section 12).
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel.records import DEMANDS, QUESTIONS, SolutionsRecord
+from symtop_ros.physics.state import State
+from symtop_ros.physics.top import Top
+from symtop_ros.physics.values import LARGEST_MOMENT, validate_number, validate_one
+from symtop_ros.refusals import RefusedError, Words, refuse
+
+# The names of each question, in the order of the kernel, by what a caller gives in any order.
+ROWS = {frozenset(each.split()): tuple(each.split()) for each in QUESTIONS}
+UNITS = {
+    "theta": "rad",
+    "psi_dot": "rad/s",
+    "precession_period": "s",
+    "dip": "rad",
+    "nutation_period": "s",
+    "energy": "J",
+    "p_phi": "N m s",
+    "p_psi": "N m s",
+    "alpha": "1/s^2",
+    "a": "1/s",
+    "b": "1/s",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """A start with phi = psi = 0: tilt in rad, and rates in rad/s.
+
+    Attributes
+    ----------
+    theta : float
+        Tilt in rad.
+    theta_dot, phi_dot, psi_dot : float
+        Rates in rad/s; phi' is 0 on the vertical, where psi' is the whole spin.
+    """
+
+    theta: float
+    theta_dot: float
+    phi_dot: float
+    psi_dot: float
+
+    @property
+    def state(self) -> State:
+        """The state of the start."""
+        return State.from_euler(
+            theta=self.theta,
+            theta_dot=self.theta_dot,
+            phi_dot=self.phi_dot,
+            psi_dot=self.psi_dot,
+        )
+
+
+def solve_start(top: Top, **known: float) -> tuple[Solution, ...]:
+    """Return all starts of a top that have what is known of its motion.
+
+    ==============================  ==================================================
+    known                           motion
+    ==============================  ==================================================
+    theta, precession_period        regular precession
+    theta, psi_dot                  regular precession
+    psi_dot, precession_period      regular precession
+    theta, dip                      let go at rest: theta goes so far until the weight
+                                    is lowest
+    theta, nutation_period          let go at rest
+    energy, p_phi, p_psi            any, at its turning angles
+    alpha, a, b                     the same by Goldstein's constants (section 5.7):
+                                    2 E/Ix - Iz omega_z^2/Ix, p_psi/Ix and p_phi/Ix;
+                                    his beta is 2 Mgl/Ix
+    ==============================  ==================================================
+
+    Parameters
+    ----------
+    top : Top
+        One top.
+    **known : float
+        Two or three numbers of one row, in rad, rad/s, s, J, N m s, 1/s^2 and 1/s. The time of one
+        turn of phi, `precession_period`, has no sign: the top may go round in either direction.
+
+    Returns
+    -------
+    tuple of Solution
+        One to four: first those with phi' > 0, or let go those with psi' > 0; of constants the
+        start at the smaller theta first. Each number is right to some EPS for what is given, but
+        for the spin of a nutation period next to the longest one, where it loses half its digits.
+        Constants whose energy is the least one within 64 EPS of its terms are those of a regular
+        precession.
+
+    Raises
+    ------
+    ValueError
+        If the names are of no row, if a number is not finite or out of its range, or if there is no
+        such motion: the message says what the number must be.
+
+    Examples
+    --------
+    A class has seen one turn in 2.2 s, and asks for the spin.
+
+    >>> import math
+    >>> from symtop_ros.physics import Top, solve_start
+    >>> top = Top(Ix=0.000264, Iz=0.00012, Mgl=0.165 * 9.8 * 0.04)
+    >>> first, _ = solve_start(top, theta=math.pi / 2, precession_period=2.2)
+    >>> round(first.psi_dot * 60 / (2 * math.pi))
+    1802
+    """
+    validate_one(top)
+    names = ROWS.get(frozenset(known))
+    if names is None:
+        rows = " / ".join(", ".join(each) for each in ROWS.values())
+        raise refuse("known", f"one of {rows}", Words(", ".join(known) or "nothing"))
+    numbers = [validate_number(name, known[name], UNITS[name]) for name in names]
+    found = door.solve_start(top.moments, [*ROWS.values()].index(names), numbers)
+    if found.number == 0:
+        raise _refuse(top, names, numbers, found)
+    return tuple(_read(each) for each in found.each[: int(found.number)])
+
+
+def _read(each: Any) -> Solution:
+    return Solution(each.theta, each.theta_dot, each.phi_dot, each.psi_dot)
+
+
+def _refuse(
+    top: Top, names: tuple[str, ...], numbers: list[float], found: SolutionsRecord
+) -> RefusedError:
+    """Return the refusal in words: what the number, or the top, would have to be."""
+    demand = DEMANDS[found.demand]
+    if demand == "unequal":
+        return refuse("Ix", "other than Iz: else every tilt takes the same time", top.Ix)
+    if demand == "weight":
+        return refuse("Mgl", "other than 0 J: without weight the axis stays at rest", top.Mgl)
+    name, value = names[int(found.which)], numbers[int(found.which)]
+    unit = UNITS[name]
+    others = " and ".join(
+        f"{each} = {number:.6g} {UNITS[each]}"
+        for each, number in zip(names, numbers, strict=True)
+        if each != name
+    )
+    conditions = {
+        "finite": f"at most {LARGEST_MOMENT:g} {unit} in size",
+        "between": f"> {found.least:g} and < {found.most:.6g} {unit}",
+        "positive": f"> 0 {unit}",
+        "least": f"at least {found.least!r} {unit} with {others}",
+        "size": f"at least {found.least:.6g} {unit} in size with {others}",
+        "regular": f"such that the top can precess regularly with {others}",
+    }
+    condition = conditions[str(demand)]
+    if demand == "positive" and math.isfinite(found.most):
+        condition = f"> 0 and at most {found.most:.6g} {unit} with {others}"
+    return refuse(name, condition, value)

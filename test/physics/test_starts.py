@@ -1,0 +1,311 @@
+"""Starts from what is seen: each has it by a criterion of its own, and none is missing.
+
+Regular precession is judged by its quadratic, and a dip by the constants, with 40 digits; nutation
+periods and turning angles by the motions of the starts.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from drawn import PI, Numbers
+from mpmath import mp, mpf
+from physics.tops import ARTICLE, EPS
+from trials import seeds
+
+from symtop_ros.physics import Motion, Motions, State, Top, solve_start
+from symtop_ros.physics.starts import ROWS
+from symtop_ros.refusals import RefusedError
+
+FEW = 200  # of each question, in a run of all tests
+MANY = 5000
+HORIZONTAL = 2.0**-52  # |cos(theta)| that counts as zero, as docs/library.md says
+
+
+class Drawn:
+    """A top of any family, a tilt, and rates that are usual for it."""
+
+    def __init__(self, seed):
+        self.rng = rng = Numbers(f"starts {seed}")
+        Ix = rng.power(-5, 1)
+        ratio = rng.choice([rng.uniform(0.02, 2.0), rng.power(-3, 0.3), 1.0])
+        pull = rng.choice([1, 1, -1, 0]) * rng.power(-1, 4)
+        self.top = Top(Ix, Ix * min(ratio, 2.0), Ix * pull)
+        near = rng.power(-8, 0)
+        self.theta = rng.choice([rng.uniform(0.001, 3.14), near, PI - near, PI / 2])
+        self.swing = math.sqrt(abs(pull) + 1e-6)
+
+    def rate(self):
+        return self.rng.choice([-1, 1]) * self.swing * self.rng.power(-2, 2)
+
+    def spin(self):
+        return self.rate() * self.top.Ix / self.top.Iz
+
+    def period(self):
+        return 2 * PI / abs(self.rate())
+
+
+def find(top, **known):
+    """All solutions; none if it is refused."""
+    try:
+        return solve_start(top, **known)
+    except RefusedError:
+        return ()
+
+
+def cosine(theta):
+    exact = mp.cos(mpf(theta))
+    return exact if abs(exact) > HORIZONTAL else mpf(0)
+
+
+def check_regular(top, start):
+    """The quadratic vanishes up to rounding of the start: one EPS of each number in each term."""
+    Ix, Iz, Mgl = map(mpf, top.moments)
+    p, spin, tilt = mpf(start.phi_dot), mpf(start.psi_dot), mpf(start.theta)
+    around = (Ix - Iz) * p * p
+    terms = around * cosine(start.theta), -Iz * spin * p, Mgl
+    moved = abs(around * mp.sin(tilt) * tilt)
+    assert abs(sum(terms)) <= 3 * EPS * (sum(map(abs, terms)) + moved)
+    assert start.theta_dot == 0
+
+
+def count_regular(top, psi_dot, period):
+    """For how many of both directions a tilt has the cosine that the quadratic asks for."""
+    Ix, Iz, Mgl = map(mpf, top.moments)
+    rates = [sign * 2 * mp.pi / mpf(period) for sign in (1, -1)]
+    return sum(abs(Iz * psi_dot * p - Mgl) < abs((Ix - Iz) * p * p) for p in rates)
+
+
+def count_rates(top, theta, psi_dot):
+    """How many roots the quadratic has."""
+    Ix, Iz, Mgl = map(mpf, top.moments)
+    a, b = (Ix - Iz) * cosine(theta), Iz * mpf(psi_dot)
+    if a == 0:
+        return 1 if b else 0
+    return 2 if b * b - 4 * a * Mgl >= 0 else 0
+
+
+@pytest.mark.parametrize("seed", seeds(1, MANY // FEW))
+def test_regular_precession_has_what_was_seen_and_no_start_is_missing(seed):
+    with mp.workdps(40):
+        for k in range(FEW):
+            one = Drawn(seed * FEW + k)
+            top, theta, period, spin = one.top, one.theta, one.period(), one.spin()
+            by_turn = find(top, theta=theta, precession_period=period)
+            by_spin = find(top, theta=theta, psi_dot=spin)
+            by_both = find(top, psi_dot=spin, precession_period=period)
+            assert len(by_turn) == 2
+            assert len(by_spin) == count_rates(top, theta, spin)
+            assert len(by_both) == count_regular(top, spin, period)
+            for start in (*by_turn, *by_spin, *by_both):
+                check_regular(top, start)
+            for start in (*by_turn, *by_both):
+                assert abs(start.phi_dot) * period == pytest.approx(2 * PI, rel=2 * EPS)
+            assert all(start.theta == theta for start in (*by_turn, *by_spin))
+            assert all(start.psi_dot == spin for start in (*by_spin, *by_both))
+
+
+def draw_dip(one):
+    """A dip, and the most that there can be."""
+    most = PI - one.theta if one.top.Mgl > 0 else one.theta
+    return most * one.rng.choice([one.rng.random(), one.rng.power(-8, 0)]), most
+
+
+def find_share(top, theta, dip, psi_dot):
+    """p_psi^2 (cos(theta) - cos(end)) over 2 Ix Mgl sin(end)^2: 1 if theta' vanishes at the end."""
+    Ix, Iz, Mgl = map(mpf, top.moments)
+    theta, dip = mpf(theta), mp.sign(Mgl) * mpf(dip)
+    difference = 2 * mp.sin(theta + dip / 2) * mp.sin(dip / 2)
+    return (Iz * psi_dot) ** 2 * difference / (2 * Ix * Mgl * mp.sin(theta + dip) ** 2)
+
+
+@pytest.mark.parametrize("seed", seeds(1, MANY // FEW))
+def test_an_axis_that_is_let_go_dips_as_far_as_was_seen(seed):
+    with mp.workdps(40):
+        for k in range(FEW):
+            one = Drawn(seed * FEW + k)
+            dip, most = draw_dip(one)
+            starts = find(one.top, theta=one.theta, dip=dip)
+            if one.top.Mgl == 0:
+                assert not starts
+                continue
+            assert [each.psi_dot for each in starts] == [starts[0].psi_dot, -starts[0].psi_dot]
+            # Four sines with 4 EPS each, one of them squared, and the square of a spin with 6.
+            # Quarter turns are subtracted with 79 bits: next to pi what is left of those counts.
+            left = 2.0**-76 / abs(math.sin(one.theta + math.copysign(dip, one.top.Mgl)))
+            share = find_share(one.top, one.theta, dip, mpf(starts[0].psi_dot))
+            assert abs(share - 1) <= 40 * EPS + left
+            assert not find(one.top, theta=one.theta, dip=most + 4 * EPS * PI)
+
+
+def find_period(top, theta, psi_dot):
+    return Motion(top, State.from_euler(theta=theta, psi_dot=psi_dot)).nutation_period
+
+
+def find_slope(top, theta, psi_dot):
+    """The sum of the logarithmic derivatives of the nutation period, in size."""
+    step = 2.0**-20
+    period = find_period(top, theta, psi_dot)
+    changes = [
+        find_period(top, theta, psi_dot * (1 + step)) - period,
+        find_period(top, theta * (1 - step), psi_dot) - period,
+    ]
+    return sum(abs(each) for each in changes) / (step * period)
+
+
+def count_spins(top, theta, period):
+    """How often the period of spins from none to many passes through the one that was seen."""
+    critical = 2 * math.sqrt(abs(top.Mgl) * top.Ix) / top.Iz
+    spins = np.concatenate([[0.0], critical * 2.0 ** np.linspace(-30, 30, 4001)])
+    start = State.from_euler(theta=theta, psi_dot=spins)
+    above = Motions(top, start).nutation_period > period
+    return int(np.count_nonzero(above[1:] != above[:-1]))
+
+
+@pytest.mark.parametrize("seed", seeds(1, MANY // FEW))
+def test_an_axis_that_is_let_go_nutates_in_the_time_that_was_seen(seed):
+    for k in range(FEW):
+        one = Drawn(seed * FEW + k)
+        spin = one.spin()
+        period = find_period(one.top, one.theta, spin)
+        if one.top.Mgl == 0 or not math.isfinite(period):
+            continue
+        starts = find(one.top, theta=one.theta, nutation_period=period)
+        assert len(starts) in (2, 4)
+        for start in starts:
+            slope = find_slope(one.top, one.theta, start.psi_dot)
+            again = find_period(one.top, one.theta, start.psi_dot)
+            # The spin and the tilt have some EPS, and so has the period.
+            assert again == pytest.approx(period, rel=32 * EPS * (1 + slope))
+
+
+@pytest.mark.parametrize("seed", seeds(30, 600))
+def test_no_spin_that_nutates_in_a_time_is_missing(seed):
+    one = Drawn(seed)
+    if one.top.Mgl == 0:
+        return
+    still = find_period(one.top, one.theta, 0.0)
+    period = still * one.rng.uniform(0.05, 1.2)
+    if abs(period / still - 1) < 2.0**-10:
+        return  # two spins may be nearer to each other than those of the count
+    starts = find(one.top, theta=one.theta, nutation_period=period)
+    assert len({abs(each.psi_dot) for each in starts}) == count_spins(one.top, one.theta, period)
+
+
+def find_constants(top, state):
+    return {
+        "energy": float(top.energy(state)),
+        "p_phi": float(top.vertical_momentum(state)),
+        "p_psi": float(top.axial_momentum(state)),
+    }
+
+
+def check_constants(top, start, known):
+    """A start has the constants up to rounding of it and of them."""
+    state = start.state
+    found = find_constants(top, state)
+    across = top.Ix * (abs(start.phi_dot * math.sin(start.theta)) + abs(start.theta_dot))
+    momenta = abs(known["p_phi"]) + abs(known["p_psi"]) + across
+    along = top.Iz * (abs(start.phi_dot) + abs(start.psi_dot))
+    swing = top.Ix * (start.phi_dot**2 + start.theta_dot**2) + top.Iz * start.psi_dot**2
+    energies = swing + abs(top.Mgl) + abs(known["energy"])
+    assert abs(found["energy"] - known["energy"]) <= 8 * EPS * energies
+    assert abs(found["p_phi"] - known["p_phi"]) <= 8 * EPS * (momenta + along)
+    assert abs(found["p_psi"] - known["p_psi"]) <= 8 * EPS * (momenta + along)
+
+
+def draw_state(one):
+    rates = [one.rng.choice([0.0, one.rate()]) for _ in range(2)]
+    return State.from_euler(
+        theta=one.theta, theta_dot=rates[0], phi_dot=rates[1], psi_dot=one.spin()
+    )
+
+
+@pytest.mark.parametrize("seed", seeds(1, MANY // FEW))
+def test_constants_lead_to_the_turning_angles_of_their_motion(seed):
+    for k in range(FEW):
+        one = Drawn(seed * FEW + k)
+        state = draw_state(one)
+        known = find_constants(one.top, state)
+        starts = solve_start(one.top, **known)
+        for start in starts:
+            check_constants(one.top, start, known)
+        low, high = Motion(one.top, state).turning_angles
+        # The place of a bottom is known to the root of the rounding of its energy. Numbers next to
+        # the vertical are those of p_phi - p_psi, which is no more than rounding.
+        near = 2e-7 / max(min(math.sin(low), math.sin(high)), 1e-2)
+        assert starts[0].theta == pytest.approx(low, abs=near)
+        assert starts[-1].theta == pytest.approx(high, abs=near)
+
+
+@pytest.mark.parametrize("seed", seeds(1, MANY // FEW))
+def test_goldsteins_constants_lead_to_the_same_starts(seed):
+    for k in range(FEW):
+        one = Drawn(seed * FEW + k)
+        Ix, Iz = (mpf(each) for each in one.top.moments[:2])
+        alpha, a, b = one.rate() ** 2, one.rate(), one.rate()
+        energy = float((Ix * mpf(alpha) + (Ix * mpf(a)) ** 2 / Iz) / 2)
+        known = {"energy": energy, "p_phi": float(Ix * b), "p_psi": float(Ix * a)}
+        for start in find(one.top, alpha=alpha, a=a, b=b):
+            check_constants(one.top, start, known)
+
+
+@pytest.mark.parametrize("seed", seeds(1, MANY // FEW))
+def test_less_than_the_least_energy_is_refused_and_the_least_is_not(seed):
+    for k in range(FEW):
+        one = Drawn(seed * FEW + k)
+        known = find_constants(one.top, draw_state(one)) | {"energy": -1e30}
+        with pytest.raises(RefusedError, match="energy must be at least") as refused:
+            solve_start(one.top, **known)
+        least = float(str(refused.value).split("at least ")[1].split(" J")[0])
+        for start in solve_start(one.top, **known | {"energy": least}):
+            check_constants(one.top, start, known | {"energy": least})
+        below = least - 1e-9 * (abs(least) + abs(one.top.Mgl))
+        assert not find(one.top, **known | {"energy": below})
+
+
+def test_each_question_is_refused_in_words_that_say_what_would_do():
+    refusals = {
+        "theta must be > 0 and < 3.14159 rad, got 0": {"theta": 0.0, "psi_dot": 9.0},
+        "dip must be > 0 rad, got 0": {"theta": 1.0, "dip": 0.0},
+        "dip must be > 0 and at most 2.14159 rad with theta = 1 rad, got 3": {
+            "theta": 1.0,
+            "dip": 3.0,
+        },
+        "psi_dot must be at least 111.629 rad/s in size with theta = 0.5 rad, got 9": {
+            "theta": 0.5,
+            "psi_dot": 9.0,
+        },
+        "precession_period must be such that the top can precess regularly with "
+        "psi_dot = 200 rad/s, got 0.5": {"psi_dot": 200.0, "precession_period": 0.5},
+        "psi_dot must be at most 1e+100 rad/s in size, got 1e+200": {
+            "theta": 1.0,
+            "psi_dot": 1e200,
+        },
+    }
+    for sentence, known in refusals.items():
+        with pytest.raises(RefusedError) as refused:
+            solve_start(ARTICLE, **known)
+        assert str(refused.value) == sentence
+
+
+def test_tops_without_weight_and_spheres_are_refused_where_they_decide():
+    with pytest.raises(RefusedError, match="Mgl must be other than 0 J"):
+        solve_start(Top(1.0, 1.0, 0.0), theta=1.0, dip=0.5)
+    with pytest.raises(RefusedError, match="Ix must be other than Iz"):
+        solve_start(Top(1.0, 1.0, 1.0), psi_dot=1.0, precession_period=0.5)
+
+
+def test_names_of_no_question_are_refused_with_all_questions():
+    for known in ({}, {"theta": 1.0}, {"dip": 1.0, "psi_dot": 1.0}, {"tilt": 1.0}):
+        with pytest.raises(RefusedError, match="known must be one of theta, precession_period / "):
+            solve_start(ARTICLE, **known)
+    assert len(ROWS) == 7
+
+
+def test_a_pendulum_is_let_go_without_spin():
+    (start,) = solve_start(ARTICLE, theta=0.5, dip=PI - 0.5)
+    assert (start.theta, start.psi_dot) == (0.5, 0.0)
+    longest = find_period(ARTICLE, PI / 2, 0.0)
+    for start in solve_start(ARTICLE, theta=PI / 2, nutation_period=longest):
+        assert abs(start.psi_dot) < 1e-5
