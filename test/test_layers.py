@@ -9,7 +9,7 @@ from documents import ROOT
 
 PACKAGE = ROOT / "symtop_ros"
 # Files of the package itself.
-TOP = {"__init__", "__main__", "arrays", "command", "missing", "programs", "refusals", "shutdown"}
+TOP = {"__init__", "__main__", "arrays", "command", "missing", "programs", "refusals", "shutdown", "units"}
 # Folder -> folders and files of the package | other packages. Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 TABLE = {
@@ -29,8 +29,8 @@ TABLE = {
     "session": "__init__ log missing models physics simulation wire wording | numpy",
     "node": "__init__ command physics session shutdown simulation wire | "
     "geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces std_srvs",
-    # of session only the table of services, which imports nothing
-    "client": "command session shutdown wire | rcl_interfaces rclpy sensor_msgs std_srvs",
+    # of session only the table of services, which imports nothing; physics where it is asked to solve
+    "client": "command physics session shutdown wire | rcl_interfaces rclpy sensor_msgs std_srvs",
     "live": "command log playback shutdown simulation wire | rclpy rerun",
     # client, live and rclpy: only in bridge.py, which main.py imports for --node
     "panel": "client command live shutdown simulation web | geometry_msgs rclpy",
@@ -52,7 +52,7 @@ def nodes(folder):
 def imports(folder):
     """Top-level packages that the files of a folder import, own folders by their names.
 
-    Every folder may use `arrays` and `refusals`, the ground floor.
+    Every folder may use `arrays`, `refusals` and `units`, the ground floor.
     """
     own, others = set(), set()
     for _, node in nodes(folder):
@@ -64,7 +64,7 @@ def imports(folder):
                 own.add(rest.partition(".")[0] or "__init__")
             elif package not in {*sys.stdlib_module_names, "_typeshed"}:  # types only
                 others.add(package)
-    return own - {folder, "arrays", "refusals"}, others
+    return own - {folder, "arrays", "refusals", "units"}, others
 
 
 @pytest.mark.parametrize("folder", ARROWS)

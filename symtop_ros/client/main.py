@@ -22,9 +22,11 @@ from sensor_msgs.msg import JointState
 
 from symtop_ros.client.connection import Connection, UnreachableError
 from symtop_ros.client.options import make_parser
+from symtop_ros.client.solve import asks_to_solve, set_body, start_solved
 from symtop_ros.refusals import MAX_SHOWN, one_line, plain
 from symtop_ros.session.services import SERVICES, Response
 from symtop_ros.shutdown import describe_failure, ros_context
+from symtop_ros.units import read_value
 
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
@@ -79,6 +81,10 @@ def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -
         return True, ""
     if options.command == "resume":
         return top.request("pause", False)
+    if options.command == "body":
+        return set_body(top, options.parts)
+    if options.command == "start" and asks_to_solve(values):
+        return start_solved(top, values)
     service = BY_COMMAND[options.command]
     on = vars(options).get("switch", "on") == "on"  # `pause` has no word: it means on
     arguments = {"named": values, "switch": on, "plain": None}
@@ -116,16 +122,16 @@ def parse_values(words: Iterable[str]) -> dict[str, Any]:
             raise UsageError(
                 f"{one_line(name, MAX_SHOWN)} must be given once, got it more than once"
             )
-        values[name] = _value(text)
+        values[name] = _value(name, text)
     return values
 
 
-def _value(text: str) -> Any:
-    """Return a number, a list of numbers, or else the text itself."""
+def _value(name: str, text: str) -> Any:
+    """Return a number in SI units, a list of numbers, or else the text itself."""
+    if not (text.startswith("[") or "," in text):
+        return read_value(name, text)
     try:
-        if text.startswith("[") or "," in text:
-            return [float(part) for part in plain(text).strip("[]").split(",")]
-        return float(plain(text))
+        return [float(part) for part in plain(text).strip("[]").split(",")]
     except ValueError:
         return text
 

@@ -31,6 +31,11 @@ def make_parser() -> argparse.ArgumentParser:
     for command in ("record", "clamp"):
         parsers[command].add_argument("switch", choices=("on", "off"))
     parsers["state"].add_argument("--json", action="store_true", help="as JSON in one line")
+    commands.add_parser(
+        "body",
+        help="a top of parts: disc:170g,5.5cm,10.5cm point:0.9kg,-25.3cm (mass, size, distance "
+        "from the pivot), or a name such as bicycle_wheel",
+    ).add_argument("parts", nargs="+", metavar="PART")
     commands.add_parser("resume", help="continue the motion from where it stopped")
     commands.add_parser("keys", help="send requests by single keys: hurry, delay, pause, push")
     commands.add_parser("watch", help="show the motion in a line that is updated").add_argument(

@@ -36,7 +36,7 @@ from symtop_ros.physics.kicks import (
 )
 from symtop_ros.physics.motion import Motion, find_period
 from symtop_ros.physics.motions import Motions
-from symtop_ros.physics.parts import Part
+from symtop_ros.physics.parts import BODIES, SIZES, Part
 from symtop_ros.physics.potential import EffectivePotential
 from symtop_ros.physics.precession import (
     FrameTorques,
@@ -57,6 +57,8 @@ from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 
 __all__ = [
+    "BODIES",
+    "SIZES",
     "HOLDS",
     "MOST_PUSHES",
     "PUSH_RATES",

@@ -61,3 +61,15 @@ class Part:
         flag("spins", self.spins)
         condition = f"true for a {self.kind}, which has a moment about the axle"
         require(self.spins or self.kind in WITHOUT_SPIN, "spins", condition, self.spins)
+
+
+# The bodies of a class, as it can weigh and measure them.
+BODIES: dict[str, tuple[Part, ...]] = {
+    "disc_on_axle": (Part("disc", mass=0.17, distance=0.105, size=0.055),),
+    "hoop": (Part("hoop", mass=3.0, distance=0.6, size=0.4),),
+    "bicycle_wheel": (Part("hoop", mass=5.5, distance=0.17, size=0.591),),
+    "balanced_gyroscope": (
+        Part("disc", mass=1.7, distance=0.141, size=0.127),
+        Part("point", mass=0.9, distance=-0.253, spins=False),
+    ),
+}

@@ -13,23 +13,10 @@ from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import LARGEST_MOMENT, validate_number, validate_one
 from symtop_ros.refusals import RefusedError, Words, refuse
+from symtop_ros.units import QUANTITIES
 
 # The names of each question, in the order of the kernel, by what a caller gives in any order.
 ROWS = {frozenset(each.split()): tuple(each.split()) for each in QUESTIONS}
-UNITS = {
-    "theta": "rad",
-    "psi_dot": "rad/s",
-    "precession_period": "s",
-    "dip": "rad",
-    "nutation_period": "s",
-    "energy": "J",
-    "p_phi": "N m s",
-    "p_psi": "N m s",
-    "alpha": "1/s^2",
-    "a": "1/s",
-    "b": "1/s",
-}
-
 
 @dataclass(frozen=True, slots=True)
 class Solution:
@@ -116,7 +103,7 @@ def solve_start(top: Top, **known: float) -> tuple[Solution, ...]:
     if names is None:
         rows = " / ".join(", ".join(each) for each in ROWS.values())
         raise refuse("known", f"one of {rows}", Words(", ".join(known) or "nothing"))
-    numbers = [validate_number(name, known[name], UNITS[name]) for name in names]
+    numbers = [validate_number(name, known[name], QUANTITIES[name]) for name in names]
     found = door.solve_start(top.moments, [*ROWS.values()].index(names), numbers)
     if found.number == 0:
         raise _refuse(top, names, numbers, found)
@@ -137,9 +124,9 @@ def _refuse(
     if demand == "weight":
         return refuse("Mgl", "other than 0 J: without weight the axis stays at rest", top.Mgl)
     name, value = names[int(found.which)], numbers[int(found.which)]
-    unit = UNITS[name]
+    unit = QUANTITIES[name]
     others = " and ".join(
-        f"{each} = {number:.6g} {UNITS[each]}"
+        f"{each} = {number:.6g} {QUANTITIES[each]}"
         for each, number in zip(names, numbers, strict=True)
         if each != name
     )

@@ -211,6 +211,7 @@ def summarize_motion(motion: Motion, state: State) -> dict[str, Any]:
         "nutation_period": free.nutation_period,
         "mean_precession_rate": free.mean_precession_rate,
         "precession_period": free.precession_period,
+        "rounding_shows_at": free.rounding_shows_at,
         "mean_spin_rate": free.mean_spin_rate,
         "precession_per_nutation": free.precession_per_nutation,
         "nutation_rate": free.nutation_rate,

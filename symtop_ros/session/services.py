@@ -20,7 +20,10 @@ class Service(NamedTuple):
 
 SERVICES: dict[str, Service] = {
     "set_initial_conditions": Service(
-        "named", "start", "restart: theta=0.5 psi_dot=200 precession=slow ..."
+        "named",
+        "start",
+        "restart: theta=0.5 psi_dot=1900rpm precession=slow ..., or from what is seen: theta=90deg "
+        "precession_period=2.2s",
     ),
     "kick": Service(
         "named", "kick", "precession_rate=9 hold=spin_momentum, or angular_impulse=0,0,1e-4"

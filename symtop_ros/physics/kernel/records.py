@@ -293,6 +293,7 @@ class AverageRecord(Structure):
 
     _fields_: ClassVar = [
         ("rate", c_double),
+        ("precession_period", c_double),
         ("turns", c_double),
         ("fast_top_rate", c_double),
         ("is_fast", c_int),

@@ -446,6 +446,7 @@ typedef struct {
 
 typedef struct {
   double rate;          /* mean phi' in rad/s; NaN if undefined */
+  double precession_period; /* s, of one turn at that rate; infinite if it is 0 */
   double turns;         /* precession in a nutation */
   double fast_top_rate; /* Mgl/p_psi; NaN if p_psi = 0 */
   int is_fast;          /* 1 if p_psi^2 > 4 Ix |Mgl|, Mgl not 0, and that is within 30 % of rate */

@@ -129,6 +129,8 @@ class Average:
     ----------
     rate : float
         Mean phi' in rad/s.
+    precession_period : float or None
+        Time of one turn at that rate in s; None if it is 0.
     turns : float
         Turns of the precession in a nutation.
     speed : {"fast", "slow"}
@@ -141,6 +143,7 @@ class Average:
     """
 
     rate: float
+    precession_period: float | None
     turns: float
     speed: Literal["fast", "slow"]
     fast_top_rate: float
@@ -305,6 +308,7 @@ def read_average(found: AverageRecord) -> Average | None:
         return None
     return Average(
         found.rate,
+        found.precession_period if found.rate else None,
         found.turns,
         "fast" if found.is_fast else "slow",
         found.fast_top_rate,

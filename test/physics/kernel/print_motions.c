@@ -104,7 +104,7 @@ static void print_verdict(const symtop_verdict* v) {
       v->subject, v->direction, v->turning_angles[0], v->turning_angles[1], v->motion,
       r->kind, r->rule, r->before, r->after, r->theta_ddot_without, r->theta_ddot,
       r->place.kind, r->place.rate, r->place.regular_rates[0], r->place.regular_rates[1],
-      v->average.rate, v->average.turns, v->average.fast_top_rate, v->average.is_fast,
+      v->average.rate, v->average.precession_period, v->average.turns, v->average.fast_top_rate, v->average.is_fast,
       v->average.spin_reverses, c->explanation, c->turn, c->pace, c->torque_share,
       c->rate_about_momentum, c->torque_from_perpendicular[0], c->torque_from_perpendicular[1],
       c->momentum_from_axle[0], c->momentum_from_axle[1], c->momentum_from_axle[2], c->omega_from_axle[0],

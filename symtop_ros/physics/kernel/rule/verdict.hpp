@@ -142,10 +142,11 @@ inline symtop_average find_average(const symtop_start& s, GravityMotion& motion)
   const double rate = rates.mean_precession_rate, slow = p_psi != 0 ? s.Mgl / p_psi : NAN;
   const bool is_fast = s.Mgl != 0 && std::fabs(s.angular_velocity[2]) > least &&
                        std::fabs(rate - slow) <= LIKE_A_FAST_TOP * std::fabs(slow);
-  return {rate, rates.precession_per_nutation, slow, is_fast, rates.spin_reverses};
+  const double turn = rate != 0 ? 2 * PI / std::fabs(rate) : INFINITY;
+  return {rate, turn, rates.precession_per_nutation, slow, is_fast, rates.spin_reverses};
 }
 
-inline symtop_average leave_average() { return {NAN, NAN, NAN, 0, 0}; }
+inline symtop_average leave_average() { return {NAN, NAN, NAN, NAN, 0, 0}; }
 
 // Direction, turning angles and averages of what follows from a start.
 inline symtop_verdict describe_course(const Instant& now, GravityMotion& motion) {

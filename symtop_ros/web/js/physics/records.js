@@ -188,6 +188,7 @@ export const RECORDS = {
   ],
   average: [
     ["double", "rate"],
+    ["double", "precession_period"],
     ["double", "turns"],
     ["double", "fast_top_rate"],
     ["flag", "is_fast"],

@@ -20,8 +20,11 @@ const readReason = ({ subject, reason: { kind, rule, place, ...numbers } }, held
 };
 
 /** @param {Found} average */
-const readAverage = ({ is_fast, ...average }) =>
-  Number.isFinite(average.turns) ? { ...average, speed: is_fast ? "fast" : "slow" } : null;
+const readAverage = ({ is_fast, precession_period, ...average }) => {
+  if (!Number.isFinite(average.turns)) return null;
+  const turn = Number.isFinite(precession_period) ? precession_period : null;
+  return { ...average, precession_period: turn, speed: is_fast ? "fast" : "slow" };
+};
 
 /** Why the axis moves as it does; without numbers for a driven motion. @param {Found} cause @param {string} subject */
 const readCause = ({ torque_share, rate_about_momentum: rate, ...cause }, subject) => {
