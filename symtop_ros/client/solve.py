@@ -8,7 +8,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from symtop_ros.client.connection import Connection
-from symtop_ros.refusals import refuse, require
+from symtop_ros.refusals import refuse, require, validate_names
 from symtop_ros.session.services import Response
 from symtop_ros.units import parse_quantity
 
@@ -20,7 +20,7 @@ SEEN = frozenset(
     ("precession_period", "dip", "nutation_period", "energy", "p_phi", "p_psi", "alpha", "a", "b")
 )
 KNOWN = SEEN | {"theta", "psi_dot"}  # of which a question is made
-GRAVITY = "gravity="
+MEASURED = {"gravity": "m/s^2", "Ix": "kg m^2", "Iz": "kg m^2"}  # Ix about the pivot
 UNITS = {"mass": "kg", "size": "m", "distance": "m"}
 
 
@@ -83,17 +83,15 @@ def describe_body(body: "Body") -> str:
 
 
 def make_body(words: list[str]) -> "Body":
-    """Return the body of words KIND:MASS,SIZE,DISTANCE, or of its name, and of `gravity=`."""
+    """Return the body of parts, or of its name, with `gravity=`, and Ix and Iz as measured."""
     from symtop_ros.physics import STANDARD_GRAVITY, Body
 
-    gravity = STANDARD_GRAVITY
-    parts: list[Part] = []
-    for word in words:
-        if word.startswith(GRAVITY):
-            gravity = parse_quantity("gravity", word.removeprefix(GRAVITY), "m/s^2")
-        else:
-            parts += read_parts(word)
-    return Body.of_parts(parts, gravity)
+    texts = dict(word.split("=", 1) for word in words if "=" in word)
+    validate_names(texts, MEASURED, "name")
+    given = {name: parse_quantity(name, texts[name], MEASURED[name]) for name in texts}
+    gravity = given.pop("gravity", STANDARD_GRAVITY)
+    parts = [part for word in words if "=" not in word for part in read_parts(word)]
+    return Body.of_parts(parts, gravity, given.get("Ix"), given.get("Iz"))
 
 
 def read_parts(word: str) -> "tuple[Part, ...]":

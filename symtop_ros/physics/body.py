@@ -146,7 +146,13 @@ class Body:
         return cls.of_parts([Part("disc", mass, distance, radius)], gravity)
 
     @classmethod
-    def of_parts(cls, parts: Iterable[Part], gravity: float = STANDARD_GRAVITY) -> "Body":
+    def of_parts(
+        cls,
+        parts: Iterable[Part],
+        gravity: float = STANDARD_GRAVITY,
+        Ix: float | None = None,
+        Iz: float | None = None,
+    ) -> "Body":
         """Return the body that parts on an axle without mass make.
 
         Parameters
@@ -156,6 +162,9 @@ class Body:
             disc and of a solid ball; Steiner's theorem adds them.
         gravity : float
             Acceleration of gravity in m/s^2, > 0.
+        Ix, Iz : float, optional
+            Moments of inertia about the pivot in kg m^2 as they were measured, instead of those of
+            the parts: then one point may stand for a body.
 
         Raises
         ------
@@ -180,7 +189,9 @@ class Body:
         kinds = [PART_KINDS.index(each.kind) for each in given]
         numbers = [(each.mass, each.size, each.distance) for each in given]
         found = door.find_body(kinds, numbers)
-        return cls(found.mass, found.arm, found.Ix, found.Iz, gravity)
+        if Ix is None:
+            return cls(found.mass, found.arm, found.Ix, found.Iz if Iz is None else Iz, gravity)
+        return cls.about_pivot(found.mass, found.arm, Ix, found.Iz if Iz is None else Iz, gravity)
 
     @classmethod
     def of(cls, top: Top, gravity: float = STANDARD_GRAVITY) -> "Body":

@@ -7,11 +7,13 @@ import pytest
 from drawn import Numbers, normalize
 from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS, DISC, EPS, Case, follow_exactly, random_states, turn
+from trials import seeds
 
-from symtop_ros.physics import Body, Friction, Motion, State, Top
+from symtop_ros.physics import BODIES, Body, Friction, Motion, Part, State, Top
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY, point_acceleration
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.precession import theta_acceleration, theta_torque
+from symtop_ros.refusals import RefusedError
 from workshop.digits import ClosedForm
 from workshop.testset.exact import DIGITS
 
@@ -153,3 +155,53 @@ def test_theta_acceleration_is_the_articles(top):
     # without sin(theta)/Ix, which the product takes back to a few roundings
     torque = theta_torque(top, theta, rates.phi, rates.psi)
     assert found == pytest.approx(np.sin(theta) / Ix * torque, rel=4 * EPS)
+
+
+SHARES = {"point": (0, 0), "rod": (12, 0), "hoop": (2, 1), "disc": (4, 2), "ball": (2.5, 2.5)}
+
+
+def draw_parts(rng):
+    """Return some parts; some of them are on the other side of the pivot."""
+    parts = []
+    for _ in range(rng.randint(1, 5)):
+        kind = rng.choice([*SHARES])
+        size = 0.0 if kind == "point" else rng.power(-3, 0)
+        place = rng.uniform(-1, 1)
+        parts.append(Part(kind, rng.power(-3, 1), place, size, spins=kind != "point"))
+    return [*parts, Part("disc", rng.power(-3, 1), rng.uniform(-1, 1), rng.power(-3, 0))]
+
+
+@pytest.mark.parametrize("seed", seeds(200, 5000))
+def test_a_body_has_the_moments_of_its_parts_by_steiners_theorem(seed):
+    parts = draw_parts(Numbers(f"parts {seed}"))
+    body = Body.of_parts(parts, gravity=9.80)
+    with mp.workdps(40):
+        mass = sum(mpf(each.mass) for each in parts)
+        levers = [mpf(each.mass) * mpf(each.distance) for each in parts]
+        Ix = Iz = mpf(0)
+        for each in parts:
+            square = mpf(each.mass) * mpf(each.size) ** 2
+            across, along = SHARES[each.kind]
+            Ix += (square / across if across else 0) + mpf(each.mass) * mpf(each.distance) ** 2
+            Iz += square / along if along else 0
+    rounding = 2 * (len(parts) + 4) * EPS  # of sums of so many terms, each of some products
+    # The moment about the pivot is a sum of squares, of which none is subtracted.
+    assert body.top.Ix == pytest.approx(float(Ix), rel=rounding)
+    assert body.top.Iz == pytest.approx(float(Iz), rel=rounding)
+    assert body.mass == pytest.approx(float(mass), rel=rounding)
+    reach = float(sum(map(abs, levers))) * 9.80
+    assert abs(body.top.Mgl - float(sum(levers)) * 9.80) <= rounding * reach
+
+
+def test_bodies_of_the_classroom_are_tops():
+    for parts in BODIES.values():
+        assert Body.of_parts(parts).top.Ix > 0
+    disc, weight = BODIES["balanced_gyroscope"]
+    assert not weight.spins and disc.spins
+
+
+@pytest.mark.parametrize("kind", ["hoop", "disc", "ball"])
+def test_a_part_that_is_held_must_have_no_moment_about_the_axle(kind):
+    with pytest.raises(RefusedError, match=f"spins must be true for a {kind}, which has a moment"):
+        Part(kind, 1.0, -0.5, 0.1, spins=False)
+    assert not Part("rod", 1.0, -0.5, 0.1, spins=False).spins
