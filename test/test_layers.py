@@ -9,7 +9,17 @@ from documents import ROOT
 
 PACKAGE = ROOT / "symtop_ros"
 # Files of the package itself.
-TOP = {"__init__", "__main__", "arrays", "command", "missing", "programs", "refusals", "shutdown", "units"}
+TOP = {
+    "__init__",
+    "__main__",
+    "arrays",
+    "command",
+    "missing",
+    "programs",
+    "refusals",
+    "shutdown",
+    "units",
+}
 # Folder -> folders and files of the package | other packages. Each entry is exact: an import that
 # is missing here fails, and so does an entry that is not used.
 TABLE = {
@@ -21,7 +31,7 @@ TABLE = {
     "simulation": "__init__ physics wire wording | numpy scipy yaml",
     "log": "__init__ simulation wire | lz4 mcap numpy zstandard",
     # the page as one file
-    "web": "__init__ simulation wording | yaml",
+    "web": "__init__ physics simulation wording | yaml",
     # of session what it says of a motion
     "check": "__init__ log models physics session simulation wire | mcap numpy",
     # of session the log that a node would have written of a run of the page
@@ -29,7 +39,7 @@ TABLE = {
     "session": "__init__ log missing models physics simulation wire wording | numpy",
     "node": "__init__ command physics session shutdown simulation wire | "
     "geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces std_srvs",
-    # of session only the table of services, which imports nothing; physics where it is asked to solve
+    # of session only the table of services, which imports nothing; physics only in solve.py
     "client": "command physics session shutdown wire | rcl_interfaces rclpy sensor_msgs std_srvs",
     "live": "command log playback shutdown simulation wire | rclpy rerun",
     # client, live and rclpy: only in bridge.py, which main.py imports for --node

@@ -19,9 +19,6 @@ def test_decimal_parts_are_rounded_once():
 
 @pytest.mark.parametrize("text", ["", "s", "3 kg", "1_0", "1 s s", "nan s", "--1", "1e", "2,2 s"])
 def test_any_other_text_is_refused_with_the_units(text):
-    if text == "nan s":
-        pytest.raises(RefusedError, parse_quantity, "t", text, "s")
-        return
     with pytest.raises(RefusedError, match="t must be a number in s, ms or min, got "):
         parse_quantity("t", text, "s")
 

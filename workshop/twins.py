@@ -1,21 +1,26 @@
-"""The twins of symtop.h, for Python's ctypes and for the page: python -m workshop.twins.
+"""The twins of symtop.h and of the units, for Python and the page: python -m workshop.twins.
 
-Enums, records and functions are defined in the header alone; the two files that this writes say the
-same in other languages. A test fails if they are not current. The name of an enumerator is that in
-quotes at the head of its comment ("" for one without a name), or else its own in small letters.
+Enums, records and functions are defined in the header alone, units that may be typed in
+symtop_ros/units.py; the files that this writes say the same in other languages. A test fails if
+they are not current. The name of an enumerator is that in quotes at the head of its comment ("" for
+one without a name), or else its own in small letters.
 """
 
+import json
 import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+
+from symtop_ros.units import QUANTITIES, UNITS
 
 PACKAGE = Path(__file__).parents[1] / "symtop_ros"
 KERNEL = PACKAGE / "physics/kernel"
 HEADER = KERNEL / "symtop.h"
 LIBRARY = KERNEL / "functions/library.hpp"  # what only ctypes calls
 PYTHON, PAGE = KERNEL / "records.py", PACKAGE / "web/js/physics/records.js"
+UNITS_OF_PAGE = PACKAGE / "web/js/words/units.js"
 WIDTH = 100
 NUMBERED = ("status",)  # enums that Python and the page know by their numbers
 NAMELESS = re.compile("UNKNOWN_|KINDS_OF_")  # enumerators that are no names of anything
@@ -252,10 +257,52 @@ def _write_fields(name: str, fields: Sequence[Field]) -> Iterator[str]:
     yield "  ],"
 
 
+def write_units() -> str:
+    """Return the units for the page, by the unit of SI."""
+    lines = [
+        "// Units that people type, each in that of SI, which comes first.",
+        "//",
+        "// Written by `python -m workshop.twins`: change symtop_ros/units.py, and not this file.",
+        "",
+        "/** @type {{[unit: string]: {[name: string]: number}}} */",
+        "export const UNITS = {",
+        *(_write_sizes(*each) for each in UNITS.items()),
+        "};",
+        "",
+        "/** The unit of SI of what has a name. @type {{[name: string]: string}} */",
+        "export const QUANTITIES = {",
+        *(f'  {name}: "{unit}",' for name, unit in QUANTITIES.items()),
+        "};",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def _write_sizes(unit: str, sizes: Mapping[str, float]) -> str:
+    parts = [f"{_quote(name)}: {_write_size(size)}" for name, size in sizes.items()]
+    line = f"  {_quote(unit)}: {{ {', '.join(parts)} }},"
+    if len(line) <= WIDTH:
+        return line
+    return f"  {_quote(unit)}: {{\n" + "".join(f"    {part},\n" for part in parts) + "  },"
+
+
+def _write_size(size: float) -> str:
+    """Return a number as JavaScript is formatted: 1, 0.5, 1e-7."""
+    return repr(size).removesuffix(".0").replace("e-0", "e-")
+
+
+def _quote(name: str) -> str:
+    return name if name.isidentifier() else json.dumps(name, ensure_ascii=False)
+
+
 def list_twins() -> dict[Path, str]:
     """Return what each of the files must contain."""
     header = read_header()
-    return {PYTHON: write_python(header), PAGE: write_page(header)}
+    return {
+        PYTHON: write_python(header),
+        PAGE: write_page(header),
+        UNITS_OF_PAGE: write_units(),
+    }
 
 
 def main() -> int:

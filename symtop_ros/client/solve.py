@@ -42,7 +42,9 @@ def start_solved(top: Connection, values: dict[str, Any]) -> Response:
     require(chosen in numbers, "solution", f"one of {', '.join(map(str, numbers))}", chosen)
     start = found[int(chosen) - 1]
     rates = {name: getattr(start, name) for name in ("theta_dot", "phi_dot", "psi_dot")}
-    granted, answer = top.request("set_initial_conditions", {**rates, "theta": start.theta, **others})
+    granted, answer = top.request(
+        "set_initial_conditions", {**rates, "theta": start.theta, **others}
+    )
     listed = [f"{number}: {describe(each)}" for number, each in zip(numbers, found, strict=True)]
     return granted, "\n".join([*listed, answer]) if granted else answer
 

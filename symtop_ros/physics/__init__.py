@@ -58,10 +58,10 @@ from symtop_ros.physics.top import Friction, Top
 
 __all__ = [
     "BODIES",
-    "SIZES",
     "HOLDS",
     "MOST_PUSHES",
     "PUSH_RATES",
+    "SIZES",
     "STANDARD_GRAVITY",
     "Angles",
     "Balance",

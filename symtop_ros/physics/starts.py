@@ -18,6 +18,7 @@ from symtop_ros.units import QUANTITIES
 # The names of each question, in the order of the kernel, by what a caller gives in any order.
 ROWS = {frozenset(each.split()): tuple(each.split()) for each in QUESTIONS}
 
+
 @dataclass(frozen=True, slots=True)
 class Solution:
     """A start with phi = psi = 0: tilt in rad, and rates in rad/s.

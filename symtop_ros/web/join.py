@@ -18,6 +18,7 @@ from typing import Any
 import yaml
 
 from symtop_ros import __version__
+from symtop_ros.physics import BODIES, Part
 from symtop_ros.simulation.presets import describe_scenes, scene_names
 from symtop_ros.simulation.run_file import TABLE
 from symtop_ros.simulation.settings import Settings
@@ -99,8 +100,14 @@ def collect_content() -> dict[str, Any]:
         "texts": {language: read_texts(language) for language in LANGUAGES},
         "scenes": [{"name": name, **_read_values(name)} for name in scene_names()],
         "run_fields": TABLE,
+        "bodies": {name: list(map(_list_part, parts)) for name, parts in BODIES.items()},
         "lesson": [_read_step(step) for step in read_steps()],
     }
+
+
+def _list_part(part: Part) -> dict[str, Any]:
+    """Return what the page has of a part."""
+    return {name: getattr(part, name) for name in ("kind", "mass", "size", "distance")}
 
 
 def _read_step(step: Mapping[str, Any]) -> dict[str, Any]:

@@ -24,7 +24,9 @@ window.judgeCases = async (cases) => {
   const { Course } = await import("/physics/course.js");
   const { State } = await import("/physics/state.js");
   const { judge, judgeKick } = await import("/words/verdict.js");
-  const { findConstants, findFrameTorques, findPotential } = await import("/physics/formulas.js");
+  const { findConstants, findFrameTorques, findPivotForce, findPotential } = await import(
+    "/physics/formulas.js"
+  );
   return cases.map(({ top, angles, rates, kick }) => {
     const state = State.fromEuler(kernel, angles, rates);
     const course = new Course(kernel, top, state);
@@ -50,6 +52,7 @@ window.judgeCases = async (cases) => {
         world: state.toWorld(state.omega),
         torques: Object.values(findFrameTorques(top, theta, phi, psi)),
         constants: Object.values(findConstants(top, state)),
+        pivot: Object.values(findPivotForce(top, state, 2.0)),
         potential: [...[0.3, 1.0, 2.5].map((tilt) => potential.at(tilt)), potential.energy],
       },
     });

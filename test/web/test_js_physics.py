@@ -95,8 +95,23 @@ def draw_in_python(top, state):
         "world": (state.to_world(state.angular_velocity).tolist(), 2 * fastest),
         "torques": ([*map(float, torques), float(torques.total)], torque),
         "constants": ([*constants_of_motion(top, state).values()], max(energy, momentum)),
+        "pivot": find_pivot_force(top, state, fastest),
         "potential": ([*heights, potential.energy], max(map(abs, heights)) + energy),
     }
+
+
+MASS = 2.0  # kg, of the body whose pivot is asked
+
+
+def find_pivot_force(top, state, fastest):
+    """Return the size of the force and its part along the vertical, and the size of its terms."""
+    gravity = physics.STANDARD_GRAVITY
+    arm = (0.0, 0.0, top.Mgl / (MASS * gravity))
+    felt = physics.specific_force(physics.Motion(top, state), state, arm, gravity)
+    force = MASS * state.to_world(felt)
+    turning = fastest * fastest * (1 + top.Iz / top.Ix) + abs(top.Mgl) / top.Ix
+    terms = abs(top.Mgl) / gravity * turning + MASS * gravity
+    return [math.hypot(*force), float(force[2])], 4 * terms
 
 
 def to_json(value):

@@ -7,7 +7,7 @@ import pytest
 from simulation.page_runs import to_json
 from web.opened import find_time, read_motion, read_state
 
-from symtop_ros.physics import Body, ExactTimes, Motion, Pushes, Top, apply_impulse
+from symtop_ros.physics import ExactTimes, Motion, Pushes, Top, apply_impulse
 from symtop_ros.simulation.changes.outcomes import Pushed
 from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.presets import scene_names
@@ -100,21 +100,6 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened, tmp_path):
     after = apply_impulse(Top(*up["top"]), before, up["act"]["angular_impulse"])
     assert up["angular_velocity"] == after.angular_velocity.tolist()
     assert after.euler_rates.theta - before.euler_rates.theta == pytest.approx(-1.0, rel=1e-12)
-
-
-def test_a_disc_on_an_axle_is_that_of_python(opened):
-    opened.open_tab("start")
-    fields = [f"[id='field-disc.{name}']" for name in ("mass", "radius", "distance")]
-    shown = [float(opened.tab.input_value(field)) for field in fields]
-    article = Body.disc(*shown).top
-    assert article.moments == pytest.approx((0.000228, 0.0000572, 0.068), rel=1e-5)  # six digits
-    opened.follow("scene=toy_gyroscope")
-    opened.enter("disc.mass", "0.08")
-    expected = Body.disc(0.08, 0.026, 0.035).top.moments
-    assert opened.read_events()[-1]["top"] == pytest.approx(expected, rel=1e-14)
-    opened.enter("disc.radius", "0")
-    assert opened.say("refusal").startswith("its radius (m) must be positive")
-    assert len(opened.read_events()) == 3
 
 
 SECOND = 1_000_000_000

@@ -15,9 +15,11 @@ import { drawLedger } from "./charts/ledger_chart.js";
 import { NANO } from "./physics/course.js";
 import { inDegrees } from "./words/quantities.js";
 import { Question, readAnswer } from "./controls/question.js";
+import { Parts } from "./controls/parts.js";
 import { Roots } from "./controls/roots.js";
 import { offerScenes } from "./controls/scenes.js";
 import { drawScene } from "./scene/picture.js";
+import { Seen } from "./controls/seen.js";
 import { SpeedList } from "./controls/speed.js";
 import { offerTabs } from "./controls/tabs.js";
 import { Timeline } from "./controls/timeline.js";
@@ -44,6 +46,9 @@ export class Page {
     offerTabs();
     this.fields = new Fields(send);
     this.roots = new Roots(send);
+    this.seen = new Seen(send);
+    /** @type {Parts | null} */
+    this.parts = null; // until the top has sent the bodies of the classroom
     this.speeds = new SpeedList((factor) => send({ act: "speed", factor }));
     this.timeline = new Timeline((time) => send({ act: "seek", time }));
     this.layers = new Layers(send);
@@ -107,20 +112,23 @@ export class Page {
 
   /** Show what the top tells. @param {Message} message */
   receive(message) {
-    const { hello, facts, motion, now, samples, refused, granted, said, lost } = message;
+    const { hello, facts, motion, now, samples, refused, granted, said, lost, solved } = message;
     if (hello) this.greet(hello);
     if (facts) this.showFacts(facts);
     if (motion && this.facts) this.showMotion({ ...this.facts, ...motion }, false);
     if (now) this.showNow(now);
     if (samples) this.showFrame(message);
+    if (solved) this.seen.show(solved);
     if (refused) refuse(this.fields.markRefused(refused), message.isOfData);
     if (granted) this.fields.grant();
     if (said) refuse(said);
     if (lost !== undefined) showLoss(lost);
   }
 
-  /** @param {Message} hello scenes, layers and the steps of the lesson */
-  greet({ scenes, layers, lesson: steps }) {
+  /** @param {Message} hello scenes, layers, the steps of the lesson and bodies */
+  greet({ scenes, layers, lesson: steps, bodies }) {
+    this.parts = new Parts(this.send.bind(this), bodies);
+    if (this.facts) this.showParts(this.facts);
     this.tellStory = offerScenes(scenes, (name) => this.send({ act: "scene", name }));
     this.layers.offer(layers);
     this.lesson = new Lesson(steps, this.send.bind(this), (step) => this.prepare(step.layers));
@@ -192,11 +200,20 @@ export class Page {
     find("link", HTMLInputElement).value = `${location.href.split("#")[0]}#${facts.link}`;
     this.showHistory(facts.histories[inDegrees() ? "degrees" : "radians"]);
     this.fields.show(facts);
+    this.showParts(facts);
     this.lesson?.follow(facts);
     say("impulses-title", facts.impulses);
     find("impulses-chart").hidden = facts.isHeld;
     for (const [name, text] of Object.entries(facts.outlooks)) say(`outlook-${name}`, text);
     showLedger(facts.ledger, facts.energies);
+  }
+
+  /** @param {Facts} facts */
+  showParts(facts) {
+    if (!this.parts || !this.top) return;
+    const { kernel } = this.top;
+    this.parts.show(facts, (parts) => kernel.findBody(parts));
+    this.charts.mass = this.parts.mass;
   }
 
   /** Show what follows the motion. @param {Facts} facts @param {boolean} isAct that is announced */

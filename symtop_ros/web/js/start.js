@@ -19,7 +19,7 @@ import { setTemplates } from "./words/wording.js";
  * fields of a run; what it opens as the end of an address does; a run, if one was saved; and the name of
  * a node, if it shows one.
  * @typedef {{kernel: string, texts: {[language: string]: {[key: string]: string}}, scenes: any[],
- *   lesson: any[], run_fields: import("./run/reader.js").Table, opening?: string, run?: any,
+ *   lesson: any[], bodies: {[name: string]: import("./physics/kernel.js").Part[]}, run_fields: import("./run/reader.js").Table, opening?: string, run?: any,
  *   node?: string}} Content
  */
 

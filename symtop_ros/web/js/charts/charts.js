@@ -35,7 +35,7 @@ export class Charts {
     };
     /** @type {Draw} */
     this.write = guard("tables", ({ table }, samples) => {
-      showConstants(table, last(samples));
+      showConstants(table, last(samples), this.mass);
       free.write(samples);
     });
     for (const [name, draw] of Object.entries(this.all)) this.all[name] = guard(name, draw);
@@ -43,6 +43,7 @@ export class Charts {
     this.seen = new Set();
     /** Those that are still to be drawn. @type {string[]} */
     this.waiting = [];
+    this.mass = NaN; // kg, of the body that the top is
     this.isComplete = false; // each has been drawn once, and has its height
     const observer = new IntersectionObserver((changes) => changes.forEach(this.follow, this));
     for (const place of findAll("[data-chart]")) observer.observe(place);

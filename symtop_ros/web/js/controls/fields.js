@@ -6,14 +6,8 @@
 import { NAMES } from "../physics/records.js";
 import { findAll, make, whenReleased, write } from "./document.js";
 import { refuse } from "./notices.js";
-import {
-  angleUnit,
-  findReadings,
-  inDegrees,
-  parseQuantity,
-  shorten,
-  UNITS,
-} from "../words/quantities.js";
+import { angleUnit, findReadings, inDegrees, parseQuantity, shorten } from "../words/quantities.js";
+import { UNITS } from "../words/units.js";
 import { phrase } from "../words/wording.js";
 
 /**
@@ -33,9 +27,6 @@ const FIELDS = {
   "top.Ix": { isPositive: true },
   "top.Iz": { isPositive: true },
   "top.Mgl": {},
-  "disc.mass": { isPositive: true },
-  "disc.radius": { isPositive: true },
-  "disc.distance": {},
   ...Object.fromEntries(FRICTION.map((name) => [`friction.${name}`, { isNotNegative: true }])),
 };
 /** @type {{[key: string]: number}} */
@@ -76,10 +67,10 @@ class Entry {
   /** Units that may be typed: those of an angle or a rate, or that of the label. */
   get units() {
     const { isAngle, isRate } = this.field;
-    if (isAngle) return UNITS.angle;
-    if (isRate) return UNITS.rate;
+    if (isAngle) return UNITS.rad;
+    if (isRate) return UNITS["rad/s"];
     const own = this.title.match(/\((.+)\)$/)?.[1];
-    return own ? { [own]: 1 } : {};
+    return own ? (UNITS[own.replace("\u00b2", "^2")] ?? { [own]: 1 }) : {};
   }
 
   followText() {

@@ -1,5 +1,7 @@
 // Formulas of what is drawn and tabled, in doubles: curves, bars, arrows, and constants of a motion.
 
+import { GRAVITY } from "./kernel.js";
+
 /** @import { State } from "../physics/state.js" */
 /** @import { Top } from "../physics/kernel.js" */
 /**
@@ -39,6 +41,27 @@ export const findConstants = ({ Ix, Iz, Mgl }, state) => {
     L_z: Iz * z,
     "L_z'": Ix * x * gx + Ix * y * gy + Iz * z * gz,
   };
+};
+
+/** The least |psi'| at which the top sleeps upright; 0 if every one will do. @param {Top} top */
+export const findCriticalSpin = ({ Ix, Iz, Mgl }) =>
+  (2 * Math.sqrt(Ix) * Math.sqrt(Math.max(Mgl, 0))) / Iz;
+
+/**
+ * The force of the pivot on a top on which only its weight acts, in N: its size, and its part along the
+ * vertical. It is M (a + g), with the acceleration of the end of the arm by Euler's equations.
+ * @param {Top} top @param {State} state @param {number} mass in kg
+ */
+export const findPivotForce = ({ Ix, Iz, Mgl }, state, mass) => {
+  const [x, y, z] = state.omega;
+  const [gx, gy, gz] = state.vertical;
+  // Iz omega_z of each acceleration across the axis, and what the weight gives.
+  const across = (/** @type {number} */ rate, /** @type {number} */ g) =>
+    (Mgl / GRAVITY) * ((Iz / Ix) * z * rate - (Mgl / Ix) * g) + mass * GRAVITY * g;
+  const along = mass * GRAVITY * gz - (Mgl / GRAVITY) * (x * x + y * y);
+  const force = [across(x, gx), across(y, gy), along];
+  const upward = force[0] * gx + force[1] * gy + force[2] * gz;
+  return { size: Math.hypot(...force), upward };
 };
 
 /** @param {Top} top @param {State} state @returns {Energies} */

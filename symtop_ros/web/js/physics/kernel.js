@@ -14,7 +14,9 @@ import { NAMES, RECORDS, STATUS } from "./records.js";
  * @typedef {Top & {orientation: number[], angular_velocity: number[], friction?: number[],
  *   torque?: number[], pushes?: Pushes | null, clamped?: boolean}} Start
  */
+/** A part of a body on the axis, in kg and m. @typedef {{kind: string, mass: number, size: number, distance: number}} Part */
 /** Equal pushes: N m s, 1/s, and how many. @typedef {{impulse: number, rate: number, number: number}} Pushes */
+/** @typedef {ArrayLike<number> | Int32Array | BigInt64Array} Numbers */
 /** @typedef {{writes: number | string}} Room for so many doubles, a handle, or a record */
 /** @typedef {{[name: string]: any}} Found a record of symtop.h, with names for the enums */
 
@@ -23,7 +25,7 @@ const LARGEST = 1024; // bytes of a record
 export const NO_FRICTION = NAMES.friction_kind.map(() => 0);
 // The vectors of a start, in the order of symtop_start.
 const LENGTHS = [4, 3, NO_FRICTION.length, 3];
-const GRAVITY = 9.81; // m/s^2, as in Python
+export const GRAVITY = 9.81; // m/s^2, as in Python
 
 /** Reads memory as C has laid it out: all records hold doubles, and begin at multiples of 8. */
 class Reader {
@@ -116,7 +118,7 @@ export class Kernel {
    * Call a function with numbers, arrays and rooms; returns what it writes, a value for each room.
    * What it refuses is a RangeError.
    * @param {string} name
-   * @param {(number | bigint | ArrayLike<number> | BigInt64Array | Room)[]} given
+   * @param {(number | bigint | Numbers | Room)[]} given
    * @returns {any[]}
    */
   call(name, ...given) {
@@ -146,10 +148,11 @@ export class Kernel {
     return new Reader(new DataView(buffer), place).read(type);
   }
 
-  /** @param {ArrayLike<number> | BigInt64Array} numbers @param {number} place */
+  /** @param {Numbers} numbers @param {number} place */
   write(numbers, place) {
     const range = /** @type {const} */ ([this.exports.memory.buffer, place, numbers.length]);
     if (numbers instanceof BigInt64Array) new BigInt64Array(...range).set(numbers);
+    else if (numbers instanceof Int32Array) new Int32Array(...range).set(numbers);
     else new Float64Array(...range).set(numbers);
   }
 
@@ -190,10 +193,35 @@ export class Kernel {
     return [...this.call("find_disc", [Ix, Iz, Mgl], GRAVITY, room(3))[0]];
   }
 
-  /** The top that a flat disc makes. @param {number[]} disc @returns {Top} */
-  findDiscTop(disc) {
-    const [[Ix, Iz, Mgl]] = this.call("find_disc_top", disc, GRAVITY, room(3));
-    return { Ix, Iz, Mgl };
+  /**
+   * The body that parts on an axle make, and the top that it is.
+   * @param {Part[]} parts @returns {{mass: number, arm: number, top: Top}}
+   */
+  findBody(parts) {
+    const kinds = Int32Array.from(parts, ({ kind }) => NAMES.part_kind.indexOf(kind));
+    const numbers = parts.flatMap(({ mass, size, distance }) => [mass, size, distance]);
+    const given = [kinds, numbers, parts.length];
+    const [body] = this.call("find_body", ...given, room("body"), room(1));
+    const { mass, arm, Ix, Iz } = body;
+    const [top] = this.call("find_body_top", [mass, arm, Ix, Iz], GRAVITY, room("top"));
+    return { mass, arm, top };
+  }
+
+  /**
+   * The starts that have what is known of them, or what a number would have to be.
+   * @param {Top} top @param {string} question names of what is known @param {number[]} known
+   * @returns {Found}
+   */
+  solveStart({ Ix, Iz, Mgl }, question, known) {
+    const numbers = [...known, 0].slice(0, 3);
+    const given = [[Ix, Iz, Mgl], NAMES.question.indexOf(question), numbers];
+    const [{ each, number, ...found }] = this.call("solve_start", ...given, room("solutions"));
+    return { ...found, starts: each.slice(0, number) };
+  }
+
+  /** The time in s from which on rounding shows in a motion. @param {number[]} start @returns {number} */
+  findDoubt(start) {
+    return this.call("find_doubt", start, room(1))[0][0];
   }
 
   /**

@@ -13,7 +13,6 @@ import { createStart, describeStart, findScene, readLink, readScene } from "./li
 /** @import { Beginning } from "./links.js" */
 /** @typedef {(top: LocalTop, message: Message) => void} Act */
 
-const DISC = ["mass", "radius", "distance"];
 const PUSH = 1; // rad/s by which a push changes a rate
 const PULL = 0.5; // of sqrt(|Mgl|/Ix): change of the rates by a pull of one scene unit
 const TORQUE_SHARE = 0.0075; // of |Mgl|: the torque of the buttons
@@ -135,8 +134,8 @@ const begin = (top, { top: own, friction, torque, start, clamped = false }, aske
 };
 
 /** @param {LocalTop} top @param {Message} message */
-const startWith = (top, { theta, phi_dot = 0, psi_dot, precession }) => {
-  const numbers = { theta: Number(theta), phi_dot, psi_dot };
+const startWith = (top, { theta, theta_dot = 0, phi_dot = 0, psi_dot, precession }) => {
+  const numbers = { theta: Number(theta), theta_dot, phi_dot, psi_dot };
   const start = createStart(top.kernel, top.course.top, numbers, precession);
   begin(top, { ...present(top), start });
 };
@@ -176,24 +175,27 @@ const restart = (top, { entry }) => {
   begin(top, { ...course, torque: top.run.findSteady(time) }, kind === "start" ? asked : {});
 };
 
-/** @param {import("../physics/kernel.js").Kernel} kernel @param {Top} own @param {string} key @param {number} value */
-const changeDisc = (kernel, own, key, value) => {
-  const disc = kernel.findDisc(own);
-  disc[DISC.indexOf(key)] = value;
-  return kernel.findDiscTop(disc);
-};
-
 /** @param {LocalTop} top @param {Message} message */
 const setParameter = (top, { name, value }) => {
   const [group, key] = name.split(".");
   const friction = [...top.course.friction];
-  let own = { ...top.course.top };
-  if (group === "disc") own = changeDisc(top.kernel, own, key, value);
-  else if (group === "friction") friction[NAMES.friction_kind.indexOf(key)] = value;
+  const own = { ...top.course.top };
+  if (group === "friction") friction[NAMES.friction_kind.indexOf(key)] = value;
   else own[/** @type {keyof typeof own} */ (key)] = value;
   const made_by = { kind: "parameter", name: key, value };
   const { clamped } = top.course;
   top.add("change", top.course.continue(top.state, { top: own, friction, clamped }), { made_by });
+};
+
+/** Another top: that of a body of parts. @type {Act} */
+const takeBody = (top, { parts }) => {
+  const own = top.kernel.findBody(parts).top;
+  top.add("change", top.course.continue(top.state, { top: own, clamped: top.course.clamped }));
+};
+
+/** What starts have what is known of them. @type {Act} */
+const solve = (top, { question, known }) => {
+  top.tell({ solved: top.kernel.solveStart(top.course.top, question, known) });
 };
 
 /** @param {LocalTop} top */
@@ -204,6 +206,7 @@ const step = (top) => {
 
 /** What makes an event: what came later is no longer part of the run. @type {{[act: string]: Act}} */
 const EVENTS = {
+  body: takeBody,
   clamp,
   grasp,
   kick,
@@ -229,6 +232,7 @@ const TOUCHES = ["kick", "press", "push", "pushes", "pull", "torque"];
 
 /** What only changes what is shown. @type {{[act: string]: Act}} */
 const VIEWS = {
+  solve,
   step,
   keep: (top, { kept }) => top.keep(kept),
   load: (top, { run }) => top.load(run),

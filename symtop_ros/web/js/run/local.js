@@ -39,6 +39,7 @@ export class LocalTop {
   /**
    * @param {Kernel} kernel
    * @param {{scenes: import("./links.js").SceneFile[], lesson: any[],
+   *   bodies: {[name: string]: import("../physics/kernel.js").Part[]},
    *   layers: {[layer: string]: boolean}, run_fields: import("./reader.js").Table, run?: any}} content
    */
   constructor(kernel, content) {
@@ -97,9 +98,9 @@ export class LocalTop {
 
   /** Show the top to the page from now on. */
   present() {
-    const { scenes, lesson, layers } = this.content;
+    const { scenes, lesson, layers, bodies } = this.content;
     this.tellFacts();
-    this.tell({ hello: { scenes, layers, lesson } });
+    this.tell({ hello: { scenes, layers, lesson, bodies } });
     this.animate();
   }
 

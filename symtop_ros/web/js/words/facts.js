@@ -8,7 +8,7 @@ import { describeOutlooks } from "./outlooks.js";
 import { describePushes } from "./pushes.js";
 import { findTurning, nameHalf } from "../physics/kinds.js";
 import { describeStart, writeLink } from "../run/links.js";
-import { findHeldPotential, findPotential } from "../physics/formulas.js";
+import { findCriticalSpin, findHeldPotential, findPotential } from "../physics/formulas.js";
 import { spread } from "../physics/spread.js";
 import { phrase } from "./wording.js";
 import { shorten } from "./quantities.js";
@@ -86,19 +86,30 @@ const describePotential = ({ top: body, start, motion, clamped }, change) => {
 };
 
 /** @param {Course} course */
-const listRates = ({ motion }) => {
+const listRates = ({ kernel, motion, top, packed, clamped }) => {
   const { nutation_period, mean_precession_rate } = motion.rates;
   const rows = [[phrase("table.motion"), phrase(`motion.${motion.kind}`)]];
   if (Number.isFinite(nutation_period))
     rows.push([phrase("table.nutation_period"), `${shorten(nutation_period)} s`]);
   if (Number.isFinite(mean_precession_rate))
-    rows.push([phrase("table.mean_phi_dot"), `${shorten(mean_precession_rate)} rad/s`]);
+    rows.push([phrase("table.mean_phi_dot"), writeWay(mean_precession_rate)]);
   if (Number.isFinite(1 / mean_precession_rate))
     rows.push([
       phrase("table.turn"),
       `${shorten((2 * Math.PI) / Math.abs(mean_precession_rate))} s`,
     ]);
+  const shows_at = clamped ? Infinity : kernel.findDoubt(packed);
+  if (Number.isFinite(shows_at))
+    rows.push([phrase("table.rounding"), phrase("table.rounding_from", { shows_at })]);
+  if (top.Mgl > 0)
+    rows.push([phrase("table.critical_spin"), `${shorten(findCriticalSpin(top))} rad/s`]);
   return rows;
+};
+
+/** A mean rate of the precession, and which way round that is. @param {number} rate */
+const writeWay = (rate) => {
+  const kind = rate < 0 ? "clockwise" : "counterclockwise";
+  return `${shorten(rate)} rad/s${rate ? `, ${phrase("way", { kind })}` : ""}`;
 };
 
 /** The last event that was not a torque of a button. @param {Run} run @param {number} time ns */
@@ -145,11 +156,10 @@ export const describe = (run, time) => {
   const announced = findAnnounced(run, time);
   const first = run.findFirstNutation(time);
   const { roots, ...start } = describeNow(course, course.start);
-  const [mass, radius, distance] = run.kernel.findDisc(course.top);
-  const disc = { "disc.mass": mass, "disc.radius": radius, "disc.distance": distance };
   return {
     histories: { radians: listHistory(run, "radians"), degrees: listHistory(run, "degrees") },
-    top: { ...course.parameters, ...disc },
+    top: course.parameters,
+    disc: run.kernel.findDisc(course.top),
     start,
     roots,
     window: chooseWindow(course.free),

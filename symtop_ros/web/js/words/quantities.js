@@ -2,6 +2,7 @@
 
 import { find } from "../controls/document.js";
 import { localize, writeNumber } from "./numbers.js";
+import { UNITS } from "./units.js";
 
 export const inDegrees = () => find("unit", HTMLSelectElement).value === "deg";
 
@@ -27,17 +28,6 @@ export const writeAngle = (value) => {
 
 const DEGREE = Math.PI / 180;
 /** @typedef {{[unit: string]: number}} Units that may be typed, each in that of the field */
-/** @type {{angle: Units, rate: Units}} */
-export const UNITS = {
-  angle: { rad: 1, "\u00b0": DEGREE, deg: DEGREE, degrees: DEGREE },
-  rate: {
-    "rad/s": 1,
-    "\u00b0/s": DEGREE,
-    "deg/s": DEGREE,
-    rpm: Math.PI / 30,
-    "rev/s": 2 * Math.PI,
-  },
-};
 const QUOTIENT = /^([+-]?)([^/]*?)(?:\s*\/\s*(\d+\.?\d*))?$/;
 const FACTOR = /^(\d+\.?\d*(?:e[+-]?\d+)?|\.\d+(?:e[+-]?\d+)?)?\s*(pi)?$/;
 const THOUSANDS = /(?<![\d.,])([1-9]\d{0,2})([.,])(\d{3})(?![\d.,])/;
@@ -59,6 +49,9 @@ const parseFactor = (text) => {
   return size || pi ? Number(size ?? 1) * (pi ? Math.PI : 1) : NaN;
 };
 
+/** In one rounding where it can be, as units.py does. @param {number} value @param {number} size of its unit */
+const convert = (value, size) => (size >= 1 || (1 / size) % 1 ? value * size : value / (1 / size));
+
 /**
  * A number as it is typed, with a unit or without: 0.5, 1e-3, pi/4, 45*2*pi, 30°, 0.6 rad, 2700 rpm,
  * 2e-4 kg m^2; NaN if it is none. An angle without a unit is in that of the page; a multiple of pi is
@@ -66,18 +59,17 @@ const parseFactor = (text) => {
  * @param {string} text @param {Units} units
  */
 export const parseQuantity = (text, units) => {
-  const plain = text
-    .trim()
-    .toLowerCase()
+  const write = (/** @type {string} */ each) => each.toLowerCase().replace("^2", "\u00b2");
+  const plain = write(text.trim())
     .replace("\u2212", "-")
     .replaceAll(",", ".")
-    .replaceAll("\u03c0", "pi")
-    .replace("^2", "\u00b2");
-  const unit = Object.keys(units).find((each) => plain.endsWith(each.toLowerCase()));
+    .replaceAll("\u03c0", "pi");
+  const fitting = Object.keys(units).filter((each) => plain.endsWith(write(each)));
+  const unit = fitting.sort((one, other) => other.length - one.length)[0]; // "mm" is no "m"
   const number = plain.slice(0, plain.length - (unit ?? "").length).trim();
   const [, sign, factors = "", part = "1"] = number.match(QUOTIENT) ?? [];
   const size = factors.split("*").reduce((product, each) => product * parseFactor(each), 1);
   const value = (sign === "-" ? -size : size) / Number(part);
-  if (unit) return value * units[unit];
-  return units === UNITS.angle && inDegrees() && !factors.includes("pi") ? value * DEGREE : value;
+  if (unit) return convert(value, units[unit]);
+  return units === UNITS.rad && inDegrees() && !factors.includes("pi") ? value * DEGREE : value;
 };

@@ -1,0 +1,144 @@
+"""What a class asks of the page: a body of parts, a start from what is seen, and the pivot."""
+
+import math
+
+import pytest
+
+from symtop_ros.physics import BODIES, Body, Motion, Part, State, Top, solve_start
+
+
+def fill_part(opened, row, kind, *texts):
+    """Type a part into a row of the list."""
+    place = opened.tab.locator("#parts .part").nth(row)
+    place.locator("select").select_option(kind)
+    inputs = [place.locator("input").nth(k) for k in range(3)]
+    for each, text in zip([each for each in inputs if each.is_enabled()], texts, strict=True):
+        each.fill(text)
+
+
+def read_top(opened):
+    return opened.read_events()[-1]["top"]
+
+
+def wait_for_table(opened, words):
+    """The table of constants is written in a frame."""
+    opened.until(lambda: words in opened.say("constants"))
+
+
+def ask(opened, question, *texts):
+    """Choose a question, type what is known, and press the button."""
+    opened.tab.evaluate("() => { document.getElementById('seen').open = true; }")
+    opened.tab.select_option("#questions", question)
+    for name, text in zip(question.split(), texts, strict=True):
+        opened.tab.fill(f"#known-{name}", text)
+    opened.tab.click("#solve")
+
+
+def list_solutions(opened):
+    return opened.tab.locator("#solutions button").all_inner_texts()
+
+
+def test_the_list_shows_the_disc_that_moves_as_the_top_does(opened):
+    opened.open_tab("start")
+    shown = opened.tab.locator("#parts .part input")
+    numbers = [float(shown.nth(k).input_value()) for k in range(3)]
+    article = Body.disc(*numbers).top
+    assert article.moments == pytest.approx((0.000228, 0.0000572, 0.068), rel=1e-5)  # six digits
+
+
+def test_a_body_of_parts_is_that_of_python(opened):
+    opened.open_tab("start")
+    fill_part(opened, 0, "disc", "170 g", "5.5cm", "0,105")
+    opened.tab.click("#use-body")
+    assert read_top(opened) == list(Body.disc(0.17, 0.055, 0.105).top.moments)
+    opened.tab.click("#add-part")
+    fill_part(opened, 1, "point", "50 g", "-8 cm")
+    opened.tab.click("#use-body")
+    parts = [Part("disc", 0.17, 0.105, 0.055), Part("point", 0.05, -0.08)]
+    assert read_top(opened) == list(Body.of_parts(parts).top.moments)
+    wait_for_table(opened, "(0.22 kg)")
+    opened.tab.locator("#parts .part button").nth(1).click()
+    opened.tab.click("#use-body")
+    assert read_top(opened) == list(Body.disc(0.17, 0.055, 0.105).top.moments)
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_bodies_of_the_classroom_are_those_of_python(opened, name):
+    opened.open_tab("start")
+    opened.tab.select_option("#bodies", name)
+    assert read_top(opened) == list(Body.of_parts(BODIES[name]).top.moments)
+    assert opened.tab.locator("#parts .part").count() == len(BODIES[name])
+
+
+def test_a_part_that_is_refused_loses_nothing(opened):
+    opened.open_tab("start")
+    events = opened.read_events()
+    for texts, refusal in (
+        (("0", "1", "1"), "mass (kg) must be positive, got 0"),
+        (("1", "5 in", "1"), "radius, length (m) must be a number, got 5 in"),
+        (("1", "1", ""), "distance (m) must be a number, got nothing"),
+    ):
+        fill_part(opened, 0, "disc", *texts)
+        opened.tab.click("#use-body")
+        assert opened.say("refusal") == refusal
+    assert opened.read_events() == events
+
+
+QUESTIONS = {
+    "theta precession_period": (("90°", "2.2 s"), (math.pi / 2, 2.2)),
+    "theta psi_dot": (("0.5", "1910 rpm"), (0.5, 1910 * (math.pi / 30))),
+    "psi_dot precession_period": (("300", "1.55"), (300.0, 1.55)),
+    "theta dip": (("60 deg", "0.2"), (60 * (math.pi / 180), 0.2)),
+    "theta nutation_period": (("0.5", "150 ms"), (0.5, 0.15)),
+    "energy p_phi p_psi": (("1.21", "0.01004", "0.01144"), (1.21, 0.01004, 0.01144)),
+    "alpha a b": (("600", "50", "44"), (600.0, 50.0, 44.0)),
+}
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+def test_starts_from_what_is_seen_are_those_of_python(opened, question):
+    opened.open_tab("start")
+    texts, numbers = QUESTIONS[question]
+    ask(opened, question, *texts)
+    top = Top(*read_top(opened))
+    expected = solve_start(top, **dict(zip(question.split(), numbers, strict=True)))
+    assert len(list_solutions(opened)) == len(expected)
+    for k, solution in enumerate(expected):
+        opened.tab.locator("#solutions button").nth(k).click()
+        start = opened.read_last()
+        assert start.orientation.tolist() == solution.state.orientation.tolist()
+        assert start.angular_velocity.tolist() == solution.state.angular_velocity.tolist()
+
+
+def test_what_no_motion_has_is_refused_in_words(opened):
+    opened.open_tab("start")
+    events = opened.read_events()
+    for question, texts, refusal in (
+        ("theta dip", ("0.5", "3"), "dip must be positive and at most 2.6416 rad, got 3"),
+        ("theta psi_dot", ("0.5", "9"), "spin psi' (rad/s) must be at least 111.63 rad/s in size"),
+        ("theta psi_dot", ("0", "9"), "tilt theta must lie between 0.0 and 3.142 rad, got 0"),
+        ("theta dip", ("0.5", "x"), "dip must be a number, got x"),
+    ):
+        ask(opened, question, *texts)
+        assert opened.say("refusal").startswith(refusal)
+        assert not list_solutions(opened)
+    assert opened.read_events() == events
+
+
+def test_the_table_says_which_way_round_and_from_which_spin_the_top_sleeps(opened):
+    opened.follow("theta=0.5&psi_dot=200")
+    wait_for_table(opened, "counterclockwise from above")
+    wait_for_table(opened, "137.7 rad/s")
+    opened.follow("theta=0.5&psi_dot=-200")
+    wait_for_table(opened, ", clockwise from above")
+
+
+def test_where_rounding_decides_the_table_says_from_when_on(opened):
+    opened.enter("top.Ix", "1")
+    opened.enter("top.Iz", "1")
+    opened.enter("top.Mgl", "1")
+    rate = 2 / math.sqrt(3)
+    opened.follow(f"theta={math.pi / 3!r}&phi_dot={rate!r}&psi_dot={rate!r}")
+    start = State.from_euler(theta=math.pi / 3, phi_dot=rate, psi_dot=rate)
+    shows_at = Motion(Top(1.0, 1.0, 1.0), start).rounding_shows_at
+    wait_for_table(opened, f"from {shows_at:.3g} s on")
