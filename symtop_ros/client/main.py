@@ -32,6 +32,7 @@ BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
 # Undoes a hurry with the default hurry_factor.
 DELAY = {"precession_rate_factor": 1 / 1.4}
+LARGE = 1e6  # whose last digits count: a stamp in s
 PUSH = 1.0  # rad/s by which an arrow changes a rate
 WAIT = 0.1  # s between two checks that ROS is running
 UPDATE_PERIOD = 0.1  # s
@@ -104,7 +105,16 @@ def _plain(value: Any) -> str:
         return ", ".join(f"{name} {_plain(part)}" for name, part in value.items())
     if isinstance(value, list):
         return " ".join(map(_plain, value)) or "-"
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    if value is None:
+        return "-"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return write_number(value) if isinstance(value, float) else str(value)
+
+
+def write_number(value: float) -> str:
+    """Return six digits, and all seconds of a clock to the microsecond."""
+    return f"{value:.6f}" if abs(value) >= LARGE else f"{value:.6g}"
 
 
 class UsageError(ValueError):

@@ -34,7 +34,7 @@ def make_parser() -> argparse.ArgumentParser:
     commands.add_parser(
         "body",
         help="a top of parts: disc:170g,5.5cm,10.5cm point:0.9kg,-25.3cm (mass, size, distance "
-        "from the pivot), or a name such as bicycle_wheel; as measured: gravity=9.8 Ix=1e-3 Iz=5e-4",
+        "from the pivot), or a name such as bicycle_wheel; measured: gravity=9.8 Ix=1e-3 Iz=5e-4",
     ).add_argument("parts", nargs="+", metavar="PART")
     commands.add_parser("resume", help="continue the motion from where it stopped")
     commands.add_parser("keys", help="send requests by single keys: hurry, delay, pause, push")

@@ -29,8 +29,9 @@ export class Roots {
     say("roots-text", phrase(roots.length ? "roots.some" : "roots.none"));
     this.buttons.forEach((button, k) => {
       button.hidden = k >= roots.length;
-      if (!button.hidden)
-        button.textContent = phrase(`roots.${names[k]}`, { rate: shorten(roots[k]) });
+      if (button.hidden) return;
+      const turn = roots[k] ? (2 * Math.PI) / Math.abs(roots[k]) : null;
+      button.textContent = phrase(`roots.${names[k]}`, { rate: shorten(roots[k]), turn });
     });
   }
 }
