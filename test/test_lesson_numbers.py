@@ -4,9 +4,11 @@ import re
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq, minimize_scalar
 
 from symtop_ros.physics import (
     Body,
+    EffectivePotential,
     Motion,
     Pushes,
     State,
@@ -21,6 +23,7 @@ from workshop.article.answers.ledger import hurry_ledger
 from workshop.article.motions import FAST, HANGING_DISC, HURRIED, SLOW, TOP
 from workshop.article.nutation import times_of_extreme_rate
 from workshop.article.pivot import SHORT_ARM
+from workshop.lesson.euler import Tilted, count_steps, fall
 from workshop.lesson.steps import read_lesson
 
 THETA, SPIN, FACTOR = 0.5, 200.0, 1.4
@@ -29,6 +32,7 @@ PUSH = max(np.roots([TOP.Iz * np.cos(THETA), TOP.Iz * SPIN, -2 * TOP.Mgl]))
 SLOW_STATE = State.from_euler(theta=THETA, phi_dot=SLOW, psi_dot=SPIN)
 FAST_STATE = State.from_euler(theta=THETA, phi_dot=FAST, psi_dot=SPIN)
 DISC_SPIN = -25.0
+PUSHES = Pushes(5e-5, 20.0, 20)
 
 
 def start(phi_dot, spin=SPIN, top=TOP):
@@ -65,6 +69,7 @@ def depths():
         *(f"{p_psi:.5f}", f"{p_psi**2 / (2 * TOP.Ix * TOP.Mgl):.2f}"),
         *(f"{np.cos(lowest):.3f}", f"{lowest:.3f}"),
         *(f"{angle:.2f}" for angle in (*slow, *fast)),
+        f"{lowest:.4f}",
     ]
 
 
@@ -108,7 +113,21 @@ def three_pushes():
 
 def below_and_above():
     down, up = start(3.0).turning_angles[1], start(9.0).turning_angles[0]
-    return [f"{SLOW:.2f}", f"{THETA:.1f}", f"{down:.3f}", f"{up:.3f}"]
+    first, second = begin_alike()
+    period = first.nutation_period
+    # the one that began downwards is at the start of the other when it first rises through theta
+    later = brentq(lambda t: first.at(t).euler_angles.theta - THETA, 0.1 * period, 0.9 * period)
+    return [
+        *(f"{SLOW:.2f}", f"{THETA:.1f}", f"{down:.3f}", f"{up:.3f}"),
+        *(f"{angle:.3f}" for angle in second.turning_angles),
+        *(f"{period:.3f}", f"{later:.3f}"),
+    ]
+
+
+def begin_alike():
+    """Two motions with equal constants, which begin downwards and upwards."""
+    rates = {"theta": THETA, "phi_dot": 6.0, "psi_dot": SPIN}
+    return [Motion(TOP, State.from_euler(theta_dot=rate, **rates)) for rate in (2.0, -2.0)]
 
 
 def hurry_on():
@@ -159,17 +178,28 @@ def precession_energy(state):
 
 
 def pushed_along():
-    numbers, pushes = [f"{precession_energy(SLOW_STATE):.2f}"], Pushes(5e-5, 20.0, 20)
+    numbers, pushes = [f"{precession_energy(SLOW_STATE):.2f}"], PUSHES
+    numbers += [f"{pushes.impulse:.5f}", f"{TOP.axial_momentum(SLOW_STATE):.5f}"]
+    numbers += [f"{TOP.vertical_momentum(SLOW_STATE):.5f}"]
     for state, form in ((SLOW_STATE, ".2f"), (FAST_STATE, ".1f")):
         motion = Motion(TOP, push_axle(TOP, state, pushes.impulse), pushes=pushes)
         found, last = Pushed.of(motion, pushes, state), motion.piece_at(1.0).motion
         numbers += [f"{angle:.3f}" for angle in (*found.turning_angles, THETA)]
         numbers += [f"{found.work:.3g}", f"{found.weight.amount:.2f}"]
+        added = TOP.vertical_momentum(last.start) - TOP.vertical_momentum(state)
+        numbers += [f"{added:.8f}", f"{find_bottom(last):.4f}"]
         numbers += [f"{rate:{form}}" for rate in (found.means.before, found.means.after)]
         if state is SLOW_STATE:
             nutation = last.at(np.arange(256) / 256 * last.nutation_period)
             numbers.append(f"{precession_energy(nutation).mean():.2f}")
     return numbers
+
+
+def find_bottom(motion):
+    """The bottom of the valley of the effective potential, in rad."""
+    potential = EffectivePotential.of(TOP, motion.start)
+    found = minimize_scalar(lambda theta: float(potential.at(theta)), motion.turning_angles)
+    return found.x
 
 
 def held():
@@ -193,3 +223,56 @@ def test_the_numbers_of_a_step_are_those_of_its_motions(number):
     computed = set(NUMBERS[number]()) if number in NUMBERS else set()
     given = {"0.5", "0.000228", "0.0000572", "0.068"}  # starts and tops
     assert shown - given == computed - given
+
+
+def test_the_steps_of_the_table_are_those_that_eulers_scheme_takes():
+    step, depth = STEPS[2], start(0.0).turning_angles[1]
+    begin = Tilted(THETA, 0.0, 0.0, SPIN)
+    counts = count_steps(TOP, begin, depth, len(step.table.rows))
+    found = [(each.digits, each.dt, each.steps, round(each.theta, 5)) for each in counts]
+    assert [*step.table.rows] == found
+    # of first order, so that a tenth of the step leaves a tenth of the error
+    errors = [fall(TOP, begin, dt)[1] - depth for dt in (1e-4, 1e-5)]
+    assert errors[0] / errors[1] == pytest.approx(10, rel=0.01)
+
+
+def test_eulers_scheme_has_the_accelerations_of_the_motion():
+    here = {"theta_dot": 1.0, "phi_dot": 3.0, "psi_dot": 150.0}
+    motion = Motion(TOP, State.from_euler(theta=0.6, **here))
+    span = 1e-5  # s; the rates change like sines of 200 rad/s at most
+    before, after = (motion.at(t).euler_rates for t in (-span, span))
+    pairs = ((after.theta, before.theta), (after.phi, before.phi), (after.psi, before.psi))
+    changes = [(later - earlier) / (2 * span) for later, earlier in pairs]
+    assert Tilted(0.6, *here.values()).accelerate(TOP) == pytest.approx(changes, rel=1e-6)
+
+
+def test_the_numbers_that_are_asked_for_are_those_of_the_motions():
+    asked = {number: step.ask for number, step in enumerate(STEPS, start=1) if step.ask}
+    last = Motion(TOP, push_axle(TOP, SLOW_STATE, PUSHES.impulse), pushes=PUSHES).piece_at(1.0)
+    right = {3: start(0.0).turning_angles[1], 13: find_bottom(last.motion)}
+    assert {number: ask["value"] for number, ask in asked.items()} == pytest.approx(right, abs=5e-5)
+
+
+def test_two_rounds_by_hand_find_the_bottom_of_the_valley():
+    """As step 13 says: the sine at the start, then halfway, and phi' as it was."""
+    p_psi, p_phi = TOP.axial_momentum(SLOW_STATE), TOP.vertical_momentum(SLOW_STATE)
+    middle, found = THETA, []
+    for _ in range(2):
+        sum_of_both = p_phi + PUSHES.number * PUSHES.impulse * np.sin(middle)
+        moment = TOP.Ix * SLOW
+        found += [np.arccos(min(np.roots([-moment, p_psi, moment - sum_of_both])))]
+        middle = (THETA + found[-1]) / 2
+    ask = STEPS[12].ask
+    assert [abs(each - ask["value"]) <= ask["within"] for each in found] == [False, True]
+
+
+def test_equal_constants_make_one_band_and_shifted_curves():
+    first, second = begin_alike()
+    for constant in (TOP.energy, TOP.vertical_momentum, TOP.axial_momentum):
+        assert constant(first.start) == constant(second.start)
+    assert first.turning_angles == second.turning_angles
+    shift = float(below_and_above()[-1])  # s, to three decimals
+    times = np.linspace(0.0, 1.0, 50)
+    later = first.at(times + shift).euler_angles.theta
+    fastest = np.abs(second.at(times).euler_rates.theta).max()
+    assert np.abs(later - second.at(times).euler_angles.theta).max() < 5e-4 * fastest * 1.1

@@ -30,7 +30,7 @@ MAIN = MODULES / "start.js"
 IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.[./\w]*)\.js";\n', re.M)
 # What the page takes of a button and of a step of the lesson, and what stands for what is left out.
 ACT = {"start": None, "hurry": None, "hold": "spin_rate", "push": None, "clamp": None}
-STEP = {"name": "", "scene": "cusps", "charts": (), "layers": ()}
+STEP = {"name": "", "scene": "cusps", "charts": (), "layers": (), "ask": None, "table": None}
 PART = re.compile(r"/\*([A-Z]+)\*/")  # of page.html
 EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
 # Nothing is loaded from anywhere, and no script or style acts but those of the file, by hash. Data

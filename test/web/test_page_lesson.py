@@ -20,7 +20,7 @@ ANGLES = (
     ((0.5, 0.5),),
     ((0.5, 0.5),),
     ((0.439, 0.5), (0.384, 0.5), (0.194, 0.5)),
-    ((0.5, 0.587), (0.439, 0.5)),
+    ((0.5, 0.587), (0.439, 0.5), (0.458, 0.558), (0.458, 0.558)),
     ((0.5, 0.5), (0.437, 0.5), (0.5, 0.5), (0.438, 0.5)),
     ((0.5, 0.5), (0.5, 0.713)),
     ((0.5, 0.5), (0.439, 0.5), (0.5, 0.5), (0.5, 0.528)),
@@ -132,6 +132,48 @@ def test_after_a_reset_or_a_reload_the_hurry_of_the_step_works_again(open_page):
     page.enter("theta", "1")  # another motion, for which the step has no words
     page.open_tab("lesson")
     assert hurry.is_disabled()
+
+
+@pytest.mark.parametrize(("number", "near", "far"), [(3, "0.664", "0.66"), (13, ".392", "0.376")])
+def test_a_number_that_is_asked_for_is_checked(open_page, number, near, far):
+    page, ask = open_page(f"#lesson={number}"), STEPS[number - 1].ask
+    field = page.tab.locator("#predicted-number")
+    answers = {}
+    for typed in (near, far, "deep", ""):
+        field.fill(typed)
+        field.press("Enter")
+        answers[typed] = page.say("lesson-checked")
+    assert answers[near] == f"Right, to {ask['within']:g} rad."
+    assert answers[far] == f"Not to {ask['within']:g} rad. Try again."
+    assert [answers["deep"], answers[""]] == ["Write a number.", ""]
+    field.fill(near)
+    field.blur()
+    page.tab.click("#step-next")  # which asks for no number
+    assert not field.is_visible()
+    assert page.say("lesson-checked") == ""
+
+
+def test_a_number_is_in_radians_on_a_page_in_degrees_and_may_have_a_comma(open_page):
+    page = open_page("#lesson=13&lang=de")
+    page.open_tab("view")
+    page.tab.select_option("#unit", "deg")
+    page.open_tab("lesson")
+    page.tab.fill("#predicted-number", "0,39")
+    page.tab.press("#predicted-number", "Enter")
+    assert page.say("lesson-checked") == "Richtig, auf 0,005 rad genau."
+
+
+def test_the_table_of_a_step_is_behind_its_explanation(open_page):
+    page, table = open_page("#lesson=3"), STEPS[2].table
+    assert not page.tab.is_visible("#lesson-table")
+    page.tab.get_by_text("What happens", exact=True).click()
+    rows = page.tab.locator("#lesson-table tr").all()
+    cells = [
+        row.locator("th, td").evaluate_all("all => all.map(e => e.dataset.text)") for row in rows
+    ]
+    assert cells == [[*table.headings], *table.cells]
+    page.tab.click("#step-next")
+    assert page.tab.locator("#lesson-table tr").count() == 0
 
 
 @pytest.mark.wording

@@ -4,7 +4,7 @@ import re
 import textwrap
 from pathlib import Path
 
-from workshop.lesson.steps import LessonStep, read_lesson
+from workshop.lesson.steps import LessonStep, LessonTable, read_lesson
 
 PAGE = Path(__file__).parents[2] / "docs/lesson.md"
 FIRST = "## 1. "  # what is above the first step is written by hand
@@ -34,9 +34,18 @@ def _write_step(number: int, step: LessonStep) -> str:
             _wrap(f"Observe: {step.look}{_name_view(step)}"),
             f"![{step.picture}](lesson/step_{number:02}.png)",
             *map(_wrap, filter(None, f"Explain: {step.seen}".split("\n"))),
+            *_write_table(step.table),
             _wrap(f"Question: {step.question} (The article's {step.source}.)") + "\n",
         ]
     )
+
+
+def _write_table(table: LessonTable | None) -> list[str]:
+    """Return the table of a step, if it has one."""
+    if not table:
+        return []
+    rows = [table.headings, ["--:"] * len(table.forms), *table.cells]
+    return ["\n".join(f"| {' | '.join(row)} |" for row in rows)]
 
 
 def _name_view(step: LessonStep) -> str:

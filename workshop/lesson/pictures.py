@@ -17,6 +17,7 @@ from symtop_ros.arrays import Real
 from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import (
     Motion,
+    State,
     hurry,
     push_axle,
     regular_precession_rates,
@@ -57,10 +58,14 @@ def run_step(step: LessonStep) -> Runs:
             runs[NOT_KICKED] = run
         else:
             start = initial_state(settings.top, settings.initial, act.start or {})
-            rates = start.euler_rates
-            label = f"$\\dot\\phi$ = {rates.phi:.3g}, $\\dot\\psi$ = {rates.psi:.4g} rad/s"
-            runs[label] = KickedMotion.of(Motion(settings.top, start))
+            runs[_name_start(start)] = KickedMotion.of(Motion(settings.top, start))
     return runs
+
+
+def _name_start(start: State) -> str:
+    rates = start.euler_rates
+    tilting = rf"$\dot\theta$ = {rates.theta:.3g}, " if rates.theta else ""
+    return rf"{tilting}$\dot\phi$ = {rates.phi:.3g}, $\dot\psi$ = {rates.psi:.4g} rad/s"
 
 
 def _name_held(act: LessonAct) -> str:
@@ -169,7 +174,8 @@ def draw_tilt(axes: Axes, runs: Runs) -> None:
     low, high = axes.get_ylim()
     room = max(high - low, 0.003)  # regular precession is a line, not rounding
     axes.set(xlabel="$t$ (s)", ylabel=r"$\theta$ (rad)")
-    axes.set_ylim(low - 0.05 * room, low + 1.45 * room)
+    lines = max(3, len(runs))  # of the legend, above the curves
+    axes.set_ylim(low - 0.05 * room, low + (1 + 0.15 * lines) * room)
     hangs = any(motion.top.Mgl < 0 for motion in _list_first(runs))
     words = "higher axis, lower body" if hangs else "higher"
     axes.set_title(rf"smaller $\theta$: {words}", loc="right")

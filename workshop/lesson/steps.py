@@ -7,6 +7,7 @@ from typing import Any
 
 from symtop_ros.physics import Hold
 from symtop_ros.web.join import read_steps, read_texts
+from symtop_ros.wording.templates import write_number
 
 TEXTS = ("title", "predict", "look", "seen", "question", "answer", "picture", "source")
 # Scenes of the steps, and the options by which top_ctl finds the node of each.
@@ -40,6 +41,20 @@ class LessonAct:
 
 
 @dataclass(frozen=True, slots=True)
+class LessonTable:
+    """Numbers that a step explains: in rows, with a form and a heading of each column."""
+
+    forms: tuple[str, ...]
+    rows: tuple[tuple[float, ...], ...]
+    headings: tuple[str, ...]
+
+    @property
+    def cells(self) -> list[list[str]]:
+        """The rows as they are written."""
+        return [list(map(write_number, row, self.forms)) for row in self.rows]
+
+
+@dataclass(frozen=True, slots=True)
 class LessonStep:
     """A step of the lesson; `lesson.yaml` says what the fields are."""
 
@@ -55,6 +70,8 @@ class LessonStep:
     picture: str
     source: str
     compute: str = ""
+    ask: Mapping[str, float] | None = None  # a number that is predicted, and how near
+    table: LessonTable | None = None
     also: tuple[str, ...] = ()
     layers: tuple[str, ...] = ()
     scene: str = "cusps"
@@ -78,4 +95,11 @@ def _read_step(step: Mapping[str, Any], texts: Mapping[str, str]) -> LessonStep:
     acts = [LessonAct(texts[f"{key}.act_{k}"], **act) for k, act in enumerate(step["acts"], 1)]
     said = {name: texts[f"{key}.{name}"] for name in TEXTS}
     compute = texts.get(f"{key}.compute", "")  # not in every step
-    return LessonStep(**{**step, **said, "acts": tuple(acts), "compute": compute})
+    table = _read_table(step["table"], key, texts) if "table" in step else None
+    return LessonStep(**{**step, **said, "acts": tuple(acts), "compute": compute, "table": table})
+
+
+def _read_table(data: Mapping[str, Any], key: str, texts: Mapping[str, str]) -> LessonTable:
+    forms, rows = tuple(data["forms"]), tuple(map(tuple, data["rows"]))
+    headings = (texts[f"{key}.column_{k}"] for k in range(1, len(forms) + 1))
+    return LessonTable(forms, rows, tuple(headings))

@@ -3,6 +3,8 @@
 import { find, findAll, make, say, write } from "./document.js";
 import { keep, read } from "./choices.js";
 import { recall, remember } from "../run/memory.js";
+import { writeNumber } from "../words/numbers.js";
+import { parseQuantity, UNITS } from "../words/quantities.js";
 import { isKnown, phrase } from "../words/wording.js";
 
 /**
@@ -10,7 +12,12 @@ import { isKnown, phrase } from "../words/wording.js";
  * @typedef {{start: {[name: string]: any} | null, hurry: number | null, hold: string,
  *   push: {[name: string]: number} | null, clamp: boolean | null}} Act
  */
-/** @typedef {{name: string, acts: Act[], scene: string, charts: string[], layers: string[]}} Step */
+/** A number that is predicted, in rad, and how near the prediction is to be. @typedef {{value: number, within: number}} Ask */
+/** Numbers in rows, and the form of each column. @typedef {{forms: string[], rows: number[][]}} Table */
+/**
+ * @typedef {{name: string, acts: Act[], scene: string, charts: string[], layers: string[],
+ *   ask: Ask | null, table: Table | null}} Step
+ */
 /** @typedef {(message: {[name: string]: any}) => void} Send */
 
 const PREDICTIONS = "predictions"; // as the browser keeps them
@@ -48,6 +55,34 @@ export const nameAct = ({ start, push, clamp, hurry: factor, hold }, scene) => {
   return push ? { act: "pushes", ...push } : { act: "kick", factor, hold };
 };
 
+/** The numbers that a step explains. @param {Step} step @returns {HTMLElement[]} */
+export const makeTable = ({ name, table }) => {
+  if (!table) return [];
+  const heads = table.forms.map((_, k) => makeCell("th", phrase(`lesson.${name}.column_${k + 1}`)));
+  const rows = table.rows.map((row) =>
+    make("tr", {}, ...row.map((each, k) => makeCell("td", writeNumber(each, table.forms[k])))),
+  );
+  return [make("table", { className: "counts" }, make("tr", {}, ...heads), ...rows)];
+};
+
+/** @param {"th" | "td"} tag @param {string} text */
+const makeCell = (tag, text) => {
+  const cell = make(tag);
+  write(cell, text);
+  return cell;
+};
+
+/**
+ * How near a number that was typed is to the one that is asked for.
+ * @param {Ask} ask @param {string} typed
+ */
+export const checkNumber = ({ value, within }, typed) => {
+  if (!typed.trim()) return "";
+  const number = parseQuantity(typed, { ...UNITS.angle }); // in rad, whatever the fields are in
+  if (Number.isNaN(number)) return phrase("asked", { kind: "none" });
+  return phrase("asked", { kind: Math.abs(number - value) <= within ? "near" : "far", within });
+};
+
 const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
 
 export class Lesson {
@@ -58,6 +93,7 @@ export class Lesson {
     this.prepare = prepare;
     this.select = find("steps", HTMLSelectElement);
     this.field = find("prediction", HTMLTextAreaElement);
+    this.number = find("predicted-number", HTMLInputElement);
     /** Number of the step that is shown. @type {number | null} */
     this.shown = null;
     /** @type {HTMLButtonElement[]} */
@@ -75,6 +111,7 @@ export class Lesson {
   listen() {
     this.select.addEventListener("change", () => this.show(this.current));
     this.field.addEventListener("input", () => this.predict(this.current, this.field.value));
+    this.number.addEventListener("change", () => this.check());
     find("step-back").addEventListener("click", (event) => this.go(-1, event));
     find("step-next").addEventListener("click", (event) => this.go(1, event));
     find("tab-lesson").addEventListener("click", () => {
@@ -128,6 +165,8 @@ export class Lesson {
     }
     for (const details of find("lesson").querySelectorAll("details")) details.open = false;
     this.markCharts(step.charts);
+    find("lesson-table").replaceChildren(...makeTable(step));
+    this.ask(step);
     this.prepare(step);
     this.field.value = this.predictions[number] ?? "";
     find("step-back", HTMLButtonElement).disabled = number === 1;
@@ -136,6 +175,19 @@ export class Lesson {
     // A step is an entry of the history: Back is the step before.
     remember({}, `#lesson=${number}`, isNew);
     this.send({ act: "rest" }); // nothing moves before the prediction
+  }
+
+  /** Ask for the number of a step, if it has one. @param {Step} step */
+  ask({ name, ask }) {
+    find("lesson-number").hidden = !ask;
+    say("lesson-ask", ask ? phrase(`lesson.${name}.ask`, ask) : "");
+    this.number.value = "";
+    say("lesson-checked", "");
+  }
+
+  check() {
+    const { ask } = this.steps[this.current - 1];
+    if (ask) say("lesson-checked", checkNumber(ask, this.number.value));
   }
 
   /** @param {string[]} names of the charts to look at, which come first */

@@ -1,6 +1,6 @@
 // The lesson on paper: a worksheet with room to write, and the teacher's with answers and pictures.
 
-import { nameAct, readPredictions } from "./lesson.js";
+import { makeTable, nameAct, readPredictions } from "./lesson.js";
 import { find, make, write } from "./document.js";
 import { isKnown, phrase } from "../words/wording.js";
 
@@ -60,6 +60,7 @@ const writeRoom = (step) => [
 /** @param {Step} step */
 const writeAnswers = (step) => [
   ...name("explain", read(step, "seen")),
+  ...makeTable(step),
   ...name("question", read(step, "question")),
   ...name("answer", read(step, "answer")),
   ...name("article", read(step, "source")),
