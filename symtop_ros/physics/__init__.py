@@ -34,6 +34,7 @@ from symtop_ros.physics.kicks import (
     set_precession_rate,
     validate_hold,
 )
+from symtop_ros.physics.ledger import Contribution, Energies, Ledger
 from symtop_ros.physics.motion import Motion, find_period
 from symtop_ros.physics.motions import Motions
 from symtop_ros.physics.parts import BODIES, SIZES, Part
@@ -69,8 +70,10 @@ __all__ = [
     "Cause",
     "Certificate",
     "ClampVerdict",
+    "Contribution",
     "Direction",
     "EffectivePotential",
+    "Energies",
     "ExactTimes",
     "FrameTorques",
     "Friction",
@@ -78,6 +81,7 @@ __all__ = [
     "HurryEffect",
     "KickVerdict",
     "Kind",
+    "Ledger",
     "Lift",
     "Motion",
     "Motions",

@@ -208,7 +208,7 @@ def balance(motion: Motion, end: float, longest: float) -> Balance:
     validate_one(motion, "motion")
     require(not motion.pushes, "pushes", "none for a balance: take a piece", motion.pushes)
     end, longest = validate_number("end", end, "s"), validate_positive("longest", longest, "s")
-    begin = end - min(longest, STRETCH / _fastest_rate(motion, end))
+    begin = end - min(longest, STRETCH / find_fastest_rate(motion, end))
     points, weights = np.polynomial.legendre.leggauss(NODES)
     half = (end - begin) / 2
     states = motion.at(begin + half * (1 + points))
@@ -223,8 +223,15 @@ def balance(motion: Motion, end: float, longest: float) -> Balance:
     )
 
 
-def _fastest_rate(motion: Motion, t: float) -> float:
-    """Rate in rad/s at which the integrands change: nutation, swing and decay."""
+def find_fastest_rate(motion: Motion, t: float) -> float:
+    """Return the rate in rad/s at which torques and powers change: nutation, swing and decay.
+
+    Parameters
+    ----------
+    motion : Motion
+    t : float
+        Time in s.
+    """
     top, state = motion.top, motion.at(t)
     nutation = float(np.linalg.norm(top.body_angular_momentum(state))) / top.Ix
     torque = float(np.linalg.norm(motion.applied_torque))

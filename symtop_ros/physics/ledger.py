@@ -1,0 +1,382 @@
+"""What a stretch of a motion exchanges: energy, p_phi, p_psi, angular momentum, and who gives it.
+
+Changes are products. A height is the square of sin(theta/2) or cos(theta/2), and the change of a
+square is the difference times the sum: of two angles that are nearly equal, or next to the
+vertical, nothing is lost in large numbers that cancel.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import astuple, dataclass, field
+from functools import partial
+from itertools import pairwise, starmap
+from operator import add
+
+import numpy as np
+
+from symtop_ros.arrays import Real
+from symtop_ros.physics.dynamics import find_fastest_rate
+from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.pushes import Piece
+from symtop_ros.physics.state import State
+from symtop_ros.physics.times import SECOND, ExactTimes
+from symtop_ros.physics.top import Top
+from symtop_ros.physics.values import validate_number, validate_one
+from symtop_ros.refusals import Words, refuse, require
+
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to rounding over a part
+PART = 2.0  # rad of the fastest rate in a part
+MOST_PARTS = 30_000  # of a stretch with friction or a torque: some seconds
+HALVINGS = 80  # of the half nutation in which a turning point is found: down to rounding
+
+
+@dataclass(frozen=True, slots=True)
+class Energies:
+    """Gains of the parts of the energy, in J; a loss is negative.
+
+    Attributes
+    ----------
+    weight : float
+        Of the potential energy Mgl cos(theta).
+    precession : float
+        Of Ix phi'^2 sin^2(theta)/2; zero on the vertical.
+    nutation : float
+        Of Ix theta'^2/2.
+    spin : float
+        Of p_psi^2/(2 Iz).
+    """
+
+    weight: float
+    precession: float
+    nutation: float
+    spin: float
+
+    @property
+    def total(self) -> float:
+        """Gain of the energy."""
+        return self.weight + self.precession + self.nutation + self.spin
+
+
+@dataclass(frozen=True, slots=True)
+class Contribution:
+    """What one cause gives to a top in a stretch; what it takes is negative.
+
+    Attributes
+    ----------
+    work : float
+        In J.
+    vertical_momentum, axial_momentum : float
+        Given to p_phi and to p_psi, in N m s.
+    angular_impulse : ndarray (3,)
+        Given to the angular momentum, world frame, in N m s.
+    """
+
+    work: float
+    vertical_momentum: float
+    axial_momentum: float
+    angular_impulse: Real
+
+    def __add__(self, other: "Contribution") -> "Contribution":
+        """Return both together."""
+        return Contribution(*map(add, astuple(self), astuple(other)))
+
+
+NOTHING = Contribution(0.0, 0.0, 0.0, np.zeros(3))
+
+
+@dataclass(frozen=True, slots=True)
+class Ledger:
+    """Energy, p_phi, p_psi and angular momentum that a stretch of a motion exchanges.
+
+    Attributes
+    ----------
+    begin, end : float
+        Times of the stretch in s.
+    gained : Energies
+        What the weight, the precession, the nutation and the spin have gained.
+    gravity : Contribution
+        Its work is what the weight has lost; it gives nothing to p_phi and p_psi.
+    pushes : Contribution
+        Of the pushes after `begin`, up to `end`; the first one, which leaves the start of the
+        motion, is in no stretch. A push of J gives J sin(theta) to p_phi and nothing to p_psi.
+    clamp : Contribution
+        Of the hand that holds phi: it does no work, and gives to p_phi only.
+    friction, torque : Contribution
+        Of friction and of the applied torque.
+
+    Examples
+    --------
+    On the way down the weight gives all that the precession has at the lowest point.
+
+    >>> from symtop_ros.physics import Ledger, Motion, State, Top
+    >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+    >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> fall = Ledger.of(motion, 0.0, motion.nutation_period / 2)
+    >>> round(1e3 * fall.gravity.work, 2), round(1e3 * fall.gained.precession, 2)  # mJ
+    (6.12, 6.12)
+    """
+
+    begin: float
+    end: float
+    gained: Energies
+    gravity: Contribution
+    pushes: Contribution
+    clamp: Contribution
+    friction: Contribution
+    torque: Contribution
+
+    @classmethod
+    def of(cls, motion: Motion, begin: float, end: float) -> "Ledger":
+        """Return the ledger of a stretch between two times.
+
+        Parameters
+        ----------
+        motion : Motion
+            One motion, also with pushes, a clamp, friction or a torque.
+        begin, end : float
+            Times in s, begin <= end. A push at `begin` has been given before the stretch.
+
+        Raises
+        ------
+        ValueError
+            If a time is refused, or if the stretch is too long for the quadrature of friction and
+            torques, which takes 30 000 parts of 2 rad of the fastest rate at most.
+
+        Examples
+        --------
+        Nineteen pushes along the precession after the first one:
+
+        >>> from symtop_ros.physics import Pushes, push_axle, regular_precession_rates
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> slow, _ = regular_precession_rates(top, 0.5, 200.0)
+        >>> start = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
+        >>> motion = Motion(top, push_axle(top, start, 5e-5), pushes=Pushes(5e-5, 20.0, 20))
+        >>> pushes = Ledger.of(motion, 0.0, 1.0).pushes
+        >>> round(pushes.vertical_momentum, 8), pushes.axial_momentum
+        (0.00040678, 0.0)
+        """
+        validate_one(motion, "motion")
+        begin, end = validate_number("begin", begin, "s"), validate_number("end", end, "s")
+        require(begin <= end, "end", f"at least begin = {begin:g} s", end)
+        top, first, last = motion.top, motion.at(begin), motion.at(end)
+        gained = _subtract_energies(top, first, last)
+        pieces, impulse = _list_pieces(motion, begin, end), getattr(motion.pushes, "impulse", 0.0)
+        pushes = sum(starmap(partial(_push, impulse), pairwise(pieces)), NOTHING)
+        clamp = _hold(top, first, last) if motion.clamped else NOTHING
+        found = _integrate_pieces(pieces, begin, end) if motion.is_driven else _Integrals()
+        pulled = found.gravity
+        if not motion.is_driven:  # all that the others did not give
+            change = top.angular_momentum(last) - top.angular_momentum(first)
+            pulled = change - pushes.angular_impulse - clamp.angular_impulse
+        gravity = Contribution(-gained.weight, 0.0, 0.0, pulled)
+        return cls(begin, end, gained, gravity, pushes, clamp, found.friction, found.torque)
+
+    @classmethod
+    def between_turns(cls, motion: Motion, t: float) -> "Ledger":
+        """Return the ledger of the half nutation between the last two turning points up to a time.
+
+        Parameters
+        ----------
+        motion : Motion
+            One motion under gravity alone, or clamped.
+        t : float
+            Time in s.
+
+        Raises
+        ------
+        ValueError
+            If theta does not turn, if friction, a torque or pushes act, or if the time is refused.
+
+        Examples
+        --------
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
+        >>> rise = Ledger.between_turns(motion, 0.2)
+        >>> round(rise.begin, 4), round(rise.end, 4), round(1e3 * rise.gained.weight, 2)
+        (0.0798, 0.1595, 6.12)
+        """
+        validate_one(motion, "motion")
+        t, half = validate_number("t", t, "s"), motion.nutation_period / 2
+        acting = motion.is_driven or motion.pushes
+        require(not acting, "motion", "one without friction, torque and pushes", motion.kind)
+        low, high = motion.turning_angles
+        if not (math.isfinite(half) and low < high):
+            raise refuse(
+                "motion", "one whose theta turns", Words(f"a motion that is {motion.kind}")
+            )
+        last = _find_turn(motion, t, half)
+        return cls.of(motion, last - half, last)
+
+    @property
+    def vertical_momentum(self) -> float:
+        """Gain of p_phi in N m s."""
+        return sum(each.vertical_momentum for each in self._causes)
+
+    @property
+    def axial_momentum(self) -> float:
+        """Gain of p_psi in N m s."""
+        return sum(each.axial_momentum for each in self._causes)
+
+    @property
+    def angular_momentum(self) -> Real:
+        """Gain of the angular momentum (3,), world frame, in N m s."""
+        return np.asarray(sum(each.angular_impulse for each in (self.gravity, *self._causes)))
+
+    @property
+    def work(self) -> float:
+        """Work of all but gravity in J; the parts of the energy have gained so much together."""
+        return sum(each.work for each in self._causes)
+
+    @property
+    def _causes(self) -> tuple[Contribution, ...]:
+        return self.pushes, self.clamp, self.friction, self.torque
+
+
+def _subtract_energies(top: Top, first: State, last: State) -> Energies:
+    """Return what the parts of the energy have gained from one state to another."""
+    (along, across), (along_last, across_last) = map(_split_rates, (first, last))
+    axial, axial_last = first.angular_velocity[2], last.angular_velocity[2]
+    return Energies(
+        top.Mgl * _subtract_heights(first, last),
+        top.Ix / 2 * _subtract_squares(along, along_last),
+        top.Ix / 2 * _subtract_squares(across, across_last),
+        top.Iz / 2 * float(_subtract_squares(axial, axial_last)),
+    )
+
+
+def _subtract_squares(first: float, last: float) -> float:
+    return (last - first) * (last + first)
+
+
+def _subtract_heights(first: State, last: State) -> float:
+    """Return the change of cos(theta), from that of the half angles.
+
+    It is 1 - 2 sin^2(theta/2) = 2 cos^2(theta/2) - 1: of both the smaller square has more digits.
+    """
+    (sine, cosine), (sine_last, cosine_last) = map(_halve_tilt, (first, last))
+    if sine + sine_last < cosine + cosine_last:
+        return -2 * _subtract_squares(sine, sine_last)
+    return 2 * _subtract_squares(cosine, cosine_last)
+
+
+def _halve_tilt(state: State) -> tuple[float, float]:
+    """Return the sine and the cosine of theta/2."""
+    w, x, y, z = state.orientation.tolist()
+    return math.hypot(x, y), math.hypot(w, z)
+
+
+def _split_rates(state: State) -> tuple[float, float]:
+    """Return phi' sin(theta) and theta' in rad/s.
+
+    An axis that passes the vertical has no precession there: phi' sin(theta) goes to zero.
+    """
+    x, y, _ = state.angular_velocity.tolist()
+    up_x, up_y, _ = state.vertical.tolist()
+    sine = math.hypot(up_x, up_y)
+    if sine == 0:
+        return 0.0, math.hypot(x, y)
+    up_x, up_y = up_x / sine, up_y / sine
+    return x * up_x + y * up_y, x * up_y - y * up_x
+
+
+def _list_pieces(motion: Motion, begin: float, end: float) -> list[Piece]:
+    """Return what moves in a stretch between its pushes, without which there is one piece."""
+    first, pieces = motion.piece_at(begin), [motion.piece_at(end)]
+    while pieces[-1].number > first.number:
+        pieces.append(motion.piece_at(ExactTimes(pieces[-1].begin - 1)))
+    return pieces[::-1]
+
+
+def _push(impulse: float, former: Piece, piece: Piece) -> Contribution:
+    """Return what the push between two pieces gives: its work is J times the mean velocity."""
+    top, after = piece.motion.top, piece.motion.start
+    before = former.motion.at(ExactTimes(piece.begin - former.begin))
+    (along, _), (along_after, _) = map(_split_rates, (before, after))
+    sine, cosine = _halve_tilt(after)
+    change = top.angular_momentum(after) - top.angular_momentum(before)
+    work = impulse * (along + along_after) / 2
+    return Contribution(work, impulse * 2 * sine * cosine, 0.0, change)
+
+
+def _hold(top: Top, first: State, last: State) -> Contribution:
+    """Return what a hand that holds phi gives: p_phi is p_psi cos(theta), and L turns with it."""
+    p_psi, axle = float(top.axial_momentum(first)), (0.0, 0.0, 1.0)
+    turned = p_psi * (last.to_world(axle) - first.to_world(axle))
+    return Contribution(0.0, p_psi * _subtract_heights(first, last), 0.0, turned)
+
+
+@dataclass(frozen=True, slots=True)
+class _Integrals:
+    """Integrals over a stretch, by quadrature."""
+
+    friction: Contribution = NOTHING
+    torque: Contribution = NOTHING
+    gravity: Real = field(default_factory=lambda: np.zeros(3))  # the torque of gravity, N m s
+
+    def add(self, motion: Motion, begin: float, end: float) -> "_Integrals":
+        """Return these with those over a part of a motion."""
+        half = (end - begin) / 2
+        states, scale = motion.at(begin + half * (1 + POINTS)), half * WEIGHTS
+        applied = np.broadcast_to(np.array(motion.applied_torque), (len(POINTS), 3))
+        resisting = states.to_world(motion.friction.torque(states))
+        return _Integrals(
+            self.friction + _integrate(states, resisting, scale),
+            self.torque + _integrate(states, applied, scale),
+            self.gravity + scale @ motion.top.gravity_torque(states),
+        )
+
+
+def _integrate(states: State, torque: Real, scale: Real) -> Contribution:
+    """Return what a torque (n, 3) in the world frame gives in a part."""
+    power = (torque * states.to_world(states.angular_velocity)).sum(axis=-1)
+    along_vertical, along_axle = torque[:, 2], states.to_body(torque)[:, 2]
+    work, vertical, axial = (float(scale @ each) for each in (power, along_vertical, along_axle))
+    return Contribution(work, vertical, axial, scale @ torque)
+
+
+def _integrate_pieces(pieces: list[Piece], begin: float, end: float) -> _Integrals:
+    """Return the integrals over a stretch that is cut where it is pushed."""
+    found = _Integrals()
+    starts = [begin, *(piece.begin / SECOND for piece in pieces[1:])]
+    for piece, start, stop in zip(pieces, starts, [*starts[1:], end], strict=True):
+        since = piece.begin / SECOND
+        for part in _list_parts(piece.motion, start - since, stop - since):
+            found = found.add(piece.motion, *part)
+    return found
+
+
+def _list_parts(motion: Motion, begin: float, end: float) -> Iterator[tuple[float, float]]:
+    """Yield parts in which the integrands turn by PART radians."""
+    while begin < end:
+        longest, left = PART / find_fastest_rate(motion, begin), end - begin
+        if left > MOST_PARTS * longest:
+            wanted = f"at most {MOST_PARTS * longest:.3g} s after begin"
+            raise refuse("end", wanted, Words(f"{left:g} s"))
+        stop = min(end, max(begin + longest, math.nextafter(begin, math.inf)))
+        yield begin, stop
+        begin = stop
+
+
+def _find_turn(motion: Motion, t: float, half: float) -> float:
+    """Return the last time up to t at which theta turns.
+
+    The rate of cos(theta) changes its sign there and nowhere else in half a nutation. It is a sum
+    of products, which also an axis that passes the vertical has.
+    """
+    early, late = t - half, t
+    rises = _rises(motion, late)
+    for _ in range(HALVINGS):
+        middle = (early + late) / 2
+        if _rises(motion, middle) == rises:
+            late = middle
+        else:
+            early = middle
+    return late
+
+
+def _rises(motion: Motion, t: float) -> bool:
+    """Return True if cos(theta) grows."""
+    state = motion.at(t)
+    x, y, _ = state.angular_velocity.tolist()
+    up_x, up_y, _ = state.vertical.tolist()
+    return bool(up_x * y > up_y * x)
