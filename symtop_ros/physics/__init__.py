@@ -23,6 +23,7 @@ from symtop_ros.physics.dynamics import (
     point_acceleration,
     specific_force,
 )
+from symtop_ros.physics.exchange import Exchange
 from symtop_ros.physics.kernel.door import kernel_version
 from symtop_ros.physics.kernel.records import Direction, Hold, Kind
 from symtop_ros.physics.kicks import (
@@ -75,6 +76,7 @@ __all__ = [
     "EffectivePotential",
     "Energies",
     "ExactTimes",
+    "Exchange",
     "FrameTorques",
     "Friction",
     "Hold",

@@ -103,6 +103,33 @@ window.findImpulses = async (cases) => {
   });
 };
 
+/** The course of a case that is given by its doubles. */
+const followCase = async ({ top, orientation, omega, friction, torque, clamped }) => {
+  const { Course } = await import("/physics/course.js");
+  const { State } = await import("/physics/state.js");
+  const start = new State(kernel, orientation, omega);
+  return new Course(kernel, top, start, friction, torque, null, clamped);
+};
+
+/** What was exchanged from the start of each case to a time in ns: the record, and its text. */
+window.findExchanges = async (cases) => {
+  const { findStretch, nameExchange } = await import("/words/stretch.js");
+  const answers = cases.map(async (each) => {
+    const course = await followCase(each);
+    const [first, last] = [0, each.end].map((passed) => course.at(passed));
+    const record = nameExchange(findStretch(course, first, last, each.end / 1e9));
+    return toRecord([record, phrase("exchange", record)]);
+  });
+  return Promise.all(answers);
+};
+
+/** The last two turning points of each case up to a time in ns. */
+window.findTurns = async (cases) => {
+  const { findLastTurns } = await import("/words/stretch.js");
+  const answers = cases.map(async (each) => findLastTurns(await followCase(each), each.end));
+  return Promise.all(answers);
+};
+
 /** Whether each start makes loops, and the spins at which the kinds of its motions change. */
 window.decideKinds = async (cases) => {
   const { makesLoops, findBoundaries } = await import("/physics/kinds.js");

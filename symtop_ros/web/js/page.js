@@ -249,8 +249,10 @@ export class Page {
   }
 
   /** @param {Message} message of a frame: samples up to now, and the end of the run in s */
-  showFrame({ samples, isSlow, end }) {
+  showFrame({ samples, stretches, isSlow, end }) {
     if (!this.facts) return;
+    say("stretch-act", stretches.act);
+    say("stretch-turns", stretches.turns || phrase("page.no_turns"));
     const { time: now, state } = samples[samples.length - 1];
     const time = now / NANO;
     Object.assign(document.body.dataset, { time, theta: state.angles.theta });

@@ -3,6 +3,7 @@
 import { holdTorque, perform } from "./acts.js";
 import { MOST_STEPS, NANO } from "../physics/course.js";
 import { chooseWindow, describe, describeMotion, describeNow } from "../words/facts.js";
+import { describeStretches } from "../words/stretch.js";
 import { phrase } from "../words/wording.js";
 import { nameError } from "./errors.js";
 import { recall, remember, rememberRun } from "./memory.js";
@@ -344,7 +345,8 @@ export class LocalTop {
       ...this.sampleKicks(times[0]),
       ...chosen.map((n) => this.sample(times[n], states[n])),
     ].sort((a, b) => a.time - b.time);
-    this.tell({ samples, end: this.end / NANO, isSlow: this.isSlow });
+    const stretches = describeStretches(this.run, this.time);
+    this.tell({ samples, stretches, end: this.end / NANO, isSlow: this.isSlow });
   }
 
   tellFacts() {

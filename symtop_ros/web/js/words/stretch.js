@@ -1,0 +1,180 @@
+// Who gave energy and momentum in a stretch of a run, and who has it: twin of physics/exchange.py.
+
+import {
+  findConstants,
+  findGains,
+  findPushGiven,
+  measureEnds,
+  subtractHeights,
+} from "../physics/formulas.js";
+import { NANO } from "../physics/course.js";
+import { MILLI } from "./ledger.js";
+import { phrase } from "./wording.js";
+
+/** @import { Energies } from "../physics/formulas.js" */
+/** @import { Course } from "../physics/course.js" */
+/** @import { State } from "../physics/state.js" */
+/** @import { Run, Moment } from "../run/run.js" */
+/** What a cause gave: work in J, and to p_phi and p_psi in N m s. @typedef {{who: string, work: number, vertical: number, axial: number}} Given */
+/** What became of a stretch. @typedef {{duration: number, gained: Energies, given: Given[], sizes: ReturnType<typeof measureEnds>}} Stretch */
+
+const ROUNDING = 1e-12; // of the sizes at both ends; less is none
+const HALVINGS = 60; // of half a nutation, in which a turning point is found
+const SLIP = 0.25; // ns to which it is found: states are those of whole ones
+/** @type {("weight" | "precession" | "nutation" | "spin")[]} */
+const PARTS = ["weight", "precession", "nutation", "spin"];
+
+/** Who else than gravity acts on a course. @param {Course} course */
+const nameForces = ({ friction, torque }) => {
+  const acting = [friction, torque].map((each) => each.some((one) => one !== 0));
+  if (acting[0] && acting[1]) return "both";
+  return acting[0] ? "friction" : "torque";
+};
+
+/** The sum of what pushes gave. @param {Moment[]} pushes @returns {Given} */
+const addPushes = (pushes) => {
+  const found = pushes.map(({ before, course, asked }) =>
+    findPushGiven(asked.act?.axle_impulse, /** @type {State} */ (before), course.start),
+  );
+  const work = found.reduce((sum, each) => sum + each.work, 0);
+  const vertical = found.reduce((sum, each) => sum + each.vertical, 0);
+  return { who: "pushes", work, vertical, axial: 0 };
+};
+
+/**
+ * A stretch of a course from a state to another one; what friction or a torque gave is what the pushes
+ * did not.
+ * @param {Course} course @param {State} first @param {State} last @param {number} duration s
+ * @param {Moment[]} pushes in the stretch
+ * @returns {Stretch}
+ */
+export const findStretch = (course, first, last, duration, pushes = []) => {
+  const { top, clamped, isDriven } = course;
+  const gained = findGains(top, first, last);
+  const pushed = addPushes(pushes);
+  const given = [pushed];
+  const [before, after] = [first, last].map((each) => findConstants(top, each));
+  if (clamped) {
+    const vertical = before.L_z * subtractHeights(first, last);
+    given.push({ who: "clamp", work: 0, vertical, axial: 0 });
+  }
+  if (isDriven) {
+    given.push({
+      who: nameForces(course),
+      work: PARTS.reduce((sum, part) => sum + gained[part], 0) - pushed.work,
+      vertical: after["L_z'"] - before["L_z'"] - pushed.vertical,
+      axial: after.L_z - before.L_z,
+    });
+  }
+  return { duration, gained, given, sizes: measureEnds(top, [first, last]) };
+};
+
+/** @param {Stretch} stretch */
+const listShares = ({ gained, given, sizes }) => {
+  const shares = PARTS.filter(
+    (part) => Math.abs(gained[part]) > ROUNDING * (part === "spin" ? sizes.spin : sizes.rest),
+  ).map((who) => ({
+    kind: gained[who] > 0 ? "got" : "gave",
+    who: /** @type {string} */ (who),
+    amount: MILLI * Math.abs(gained[who]),
+  }));
+  for (const { who, work } of given)
+    if (Math.abs(work) > ROUNDING * sizes.rest)
+      shares.push({ kind: work > 0 ? "gave" : "took", who, amount: MILLI * Math.abs(work) });
+  const isGiver = (/** @type {{kind: string}} */ { kind }) => kind === "gave";
+  return [...shares.filter(isGiver), ...shares.filter((each) => !isGiver(each))];
+};
+
+/** @param {Stretch} stretch */
+const listGifts = ({ given, sizes }) =>
+  given.flatMap(({ who, vertical, axial }) =>
+    /** @type {[string, number][]} */ ([
+      ["p_phi", vertical],
+      ["p_psi", axial],
+    ])
+      .filter(([, amount]) => Math.abs(amount) > ROUNDING * sizes.momentum)
+      .map(([name, amount]) => ({
+        kind: amount > 0 ? "gave" : "took",
+        who,
+        amount: Math.abs(amount),
+        name,
+      })),
+  );
+
+/** The record of a stretch, as Python's `Exchange` has it. @param {Stretch} stretch */
+export const nameExchange = (stretch) => {
+  const [shares, gifts] = [listShares(stretch), listGifts(stretch)];
+  return {
+    kind: shares.length ? "energy" : "none",
+    duration: stretch.duration,
+    shares,
+    momenta: { kind: gifts.length ? "changed" : "kept", gifts },
+  };
+};
+
+/** The rate of cos(theta) in rad/s. @param {Course} course @param {number} passed ns, rounded */
+const findRise = (course, passed) => {
+  const { omega, vertical } = course.at(Math.round(passed));
+  return vertical[0] * omega[1] - vertical[1] * omega[0];
+};
+
+/** The first turning point of a course, in ns since its start. @type {WeakMap<Course, number>} */
+const firstTurns = new WeakMap();
+
+/**
+ * The rate of the height changes its sign at a turning point, and nowhere else in half a nutation. Next to
+ * one its sign is rounding, so that the search begins where it is larger.
+ * @param {Course} course @param {number} half of the nutation in ns
+ */
+const findFirstTurn = (course, half) => {
+  const begins = [0, half / 2].map((time) => ({ time, rise: findRise(course, time) }));
+  const { time, rise } = begins.reduce((a, b) => (Math.abs(b.rise) > Math.abs(a.rise) ? b : a));
+  let [early, late] = [time, time + half];
+  for (let k = 0; k < HALVINGS && late - early > SLIP; k++) {
+    const middle = (early + late) / 2;
+    if (findRise(course, middle) > 0 === rise > 0) early = middle;
+    else late = middle;
+  }
+  return late < half - 1 ? late : Math.max(0, late - half);
+};
+
+/**
+ * The last two turning points of a course up to a time since its start, in ns; null before the second.
+ * @param {Course} course @param {number} passed ns
+ * @returns {[number, number] | null}
+ */
+export const findLastTurns = (course, passed) => {
+  const { isDriven, motion } = course;
+  const half = (motion.rates.nutation_period * NANO) / 2;
+  const [low, high] = motion.turning_angles;
+  if (isDriven || !(low < high) || !(passed >= half)) return null; // also without a period
+  const first = firstTurns.get(course) ?? findFirstTurn(course, half);
+  firstTurns.set(course, first);
+  const number = Math.floor((passed - first + 1) / half);
+  return number < 1 ? null : [first + (number - 1) * half, first + number * half];
+};
+
+/**
+ * What was exchanged since the last act, and between the last two turning points, in words.
+ * @param {Run} run @param {number} time ns
+ */
+export const describeStretches = (run, time) => {
+  const event = run.findEvent(time);
+  const { course, kind, before, time: began } = event;
+  const isPushed = kind === "push" && before !== null;
+  const pushes = isPushed ? run.listKicks(began, time).filter((each) => each.kind === kind) : [];
+  const first = isPushed ? before : course.at(0);
+  const act = findStretch(course, first, run.at(time), (time - began) / NANO, pushes);
+  const { course: piece, begin } = course.pieceAt(time - began);
+  const turns = findLastTurns(piece, time - began - begin);
+  return {
+    act: phrase("exchange", nameExchange(act)),
+    turns: turns ? phrase("exchange", nameExchange(findBetween(piece, turns))) : "",
+  };
+};
+
+/** @param {Course} course @param {[number, number]} turns ns since its start */
+const findBetween = (course, [begin, end]) => {
+  const [first, last] = [begin, end].map((each) => course.at(Math.round(each)));
+  return findStretch(course, first, last, (end - begin) / NANO);
+};
