@@ -130,6 +130,9 @@ def test_a_series_of_pushes_is_told_with_its_first_one(open_page):
     speeds = (start.euler_rates.phi + first.euler_rates.phi) / 2 * math.sin(0.5)
     work = 1e3 * (later.work + 5e-5 * speeds)
     assert f"the pushes gave {work:.3g} mJ" in page.say("stretch-act")
+    page.seek(page.read_events()[-1]["time"] + 0.02)  # back to the first one
+    given = 5e-5 * math.sin(0.5)
+    page.until(lambda: f"the pushes gave {given:.3g} N m s to p_phi." in page.say("stretch-act"))
 
 
 def test_a_clamp_takes_p_phi_and_no_energy(open_page):

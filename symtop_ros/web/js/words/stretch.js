@@ -31,27 +31,44 @@ const nameForces = ({ friction, torque }) => {
   return acting[0] ? "friction" : "torque";
 };
 
-/** The sum of what pushes gave. @param {Moment[]} pushes @returns {Given} */
-const addPushes = (pushes) => {
-  const found = pushes.map(({ before, course, asked }) =>
-    findPushGiven(asked.act?.axle_impulse, /** @type {State} */ (before), course.start),
-  );
-  const work = found.reduce((sum, each) => sum + each.work, 0);
-  const vertical = found.reduce((sum, each) => sum + each.vertical, 0);
-  return { who: "pushes", work, vertical, axial: 0 };
+/** What the pushes of a course gave, up to so many of them. @type {WeakMap<Course, Given & {number: number}>} */
+const counted = new WeakMap();
+const NO_PUSHES = { who: "pushes", work: 0, vertical: 0, axial: 0, number: 0 };
+
+/**
+ * What the pushes of an event gave up to a time since it: only new ones are counted.
+ * @param {Moment} event @param {number} passed ns
+ */
+const countPushes = ({ course, before }, passed) => {
+  const impulse = course.pushes?.impulse;
+  if (impulse === undefined || !before) return NO_PUSHES;
+  let piece = course.pieceAt(passed);
+  const { number } = piece;
+  const found = counted.get(course) ?? NO_PUSHES;
+  const known = number < found.number ? NO_PUSHES : found; // an earlier moment is shown
+  let { work, vertical } = known;
+  for (let left = number; left > known.number; left--) {
+    const former = left > 1 ? course.findStateBefore(piece) : before;
+    const given = findPushGiven(impulse, former, piece.course.start);
+    work += given.work;
+    vertical += given.vertical;
+    if (left > 1) piece = course.pieceAt(piece.begin - 1);
+  }
+  const all = { ...NO_PUSHES, work, vertical, number };
+  counted.set(course, all);
+  return all;
 };
 
 /**
  * A stretch of a course from a state to another one; what friction or a torque gave is what the pushes
  * did not.
  * @param {Course} course @param {State} first @param {State} last @param {number} duration s
- * @param {Moment[]} pushes in the stretch
+ * @param {Given} pushed what pushes gave in the stretch
  * @returns {Stretch}
  */
-export const findStretch = (course, first, last, duration, pushes = []) => {
+export const findStretch = (course, first, last, duration, pushed = NO_PUSHES) => {
   const { top, clamped, isDriven } = course;
   const gained = findGains(top, first, last);
-  const pushed = addPushes(pushes);
   const given = [pushed];
   const [before, after] = [first, last].map((each) => findConstants(top, each));
   if (clamped) {
@@ -160,11 +177,10 @@ export const findLastTurns = (course, passed) => {
  */
 export const describeStretches = (run, time) => {
   const event = run.findEvent(time);
-  const { course, kind, before, time: began } = event;
-  const isPushed = kind === "push" && before !== null;
-  const pushes = isPushed ? run.listKicks(began, time).filter((each) => each.kind === kind) : [];
-  const first = isPushed ? before : course.at(0);
-  const act = findStretch(course, first, run.at(time), (time - began) / NANO, pushes);
+  const { course, before, time: began } = event;
+  const pushed = countPushes(event, time - began);
+  const first = pushed.number && before ? before : course.at(0);
+  const act = findStretch(course, first, run.at(time), (time - began) / NANO, pushed);
   const { course: piece, begin } = course.pieceAt(time - began);
   const turns = findLastTurns(piece, time - began - begin);
   return {
