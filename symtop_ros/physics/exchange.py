@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from symtop_ros.physics.ledger import Ledger
 
 MILLI = 1e3
-ROUNDING = 1e-12  # of the sizes at both ends: ten times what states are promised to; less is none
+ROUNDING = 1e-12  # of the sizes at both ends: ten times the promise of states; less is rounding
 
 Part = Literal["weight", "precession", "nutation", "spin"]
 CauseName = Literal["pushes", "clamp", "friction", "torque"]
@@ -43,7 +43,7 @@ class Gift:
 
 @dataclass(frozen=True, slots=True)
 class Momenta:
-    """What became of p_phi and p_psi."""
+    """Changes of p_phi and p_psi, by their causes."""
 
     kind: Literal["kept", "changed"]
     gifts: tuple[Gift, ...]
@@ -51,7 +51,7 @@ class Momenta:
 
 @dataclass(frozen=True, slots=True)
 class Exchange:
-    """What a stretch exchanged: in energy nothing, or shares of which the givers come first."""
+    """Exchange of a stretch: shares of energy, the givers first, or none, and momenta."""
 
     kind: Literal["energy", "none"]
     duration: float  # s

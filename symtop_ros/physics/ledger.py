@@ -59,9 +59,9 @@ class Energies:
         return self.weight + self.precession + self.nutation + self.spin
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Contribution:
-    """What one cause gives to a top in a stretch; what it takes is negative.
+    """Energy and momenta that one cause gives to a top in a stretch; negative where it takes them.
 
     Attributes
     ----------
@@ -84,9 +84,10 @@ class Contribution:
 
 
 NOTHING = Contribution(0.0, 0.0, 0.0, np.zeros(3))
+NOTHING.angular_impulse.setflags(write=False)  # it is that of many ledgers
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Ledger:
     """Energy, p_phi, p_psi and angular momentum that a stretch of a motion exchanges.
 
@@ -95,7 +96,7 @@ class Ledger:
     begin, end : float
         Times of the stretch in s.
     gained : Energies
-        What the weight, the precession, the nutation and the spin have gained.
+        Gains of the weight, the precession, the nutation and the spin.
     gravity : Contribution
         Its work is what the weight has lost; it gives nothing to p_phi and p_psi.
     pushes : Contribution

@@ -1,4 +1,4 @@
-"""How many steps the depth of a fall takes without constants of motion: Euler's explicit scheme.
+"""Steps to the depth of a fall without constants of motion, by Euler's explicit scheme.
 
 The torque gives three accelerations (the article's equations of theta'', phi'' and psi''). A step
 adds each acceleration times dt to its rate, and theta' times dt to theta, with the values at the
@@ -14,7 +14,7 @@ from symtop_ros.physics import Top
 
 @dataclass(frozen=True, slots=True)
 class Tilted:
-    """What the accelerations of a top depend on: theta in rad, and the rates in rad/s."""
+    """A tilted top, as far as its accelerations depend on it: theta in rad, rates in rad/s."""
 
     theta: float
     theta_dot: float
