@@ -4,7 +4,8 @@ import { find, findAll, make, say, write } from "./document.js";
 import { keep, read } from "./choices.js";
 import { recall, remember } from "../run/memory.js";
 import { writeNumber } from "../words/numbers.js";
-import { parseQuantity, UNITS } from "../words/quantities.js";
+import { parseQuantity } from "../words/quantities.js";
+import { UNITS } from "../words/units.js";
 import { isKnown, phrase } from "../words/wording.js";
 
 /**
@@ -78,7 +79,7 @@ const makeCell = (tag, text) => {
  */
 export const checkNumber = ({ value, within }, typed) => {
   if (!typed.trim()) return "";
-  const number = parseQuantity(typed, { ...UNITS.angle }); // in rad, whatever the fields are in
+  const number = parseQuantity(typed, { ...UNITS.rad }); // in rad, whatever the fields are in
   if (Number.isNaN(number)) return phrase("asked", { kind: "none" });
   return phrase("asked", { kind: Math.abs(number - value) <= within ? "near" : "far", within });
 };
