@@ -171,11 +171,18 @@ def test_a_bag_of_compressed_messages_is_read(storage, tmp_path):
     assert found == {(300, 0.0)}
 
 
+@pytest.fixture(name="copies")
+def _copies(tmp_path, monkeypatch):
+    """The folder in which temporary folders are made."""
+    folder = tmp_path / "copies"
+    folder.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    return folder
+
+
 @pytest.mark.parametrize("storage", STORAGES)
-def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path, monkeypatch):
+def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path, copies):
     """As `--compression-mode file` leaves it."""
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "copies"))
-    (tmp_path / "copies").mkdir()
     folder = tmp_path / "bag"
     folder.mkdir()
     for file in parts(tmp_path / "written", 2, storage):
@@ -183,7 +190,7 @@ def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path,
         (folder / f"{file.name}.zstd").write_bytes(packed)
     assert_complete([folder])
     gc.collect()
-    assert list((tmp_path / "copies").iterdir()) == []
+    assert list(copies.iterdir()) == []
 
 
 @pytest.mark.parametrize("mode", MODES, ids=lambda mode: mode.name)
@@ -236,10 +243,13 @@ def test_compressed_messages_that_are_damaged_are_counted(tmp_path):
     assert first == "messages that cannot be decompressed: 1"
 
 
-def test_a_compressed_file_that_is_none_is_refused(tmp_path):
+def test_a_compressed_file_that_is_none_is_refused_and_leaves_no_copy(tmp_path, copies):
     (tmp_path / "bag_0.mcap.zstd").write_bytes(b"nothing of the kind")
-    with pytest.raises(LogError, match=r"cannot open \S+: it cannot be decompressed"):
+    with pytest.raises(LogError, match=r"cannot open \S+: it cannot be decompressed") as refused:
         open_run([tmp_path])
+    # While the traceback holds it, Python does not remove the folder of the copy by itself.
+    assert refused.tb
+    assert list(copies.iterdir()) == []
 
 
 class Recorder(Program):

@@ -11,6 +11,8 @@ from disks import mounted
 from exact_log import stamps_of
 from log_files import LAYOUTS, Run
 from mcap.reader import make_reader
+from mcap.records import DataEnd, Footer
+from mcap.stream_reader import StreamReader
 from mcap.writer import Writer
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
@@ -215,6 +217,21 @@ def test_a_log_without_any_message_is_removed(tmp_path):
     log = LogFile(tmp_path, [EVENTS], {}, {0: b"latched"})
     log.finish({})
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_log_that_was_given_up_ends_as_a_file_without_checksum_and_index(tmp_path):
+    log = LogFile(tmp_path, [EVENTS], {}, {})
+    log.write(0, 5, b"flushed")
+    log.flush()
+    log.write(0, 6, b"lost")
+    log.abandon()
+    assert [(time, data) for _, time, data in contents(log.path)] == [(5, b"flushed")]
+    with log.path.open("rb") as file:
+        # In the specification of MCAP each 0 says "not there".
+        assert [*StreamReader(file, validate_crcs=True).records][-2:] == [
+            DataEnd(data_section_crc=0),
+            Footer(summary_start=0, summary_offset_start=0, summary_crc=0),
+        ]
 
 
 RUN = Run()

@@ -123,6 +123,27 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
         end = normalize([point.x, point.y, point.z])
         assert end == pytest.approx(normalize(vector), abs=1e-15)
     assert np.linalg.norm([*vars(trace.points[-1]).values()][:3]) == pytest.approx(LENGTH)
+    colors = {(each.color.r, each.color.g, each.color.b) for each in last.markers}
+    assert len(colors) == len(last.markers)  # each has its own
+    assert all(0.0 <= part <= 1.0 for color in colors for part in color)
+    assert {each.color.a for each in last.markers} == {1.0}  # rviz hides what is transparent
+    assert {each.action for each in last.markers} == {trace.ADD}
+    assert not any(each.frame_locked or each.colors or each.text for each in last.markers)
+    assert {(each.lifetime.sec, each.lifetime.nanosec) for each in last.markers} == {(0, 0)}
+
+
+def test_the_largest_vector_so_far_is_an_arrow_of_its_own_length(tmp_path):
+    """About the length of the top, and each of another one: they do not hide each other."""
+    logged = read_messages(record_with_markers(tmp_path))
+    types, longest = get_typestore(Stores.ROS2_JAZZY), dict.fromkeys(ARROWS, 0.0)
+    for topic, _, data in logged:
+        if topic == "/top/markers":
+            _, *arrows = types.deserialize_cdr(data, "visualization_msgs/msg/MarkerArray").markers
+            for arrow in arrows:
+                tip = arrow.points[1]
+                longest[arrow.ns] = max(longest[arrow.ns], np.hypot(np.hypot(tip.x, tip.y), tip.z))
+    lengths = {"angular_velocity": 1.4, "angular_momentum": 1.2, "torque": 0.7}
+    assert longest == pytest.approx({name: LENGTH * each for name, each in lengths.items()})
 
 
 def test_markers_are_due_at_the_first_sample_of_a_period_and_after_a_jump_back():

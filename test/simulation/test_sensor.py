@@ -12,7 +12,18 @@ from simulation.runs import SECOND, Run
 from symtop_ros.physics import Body, Motion, State, Top, point_acceleration
 from symtop_ros.session.outputs import list_fixed_frames
 from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.sensor.imu import EARTH, EXACT, EXACT_FIELD, Imu, Magnetometer, Rig
+from symtop_ros.simulation.sensor.imu import (
+    CONSUMER,
+    EARTH,
+    EXACT,
+    EXACT_FIELD,
+    MAGNETOMETER_NOISE,
+    NOISE,
+    STANDARD_GRAVITY,
+    Imu,
+    Magnetometer,
+    Rig,
+)
 from symtop_ros.simulation.sensor.noise import random_walks
 from symtop_ros.simulation.topics import SENSOR_TOPICS, STATE_TOPICS, Samples
 
@@ -117,6 +128,38 @@ def test_noise_has_the_values_that_it_had_in_logs_of_before():
     later = random_walks(5, [2, 3], np.array([SECOND, 3600 * SECOND + 1])).ravel().tolist()
     known = [-0.0181971324128599, -53.8163166360681, -0.5371121175440042, 91.22892677461851]
     assert later == pytest.approx(known, **within)
+
+
+BEYOND = [
+    (Imu, "seed", (-1, 2**63), "0 to "),
+    (Imu, "rate", (0.0, 1e7, math.nan), "0.001 to 1e\\+06 Hz"),
+    (Magnetometer, "seed", (-1, 2**63), "0 to "),
+    *((Imu, name, (-1e-9, 1.1e6, math.inf), "0 to 1e\\+06 in SI units") for name in NOISE),
+    *(
+        (Magnetometer, name, (-1e-9, 1.1e6, math.inf), "0 to 1e\\+06 in SI units")
+        for name in MAGNETOMETER_NOISE
+    ),
+]
+
+
+@pytest.mark.parametrize(("kind", "name", "values", "condition"), BEYOND)
+def test_a_number_out_of_the_range_of_a_sensor_is_refused_when_it_is_made(
+    kind, name, values, condition
+):
+    for value in values:
+        with pytest.raises(ValueError, match=f"^{name} must be {condition}.*, got "):
+            kind(**{name: value})
+
+
+def test_the_consumer_sensor_has_the_figures_of_its_data_sheet():
+    """Bosch BMI088: 0.014 deg/s/sqrt(Hz), 175 ug/sqrt(Hz), and a bias stable to 2 deg/h."""
+    noise = CONSUMER.gyroscope_noise_density, CONSUMER.accelerometer_noise_density
+    # two digits of each, and one of the walks: half of the last one
+    assert noise[0] == pytest.approx(math.radians(0.014), abs=0.5e-5)
+    assert noise[1] == pytest.approx(175e-6 * STANDARD_GRAVITY, abs=0.5e-4)
+    assert CONSUMER.gyroscope_random_walk == pytest.approx(math.radians(2) / 3600, abs=0.5e-6)
+    # The data sheet has no stability of the accelerometer: 1e-5 g in a second is usual.
+    assert CONSUMER.accelerometer_random_walk == pytest.approx(1e-5 * STANDARD_GRAVITY, abs=0.5e-5)
 
 
 def test_noise_shows_in_the_covariances():

@@ -61,6 +61,40 @@ def test_a_number_may_be_at_the_limits_of_its_range_and_is_refused_beyond_them(n
         assert refusal({name: 0.5}) == f"{name} must be {parameter.condition}, got 0.5"
 
 
+NOISE = (
+    "imu.noise.gyroscope_noise_density",
+    "imu.noise.gyroscope_random_walk",
+    "imu.noise.accelerometer_noise_density",
+    "imu.noise.accelerometer_random_walk",
+    "magnetic_field.noise.magnetometer_noise_density",
+    "magnetic_field.noise.magnetometer_random_walk",
+)
+# Part of the interface: `ros2 param describe` shows them, and a launch file may rely on them.
+RANGES = {
+    ("top.Ix", "top.Iz"): (1 / 1e30, 1e30),
+    ("top.Mgl",): (-1e30, 1e30),
+    ("initial.theta",): (0.0, math.pi),
+    ("initial.phi", "initial.psi"): (-1e3, 1e3),
+    ("initial.theta_dot", "initial.phi_dot", "initial.psi_dot"): (-1e9, 1e9),
+    ("friction.axial", "friction.transverse"): (0.0, 1e30),
+    ("applied_torque_timeout",): (1e-3, 1e6),
+    ("hurry_factor",): (-1e6, 1e6),
+    ("publish_rate",): (1.0, 2000.0),
+    ("real_time_factor",): (1e-3, 100.0),
+    ("record.max_size",): (0.0, 1e15),
+    ("record.max_duration",): (0.0, 1e9),
+    ("gravity",): (1e-3, 1e3),
+    NOISE: (0.0, 1e6),
+    ("imu.noise.seed", "magnetic_field.noise.seed"): (0, 2**53),
+    ("scheduling_priority",): (0, 99),
+}
+
+
+def test_every_number_has_the_range_that_users_rely_on():
+    promised = {name: limits for names, limits in RANGES.items() for name in names}
+    assert {name: PARAMETERS[name].limits for name in RANGED} == promised
+
+
 @pytest.mark.parametrize("name", VECTORS)
 def test_a_vector_has_its_size_of_numbers_and_may_be_text_or_empty(name):
     validate, size = PARAMETERS[name].validate, int(VECTORS[name])
