@@ -8,11 +8,18 @@ from log_files import Run
 from trials import choose
 
 from symtop_ros.check.run import check_run
+from symtop_ros.check.samples import Deviation
 from symtop_ros.log.top_log import TopLog
 from symtop_ros.playback.check import check
 from symtop_ros.playback.main import main
 from symtop_ros.simulation.events import decode_events
-from symtop_ros.simulation.topics import SAMPLE_TOPICS
+from symtop_ros.simulation.topics import (
+    DESCRIPTION,
+    DIAGNOSTICS,
+    EVENTS,
+    SAMPLE_TOPICS,
+    TF_STATIC,
+)
 from symtop_ros.wire.diagnostics import decode_statuses, encode_statuses
 
 
@@ -32,6 +39,41 @@ def judge(memory):
     assert findings.samples_agree
     assert findings.mismatches == []
     return log.account, findings
+
+
+def test_all_messages_of_a_whole_run_are_compared_and_judged(memory):
+    findings = judge(memory)[1]
+    assert (findings.unjudged, findings.foreign) == (0, 0)
+    assert set(findings.reasons) == {"clock", "markers", "applied_torque"}  # not computed
+    others = {EVENTS: "/top/events", DESCRIPTION: "/robot_description"}
+    others |= {TF_STATIC: "/tf_static", DIAGNOSTICS: "/diagnostics"}
+    expected = {each.name: len(memory.places(topic)) for each, topic in others.items()}
+    assert findings.compared == expected
+    assert min(expected.values()) > 0
+
+
+def test_a_sample_that_is_not_judged_counts_for_whatever_reason(memory):
+    findings = check_run(TopLog(memory))
+    for reasons, count in (((1, 0, 0), 1), ((0, 2, 0), 2), ((0, 0, 4), 4), ((1, 2, 4), 7)):
+        unjudged, unchecked, unreached = reasons
+        one = Deviation(unjudged=unjudged, unchecked=unchecked, unreached=unreached)
+        found = replace(findings, deviations={"torque": one, "tf": Deviation(samples=8)})
+        assert found.unjudged == count
+
+
+def test_diagnostics_may_be_of_before_an_event_of_their_stamp_and_behind_it_in_the_log(memory):
+    """As where a log has its events first."""
+    moved = 0
+    for place in memory.places("/top/events"):
+        event = memory.messages[place]
+        for before in memory.places("/diagnostics"):
+            if before < place and memory.messages[before].log_time == event.log_time:
+                memory.messages.insert(before, memory.messages.pop(place))
+                moved += 1
+                break
+    assert moved >= 2
+    compared = len(memory.places("/diagnostics"))
+    assert judge(memory)[1].compared[DIAGNOSTICS.name] == compared
 
 
 @pytest.mark.parametrize("lost", [(3,), (4, 5, 6), (9,), (12, 13)])

@@ -1,6 +1,7 @@
 """The recorder and its files: all messages in order, whatever happens to the disk, and repair."""
 
 import errno
+import json
 import os
 import threading
 import time
@@ -21,10 +22,11 @@ from waiting import TIMEOUT, until
 from symtop_ros.log import recorder as module
 from symtop_ros.log.account import read_account
 from symtop_ros.log.names import Names
-from symtop_ros.log.reader import LogError, McapFile
+from symtop_ros.log.reader import LOST_BEFORE, LogError, McapFile
 from symtop_ros.log.recorder import Recorder
 from symtop_ros.log.repair import repair
-from symtop_ros.log.writer import MAGIC, LogFile
+from symtop_ros.log.source import Loss
+from symtop_ros.log.writer import MAGIC, REPAIR, REPAIR_LOSSES, LogFile
 from symtop_ros.simulation.settings import RecordSettings
 from symtop_ros.simulation.topics import EVENTS, TOPICS, Topic
 
@@ -262,6 +264,42 @@ def test_the_readable_messages_become_a_complete_file_for_every_reader(cut, tmp_
     assert hashes == {"RIHS01_"}
     with AnyReader([target]) as other:
         assert sum(1 for _ in other.messages()) == count
+
+
+NO_LOSSES = [
+    "",
+    "[",
+    "7",
+    '[{"text": 5, "place": 0}]',
+    '[{"text": "lost", "place": true}]',
+    '[{"text": "lost", "place": "0"}]',
+    '[{"text": "lost", "place": 0, "more": 0}]',
+    "[" * 100_000,
+]
+
+
+@pytest.mark.parametrize("text", NO_LOSSES)
+def test_what_is_no_list_of_losses_is_not_taken_for_one(text, tmp_path):
+    assert read_losses(tmp_path, text) == []
+
+
+def test_losses_that_a_repair_has_noted_are_read(tmp_path):
+    noted = [{"text": "3 messages", "place": 7}, {"text": "a chunk"}]
+    assert read_losses(tmp_path, json.dumps(noted)) == [
+        Loss(f"{LOST_BEFORE}3 messages", 7),
+        Loss(f"{LOST_BEFORE}a chunk", None),
+    ]
+
+
+def read_losses(folder, text):
+    """The losses that a file has by its metadata."""
+    path = folder / "repaired.mcap"
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start("ros2")
+        writer.add_metadata(REPAIR, {REPAIR_LOSSES: text})
+        writer.finish()
+    return read_whole(path).losses
 
 
 def test_the_target_is_never_overwritten(cut, tmp_path):

@@ -10,7 +10,7 @@ from rosbags.typesys import Stores, get_typestore
 from simulation.runs import HandClock
 
 from symtop_ros.models.urdf import LENGTH
-from symtop_ros.physics import ExactTimes
+from symtop_ros.physics import Body, ExactTimes
 from symtop_ros.session.diagnostics import _log_status, _pace_status
 from symtop_ros.session.outputs import ARROWS, PERIOD, Markers
 from symtop_ros.session.session import Session
@@ -212,6 +212,20 @@ def test_without_odometry_the_sensor_alone_has_a_fixed_frame():
     translation, rotation = frame.transform.translation, frame.transform.rotation
     assert (translation.x, translation.y, translation.z) == place
     assert (rotation.x, rotation.y, rotation.z, rotation.w) == attitude
+
+
+def test_with_odometry_the_centre_of_mass_has_a_frame_on_the_axis():
+    host = Program()
+    session, _ = start(host, odometry__enabled=True)
+    (sent,) = host.publishers["tf_static"].sent
+    types = get_typestore(Stores.ROS2_JAZZY)
+    (frame,) = types.deserialize_cdr(sent, "tf2_msgs/msg/TFMessage").transforms
+    assert (frame.header.frame_id, frame.child_frame_id) == ("top", "top_centre_of_mass")
+    settings, place = session.simulation.settings, frame.transform.translation
+    arm = Body.of(settings.top, settings.gravity).arm
+    assert (place.x, place.y, place.z) == (0.0, 0.0, arm)
+    session.apply_settings({"odometry.enabled": True, "top.Mgl": settings.top.Mgl / 2})
+    assert len(host.publishers["tf_static"].sent) == 2  # it moves with the arm
 
 
 PACES = [

@@ -14,7 +14,7 @@ from symtop_ros.wire import messages
 from symtop_ros.wire.layout import DecodeError, Doubles, Layout, Reader, Stamp, Writer
 
 DOUBLE = st.floats(allow_nan=False)
-STAMP = st.integers(0, (2**31 - 1) * 10**9 + 999_999_999)
+STAMP = st.integers(0, (2**31 - 1) * 10**9 + 999_999_998)
 NAME = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=12)
 
 
@@ -56,6 +56,9 @@ def test_rclpy_reads_what_we_pack_and_we_read_what_rclpy_writes(name, stamp, fra
     rows = np.frombuffer(theirs[: len(packed)], np.uint8)[None]
     assert layout.match(rows)[0]
     assert layout.decode(rows)[1].tolist() == [numbers]
+    both = [numbers, numbers[::-1]]  # messages that are encoded together are those of one by one
+    together = layout.encode_many(np.array([stamp, stamp + 1]), np.array(both))
+    assert together == [packed, layout.encode(stamp + 1, numbers[::-1])]
     found, refused = messages.decode_messages(form, [theirs])
     assert not refused
     assert found[0].stamps.tolist() == [stamp]

@@ -317,3 +317,12 @@ def test_the_rule_next_to_the_vertical_is_that_of_sixty_digits(seed):
             exact = exact_change(top, state, factor, hold)
         if holds is not None:
             assert holds == ((exact < 0) == (factor > 1)), (top, state, factor, hold)
+
+
+@pytest.mark.wording
+def test_the_text_of_a_reason_is_its_sentence_in_the_verdict():
+    before = precess(SLOW)
+    verdict = answer(before)
+    sentence = str(verdict.reason)
+    assert sentence.startswith("Perry's rule holds: hurried, theta'' is ")
+    assert sentence in str(verdict)
