@@ -1,6 +1,9 @@
 """Writes symtop_ros/log/definitions.json from the message packages of the installed ROS 2 (Jazzy).
 
 Run it when a topic with a new message type is added: python -m workshop.definitions
+
+The hashes are those of rosbags. Its texts have no comments, which rosbag2 writes and a reader of a
+log may need: a third of the characters is left.
 """
 
 import json
@@ -9,6 +12,8 @@ import re
 import sys
 from pathlib import Path
 
+from rosbags.typesys import Stores, get_typestore
+
 from symtop_ros.simulation.topics import TOPICS
 
 TARGET = Path(__file__).parents[1] / "symtop_ros" / "log" / "definitions.json"
@@ -16,7 +21,6 @@ SEPARATOR = "=" * 80 + "\nMSG: {name}\n{text}"
 # tf2_msgs is not on PyPI, where the rest of ROS 2 is.
 TF_MESSAGE = "tf2_msgs/msg/TFMessage"
 TF_TEXT = "geometry_msgs/TransformStamped[] transforms\n"
-TF_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 FIELD = re.compile(r"^\s*([A-Za-z]\w*(?:/\w+)*)(?:<=\d+)?(?:\[[^\]]*\])?\s+\w+", re.MULTILINE)
 PRIMITIVES = {
     *("bool", "byte", "char", "float32", "float64", "string", "wstring"),
@@ -27,7 +31,8 @@ PRIMITIVES = {
 def definitions() -> dict[str, dict[str, str]]:
     """Text with all dependencies, and RIHS01 hash, of each type that is logged."""
     types = sorted({topic.type for topic in TOPICS.values()})
-    return {name: {"text": full_text(name), "hash": type_hash(name)} for name in types}
+    known = get_typestore(Stores.ROS2_JAZZY)
+    return {name: {"text": full_text(name), "hash": known.hash_rihs01(name)} for name in types}
 
 
 def full_text(name: str) -> str:
@@ -51,22 +56,14 @@ def dependencies(name: str) -> list[str]:
 
 def text(name: str) -> str:
     """The text of a type alone."""
-    return TF_TEXT if name == TF_MESSAGE else file(name, "msg").read_text(encoding="utf-8")
+    return TF_TEXT if name == TF_MESSAGE else file(name).read_text(encoding="utf-8")
 
 
-def type_hash(name: str) -> str:
-    """The hash of a type."""
-    if name == TF_MESSAGE:
-        return TF_HASH
-    hashes = json.loads(file(name, "json").read_text(encoding="utf-8"))["type_hashes"]
-    return next(str(each["hash_string"]) for each in hashes if each["type_name"] == name)
-
-
-def file(name: str, suffix: str) -> Path:
-    """The installed file that describes a type."""
+def file(name: str) -> Path:
+    """The installed .msg of a type."""
     package, _, short = name.split("/")
     prefixes = [*os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep), sys.prefix]
-    paths = [Path(each, "share", package, "msg", f"{short}.{suffix}") for each in prefixes if each]
+    paths = [Path(each, "share", package, "msg", f"{short}.msg") for each in prefixes if each]
     return next(path for path in paths if path.is_file())
 
 
