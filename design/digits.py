@@ -18,7 +18,8 @@ from symtop_ros.physics import State, Top
 from symtop_ros.physics.reference import Inputs
 from workshop.digits import ClosedForm
 
-TRIED, ENOUGH = (16, 28, 38, 50, 57), 120
+TRIED = (16, 28, 38, 50, 57)
+ENOUGH = 120
 TURNS = (1e3, 1e9, 1e15)
 TOP = Top(0.000228, 0.0000572, 0.068)
 RISING = State.from_euler(theta=math.pi / 2, theta_dot=-math.sqrt(2))

@@ -20,7 +20,8 @@ TERMS, PLACES = 30, 16
 
 def sum_series(x: Fraction, exact_terms: int) -> tuple[Fraction, Fraction]:
     """Return exp(i x) as a series of which the first terms are exact, and the others doubles."""
-    parts, term = [Fraction(1), Fraction(0)], Fraction(1)
+    parts = [Fraction(1), Fraction(0)]
+    term = Fraction(1)
     for n in range(1, TERMS + 1):
         term = term * x / n
         rounded = term if n <= exact_terms else Fraction(float(term))

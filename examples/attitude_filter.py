@@ -64,7 +64,8 @@ class AttitudeFilter(Node):
         self._publisher.publish(imu)
 
     def _update(self, stamp: int, imu: Imu, field: Real) -> Real:
-        force, seconds = _vector(imu.linear_acceleration), (stamp - self._last) * 1e-9
+        force = _vector(imu.linear_acceleration)
+        seconds = (stamp - self._last) * 1e-9
         self._last = stamp
         if self._q is None:
             compass = ecompass(force, field, frame="NED", representation="quaternion")

@@ -50,7 +50,8 @@ def step(start: State, seconds: float, steps: int) -> NDArray[np.float64]:
     body = State.from_euler(theta=0.5)
     model = mujoco.MjModel.from_xml_string(format_mjcf(TOP, body, Body.of(TOP)))
     model.opt.timestep = seconds / steps
-    worlds, count = mujoco_warp.put_model(model), len(start.orientation)
+    worlds = mujoco_warp.put_model(model)
+    count = len(start.orientation)
     data = mujoco_warp.put_data(model, mujoco.MjData(model), nworld=count)
     # a ball joint: w, x, y, z, and rates in the body frame
     wp.copy(data.qpos, _to_warp(start.orientation))

@@ -40,7 +40,8 @@ class Numbers(random.Random):
         """Return a normal number, as the base class does: by Box and Muller, two at a time."""
         z, self.gauss_next = self.gauss_next, None
         if z is None:
-            angle, size = 2 * PI * self.random(), sqrt(-2 * log(1.0 - self.random()))
+            angle = 2 * PI * self.random()
+            size = sqrt(-2 * log(1.0 - self.random()))
             z, self.gauss_next = cos(angle) * size, sin(angle) * size
         return mu + z * sigma
 

@@ -81,7 +81,8 @@ def copy_path(folder: Path) -> str:
 
 def make_stranger(folder: Path) -> groups.Command:
     """Return the command for a user who is not root, and has next to nothing."""
-    copy, home = copy_checkout(folder), folder / "home"
+    copy = copy_checkout(folder)
+    home = folder / "home"
     home.mkdir()
     home.chmod(0o777)
     variables = {"HOME": str(home), "PATH": copy_path(folder), "PYTHONPATH": str(copy)}

@@ -167,7 +167,8 @@ def ignore(paths: Iterable[str]) -> Iterator[str]:
 
 def run_group(name: str, commands: Sequence[Command]) -> Outcome:
     """Run the commands of a group one after the other; their output goes to one file."""
-    outcome, began = Outcome(), time.monotonic()
+    outcome = Outcome()
+    began = time.monotonic()
     # a user waits for pages and nodes, and tests that only compute make room for them
     priority = [] if name in ("page", "nodes", "rest", "realtime") else ["nice", "-n", "19"]
     path = file_of(name)
@@ -236,7 +237,8 @@ def find_details(text: str) -> str:
 
 def summarize(outcomes: Sequence[Outcome]) -> str:
     """Return counts in the words of pytest."""
-    passed, failed = sum(each.passed for each in outcomes), sum(len(e.failures) for e in outcomes)
+    passed = sum(each.passed for each in outcomes)
+    failed = sum(len(e.failures) for e in outcomes)
     skipped = sum(each.skipped for each in outcomes)
     return f"{passed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else "")
 

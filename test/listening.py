@@ -7,7 +7,8 @@ import psutil
 
 def tcp_addresses(pid: int) -> set[tuple[str, int]]:
     """Addresses and ports that a process and its children accept connections on."""
-    process, found = psutil.Process(pid), set()
+    process = psutil.Process(pid)
+    found = set()
     for each in (process, *process.children(recursive=True)):
         with contextlib.suppress(psutil.Error):  # it has ended since
             sockets = each.net_connections("tcp")

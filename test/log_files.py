@@ -63,7 +63,8 @@ class Run:
         half = count // 2 if self.hurried else count
         self._samples(segment, stamps[:half])
         if self.hurried:
-            stamp, request = stamps[half], {"precession_rate_factor": 1.4}
+            stamp = stamps[half]
+            request = {"precession_rate_factor": 1.4}
             before = segment.state_at(stamp)
             kicked, hold = plan_kick(segment.motion, before, request)
             segment = segment.replace_motion(kicked, stamp)

@@ -63,7 +63,8 @@ def let_go():
 
 
 def depths():
-    p_psi, lowest = TOP.Iz * SPIN, start(0.0).turning_angles[1]
+    p_psi = TOP.Iz * SPIN
+    lowest = start(0.0).turning_angles[1]
     slow, fast = (start(0.0, spin).turning_angles for spin in (150.0, 300.0))
     return [
         *(f"{p_psi:.5f}", f"{p_psi**2 / (2 * TOP.Ix * TOP.Mgl):.2f}"),
@@ -88,7 +89,8 @@ def slow_root():
 
 def fast_root():
     size, flat, lean = momentum(FAST_STATE)
-    torque, body = TOP.gravity_torque(FAST_STATE)[0], Body.of(TOP)
+    torque = TOP.gravity_torque(FAST_STATE)[0]
+    body = Body.of(TOP)
     friction = np.sin(THETA) * FAST**2 / body.gravity  # that a peg needs, for an arm of 1 m
     return [
         *(f"{torque:.4f}", f"{FAST:.1f}", f"{2 * np.pi / FAST:.3f}", f"{size:.4f}"),
@@ -162,7 +164,8 @@ def disc():
 
 def one_fall():
     motion = start(0.0)
-    fastest, half = times_of_extreme_rate(motion)[0], motion.nutation_period / 2
+    fastest = times_of_extreme_rate(motion)[0]
+    half = motion.nutation_period / 2
     moved, taken = (find_impulses(motion, time) for time in (fastest, half))
     gravity, coriolis, centrifugal = torques_at(motion, [half])[:, 0]
     return [
@@ -178,12 +181,14 @@ def precession_energy(state):
 
 
 def pushed_along():
-    numbers, pushes = [f"{precession_energy(SLOW_STATE):.2f}"], PUSHES
+    numbers = [f"{precession_energy(SLOW_STATE):.2f}"]
+    pushes = PUSHES
     numbers += [f"{pushes.impulse:.5f}", f"{TOP.axial_momentum(SLOW_STATE):.5f}"]
     numbers += [f"{TOP.vertical_momentum(SLOW_STATE):.5f}"]
     for state, form in ((SLOW_STATE, ".2f"), (FAST_STATE, ".1f")):
         motion = Motion(TOP, push_axle(TOP, state, pushes.impulse), pushes=pushes)
-        found, last = Pushed.of(motion, pushes, state), motion.piece_at(1.0).motion
+        found = Pushed.of(motion, pushes, state)
+        last = motion.piece_at(1.0).motion
         numbers += [f"{angle:.3f}" for angle in (*found.turning_angles, THETA)]
         numbers += [f"{found.work:.3g}", f"{found.weight.amount:.2f}"]
         added = TOP.vertical_momentum(last.start) - TOP.vertical_momentum(state)

@@ -143,7 +143,8 @@ def test_every_file_of_the_package_is_installed(sources, tmp_path):
 
 def test_an_sdist_has_the_whole_project(tmp_path):
     """So that the README, which speaks of make and of tests, is true of it."""
-    project, folder = {*lint.list_files()}, tmp_path / "checkout"
+    project = {*lint.list_files()}
+    folder = tmp_path / "checkout"
     for name in project:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / name, folder / name)

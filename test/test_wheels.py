@@ -82,7 +82,9 @@ def test_a_wheel_for_linux_asks_for_no_newer_c_library(wheels, processor):
 @pytest.mark.parametrize(("processor", "number"), [("arm64", 0x100000C), ("x86_64", 0x1000007)])
 def test_a_wheel_for_macos_has_a_library_that_its_processor_may_load(wheels, processor, number):
     (kernel,) = wheels[f"macosx_11_0_{processor}"].rglob("libsymtop.dylib")
-    content, commands, place = kernel.read_bytes(), [], 32
+    content = kernel.read_bytes()
+    commands = []
+    place = 32
     magic, found, *_, count = struct.unpack("<5I", content[:20])
     for _ in range(count):
         command, size = struct.unpack("<2I", content[place : place + 8])
@@ -114,7 +116,8 @@ def test_the_library_for_windows_has_the_same_bits_in_wine(wheels, tmp_path):
         "PATH": os.environ["PATH"],
     }
     samples, expected = list_many()
-    words, pipes = [WINE / "usr/lib/wine/wine64", program], {"input": samples, "text": False}
+    words = [WINE / "usr/lib/wine/wine64", program]
+    pipes = {"input": samples, "text": False}
     wine = execute(words, check=True, timeout=600, env=environment, cwd=tmp_path, **pipes)
     assert normalize(np.frombuffer(wine.stdout)) == expected
 

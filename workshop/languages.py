@@ -28,7 +28,8 @@ def find_faults(language: str) -> Iterator[str]:
         return
     yield from _compare_keys(read_templates("en"), read_templates(language))
     yield from _compare_keys(_read_terms("en"), _read_terms(language))
-    english, texts = read_texts("en"), read_texts(language)
+    english = read_texts("en")
+    texts = read_texts(language)
     # English titles and stories of scenes are those of their files.
     scenes = {key: text for key, text in english.items() if SCENE.fullmatch(key)}
     yield from _compare_keys(

@@ -97,7 +97,8 @@ def convert(name: str, folder: Path) -> Iterator[Path]:
 
 def list_libraries(package: str, folder: Path) -> dict[str, list[Path]]:
     """Return the sources of each library, by the last part of its name."""
-    own, other = folder / package, folder / "rosidl_typesupport_introspection_c" / package
+    own = folder / package
+    other = folder / "rosidl_typesupport_introspection_c" / package
     sources = {
         "generator_c": own.glob("*/detail/*__[dft]*.c"),  # description, functions, type_support
         "typesupport_introspection_c": other.glob("*/detail/*__type_support.c"),

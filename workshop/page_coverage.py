@@ -81,7 +81,8 @@ class Counter:
             self._add_module(place[1], source[place.end() : end], has_run[place.end() : end])
 
     def _add_module(self, name: str, text: str, has_run: Sequence[bool]) -> None:
-        lines, place = [], 0
+        lines = []
+        place = 0
         for line in text.split("\n"):
             part = has_run[place : place + len(line)]
             is_code = [ran for ran, letter in zip(part, line, strict=True) if not letter.isspace()]

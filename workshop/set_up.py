@@ -128,7 +128,8 @@ class FailedError(Exception):
 
 def main(words: list[str]) -> int:
     """Make the set-ups that are named, if their stamps do not fit."""
-    is_asked, names = "--asked" in words, [word for word in words if word != "--asked"]
+    is_asked = "--asked" in words
+    names = [word for word in words if word != "--asked"]
     try:
         with _lock(PYTHON):
             _keep_environment(is_asked)
@@ -196,7 +197,8 @@ def _keep_environment(is_asked: bool) -> None:
 
 
 def _find_fault_of_environment(is_asked: bool) -> str:
-    stamp, inside = _read(PYTHON), _identify(HOME / "bin/python")
+    stamp = _read(PYTHON)
+    inside = _identify(HOME / "bin/python")
     if not stamp:
         return "was not completed, or is of an earlier version"
     if stamp["path"] != str(ROOT):

@@ -129,9 +129,11 @@ def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterable
 
 def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Event:
     """Return the event as a node reports it."""
-    act, is_known = read_act(event), event.number == 1
+    act = read_act(event)
+    is_known = event.number == 1
     if previous and _is_near(previous, act, budget):
-        found, is_known = follow(previous, act), True
+        found = follow(previous, act)
+        is_known = True
     else:
         following = event.segment()
         before = following.state_at(event.stamp) if is_known else event.state_before()
@@ -194,7 +196,8 @@ class TextCheck:
         self.mismatches: list[Mismatch] = []
         self.compared: Counter[str] = Counter()  # messages by our names of topics
         self.reasons = dict(REASONS)  # why others were not compared
-        self._account, self._budget = account, StepBudget(SPARE_STEPS)
+        self._account = account
+        self._budget = StepBudget(SPARE_STEPS)
         self._unknown = Unknown(account.unknown)
         self._chronicle = Chronicle(account.events, account.ordered.places)
         self._judges: dict[str, Callable[[str, Message, int], Found]] = {
@@ -283,7 +286,8 @@ class TextCheck:
         """Return the fields of a status that are those of no event that can hold."""
         found: list[list[Mismatch]] = []
         for number in self._list_owners(status.stamp, place):
-            event, segment = self._account.events[number], self._chronicle.segment(number)
+            event = self._account.events[number]
+            segment = self._chronicle.segment(number)
             if not is_of_this_version(event):
                 self.reasons.setdefault(DIAGNOSTICS.name, OTHER_VERSION)
                 return None
@@ -301,7 +305,8 @@ class TextCheck:
 
     def _list_owners(self, stamp: int, place: int) -> list[int]:
         """Return the events that can hold at a stamp: by their place in the log, and by stamps."""
-        stamps, places = np.array([stamp]), np.array([place], dtype=np.intp)
+        stamps = np.array([stamp])
+        places = np.array([place], dtype=np.intp)
         owner = int(self._chronicle.find_owners(stamps, places)[0])
         latest = int(self._chronicle.find_latest(places)[0])
         # What takes effect at the stamp itself may have come after the diagnostics, and an event

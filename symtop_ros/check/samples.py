@@ -67,7 +67,8 @@ class LogCheck:
     def __init__(self, account: Account) -> None:
         self.deviations: dict[str, Deviation] = {}
         self._chronicle = Chronicle(account.events, account.ordered.places)
-        self._unknown, self._budget = Unknown(account.unknown), StepBudget(SPARE_STEPS)
+        self._unknown = Unknown(account.unknown)
+        self._budget = StepBudget(SPARE_STEPS)
 
     def add_batch(self, batch: Batch) -> None:
         """Compare the samples of a batch."""
@@ -111,7 +112,8 @@ class LogCheck:
             return left, owners
         for number in self._chronicle.candidates(left.stamps, owners):
             chosen = self._chronicle.holds(number, left.stamps)
-            segment, part = self._chronicle.segment(number), left.select(chosen)
+            segment = self._chronicle.segment(number)
+            part = left.select(chosen)
             if not chosen.any() or not self._budget.reach_stamps(segment, part.stamps):
                 continue
             difference, scale = _compare(name, part, segment)
@@ -138,7 +140,8 @@ def _is_exact(name: str, segment: Segment) -> bool:
 
 def _compare(name: str, columns: Columns, segment: Segment) -> tuple[Real, Real]:
     """Return differences of samples from their computed values, and the sizes of the latter."""
-    topic, samples = SAMPLE_TOPICS[name], Samples.at(segment, columns.stamps)
+    topic = SAMPLE_TOPICS[name]
+    samples = Samples.at(segment, columns.stamps)
     computed = np.broadcast_to(topic.compute(samples), columns.numbers.shape)
     difference = np.abs(columns.numbers - computed)
     difference[np.isnan(columns.numbers) & np.isnan(computed)] = 0.0  # a force that is unknown

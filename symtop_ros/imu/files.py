@@ -63,7 +63,8 @@ def write_folder(record: ImuRecord, folder: Path) -> None:
     inertial, truth = folder / "imu0", folder / "state_groundtruth_estimate0"
     for each in (inertial, truth):
         each.mkdir(parents=True, exist_ok=True)
-    imu, stamps = record.imu, record.stamps.tolist()
+    imu = record.imu
+    stamps = record.stamps.tolist()
     _write_csv(inertial / "data.csv", EUROC_IMU, stamps, [record.measured])
     (inertial / "sensor.yaml").write_text(_describe("imu", imu.rate, imu, NOISE), encoding="utf-8")
     states = [record.positions, record.orientations, record.velocities, record.biases]
@@ -135,7 +136,8 @@ def write_log(record: ImuRecord, path: Path) -> None:
 
 def _contents(record: ImuRecord) -> Iterator[Content]:
     """Yield the attitude of the body, measurements, exact values, and odometry of the sensor."""
-    imu, exact = record.imu, np.concatenate((record.rates, record.forces), axis=1)
+    imu = record.imu
+    exact = np.concatenate((record.rates, record.forces), axis=1)
     yield "orientation", STATE_TOPICS["orientation"], (WORLD,), record.attitudes[:, [1, 2, 3, 0]]
     variances = tuple(imu.covariances.values())[1:]
     yield _inertial("imu", record, exact + imu.noise(record.stamps), variances)

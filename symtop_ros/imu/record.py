@@ -203,7 +203,8 @@ def _find_fastest_driven(motion: Motion, stamps: Stamps, interval: float) -> flo
     begun = motion.at(ExactTimes(stamps, 1.0, Fraction(-interval)))
     momentum = motion.top.body_angular_momentum(begun)
     twice = float((momentum * begun.angular_velocity).sum(axis=-1).max()) + 4 * abs(Mgl)
-    torque, least = math.hypot(*motion.applied_torque), min(Ix, Iz)
+    torque = math.hypot(*motion.applied_torque)
+    least = min(Ix, Iz)
     energy = math.sqrt(twice) + torque / math.sqrt(least) * interval / NANOSECONDS
     drive = float(motion.friction.find_decay(motion.top)) + math.sqrt(2 * torque / least)
     rates = energy * (1 / math.sqrt(Ix) + 1 / math.sqrt(Iz))

@@ -194,7 +194,8 @@ class Tables:
         exact, _, known = self.truth.states_at(stamps, some.of_sensor)
         exact = exact.reshape(len(moved), -1, 4)
         if name == "scale":
-            turn, scales = Scaling(self.truth, some.stamps).turn, [e.scale for e in offsets]
+            turn = Scaling(self.truth, some.stamps).turn
+            scales = [e.scale for e in offsets]
             parts = np.array_split(np.array(scales), len(scales) // BATCH + 1)
             exact = compose(np.concatenate([turn(each) for each in parts]), exact)
         if name == "spin":
@@ -227,7 +228,8 @@ def fit_rotations(models: Models, level: str) -> tuple[Real, Real, Real]:
     left = compose(invert(exact), q) if level == "body" else compose(q, invert(turned))
     left = left * known[..., np.newaxis] * np.array(FREE.get(level, (1, 1, 1, 1)))
     sizes, vectors = np.linalg.eigh(np.swapaxes(left, 1, 2) @ left)
-    means, counts = vectors[..., -1], known.sum(axis=1)
+    means = vectors[..., -1]
+    counts = known.sum(axis=1)
     costs = np.maximum(1 - sizes[:, -1] / np.maximum(counts, 1), 0.0)
     costs[counts < max(2, known.shape[1] // 2)] = np.inf
     means = np.asarray(means * np.copysign(1.0, means[:, :1]))
@@ -270,7 +272,8 @@ def _find_rates(some: Estimates, truth: Truth, offset: Offset) -> Iterator[str]:
     against the exact rates.
     """
     now = _rate(compare(some, truth, offset))
-    q, omega = some.orientations, np.asarray(some.angular_velocities)
+    q = some.orientations
+    omega = np.asarray(some.angular_velocities)
     exact = truth.states_at(some.stamps, some.of_sensor)[1]
     size = float(np.sqrt((exact**2).sum(axis=1).mean()))
     if now > SMALL * size:

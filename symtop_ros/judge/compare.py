@@ -200,7 +200,8 @@ def _accumulate(steps: Real) -> Real:
     rows = square.reshape(*steps.shape[:-2], length, length, 4)
     for k in range(1, length):
         rows[..., k, :] = compose(rows[..., k - 1, :], rows[..., k, :])
-    whole, shift = rows[..., -1, :].copy(), 1
+    whole = rows[..., -1, :].copy()
+    shift = 1
     while shift < length:
         whole[..., shift:, :] = compose(whole[..., :-shift, :], whole[..., shift:, :])
         shift *= 2

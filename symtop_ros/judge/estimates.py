@@ -148,7 +148,8 @@ def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = N
         return numbers[:, places[0]] if places else None
 
     q = np.asarray(find("orientation", "rotation"))[:, [3, 0, 1, 2]].copy()
-    covariance, rates = find("orientation_covariance"), find("angular_velocity", "angular")
+    covariance = find("orientation_covariance")
+    rates = find("angular_velocity", "angular")
     if covariance is not None:
         q[covariance[:, 0] == -1.0] = 0.0  # an Imu without an orientation, says sensor_msgs
     found = Estimates.of(stamps, q, rates, len(refused))
@@ -174,7 +175,8 @@ def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimate
 
 def _read_transforms(reader: Reader) -> Iterator[tuple[str, int, tuple[float, ...]]]:
     for _ in range(reader.count()):
-        seconds, nanoseconds = reader.integer("i"), reader.integer()
+        seconds = reader.integer("i")
+        nanoseconds = reader.integer()
         reader.string()
         child = reader.string()
         reader.skip(8, 3)

@@ -91,9 +91,11 @@ class Fit:
 
     def refine(self, offset: Offset, free: list[int]) -> Offset:
         """Return the least squares near an offset, in the columns that are free."""
-        best, cost = offset, self.cost(offset)
+        best = offset
+        cost = self.cost(offset)
         for _ in range(ITERATIONS if free else 0):
-            columns, step = self.derive(best, free), np.zeros(COLUMNS)
+            columns = self.derive(best, free)
+            step = np.zeros(COLUMNS)
             sizes = np.linalg.norm(columns, axis=0) + np.finfo(float).tiny
             left = self.find_left(best).ravel()
             step[free] = np.linalg.lstsq(columns / sizes, left, rcond=RANK)[0] / sizes
@@ -134,7 +136,8 @@ class Fit:
 
         They are zero, which says nothing of a delay, at the ends of the run.
         """
-        stamps, of_sensor = offset.shift(self.some.stamps), self.some.of_sensor
+        stamps = offset.shift(self.some.stamps)
+        of_sensor = self.some.of_sensor
         (earlier, _, begun), (later, _, goes_on) = (
             self.truth.states_at(stamps + step, of_sensor) for step in (-SPEED_STEP, SPEED_STEP)
         )

@@ -88,7 +88,8 @@ class Judgement:
                 "fault": _write_fault(self.fitted),
             }
             return write("found.aligned", record)
-        found, best = self.found, self.found.best
+        found = self.found
+        best = self.found.best
         key = _choose_key(found) if len(self.errors.total) > 1 else "single"
         lines = [write(f"found.{key}", _write_whole(best))]
         if found.candidate:
@@ -192,7 +193,8 @@ def _write_deviation(deviation: float | None, unit: float = 1.0) -> dict[str, An
 
 def _describe_cause(cause: Cause) -> dict[str, Any]:
     """Return what was fitted, for JSON, with standard deviations."""
-    offset, (world, body) = cause.offset, cause.offset.angles
+    offset = cause.offset
+    world, body = cause.offset.angles
     return {
         "delay": offset.delay,
         "drift": offset.drift,

@@ -61,7 +61,9 @@ class Court:
 
 def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
     """Print a line each second; return 0, or 1 if the attitude was further off than allowed."""
-    topic, seconds, limit = options.topic[0], options.seconds, options.max_error
+    topic = options.topic[0]
+    seconds = options.seconds
+    limit = options.max_error
     worst = 0.0
     try:
         with ros_context(arguments) as listen:
@@ -69,7 +71,8 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
             executor = SingleThreadedExecutor()
             executor.add_node(node)
             listen()
-            top, kind = full_name(options.node or DEFAULT_NAME), _find_type(executor, node, topic)
+            top = full_name(options.node or DEFAULT_NAME)
+            kind = _find_type(executor, node, topic)
             court = Court(node, top, topic, kind, options.frame)
             end = time.monotonic() + (seconds or float("inf"))
             while time.monotonic() < end:
@@ -106,7 +109,8 @@ def _dump(errors: Errors | None) -> str:
 def _format(errors: Errors | None, truth: Truth) -> str:
     if errors is None:
         return "no estimates" if truth.begin is not None else "no events of the top"
-    rms, rate = summarize(errors.total)["rms"], errors.rate
+    rms = summarize(errors.total)["rms"]
+    rate = errors.rate
     return (
         f"{len(errors.total)} estimates: attitude {rms:.2e} rad rms, "
         f"{errors.total.max():.2e} at most, tilt {errors.tilt.max():.2e}"

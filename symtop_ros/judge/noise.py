@@ -19,7 +19,8 @@ PER_PARAMETER = 10  # independent estimates for each parameter, at least
 WANDERING = 0.1  # part of the run; a longer correlation time is no noise
 # Ten squares of normal numbers add up to more than 40 once in 50 000 times.
 LAGS, WHITE = 10, 40.0
-BLOCKS, FEWEST = (1, 8, 64), 50  # estimates in a mean, and means that a test needs
+BLOCKS = (1, 8, 64)  # estimates in a mean
+FEWEST = 50  # means that a test needs
 LOUD = 0.3  # rad; noise of an attitude is smaller
 # The distance of the distribution of noise from the normal one (Kolmogorov) is 0.06 if it is
 # uniform and 0.07 if it has the tails of Laplace; that of two values is at least 0.34. Samples of
@@ -205,7 +206,8 @@ def _sum_flat(covariances: Real) -> tuple[float, float]:
     """Return the sum of autocovariances and of their products with the lag, by a flat kernel."""
     count = len(covariances)
     chance = 2 * np.sqrt(np.log10(max(count, 2)) / count) * covariances[0]
-    quiet, run = np.abs(covariances[1:]) < chance, max(5, count // QUIET)
+    quiet = np.abs(covariances[1:]) < chance
+    run = max(5, count // QUIET)
     calm = np.convolve(quiet, np.ones(run, dtype=int), "valid") == run
     last = int(np.argmax(calm)) if calm.any() else count // 4
     most = min(2 * max(last, 1), count // 2)

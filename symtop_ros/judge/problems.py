@@ -124,7 +124,8 @@ def _describe_models(facts: Mapping[str, Any]) -> dict[str, str]:
     """Return the models of a problem in all descriptions; without weight, also with no joint."""
     top = Top(facts["Ix"], facts["Iz"], facts["Mgl"])
     formats = FORMATS if top.Mgl else {**FORMATS, **FREE_FORMATS}
-    (start, body), name = _read_motion(facts), facts["name"]
+    start, body = _read_motion(facts)
+    name = facts["name"]
     texts = {name_file(name, form): write(top, start, body) for form, write in formats.items()}
     for each, (form, write) in product(score.DESCRIPTIONS, formats.items()):
         if (each, form) not in UNSAID:
@@ -149,7 +150,8 @@ def _read_readme() -> str:
 
 def _introduce(facts: Mapping[str, Any]) -> str:
     """Return the README of a copied problem: how it starts in engines, then that of the set."""
-    (start, body), duration = _read_motion(facts), facts["times"][-1]
+    start, body = _read_motion(facts)
+    duration = facts["times"][-1]
     sections = _read_readme().split("\n## ")
     return INTRODUCTION.format(
         name=facts["name"],

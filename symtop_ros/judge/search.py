@@ -70,7 +70,9 @@ class Search:
 
     def __init__(self, run: Estimates, truth: Truth) -> None:
         """Take some estimates for the search, and more for what it has found."""
-        self.some, self.more, self.truth = run.thin(SAMPLES), run.thin(MOST_SAMPLES), truth
+        self.some = run.thin(SAMPLES)
+        self.more = run.thin(MOST_SAMPLES)
+        self.truth = truth
         self.run = run
         self.fits, self.of_more = (
             {name: Fit(change[2](those), truth) for name, change in CHANGES.items()}
@@ -155,7 +157,8 @@ class Search:
         """
         most = len(fits[""].some) / PER_PARAMETER
         enough = [each for each in found if each.count <= most or not each.weight]
-        good, order = self.select(enough, fits), [*PARAMETERS]
+        good = self.select(enough, fits)
+        order = [*PARAMETERS]
         simple = [each for each in good if each.weight == min(other.weight for other in good)]
 
         def prefer(cause: Cause) -> tuple[float, float]:
@@ -189,7 +192,8 @@ class Search:
         A fast nutation makes many valleys of nearly the same depth, and few of them are refined.
         """
         late = [each for each in causes if "delay" in each.parameters]
-        best, period = min(late, key=lambda each: each.cost, default=None), self.truth.period
+        best = min(late, key=lambda each: each.cost, default=None)
+        period = self.truth.period
         if best is not None and period is not None and best.level == "both":
             most = int(2 * MOST_DELAY / period)
             values = best.offset.delay + period * np.arange(-most, most + 1, dtype=np.float64)
@@ -281,7 +285,8 @@ def explain(
         raise RefusedError(
             f"--remove must have at least 2 estimates within the run, got {len(run)}"
         )
-    search, turned = Search(run, truth), "offset" in removed
+    search = Search(run, truth)
+    turned = "offset" in removed
     level = "none" if not turned else "world" if "rotations" in search.hidden else "both"
     names = [name for name in ("delay", "drift") if name in removed]
     found = [each for name in ("", *names) for each in search.search("", name)]
@@ -313,7 +318,8 @@ def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = No
     sleeping top a delay is a heading.
     """
     rotations, *names = model.split("+")
-    fit, level = Fit(truth.select(estimates).thin(MOST_SAMPLES), truth), LEVELS_OF[rotations]
+    fit = Fit(truth.select(estimates).thin(MOST_SAMPLES), truth)
+    level = LEVELS_OF[rotations]
     exact, known = fit.exact(fit.start)
     models = fit.some.orientations[None], exact[None], known[None].astype(float)
     _, world, body = fit_rotations(models, level)

@@ -36,7 +36,8 @@ POSITIONAL = {
     "s": "no names of columns: read as TUM's, timestamp (s), position, x, y, z, w",
 }
 # Seconds since 1970 as a double are off by 1e-7 s, and have up to seven decimals.
-EPOCH, DIGITS = 10**18, 9  # ns; decimals of a time in whole ns
+EPOCH = 10**18  # ns
+DIGITS = 9  # decimals of a time in whole ns
 Row = Sequence[str]
 
 
@@ -82,7 +83,8 @@ def read_table(path: Path) -> Table:
 def _read_lines(path: Path, lines: Iterable[str]) -> Table:
     """Read names from a comment or from the first line, and then rows."""
     numbered = ((number, line) for number, line in enumerate(lines, 1) if line.strip())
-    columns, first = None, (1, "")
+    columns = None
+    first = (1, "")
     for number, line in numbered:
         found = _find_names(path, _split_names(line))
         columns = found or columns

@@ -54,7 +54,8 @@ def _list_readings(table: Table, truth: Truth) -> Iterator[Estimates]:
 
     Times of the day of the run have no other epoch: estimates may begin later than it.
     """
-    begin, first = truth.begin or 0, min(table.times)
+    begin = truth.begin or 0
+    first = min(table.times)
     is_far = abs(first - begin) >= DAY
     for part, text in PARTS.items():
         for shift in (0, begin - first // part) if is_far else (0,):
@@ -72,7 +73,8 @@ def _describe(part: str, is_shifted: bool) -> str:
 
 
 def _write_span(late: int) -> str:
-    size, where = abs(late), "after" if late > 0 else "before"
+    size = abs(late)
+    where = "after" if late > 0 else "before"
     amount, unit = (size / YEAR, "years") if size > YEAR else (size / DAY, "days")
     return f"{amount:.0f} {unit} {where}"
 

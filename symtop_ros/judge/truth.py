@@ -120,7 +120,8 @@ class Truth:
         known = np.zeros(len(stamps), dtype=bool)
         owners = self._find_owners(stamps)
         for number in np.unique(owners[owners >= 0]).tolist():
-            chosen, find_segment = owners == number, self._segments[number]
+            chosen = owners == number
+            find_segment = self._segments[number]
             segment = find_segment() if find_segment else None
             if segment and self._budget.reach_stamps(segment, stamps[chosen]):
                 q, omega = segment.state_at(stamps[chosen]).parts

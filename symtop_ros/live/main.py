@@ -76,7 +76,8 @@ def _stream(
     process: subprocess.Popen[bytes] | None,
 ) -> None:
     view: View | None = None
-    probed, heard = 0.0, time.monotonic()
+    probed = 0.0
+    heard = time.monotonic()
     try:
         while process is None or process.poll() is None:
             now = time.monotonic()

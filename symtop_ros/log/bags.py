@@ -82,7 +82,8 @@ class SqliteBag(MessageSource):
         try:
             self.size = path.stat().st_size
             for row in self._rows("SELECT id, name, type, serialization_format FROM topics"):
-                number, (name, kind, encoding) = int(row[0]), map(str, row[1:])
+                number = int(row[0])
+                name, kind, encoding = map(str, row[1:])
                 self.schemas[number] = Schema(number, b"", "ros2msg", kind)
                 self.channels[number] = Channel(number, name, encoding, {}, number)
         except OSError as error:

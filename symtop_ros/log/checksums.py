@@ -104,7 +104,9 @@ class Walk:
         begin = file.tell()
         self._compare_indexes(begin - len(head))
         self.add(head)
-        own, left, last = 0, length, b""
+        own = 0
+        left = length
+        last = b""
         content = _measure(file.read(PIECE)) if opcode == Opcode.ATTACHMENT else length
         file.seek(begin)
         while left:
@@ -123,7 +125,8 @@ class Walk:
             self._compare_indexes(end - len(data) - RECORD_START.size)
         match opcode:
             case Opcode.CHUNK:
-                self._found, self._expected = {}, _index(data)
+                self._found = {}
+                self._expected = _index(data)
             case Opcode.MESSAGE_INDEX:
                 channel, size = INDEX_HEAD.unpack_from(data)
                 if size > len(data) - INDEX_HEAD.size:

@@ -96,7 +96,8 @@ class Chronicle:
         ends = [*map(_find_end, events, events[1:]), MAX_STAMP]
         self._ends = np.array(ends[: len(events)], dtype=np.int64)
         # True if no stamp is repeated, so that the stamps alone decide.
-        follows, lasts = self._begins[1:] >= self._ends[:-1], self._begins <= self._ends
+        follows = self._begins[1:] >= self._ends[:-1]
+        lasts = self._begins <= self._ends
         self.is_ordered = bool(follows.all() and lasts.all())
 
     def count_holding(self, stamps: Stamps) -> Places:

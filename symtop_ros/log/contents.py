@@ -43,7 +43,8 @@ def read_contents(file: MessageSource, names: Names) -> Contents:
     """Return the contents of a log."""
     reader = BatchReader()
     reader.frame = _find_frame(file, names)
-    found, place = Contents(unreadable=reader.unreadable, lost_events=reader.lost_events), 0
+    found = Contents(unreadable=reader.unreadable, lost_events=reader.lost_events)
+    place = 0
     owner = (names.node or "").lstrip("/")
     for messages in file.chunks():
         chosen = select(names, messages, place)
@@ -76,7 +77,8 @@ def _find_frame(file: MessageSource, names: Names) -> str | None:
 def _add_samples(found: Contents, reader: BatchReader, chosen: Sequence[Chosen]) -> None:
     data = [(name, each.data) for _, name, each in chosen]
     batch = reader.read(data, [place for place, *_ in chosen])
-    before, places = len(found.events), [place for place, _ in batch.events]
+    before = len(found.events)
+    places = [place for place, _ in batch.events]
     found.events.extend(batch.events)
     for name, columns in batch.columns.items():
         events = before + np.searchsorted(places, columns.places)

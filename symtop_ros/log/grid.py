@@ -156,7 +156,8 @@ class Grid:
 
 def _measure(intervals: Iterable[Empty], begin: int, end: int) -> int:
     """Return how much (ns) of a stretch is in intervals, which may overlap."""
-    covered, reached = 0, begin
+    covered = 0
+    reached = begin
     for first, last in sorted((first, min(last, end)) for _, first, last in intervals):
         covered += max(0, last - max(first, reached))
         reached = max(reached, last)

@@ -342,7 +342,8 @@ def _checksums(file: BinaryIO, end: int) -> tuple[int, int]:
     """
     file.seek(0)
     head = file.read(len(MAGIC))
-    whole, rest = zlib.crc32(head), 0
+    whole = zlib.crc32(head)
+    rest = 0
     while part := file.read(min(PIECE, end - file.tell())):
         whole, rest = zlib.crc32(part, whole), zlib.crc32(part, rest)
     return whole, rest

@@ -151,7 +151,8 @@ class Finder:
     def _list_parts(self, k: int) -> Iterator[Stretch]:
         """Yield the stretches between an event and the next one."""
         events, places = self._ordered.events, self._ordered.places
-        event, has_next = events[k], k + 1 < len(events)
+        event = events[k]
+        has_next = k + 1 < len(events)
         end = events[k + 1].previous_end if has_next else max(self._end, event.stamp)
         proof, gap = self._proofs.find_last(k), self._missing.get(k)
         until = places[k + 1] if has_next else NOWHERE
@@ -159,10 +160,12 @@ class Finder:
         if gap is None and (lost is None or (event.number and _next_of_run(self._ordered, k))):
             yield Stretch(event.stamp, end, event)
             return
-        begin, unknown = proof.stamp, (proof.place + 1, until)
+        begin = proof.stamp
+        unknown = (proof.place + 1, until)
         if lost is not None:
             last = self._rows.find_stamp(proof.place, lost)
-            begin, unknown = proof.stamp if last is None else last + 1, (lost, until)
+            begin = proof.stamp if last is None else last + 1
+            unknown = (lost, until)
         begin = max(begin, event.stamp)
         yield Stretch(event.stamp, begin, event)
         for first, last in _list_pieces(self._rows, unknown, begin, end):

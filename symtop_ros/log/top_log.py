@@ -51,7 +51,8 @@ class TopLog:
         topics = sum(
             each.count > 0 for name, each in self.account.topics.items() if name in DECODED
         )
-        most, place = ROWS * max(1, topics), 0
+        most = ROWS * max(1, topics)
+        place = 0
         for chunk in self.file.chunks():
             messages += select(self._names, chunk, place)
             place += len(chunk)

@@ -125,7 +125,8 @@ class LogFile:
         return False
 
     def _register(self, topic: Topic) -> int:
-        known, qos = load_definitions()[topic.type], _qos_profile(topic)
+        known = load_definitions()[topic.type]
+        qos = _qos_profile(topic)
         schema = self._writer.register_schema(
             topic.type, SchemaEncoding.ROS2, known["text"].encode()
         )
@@ -163,7 +164,8 @@ def _qos_profile(topic: Topic) -> str:
 def _open_new(directory: Path) -> tuple[Path, BinaryIO]:
     """Return the path of a file that did not exist, and the file."""
     name = f"top_{datetime.now(timezone.utc):%Y-%m-%dT%H-%M-%SZ}"
-    path, number = directory / f"{name}.mcap", 1
+    path = directory / f"{name}.mcap"
+    number = 1
     while True:
         try:
             return path, path.open("xb")

@@ -38,7 +38,9 @@ def format_free_mjcf(top: Top, start: State, body: Body, described: Description 
     q, omega = (each.tolist() for each in described.begin(start).parts)
     joint = '  <freejoint name="free"/>'
     lines = ['<body name="top">', joint, *_fill(body, described), "</body>"]
-    flag, qpos, qvel = '<flag contact="disable"/>', [*place, *q], [*velocity, *omega]
+    flag = '<flag contact="disable"/>'
+    qpos = [*place, *q]
+    qvel = [*velocity, *omega]
     return _write_mjcf(top, body, "0 0 0", flag, lines, qpos, qvel)
 
 
@@ -75,7 +77,8 @@ def _fill(body: Body, described: Description) -> Iterator[str]:
         yield f"  {_describe_part(described.link(body))}"
     if described == PLAIN:
         size = measure_size(body)
-        end, disc = math.copysign(size, body.arm), f"{0.4 * size!r} {0.05 * size!r}"
+        end = math.copysign(size, body.arm)
+        disc = f"{0.4 * size!r} {0.05 * size!r}"
         yield (
             f'  <geom type="capsule" fromto="0 0 0 0 0 {end!r}" size="{0.04 * size!r}" mass="0"/>'
         )

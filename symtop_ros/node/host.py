@@ -46,7 +46,8 @@ class NodePublisher:
     """Publishes bytes. When ROS shuts down in the middle of a sample, the log still gets all."""
 
     def __init__(self, publisher: Publisher, node: Node) -> None:
-        self._publisher, self._context = publisher, node.context
+        self._publisher = publisher
+        self._context = node.context
 
     @property
     def has_subscriber(self) -> bool:
@@ -78,7 +79,8 @@ class NodeHost:
     """The node; see `OutputHost` for the methods."""
 
     def __init__(self, node: Node, settings: Settings) -> None:
-        self._node, self._publishes_clock = node, settings.publish_clock
+        self._node = node
+        self._publishes_clock = settings.publish_clock
         self._levels: dict[str, int] = {}  # of the last statuses, by their names
 
     @property

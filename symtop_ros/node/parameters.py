@@ -84,7 +84,8 @@ def declare_parameters(node: Node) -> Settings:
 
 def _declare(node: Node, parameter: Parameter) -> None:
     """Declare a parameter of a type; from a value rclpy takes an empty list for one of bytes."""
-    name, entry = parameter.name, PARAMETERS[parameter.name]
+    name = parameter.name
+    entry = PARAMETERS[parameter.name]
     node.declare_parameter(
         name,
         parameter.type_,
@@ -192,7 +193,8 @@ def _with_range(descriptor: ParameterDescriptor) -> ParameterDescriptor:
     entry = PARAMETERS.get(descriptor.name)
     if entry is None or entry.limits is None:
         return descriptor
-    found, (low, high) = copy(descriptor), entry.limits
+    found = copy(descriptor)
+    low, high = entry.limits
     if isinstance(entry.default, int):
         found.integer_range = [IntegerRange(from_value=int(low), to_value=int(high), step=1)]
     else:
@@ -246,7 +248,8 @@ def read_values(parameters: Sequence[ParameterMessage]) -> dict[str, Any]:
     refuse_unknown_types(parameters)
     values: dict[str, Any] = {}
     for parameter in parameters:
-        name, value = parameter.name, _read_value(parameter.value)
+        name = parameter.name
+        value = _read_value(parameter.value)
         if name in values:
             raise RefusedError(f"{show(name)} must be given once, got it more than once")
         if value is None:

@@ -167,7 +167,8 @@ class Simulator:
         response.state.state = self._state
 
     def _set_state(self, request: Any, _: Any) -> None:
-        target, options = request.state.state, (STOPPED, PLAYING, PAUSED)
+        target = request.state.state
+        options = (STOPPED, PLAYING, PAUSED)
         if target not in options:
             raise ResultError(
                 UNSUPPORTED, refuse("state", "0 (stopped), 1 (playing) or 2 (paused)", target)
@@ -186,7 +187,8 @@ class Simulator:
 
     def _reset(self, request: Any, _: Any) -> str:
         """Reset state and time, as the scope says and as far as they can be; nothing is spawned."""
-        scope, simulation = request.scope or ALL, self._simulation
+        scope = request.scope or ALL
+        simulation = self._simulation
         own_time = simulation if isinstance(simulation, OwnTimeSimulation) else None
         needed = STATE | TIME if own_time else STATE
         if not scope & needed or (scope != ALL and scope & ~(TIME | STATE | SPAWNED)):
@@ -223,7 +225,8 @@ class Simulator:
 
     async def _carry_out(self, goal: Any) -> Any:
         """Step until all is done, a step is refused or the client cancels."""
-        steps, step = goal.request.steps, self._handler("simulate_steps", self._step)
+        steps = goal.request.steps
+        step = self._handler("simulate_steps", self._step)
         single = StepSimulation.Request(steps=min(steps, 1))  # 0 is refused
         for done in range(1, max(steps, 1) + 1):
             result = SimulateSteps.Result(result=step(single, StepSimulation.Response()).result)
@@ -273,7 +276,8 @@ class Simulator:
 
     def _get_entity_state(self, request: Any, response: Any) -> None:
         self._check_name(request.entity)
-        state, found = self._simulation.state, response.state
+        state = self._simulation.state
+        found = response.state
         found.header.frame_id = self._simulation.settings.world_frame
         stamp = found.header.stamp
         stamp.sec, stamp.nanosec = divmod(self._simulation.stamp, NANOSECONDS)
@@ -286,7 +290,8 @@ class Simulator:
 
     def _set_entity_state(self, request: Any, _: Any) -> None:
         self._check_name(request.entity)
-        given, world = request.state, self._simulation.settings.world_frame
+        given = request.state
+        world = self._simulation.settings.world_frame
         # Without flags pose and twist are set, and the acceleration is ignored, as in Gazebo.
         if getattr(request, "set_acceleration", False):
             raise ResultError(

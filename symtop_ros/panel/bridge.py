@@ -74,7 +74,8 @@ class Bridge:
         self.name = self._connection.name
         self._connection.prepare(*SERVICES)
         self._torque = node.create_publisher(WrenchStamped, f"{self.name}/applied_torque", 10)
-        self._node, self._feed = node, Feed(node, self.name, ())
+        self._node = node
+        self._feed = Feed(node, self.name, ())
         self._samples: Subscription | None = None
         self._calls = threading.Lock()
         self._news = threading.Condition()  # guards all that follows
@@ -85,7 +86,8 @@ class Bridge:
         self._runs = 0  # runs that have begun; a page with another number has an old one
         self._last: Event | None = None
         self._sample: Message = {}
-        self._heard, self._lost = time.monotonic(), False
+        self._heard = time.monotonic()
+        self._lost = False
         self._ending = threading.Event()
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
@@ -144,7 +146,8 @@ class Bridge:
         if place == self._place:
             return {}
         run, count, _ = place
-        message, is_new = self._state, run != self._runs
+        message = self._state
+        is_new = run != self._runs
         missed = self._count if is_new else self._count - count
         return message | {"new": is_new, "events": [*self._events][-missed:]} if missed else message
 
@@ -218,7 +221,8 @@ class Bridge:
             self._recorder, self._runs, self._count = RunRecorder(), self._runs + 1, 0
             self._events.clear()
             self._sample = {}
-        self._last, found = event, self._recorder.add(event)
+        found = self._recorder.add(event)
+        self._last = event
         segment = event.segment()
         told: Message = {"running": segment.running, "factor": segment.factor}
         if event.name == "record":

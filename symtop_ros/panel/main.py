@@ -88,7 +88,8 @@ def _write(path: Path, page: str) -> None:
 
 def _open_file(options: argparse.Namespace, page: str) -> int:
     """Write the page into this folder and open it; a run that was saved there is kept."""
-    path, number = FILE, 1
+    path = FILE
+    number = 1
     while path.exists() and path.read_text(encoding="utf-8", errors="replace") != page:
         number += 1
         path = FILE.with_stem(f"{FILE.stem}_{number}")

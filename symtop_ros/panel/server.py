@@ -27,7 +27,9 @@ SENT = 16_384  # bytes
 # In addition to the policy of the page itself, which says what it may run and load.
 NO_FRAME = {"Content-Security-Policy": "connect-src 'self'; frame-ancestors 'none'"}
 DEEPEST = 16  # objects and lists in each other, of a request; an argument of a service has fewer
-PAGE, NEWS, REQUEST = ("/", "/index.html"), "/news", "/request"
+PAGE = ("/", "/index.html")
+NEWS = "/news"
+REQUEST = "/request"
 
 
 class Node(Protocol):
@@ -48,7 +50,9 @@ class PageServer(ThreadingHTTPServer):
 
     def __init__(self, host: str, port: int, page: str, node: Node | None = None) -> None:
         self.address_family = socket.AF_INET6 if ":" in host else socket.AF_INET
-        self.page, self.node, self.is_ending = page.encode(), node, False
+        self.page = page.encode()
+        self.node = node
+        self.is_ending = False
         self.packed = gzip.compress(self.page, mtime=0)
         self.names = {name.lower() for name in (host, *LOCAL_NAMES, socket.gethostname())}
         super().__init__((host, port), PageHandler)
@@ -83,7 +87,8 @@ class PageHandler(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         """Send the page, or the news of the node."""
-        path, node = urlsplit(self.path).path, self.server.node
+        path = urlsplit(self.path).path
+        node = self.server.node
         if node and not self._is_own_host():
             self._send(HTTPStatus.FORBIDDEN, b"host must be an address of this server")
         elif path in PAGE:
@@ -96,7 +101,8 @@ class PageHandler(BaseHTTPRequestHandler):
     def do_POST(self) -> None:
         """Ask the node."""
         node = self.server.node
-        size, origins = self.headers.get("Content-Length", ""), self.headers.get_all("Origin")
+        size = self.headers.get("Content-Length", "")
+        origins = self.headers.get_all("Origin")
         if not node or urlsplit(self.path).path != REQUEST:
             self._send(HTTPStatus.NOT_FOUND, b"not found", close=True)
         elif not self._is_own_host() or origins != [f"http://{self.headers['Host']}"]:

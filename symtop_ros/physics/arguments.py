@@ -16,11 +16,13 @@ from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import fit_shapes, validate_array, validate_vectors
 from symtop_ros.refusals import refuse
 
-NO_FRICTION, NO_TORQUE = Friction(), (0.0, 0.0, 0.0)
+NO_FRICTION = Friction()
+NO_TORQUE = (0.0, 0.0, 0.0)
 TORQUE_UNIT = "N m, world frame"
 # States in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
 # To set up a motion takes the time of some hundred states.
-STATES, STATES_OF_SETUP = 2**16, 200
+STATES = 2**16
+STATES_OF_SETUP = 200
 # Ends of the columns of starts: moments, orientation as given, omega, friction, torque.
 STARTS = (3, 7, 10, 10 + len(FRICTION_KINDS), door.START)
 _pack_start = Struct(f"{door.START}d").pack

@@ -102,7 +102,8 @@ def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Rea
     # The sums of alpha and of products of omega are put together before they are rounded: in
     # alpha_y + x z, for one, a term (1 - 1) x z is left out.
     across_x, across_y, axial = torque_x / Ix, torque_y / Ix, torque_z / Iz
-    slow, fast = Iz / Ix, (2 * Ix - Iz) / Ix
+    slow = Iz / Ix
+    fast = (2 * Ix - Iz) / Ix
     return stack(
         c * (slow * x * z + across_y) + b * (x * y - axial) - a * (y * y + z * z),
         c * (slow * y * z - across_x) + a * (x * y + axial) - b * (x * x + z * z),
@@ -232,7 +233,8 @@ def find_fastest_rate(motion: Motion, t: float) -> float:
     t : float
         Time in s.
     """
-    top, state = motion.top, motion.at(t)
+    top = motion.top
+    state = motion.at(t)
     nutation = float(np.linalg.norm(top.body_angular_momentum(state))) / top.Ix
     torque = float(np.linalg.norm(motion.applied_torque))
     swing = math.sqrt(abs(top.Mgl) / top.Ix + torque / min(top.Ix, top.Iz))

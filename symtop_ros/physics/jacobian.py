@@ -101,7 +101,8 @@ def differentiate(motion: Any, times: Real | ExactTimes) -> Real:
 
 def _changes_nothing(motion: Any, times: Real) -> bool:
     """Return whether friction and torque are far too weak to be seen in derivatives by then."""
-    fastest, longest = _find_rates(motion)[1], float(np.abs(times).max(initial=0))
+    fastest = _find_rates(motion)[1]
+    longest = float(np.abs(times).max(initial=0))
     drive = max(motion.friction.coefficients)
     drive += math.hypot(*motion.applied_torque) / (fastest or 1.0)
     change = drive / min(motion.top.Ix, motion.top.Iz) * longest
@@ -126,7 +127,8 @@ def _differentiate_disc(motion: Any, times: Real | ExactTimes) -> Real:
     row[1], row[9] = row[1] / 2, 2 * row[9]
     top, start, *_ = read_start(row)
     other = type(motion)(top, start)
-    found, state = differentiate(other, times), motion.at(times)
+    found = differentiate(other, times)
+    state = motion.at(times)
     w, _, _, z = compose(invert(state.orientation), other.at(times).orientation).T[..., None]
     for x, y in (0, 1), (3, 4):  # of both bodies, in their own frames
         across, along = found[:, x].copy(), found[:, y].copy()
@@ -143,7 +145,8 @@ class _Starts:
     """Starts around that of a motion, and derivatives by them at times that share their steps."""
 
     def __init__(self, motion: Any, times: Real | ExactTimes) -> None:
-        self._times, self._base = times, motion.at(times)
+        self._times = times
+        self._base = motion.at(times)
         self._seconds = to_rough_seconds(times)
         self._start = np.frombuffer(motion.packed_start)
         longest = float(np.abs(self._seconds).max())
@@ -191,7 +194,8 @@ class _Starts:
         """Return the derivatives (n, 6, 9), and the places of times at which they are not right."""
         found = _Estimates(len(self._seconds))
         last = np.zeros_like(found.derivatives)
-        left, columns = np.arange(len(self._seconds)), np.arange(9)
+        left = np.arange(len(self._seconds))
+        columns = np.arange(9)
         for _ in range(MOST_ROUNDS):
             part = np.ix_(left, *ROWS, columns)
             last[part], responses, curved, rough = self._differentiate(left, columns)
@@ -231,9 +235,11 @@ class _Starts:
         limit, responses, curved, rough = (
             np.broadcast_to(each, excess.shape)[places] for each in faults
         )
-        elements, most = part[0].ravel()[places[0]] * 6 + worst % 6, excess[places]
+        elements = part[0].ravel()[places[0]] * 6 + worst % 6
+        most = excess[places]
         is_near = self._too_long[columns] == elements
-        is_long, is_open = curved > rough / 3, most > 1
+        is_long = curved > rough / 3
+        is_open = most > 1
         # The best step has an error by curvature of a tenth of that by rounding.
         shorter = (rough / np.maximum(10 * curved, rough + TINY)) ** (1 / (ORDER + 1))
         shorter = np.where(responses > FARTHEST, RESPONSE / (4 * responses + TINY), shorter)
@@ -271,7 +277,8 @@ class _Starts:
     def _differentiate(self, some: Places, columns: Places) -> tuple[Real, Real, Real, Real]:
         """Return derivatives (m, 2, 3, c), responses, and errors by curvature and by rounding."""
         starts = self._list_starts()[columns]
-        moved, given = self._follow(starts, some), self._measure(starts)[..., columns]
+        moved = self._follow(starts, some)
+        given = self._measure(starts)[..., columns]
         places = np.arange(len(columns))
         nodes = given[places, :, places] / self._steps[columns, None]
         orders = np.stack([_weigh(nodes, count) for count in (ORDER, ORDER - 2, ORDER - 4)])
@@ -282,10 +289,8 @@ class _Starts:
         responses = (widths / self._units[:, None, None]).max(axis=(1, 2), keepdims=True)
         left = np.abs(np.einsum("ck,ckmar->marc", _weigh_difference(nodes), moved))
         left[:, :, :2] = left[:, :, :2].max(axis=2, keepdims=True)
-        across, per_step = (
-            np.array((1, 1, 0))[:, None],
-            _measure_rounding(orders[0]) / self._steps[columns],
-        )
+        across = np.array((1, 1, 0))[:, None]
+        per_step = _measure_rounding(orders[0]) / self._steps[columns]
         least, most = (
             STATE_ERROR * (each[some] + across * widths) for each in (self._least, self._most)
         )
@@ -314,7 +319,8 @@ class _Starts:
 
     def _follow(self, starts: Real, some: Places) -> Real:
         """Return how far the states of starts (c, 10, 15) are from its own, (c, 10, m, 2, 3)."""
-        times, rows = self._times[some], starts.reshape(-1, STARTS[-1])
+        times = self._times[some]
+        rows = starts.reshape(-1, STARTS[-1])
         q, omega = np.empty((len(rows), len(some), 4)), np.empty((len(rows), len(some), 3))
         left = fill_states(rows, times, q, omega)
         for k in np.flatnonzero(left.any(axis=1)):
@@ -377,8 +383,10 @@ class _Estimates:
 
     def add(self, part: Any, steps: Real, new: Real, curved: Real, rough: Real) -> None:
         """Add estimates with errors by curvature, which they share, and by rounding."""
-        changes, errors = new - self.derivatives[part], curved + rough
-        weights, before = 1 / np.square(np.maximum(errors, LEAST_ERROR)), self._weights[part]
+        changes = new - self.derivatives[part]
+        errors = curved + rough
+        weights = 1 / np.square(np.maximum(errors, LEAST_ERROR))
+        before = self._weights[part]
         is_shorter = steps < self._shortest[part]
         differ = np.abs(changes) > 2 * (errors + self.errors[part])
         weights = np.where(differ & ~is_shorter, 0.0, weights)

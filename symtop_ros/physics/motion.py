@@ -187,9 +187,11 @@ class Motion:
         (True, 1e-06)
         """
         motion = object.__new__(Motion)
-        motion.top, motion.start = self.top, start
+        motion.top = self.top
+        motion.start = start
         motion.friction, motion.applied_torque = self.friction, self.applied_torque
-        motion.packed_start, motion.pushes = self.pack_with("start", start), None
+        motion.packed_start = self.pack_with("start", start)
+        motion.pushes = None
         motion.clamped = False
         motion._open()
         return motion

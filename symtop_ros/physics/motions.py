@@ -154,7 +154,8 @@ class Motions:
         times = validate_times(t)
         shape = times.shape if isinstance(times, ExactTimes) else np.shape(times)
         flat = np.array([times]) if isinstance(times, float) else times.ravel()
-        count, many = math.prod(self.shape), math.prod(shape)
+        count = math.prod(self.shape)
+        many = math.prod(shape)
         orientation, omega = np.empty((count, many, 4)), np.empty((count, many, 3))
         left = fill_states(self._starts, flat, orientation, omega)
         for n in np.flatnonzero(left.any(axis=1)).tolist():
@@ -193,7 +194,8 @@ class Motions:
             f"an array whose shape begins with that of the motions, {self.shape}",
             Words(f"shape {t.shape}"),
         )
-        flat, shape = t.ravel(), (math.prod(self.shape), math.prod(t.shape[len(self.shape) :]))
+        flat = t.ravel()
+        shape = (math.prod(self.shape), math.prod(t.shape[len(self.shape) :]))
         places = np.arange(math.prod(t.shape)).reshape(shape)
         orientation, omega = np.empty((*shape, 4)), np.empty((*shape, 3))
         for n, row in enumerate(places):
@@ -222,7 +224,9 @@ class Motions:
         """
         given = times if isinstance(times, ExactTimes) else validate_array("times", times, unit="s")
         require(len(given.shape) == 1, "times", "of shape (m,)", Words(f"shape {given.shape}"))
-        count, states, t = math.prod(self.shape), self.at(given), to_seconds(given)
+        count = math.prod(self.shape)
+        states = self.at(given)
+        t = to_seconds(given)
         orientation, omega = (np.array(part) for part in states.parts)
         flat = wrap_states(orientation, omega, (count * len(t),))
         return {"motion": np.repeat(np.arange(count), len(t)), **flat.table(np.tile(t, count))}
@@ -294,7 +298,8 @@ class Motions:
 
         It is in the world frame, about the pivot.
         """
-        gravity, shape = self.gravity_torque(states), states.orientation.shape[:-1]
+        gravity = self.gravity_torque(states)
+        shape = states.orientation.shape[:-1]
         friction = self.friction.spread(self.shape, shape)
         applied = np.broadcast_to(self.applied_torque, (*self.shape, 3))
         axes = (1,) * (len(shape) - len(self.shape))

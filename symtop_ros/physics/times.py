@@ -78,7 +78,9 @@ class ExactTimes:
         """The nearest doubles in s, a float or (n,)."""
         ticks, parts = self.factor.as_integer_ratio()
         elapsed, pieces = self.elapsed.as_integer_ratio()
-        start, step, divisor = elapsed * parts, ticks * pieces, parts * pieces * SECOND
+        start = elapsed * parts
+        step = ticks * pieces
+        divisor = parts * pieces * SECOND
         # Python's quotient of integers of any size is the nearest double.
         seconds = [(start + step * n) / divisor for n in np.ravel(self.nanoseconds).tolist()]
         return np.array(seconds) if self.shape else seconds[0]
@@ -92,7 +94,8 @@ class ExactTimes:
         ValueError
             If these are not enough, or not 0 or 1e-100 to 1e100 in size.
         """
-        parts, left = [0.0] * ELAPSED_PARTS, self.elapsed
+        parts = [0.0] * ELAPSED_PARTS
+        left = self.elapsed
         for place in range(ELAPSED_PARTS):
             parts[place] = float(left)
             if not SMALLEST <= abs(parts[place]) <= LARGEST_FACTOR:

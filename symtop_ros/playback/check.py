@@ -18,7 +18,8 @@ MAX_OTHERS = 20  # topics of others that are named
 
 def check(log: TopLog, strict: bool = False) -> int:
     """Print the results of a check; return 0 if everything agrees and nothing is missing."""
-    account, found = log.account, check_run(log)
+    account = log.account
+    found = check_run(log)
     unreached = sum(each.unreached for each in found.deviations.values())
     if unreached:
         _print_problem(
@@ -80,7 +81,8 @@ def _print_topics(account: Account, found: Findings) -> None:
 
 def _describe_text(name: str, count: int, found: Findings) -> str:
     """Return how many messages of a topic without samples were compared, and why not all."""
-    compared, reason = found.compared.get(name, 0), found.reasons.get(name)
+    compared = found.compared.get(name, 0)
+    reason = found.reasons.get(name)
     if not count:
         return " not compared: it has no messages"
     if not compared:

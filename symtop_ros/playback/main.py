@@ -60,7 +60,8 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
     from symtop_ros.playback import viewer
     from symtop_ros.playback.view.view import ViewOptions
 
-    drawn, save = ViewOptions(**view_options(options)), options.save
+    drawn = ViewOptions(**view_options(options))
+    save = options.save
     if save:
         if save.suffix == ".html":
             _save_page(log, save)

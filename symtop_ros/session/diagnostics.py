@@ -42,7 +42,8 @@ def motion_status(segment: Segment, stamp: int, event: int) -> Status:
     From a log in which messages are lost the number says whether an event is among them.
     """
     segment = segment.without_pushes(stamp)
-    motion, state = segment.motion, segment.state_at(stamp)
+    motion = segment.motion
+    state = segment.state_at(stamp)
     now = constants_of_motion(motion.top, state)
     start = constants_of_motion(motion.top, motion.start)
     verdict = perrys_rule(motion.top, state)
@@ -64,7 +65,8 @@ def motion_status(segment: Segment, stamp: int, event: int) -> Status:
 def balance_status(segment: Segment, stamp: int) -> Status:
     """Return how exactly energy and angular momentum change by what acts on the top."""
     segment = segment.without_pushes(stamp)
-    motion, state = segment.motion, segment.state_at(stamp)
+    motion = segment.motion
+    state = segment.state_at(stamp)
     t = segment.time_at(stamp)
     found = balance(motion, t, longest=max(abs(t), MIN_BALANCE))
     added = motion.added_torque(state)
@@ -94,7 +96,9 @@ def _name_forces(motion: Motion) -> str:
 
 
 def _pace_status(simulation: Simulation) -> Status:
-    asked, kept, ticker = simulation.settings.real_time_factor, simulation.factor, simulation.ticker
+    asked = simulation.settings.real_time_factor
+    kept = simulation.factor
+    ticker = simulation.ticker
     level = WARN if kept < asked or ticker.missed >= GAP * ticker.rate else OK
     message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"
     if kept < asked:
@@ -137,7 +141,8 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
 
     `since` names the event from which the time of the motion counts.
     """
-    state, motion = segment.state_at(stamp), segment.without_pushes(stamp).motion
+    state = segment.state_at(stamp)
+    motion = segment.without_pushes(stamp).motion
     top = motion.top
     verdict = perrys_rule(top, state)
     w, x, y, z = state.orientation.tolist()

@@ -49,7 +49,8 @@ ARROWS = {
 }
 TRACE_COLOR = (0.95, 0.95, 0.95)
 # of the shaft and the head of an arrow, and of the trace
-ARROW_WIDTHS, TRACE_WIDTHS = (0.02 * LENGTH, 0.05 * LENGTH, 0.0), (0.01 * LENGTH, 0.0, 0.0)
+ARROW_WIDTHS = (0.02 * LENGTH, 0.05 * LENGTH, 0.0)
+TRACE_WIDTHS = (0.01 * LENGTH, 0.0, 0.0)
 ARROW, LINE_STRIP, ADD = 0, 4, 0  # constants of visualization_msgs/Marker
 POSE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)  # in the world frame itself
 ORIGIN = (0.0, 0.0, 0.0)
@@ -84,7 +85,8 @@ class Output:
 
     def __init__(self, topic: Topic, host: OutputHost, recorder: Recorder) -> None:
         self._publisher = host.create_publisher_of(topic)
-        self._latched, self._recorder = topic.latched, recorder
+        self._latched = topic.latched
+        self._recorder = recorder
         self.channel = recorder.add_channel(host.resolve(topic), topic)
         self.enabled = True  # set to False to log the topic without publishing it
 
@@ -115,7 +117,8 @@ class Outputs:
         add = partial(Output, host=host, recorder=recorder)
         self._recorder, self._name = recorder, name
         self._frame = settings.world_frame
-        self._events, self._description = add(EVENTS), add(choose_description(name))
+        self._events = add(EVENTS)
+        self._description = add(choose_description(name))
         topics = {
             n: each
             for n, each in SAMPLE_TOPICS.items()
@@ -223,7 +226,8 @@ class Markers:
     def encode(self, stamp: int, block: Block) -> bytes:
         """Encode the MarkerArray of a sample (stamp in ns)."""
         self.trace.append(_axis_end(block.numbers("orientation", stamp)))
-        writer, trace = Writer(), list(self.trace)
+        writer = Writer()
+        trace = list(self.trace)
         writer.integer(1 + len(ARROWS))
         _write(writer, stamp, (self.frame, "trace"), LINE_STRIP, TRACE_WIDTHS, TRACE_COLOR, trace)
         for name, (color, length) in ARROWS.items():

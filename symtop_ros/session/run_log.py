@@ -114,7 +114,8 @@ class _Again:
 
     def go(self, time: int) -> None:
         """Publish what is due before a time in ns, with diagnostics once a second."""
-        now, step = self._clock.now, NANOSECONDS // 4  # so near that the recorder keeps up
+        now = self._clock.now
+        step = NANOSECONDS // 4  # ns; so near that the recorder keeps up
         for stamp in chain(range((now // step + 1) * step, time, step), [max(time - 1, now)]):
             self._clock.now = stamp
             self._publish()
@@ -168,7 +169,8 @@ class _Again:
 
         What was changed and changed back while the motion stood still is no change here.
         """
-        right, given = self._simulation.segment.state_at(event.time), event.motion.at(0.0)
+        right = self._simulation.segment.state_at(event.time)
+        given = event.motion.at(0.0)
         rate = float(np.abs(right.angular_velocity).max())
         near = ROUNDING + HALF_NANOSECOND * rate
         turned = min(

@@ -66,7 +66,8 @@ class Session:
 
     def log_torque(self, data: bytes) -> None:
         """Log the bytes of an applied torque, accepted or not."""
-        log, simulation = self._outputs.log_torque, self.simulation
+        log = self._outputs.log_torque
+        simulation = self.simulation
         simulation.take_turn("~/applied_torque", lambda: log(simulation.stamp, data))
 
     def hold_torque(self, torque: Sequence[float], frame: str = "") -> str:
@@ -207,7 +208,8 @@ class Recording:
         self, recorder: Recorder, simulation: Simulation, environment: Mapping[str, str]
     ) -> None:
         self._recorder, self._simulation = recorder, simulation
-        self._host, self._environment = simulation.host, environment
+        self._host = simulation.host
+        self._environment = environment
         self._failure_reported = False
 
     def begin(self) -> Path:

@@ -33,7 +33,8 @@ class Block:
     ) -> None:
         self.segment, self._encode = segment, encode
         self._stamps = np.array(stamps, dtype=np.int64)
-        self.last, self.length = stamps[-1] if stamps else 0, len(stamps)
+        self.last = stamps[-1] if stamps else 0
+        self.length = len(stamps)
         self._row = {stamp: row for row, stamp in enumerate(stamps)}
         self._numbers: dict[str, Real] = {}  # by topic, (n, width)
         self._messages: dict[str, list[bytes]] = {}
@@ -109,7 +110,8 @@ class Ticker:
         self._go_to(0)
 
     def _go_to(self, number: int) -> None:
-        self._next, self.next_stamp = number, self._stamp(number)  # of the next tick, and in ns
+        self._next = number  # of the next tick
+        self.next_stamp = self._stamp(number)  # its stamp in ns
 
     def due(self, now: int, catch_up: float, until: int, count_late: bool = True) -> Iterator[int]:
         """Yield the stamps that are due, in order, and count late and dropped ones.

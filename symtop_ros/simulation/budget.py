@@ -93,20 +93,24 @@ class ComputeBudget:
                 self.end = float(segment.time_at(int(segment.last_stamp)))
             return self.end is None
         if segment is not self._segment:
-            self._segment, self._prepared = segment, segment.stamp
+            self._segment = segment
+            self._prepared = segment.stamp
         end = segment.time_at(stamp)
         if self._stretch != (segment, stamp):
             self._stretch = segment, stamp
-            self._progress, self._spent_before = 0.0, self.spent
+            self._progress = 0.0
+            self._spent_before = self.spent
         # The progress is counted call by call: a state that was asked for in between may have moved
         # the integration back to an earlier point.
-        start, before = segment.motion.reach(end, 0), self._clock()
+        start = segment.motion.reach(end, 0)
+        before = self._clock()
         reached = segment.motion.reach(end, STEPS_AT_ONCE)
         self.spent += self._clock() - before
         self._progress += reached - start
         work = self.spent - self._spent_before
         if reached == end:
-            self._prepared, self._stretch = stamp, None
+            self._prepared = stamp
+            self._stretch = None
         elif reached == start:
             self.end = reached
         elif work > max(FREE_WORK, (stamp - self._prepared) * 1e-9 / factor):

@@ -103,7 +103,8 @@ class Event:
         event has got, if it was pushed. `between` is called when the fields are written, before the
         sentence: each takes longer than a sample may wait.
         """
-        after, motion = following.state_at(stamp), following.motion
+        after = following.state_at(stamp)
+        motion = following.motion
         values = {
             "format": FORMAT,
             "number": str(number),
@@ -177,7 +178,8 @@ class Event:
 
         `event.segment().state_at(stamp)` is the published state at each stamp up to the next event.
         """
-        values, factor = self.values, "motion.real_time_factor"
+        values = self.values
+        factor = "motion.real_time_factor"
         try:
             if values["format"] not in (FORMAT, WITHOUT_FIELDS):
                 raise ValueError(
@@ -239,7 +241,8 @@ def decode_events(data: bytes) -> list[Event]:
 def _read_motion(values: Mapping[str, str]) -> Motion:
     body = values["top"], values["motion.orientation"], values["motion.angular_velocity"]
     top, orientation, omega = map(_numbers, body)
-    friction, torque = Friction(*_numbers(values["friction"])), _numbers(values["applied_torque"])
+    friction = Friction(*_numbers(values["friction"]))
+    torque = _numbers(values["applied_torque"])
     given: Any = _numbers(values.get("motion.pushes", ""))  # none in a log of before
     pushes = Pushes(*given) if given else None
     clamped = values.get("motion.clamped") == "true"  # nothing was, in a log of before
@@ -247,7 +250,8 @@ def _read_motion(values: Mapping[str, str]) -> Motion:
 
 
 def _read_elapsed(text: str) -> Fraction:
-    name, limit = "motion.elapsed_ns", MAX_ELAPSED * 1e9
+    name = "motion.elapsed_ns"
+    limit = MAX_ELAPSED * 1e9
     # Fraction itself would also take 1e999999999, and compute it.
     if not EXACT.fullmatch(text):
         raise ValueError(f"{name} must be a whole number of ns or a fraction, got {text[:60]!r}")

@@ -26,8 +26,10 @@ class RunClock:
     is_simulated = False
 
     def __init__(self, real: Clock, factor: float) -> None:
-        self._real, self.is_running = real, True
-        self._time, self._since = 0, real.now  # ns of the run, and the real time at which it was so
+        self._real = real
+        self.is_running = True
+        self._time = 0  # ns of the run
+        self._since = real.now  # the real time at which it was so
         self.factor = factor  # seconds of the run per second of real time
 
     @property
@@ -48,7 +50,8 @@ class RunClock:
 
     def set(self, time: int) -> None:
         """Continue from a time (ns); one that precedes the last stamp is a jump back."""
-        self._time, self._since = time, self._real.now
+        self._time = time
+        self._since = self._real.now
 
     def stop(self, time: int) -> None:
         """Stand still at a time (ns)."""
@@ -173,7 +176,8 @@ class OwnTimeSimulation(Simulation):
 
         Call it in a turn. The sample at 0 is published, in a pause too.
         """
-        stamp, self.last = self.stamp, -1
+        stamp = self.stamp
+        self.last = -1
         self._clock.set(0)
         self.restart_grid(0)
         self.apply(self.timeline.move(stamp, 0))

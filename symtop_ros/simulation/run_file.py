@@ -66,7 +66,8 @@ class RunEvent:
 
     def to_json(self) -> dict[str, Any]:
         """Return the event as it stands in run.json."""
-        motion, start = self.motion, self.motion.start
+        motion = self.motion
+        start = self.motion.start
         return {
             "kind": self.kind,
             "time": self.time / NANOSECONDS,
@@ -95,9 +96,12 @@ class RunRecorder:
         An end of pushes is no event of a run, but a number of that before it (`end_pushes`).
         """
         if event.name == RELEASE and self._segment:
-            self._segment, self._values = event.segment(), event.values
+            self._segment = event.segment()
+            self._values = event.values
             return RunEvent(RELEASE, self.time_at(event.stamp), self._segment.motion, {})
-        segment, previous, values = event.segment(), self._segment, event.values
+        segment = event.segment()
+        previous = self._segment
+        values = event.values
         is_new = event.name in RESTARTS or any(values.get(k) != self._values.get(k) for k in MOTION)
         if previous and is_new:
             # Within one motion its own time counts, in pauses, steps and jumps of the clock too.
@@ -131,7 +135,8 @@ def _read_act(event: Event, motion: Motion) -> dict[str, Any]:
 
 def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int]:
     """Return the run of the events of a log, and the time in ns that it has at a stamp (ns)."""
-    recorder, found = RunRecorder(), list[RunEvent]()
+    recorder = RunRecorder()
+    found = list[RunEvent]()
     for event in filter(None, map(recorder.add, events)):
         kind = event.kind
         found[-1:] = [each.end_pushes(event.time) for each in found[-1:]]
@@ -197,13 +202,15 @@ def _read_events(given: list[Any]) -> list[RunEvent]:
 
 def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEvent:
     values = {name: _read_field(name, field, given) for name, field in TABLE["event"].items()}
-    kind, time = values["kind"], round(values["time"] * NANOSECONDS)
+    kind = values["kind"]
+    time = round(values["time"] * NANOSECONDS)
     if not before and kind != "start":
         raise refuse("kind", '"start" for the first event', kind)
     if before and time < before[-1].time:
         raise refuse("time", "that of the event before it or later", values["time"])
     act = _read_kick(given.get("act")) if kind in KICKS else {}
-    top, start = Top(*values["top"]), State(values["orientation"], values["angular_velocity"])
+    top = Top(*values["top"])
+    start = State(values["orientation"], values["angular_velocity"])
     pushes = read_pushes(act) if kind == "push" else None
     acting = Friction(*values["friction"]), values["torque"], pushes, values["clamped"]
     motion = Motion(top, start, *acting)

@@ -53,7 +53,8 @@ class Simulation:
         self.ticker = Ticker(settings.publish_rate, self.now)
         self.last = self.now  # stamp of the last sample
         self.timeline = Timeline.begin(settings, self.stamp)
-        self.budget, self._spent = ComputeBudget(), 0.0
+        self.budget = ComputeBudget()
+        self._spent = 0.0
         # stamp of the last warning (ns), and samples that were missed since then
         self._gap_reported: int | None = None
         self._unreported = 0
@@ -169,7 +170,8 @@ class Simulation:
         """Publish what is due, one sample if a turn waits; False if the motion is not so far."""
         ready = self._work_on_block()
         if ready:
-            missed, is_real = self.ticker.missed, not self._clock.is_simulated
+            missed = self.ticker.missed
+            is_real = not self._clock.is_simulated
             for stamp in self.ticker.due(self.now, self._catch_up, self._block.last, is_real):
                 self._sink.send_sample(stamp, self._block)
                 self.last = stamp
@@ -197,7 +199,8 @@ class Simulation:
             return False
         ready = self._prepare(stamps[-1])
         if ready:
-            self._block, self._later = self._begin_block(stamps), None
+            self._block = self._begin_block(stamps)
+            self._later = None
         else:
             self._check_pace(stamps[0])
         return ready
@@ -226,7 +229,8 @@ class Simulation:
 
     def _next_block_length(self) -> int:
         """Return 1 for the first block of a motion, so that its first sample comes soon."""
-        segment, rate = self.segment, self.ticker.rate
+        segment = self.segment
+        rate = self.ticker.rate
         longest = MAX_DRIVEN_BLOCK if segment.motion.is_driven else MAX_BLOCK
         grown = 4 * self._block.length if self._block.segment is segment else 1
         return max(1, min(longest, grown, int(AHEAD * rate)))
@@ -234,7 +238,8 @@ class Simulation:
     def _report_gap(self, missed: int) -> None:
         """Warn when the samples that were missed since the last warning amount to something."""
         self._unreported += missed
-        seconds, last = self._unreported / self.ticker.rate, self._gap_reported
+        seconds = self._unreported / self.ticker.rate
+        last = self._gap_reported
         if seconds < GAP or (last is not None and abs(self.now - last) < GAP_PERIOD):
             return
         since = "" if last is None else " since the last warning of this kind"
@@ -243,7 +248,8 @@ class Simulation:
             f"{self._explain_gap()}; the motion follows the clock ({self.ticker.missed} missed in "
             "all)"
         )
-        self._gap_reported, self._unreported = self.now, 0
+        self._gap_reported = self.now
+        self._unreported = 0
 
     def _explain_gap(self) -> str:
         """Return why samples are missing: the clock was set forward, or nobody sent them."""
@@ -294,7 +300,8 @@ class Simulation:
     def speed_up(self) -> None:
         """Return towards the real-time factor of the settings if the budget allows it."""
         work, self._spent = self.budget.spent - self._spent, self.budget.spent
-        current, factor = self.factor, self.settings.real_time_factor
+        current = self.factor
+        factor = self.settings.real_time_factor
         if current < factor and work < SHARE / 2 and self._prepare(self.stamp):
             if self.segment.motion.is_driven:
                 factor = min(factor, 2 * current)
@@ -402,4 +409,5 @@ class Simulation:
         """Continue with a grid of stamps that begins at a stamp."""
         self.ticker.restart(self.settings.publish_rate, stamp)
         # The stamps of the blocks belong to the old grid.
-        self._block, self._later = Block(self.segment, [], self._sink.encode), None
+        self._block = Block(self.segment, [], self._sink.encode)
+        self._later = None

@@ -108,7 +108,8 @@ def _wrench(samples: Samples) -> Real:
 
     The force depends on a mass, and is nan for a top that no body can be.
     """
-    motion, state = samples.segment.motion, samples.state
+    motion = samples.segment.motion
+    state = samples.state
     wrench = _after_zeros(motion.total_torque(state))
     body = find_body(motion.top, samples.segment.rig.gravity)
     wrench[..., :3] = body.pivot_force(motion, state) if body else np.nan
@@ -117,7 +118,8 @@ def _wrench(samples: Samples) -> Real:
 
 def _imu(samples: Samples) -> Real:
     """Orientation, angular velocity and specific force of the sensor, each with its covariance."""
-    imu, shape = samples.segment.rig.imu, np.shape(samples.stamps)
+    imu = samples.segment.rig.imu
+    shape = np.shape(samples.stamps)
     if not imu:
         return np.full((*shape, messages.IMU.width), np.nan)
     orientation, rates, force = imu.measure(
@@ -133,7 +135,9 @@ def _imu(samples: Samples) -> Real:
 
 def _magnetic_field(samples: Samples) -> Real:
     """Magnetic field in the frame of the sensor, and its covariance."""
-    imu, form, shape = samples.segment.rig.imu, messages.MAGNETIC_FIELD, np.shape(samples.stamps)
+    imu = samples.segment.rig.imu
+    form = messages.MAGNETIC_FIELD
+    shape = np.shape(samples.stamps)
     if not (imu and imu.magnetometer):
         return np.full((*shape, form.width), np.nan)
     exact, errors = imu.measure_field(samples.state, samples.stamps)
@@ -145,8 +149,10 @@ def _magnetic_field(samples: Samples) -> Real:
 
 def _odometry(samples: Samples) -> Real:
     """Pose and twist of the centre of mass, the latter in its own frame, with covariances."""
-    state, body = samples.state, find_body(samples.segment.motion.top, samples.segment.rig.gravity)
-    omega, arm = state.angular_velocity, body.arm if body else np.nan
+    state = samples.state
+    body = find_body(samples.segment.motion.top, samples.segment.rig.gravity)
+    omega = state.angular_velocity
+    arm = body.arm if body else np.nan
     x, y, _ = split(omega)
     return messages.ODOMETRY.arrange(
         omega.shape[:-1],

@@ -28,7 +28,8 @@ from numpy.typing import ArrayLike, NDArray
 
 FILE = Path(__file__).with_name("problems.json")
 PACKED = ".json.xz"  # of the same file in the package, which writes the set from it
-QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+QUATERNION = ("w", "x", "y", "z")
+RATES = ("wx", "wy", "wz")
 WORLD_RATES = ("omega_x", "omega_y", "omega_z")
 BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
 # Of the body: its frame turned, or with its origin off the pivot; all or half of the mass in a
@@ -290,7 +291,8 @@ def _name_mistake(
     if not np.isfinite(found).all() or not (found.any() or size):
         return ""
     with np.errstate(all="ignore"):
-        off, limit = measure(found, right), SAME_START * size
+        off = measure(found, right)
+        limit = SAME_START * size
         if off <= limit or not np.isfinite(off):
             return ""
         named = [name for name, each in mistakes.items() if measure(found, each) <= limit]
@@ -317,7 +319,8 @@ def _read_states(path: Path, problem: Problem) -> tuple[Real, Real | None]:
             )
         places = [header.index(n) for n in ("t", *names)]
         found = _pick(file, separator, places, np.array([0.0, *problem.times]))
-    q, rates = found[:, :4], found[:, 4:] if len(names) > 4 else None
+    q = found[:, :4]
+    rates = found[:, 4:] if len(names) > 4 else None
     if rates is not None and names[-1] in WORLD_RATES:
         with np.errstate(all="ignore"):  # zero and infinite quaternions are refused later
             unit = q / np.linalg.norm(q, axis=1, keepdims=True)
@@ -331,7 +334,8 @@ def _pick(rows: Iterable[str], separator: str | None, places: Sequence[int], tim
     The place of t comes first.
     """
     found = np.full((len(times), len(places) - 1), np.nan)
-    marks, tried = times.tolist(), array("d")
+    marks = times.tolist()
+    tried = array("d")
     for number, row in enumerate(rows, start=2):
         if not row.strip():
             continue
@@ -395,7 +399,8 @@ def turn_to_body(orientations: Real, vectors: Real) -> Real:
     >>> turn_to_body(np.array([[0.5, 0.5, 0.5, 0.5]]), np.array([[1.0, 0.0, 0.0]])).tolist()
     [[0.0, 0.0, 1.0]]
     """
-    w, xyz = orientations[:, :1], -orientations[:, 1:]
+    w = orientations[:, :1]
+    xyz = -orientations[:, 1:]
     twice = 2 * np.cross(xyz, vectors)
     return np.asarray(vectors + w * twice + np.cross(xyz, twice))
 
@@ -538,7 +543,8 @@ def find_problem(problems: dict[str, Problem], name: str) -> Problem:
 
 def _turn_start(facts: dict[str, Any]) -> dict[str, list[float]]:
     """Return the start as the turned frame has it."""
-    (w, *v), (a, *u) = facts["orientation"], TURN
+    w, *v = facts["orientation"]
+    a, *u = TURN
     vector = np.multiply(w, u) + np.multiply(a, v) + np.cross(v, u)
     omega = turn_to_body(np.array([TURN]), np.array([facts["angular_velocity"]]))[0]
     q = [w * a - float(np.dot(v, u)), *vector.tolist()]

@@ -20,7 +20,8 @@ from symtop_ros.arrays import multiply
 
 VERSION = "6.0"
 CONSTANTS = ("Ix", "Iz", "Mgl", "mass", "arm", "Ix_centre")
-QUATERNION, RATES = ("w", "x", "y", "z"), ("wx", "wy", "wz")
+QUATERNION = ("w", "x", "y", "z")
+RATES = ("wx", "wy", "wz")
 TURNED_COLUMNS = tuple(f"turned_{name}" for name in (*QUATERNION, *RATES))
 LIMITS = tuple(
     f"{name}_limits{form}"

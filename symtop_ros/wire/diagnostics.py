@@ -58,7 +58,9 @@ def decode_statuses(data: bytes) -> list[Status]:
 
 
 def _decode_status(reader: Reader, stamp: int) -> Status:
-    level, name, message = reader.integer("B"), reader.string(), reader.string()
+    level = reader.integer("B")
+    name = reader.string()
+    message = reader.string()
     reader.string()  # hardware_id
     values = {reader.string(): reader.string() for _ in range(reader.count())}
     return Status(stamp, level, name, message, values)

@@ -55,7 +55,8 @@ class Format:
         """
         numbers = np.zeros((*shape, self.width))
         for name, value in values.items():
-            place, is_covariance = self.quantities[name], name.endswith("_covariance")
+            place = self.quantities[name]
+            is_covariance = name.endswith("_covariance")
             axes = np.eye(math.isqrt(place.stop - place.start)).reshape(-1)
             numbers[..., place] = value * axes if is_covariance else value
         return numbers
@@ -178,7 +179,8 @@ class Decoded:
 def decode_messages(form: Format, messages: Sequence[bytes]) -> tuple[list[Decoded], list[str]]:
     """Decode messages of one type, written by any program."""
     sizes = np.fromiter(map(len, messages), np.int64, len(messages))
-    remaining, unread = np.arange(len(messages)), np.ones(len(messages), dtype=bool)
+    remaining = np.arange(len(messages))
+    unread = np.ones(len(messages), dtype=bool)
     decoded: list[Decoded] = []
     refused: list[str] = []
     # Messages of one layout have one size. Each pass takes the layout of the first remaining

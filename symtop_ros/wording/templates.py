@@ -143,7 +143,8 @@ class _Writer:
     def _fill_numbers(self, key: str, values: Sequence[float]) -> str:
         places, end = _split(key, self.variant)
         numbers = [(values[int(place)], form) for _, place, form in places]
-        wanted, texts = len({value for value, _ in numbers}), list[str]()
+        wanted = len({value for value, _ in numbers})
+        texts = list[str]()
         for more in range(MOST_DIGITS):
             found = [write_number(*each, more) for each in numbers]
             if len(set(found)) > len(set(texts)):  # the shortest that tell as many apart

@@ -10,7 +10,8 @@ from workshop.article.motions import TOP, cusps
 from workshop.article.nutation import times_of_extreme_rate
 
 MOTION = cusps()
-FASTEST, BOTTOM = times_of_extreme_rate(MOTION)[0], MOTION.nutation_period / 2
+FASTEST = times_of_extreme_rate(MOTION)[0]
+BOTTOM = MOTION.nutation_period / 2
 ARTICLE = ROOT / "docs/article.md"
 ROUNDING = 1e-15  # N m s; 64 products of up to 3e-3 N m s are summed
 

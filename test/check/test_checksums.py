@@ -42,9 +42,11 @@ def find_all(path):
 
 @pytest.mark.parametrize("seed", seeds(3, 30))
 def test_a_flipped_bit_anywhere_is_found(log, tmp_path, seed):
-    rng, path = random.Random(seed), tmp_path / "run.mcap"
+    rng = random.Random(seed)
+    path = tmp_path / "run.mcap"
     for _ in range(20):
-        place, bit = rng.randrange(len(log)), rng.randrange(8)
+        place = rng.randrange(len(log))
+        bit = rng.randrange(8)
         path.write_bytes(flip(log, place, bit))
         assert find_all(path), (place, bit)
 
@@ -54,7 +56,8 @@ OPCODES = [Opcode.MESSAGE_INDEX, Opcode.DATA_END, Opcode.FOOTER, Opcode.STATISTI
 
 @pytest.mark.parametrize("opcode", OPCODES)
 def test_a_flipped_bit_in_each_kind_of_record_is_found(log, tmp_path, opcode):
-    rng, path = random.Random(4), tmp_path / "run.mcap"
+    rng = random.Random(4)
+    path = tmp_path / "run.mcap"
     records = [(begin, end) for kind, begin, end in list_records(log) if kind == opcode]
     assert records
     for _ in range(20):

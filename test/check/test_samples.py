@@ -55,7 +55,8 @@ def test_a_correct_log_agrees_to_the_last_bit(arguments, tmp_path):
         assert deviation.samples == run.seconds * run.rate
 
 
-NONE, WEAK = Friction(), Friction(1e-6, 1e-6)
+NONE = Friction()
+WEAK = Friction(1e-6, 1e-6)
 SIZES = [(NONE, 4, False), (WEAK, 4, True), (WEAK, 400, False)]
 
 
@@ -127,7 +128,9 @@ def test_a_log_without_fields_is_read_and_left_to_its_version(tmp_path, monkeypa
 def test_a_sample_that_agrees_with_two_events_belongs_to_the_exact_one():
     """After a jump of the clock back the states of repeated stamps may be the same but rounding."""
     first = start_event(Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0)))
-    before, begin, end = first.segment(), 100_000_000, 900_000_000
+    before = first.segment()
+    begin = 100_000_000
+    end = 900_000_000
     assert (first.stamp, first.state(), first.state_before()) == (0, *[before.state_at(0)] * 2)
     start = before.state_at(begin)
     after = Segment.begin(Motion(ARTICLE, start), begin, 1.0)

@@ -119,7 +119,8 @@ def test_if_nobody_reads_the_output_it_ends_in_silence_as_by_sigpipe(verb, unbuf
     reading, writing = os.pipe()
     os.close(reading)
     with os.fdopen(writing, "wb") as closed:
-        words, pipes = command("top_ctl", verb), {"stdout": closed, "stderr": subprocess.PIPE}
+        words = command("top_ctl", verb)
+        pipes = {"stdout": closed, "stderr": subprocess.PIPE}
         result = subprocess.run(words, env=settings, check=False, **pipes)
     assert (result.returncode, result.stderr) == (BROKEN_PIPE, b"")
 
@@ -141,7 +142,8 @@ class Terminal:
 
     def wait_for(self, text):
         """Read until a text appears after what was read before; return what was read."""
-        read, deadline = "", time.monotonic() + TIMEOUT
+        read = ""
+        deadline = time.monotonic() + TIMEOUT
         while text not in read:
             assert time.monotonic() < deadline, f"no {text!r} in {read!r}"
             if select.select([self._descriptor], [], [], 0.1)[0]:

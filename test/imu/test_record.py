@@ -187,7 +187,8 @@ def test_noise_may_be_in_a_file_of_kalibr(tmp_path, capsys):
     assert main([*SHORT, "--noise", str(noise), "-o", str(tmp_path / "run.csv")]) == 0
     _, rows = read(tmp_path / "run.csv")
     table = np.array(rows, dtype=float)
-    rates, forces = table[:, -6:-3] - table[:, -12:-9], table[:, -3:] - table[:, -9:-6]
+    rates = table[:, -6:-3] - table[:, -12:-9]
+    forces = table[:, -3:] - table[:, -9:-6]
     assert not rates.any()
     # 750 normal numbers: 2.6 %, four sigma
     assert forces.std() == pytest.approx(0.01 * np.sqrt(500.0), rel=0.11)

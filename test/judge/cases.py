@@ -74,7 +74,8 @@ def encode(kind, estimates):
     """Messages of a type with the attitudes (and rates) of estimates."""
     form = FORMATS[kind]
     names = ("world", "sensor")[: 2 if "Transform" in kind or "Odometry" in kind else 1]
-    layout, places = form.layout(*names), form.quantities
+    layout = form.layout(*names)
+    places = form.quantities
     q, rates = (
         next((places[name] for name in names if name in places), None)
         for names in (("orientation", "rotation"), ("angular_velocity", "angular"))
@@ -138,7 +139,9 @@ def integrate_rates(truth, stamps, factor):
     marks = np.unique(np.concatenate((stamps, np.arange(begin, end, 20_000))))
     middles = (marks[:-1] + marks[1:]) // 2
     turns = truth.states_at(middles)[1] * np.diff(marks)[:, np.newaxis] / SECOND * factor
-    attitude, path, wanted = truth.states_at(stamps[:1])[0][0], [], set(stamps.tolist())
+    attitude = truth.states_at(stamps[:1])[0][0]
+    path = []
+    wanted = set(stamps.tolist())
     steps = wxyz(Rotation.from_rotvec(turns))
     for mark, step in zip(marks.tolist(), [*steps, None], strict=True):
         if mark in wanted:

@@ -40,7 +40,8 @@ def test_a_microsecond_shows_in_noise_of_a_milliradian_with_its_deviation(seed):
 
 
 def test_a_delay_of_a_motion_with_friction_has_no_period():
-    truth, some = scene_truth("friction"), STAMPS[::20]
+    truth = scene_truth("friction")
+    some = STAMPS[::20]
     found = find_causes(Made(delay=0.08).make(truth, some), truth)
     assert found.best.parameters == ("delay",)
     assert found.period is None

@@ -33,7 +33,8 @@ def test_the_attitude_of_a_stamp_is_that_of_the_last_event():
     events = make_events()
     for event in events:
         stamps = np.array([event.stamp, event.stamp + SECOND // 2])
-        found, expected = Truth(events).states_at(stamps)[0], event.segment().state_at(stamps)
+        found = Truth(events).states_at(stamps)[0]
+        expected = event.segment().state_at(stamps)
         assert (found == expected.orientation).all()
 
 

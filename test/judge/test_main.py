@@ -59,7 +59,8 @@ def test_the_delay_and_the_offset_are_found_written_and_can_be_removed(log, caps
 
 
 def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
-    path, (truth, stamps) = tmp_path / "mine.csv", truth_and_stamps(20)
+    path = tmp_path / "mine.csv"
+    truth, stamps = truth_and_stamps(20)
     exact = Estimates.of(stamps, *truth.states_at(stamps)[:2])
     path.write_text(write_rows(exact, header=HEADER, seconds=False))
     assert main([str(log), "--estimates", str(path), "--max-error", "1e-15"]) == 0
@@ -143,7 +144,8 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
 
 
 def test_a_csv_file_is_judged_against_a_scene_as_json(tmp_path, capsys):
-    path, stamps = tmp_path / "mine.csv", np.arange(0, 10**9, 10**7)
+    path = tmp_path / "mine.csv"
+    stamps = np.arange(0, 10**9, 10**7)
     exact = Estimates.of(stamps, *scene_truth("cusps").states_at(stamps)[:2])
     path.write_text(write_rows(exact, header=HEADER, seconds=False))
     assert main(["--scene", "cusps", "--estimates", str(path), "--json"]) == 0

@@ -94,7 +94,8 @@ def test_noise_of_a_filter_gets_no_invented_cause(seed):
 @pytest.mark.parametrize("time", [0.005, 0.05])
 def test_a_cause_in_the_noise_of_a_filter_is_a_candidate_with_its_size(time):
     noisy = make_noisy(200, 10, time, EVEN, False, 3)
-    exact, made = TRUTH.states_at(noisy.stamps)[0], Made(delay=5e-3).make(TRUTH, noisy.stamps)
+    exact = TRUTH.states_at(noisy.stamps)[0]
+    made = Made(delay=5e-3).make(TRUTH, noisy.stamps)
     noise = compose(invert(exact), noisy.orientations)
     judgement = judge(Estimates.of(noisy.stamps, compose(made.orientations, noise)), TRUTH, "x")
     candidate = judgement.found.candidate

@@ -52,7 +52,8 @@ def draw_vector(random: Random) -> Real:
 
 
 def draw_rotation(random: Random) -> Rotation:
-    axis, angle = draw_vector(random), random.uniform(0.05, 2.0)
+    axis = draw_vector(random)
+    angle = random.uniform(0.05, 2.0)
     return Rotation.from_rotvec(angle * axis / np.linalg.norm(axis))
 
 
@@ -121,7 +122,8 @@ def turn_by(shape: Callable[[Any, Real], Real]) -> Change:
     """An error about an axis of the world or of the body that changes with time."""
 
     def change(random: Random, motion: Motion, stamps: Stamps) -> Real:
-        axis, seconds = draw_vector(random), (stamps - stamps[0]) / SECOND
+        axis = draw_vector(random)
+        seconds = (stamps - stamps[0]) / SECOND
         angles = random.uniform(0.05, 0.5) * shape(random, seconds)
         turn = wxyz(Rotation.from_rotvec(np.outer(angles, axis / np.linalg.norm(axis))))
         q = motion.at(stamps / SECOND).orientation
@@ -170,7 +172,8 @@ def forget(random: Random, motion: Motion, stamps: Stamps) -> Real:
 def correlate(random: Random, seconds: Real, time: float) -> Real:
     """Normal numbers (n, 3) with this correlation time, at any times."""
     kept = np.exp(-np.diff(seconds, prepend=-np.inf) / time) if time else np.zeros(len(seconds))
-    found, last = [], np.zeros(3)
+    found = []
+    last = np.zeros(3)
     for each in kept.tolist():
         last = each * last + np.sqrt(1 - each**2) * draw_vector(random)
         found.append(last)
@@ -187,7 +190,8 @@ def add_noise(times: tuple[float, ...], axes: bool = False, rare: float = 0.0) -
             left *= random.choice(((0, 0, 1), (1, 0, 0), (0.1, 0.1, 1), (1, 1, 0)))
         if rare:
             left *= np.array([[10.0 if random.random() < rare else 1.0] for _ in stamps])
-        q, noise = motion.at(seconds).orientation, wxyz(Rotation.from_rotvec(left))
+        q = motion.at(seconds).orientation
+        noise = wxyz(Rotation.from_rotvec(left))
         return compose(noise, q) if random.random() < 0.5 else compose(q, noise)
 
     return change
@@ -268,7 +272,8 @@ def draw_stamps(number: int) -> tuple[Random, str, Stamps]:
     """Return a scene and stamps, and numbers for the rest; the same for the same number."""
     random = Random(1000 + number)
     scene = random.choice(SCENES)
-    count, first = random.choice((300, 500, 900)), random.uniform(0.6, 2.0)
+    count = random.choice((300, 500, 900))
+    first = random.uniform(0.6, 2.0)
     seconds = sorted(random.uniform(first, first + random.uniform(3.0, 8.0)) for _ in range(count))
     return random, scene, np.array([round(t * SECOND) for t in seconds])
 

@@ -9,7 +9,8 @@ RATE = 100.0  # Hz
 
 def make_sample(tick):
     message = QuaternionStamped()
-    message.header.stamp.sec, message.header.stamp.nanosec = 1, tick * 10_000_000
+    message.header.stamp.sec = 1
+    message.header.stamp.nanosec = tick * 10_000_000
     return serialize_message(message)
 
 
@@ -17,7 +18,8 @@ def make_report(missed, name="/top", tick=99):
     values = {"name": name, "missed": str(missed), "energy.balance": "-1e-15"}
     pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
     report = DiagnosticArray(status=[DiagnosticStatus(values=pairs)])
-    report.header.stamp.sec, report.header.stamp.nanosec = 1, tick * 10_000_000
+    report.header.stamp.sec = 1
+    report.header.stamp.nanosec = tick * 10_000_000
     return report
 
 

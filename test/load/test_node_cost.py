@@ -24,7 +24,8 @@ def test_the_node_is_measured_and_compared_with_bare_ones(capsys, monkeypatch, t
     (docs := tmp_path / "docs").mkdir()
     page = docs / "reliability.md"
     page.write_text("<!-- figures: node cost --><!-- end of figures -->")
-    kept, write = [], node_cost.format_sections
+    kept = []
+    write = node_cost.format_sections
     monkeypatch.setattr(node_cost, "format_sections", lambda each: kept.append(each) or write(each))
     assert node_cost.main(["--seconds", "1", "--runs", "1", "--docs", str(docs)]) == 0
     (facts,) = kept

@@ -139,9 +139,11 @@ class Log:
 def list_chunks(path: Path) -> list[tuple[int, int, int, int]]:
     """Return begin and end of each chunk's content in a file, and its first and last log time."""
     data = path.read_bytes()
-    found, place = [], 8
+    found = []
+    place = 8
     while place + 9 <= len(data):
-        opcode, length = data[place], int.from_bytes(data[place + 1 : place + 9], "little")
+        opcode = data[place]
+        length = int.from_bytes(data[place + 1 : place + 9], "little")
         begin = place + 9
         if opcode == Opcode.CHUNK:
             times = (int.from_bytes(data[k : k + 8], "little") for k in (begin, begin + 8))

@@ -45,7 +45,8 @@ def test_there_are_all_variants_of_the_conformance_tests():
 @pytest.mark.parametrize("name", INPUTS)
 def test_every_legal_variant_is_sound_and_repaired_with_all_that_it_has(name, tmp_path):
     for number, (_, features) in enumerate(v for v in list_variants() if v[0] == name):
-        path, target = tmp_path / "odd.mcap", tmp_path / f"{number}.mcap"
+        path = tmp_path / "odd.mcap"
+        target = tmp_path / f"{number}.mcap"
         path.write_bytes(write_variant(name, features))
         file, account = account_of(path)
         assert (account.problems, account.notes) == ((), ()), features
@@ -149,7 +150,8 @@ def test_events_that_a_recorder_repeats_at_the_begin_of_each_file_are_none_too_m
 
 def test_an_event_of_another_file_that_differs_is_told(log, tmp_path):
     kick = log.places("/events")[1]
-    half, event = kick + 50, log.messages[kick]
+    half = kick + 50
+    event = log.messages[kick]
     other = replace(event, data=event.data.replace(b"closed form", b"closed farm"))
     assert other != event
     changed = replace(log, messages=[*log.messages[:half], other, *log.messages[half:]])

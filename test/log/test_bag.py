@@ -211,7 +211,8 @@ def split_with_heads(folder, storage=StoragePlugin.MCAP, mode=CompressionMode.NO
     cuts = np.linspace(0, len(RUN.messages), 4).astype(int)
     folders = []
     for begin, end in itertools.pairwise(cuts):
-        part, before = RUN.messages[begin:end], RUN.messages[:begin]
+        part = RUN.messages[begin:end]
+        before = RUN.messages[:begin]
         head = [(name, part[0][1], data) for name, _, data in before if name == EVENTS.name]
         folders.append(write(folder / f"bag_{begin}", head + part, storage, mode=mode))
     return join(folders, folder / "bag")

@@ -64,7 +64,9 @@ def test_a_file_cut_at_any_byte_gives_all_whole_chunks_and_says_so(good, tmp_pat
 
 
 def test_a_flipped_bit_costs_a_chunk_at_most_and_is_never_taken_for_a_number(good, tmp_path):
-    whole, rng, incomplete = good.read_bytes(), random.Random(5), 0
+    whole = good.read_bytes()
+    rng = random.Random(5)
+    incomplete = 0
     for _ in range(150):
         damaged = bytearray(whole)
         damaged[rng.randrange(8, len(damaged))] ^= 1 << rng.randrange(8)
@@ -260,7 +262,8 @@ def test_samples_of_one_stamp_are_never_parted(tmp_path):
 
 
 def test_two_tops_that_share_tf_are_told_apart_by_the_frames_in_their_events(tmp_path):
-    one, other = Run(seconds=1.0), Run(seconds=1.0, rate=50.0, frame="gyro")
+    one = Run(seconds=1.0)
+    other = Run(seconds=1.0, rate=50.0, frame="gyro")
     for node, count in (("/a", 200), ("/b", 50)):
         columns = columns_of(write(tmp_path, {"/a": one, "/b": other}, node))
         assert len(columns["tf"]) == count
@@ -268,13 +271,15 @@ def test_two_tops_that_share_tf_are_told_apart_by_the_frames_in_their_events(tmp
 
 
 def test_without_events_the_transforms_are_those_of_the_frame_of_a_node_as_it_is(tmp_path):
-    one, other = Run(seconds=1.0, rate=50.0, frame="gyro"), Run(seconds=1.0)
+    one = Run(seconds=1.0, rate=50.0, frame="gyro")
+    other = Run(seconds=1.0)
     log = write(tmp_path, {"/a": one.without("events"), "/b": other.without("events")}, "/b")
     assert len(columns_of(log)["tf"]) == 200
 
 
 def test_transforms_of_another_top_before_the_first_event_are_not_those_of_this_one(tmp_path):
-    one, other = Run(seconds=1.0), Run(seconds=1.0, rate=2000.0, frame="gyro")
+    one = Run(seconds=1.0)
+    other = Run(seconds=1.0, rate=2000.0, frame="gyro")
     one.messages = [each for each in one.messages if each[1] >= one.messages[0][1] + 5 * 10**8]
     assert one.messages[0][0] == "events"  # the kick
     deviations = compare_samples(write(tmp_path, {"/top": other, "/one": one}, "/one"))

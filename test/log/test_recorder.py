@@ -118,7 +118,8 @@ def test_names_in_one_second_differ_and_nothing_is_overwritten(tmp_path):
 
 def test_messages_that_do_not_fit_into_the_queue_are_counted_in_the_file(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "QUEUE_LENGTH", 10)
-    hold, drain = threading.Event(), Recorder._drain
+    hold = threading.Event()
+    drain = Recorder._drain
     monkeypatch.setattr(Recorder, "_drain", lambda *given: hold.wait(TIMEOUT) and drain(*given))
     recorder = create(tmp_path)
     path = recorder.start({})

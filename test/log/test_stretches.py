@@ -98,5 +98,6 @@ def test_samples_are_unknown_by_their_stamps_and_by_their_places():
     ordered = order_at([START], [0])
     proofs = Proofs(ordered, [])
     stretches = list(Finder(ordered, proofs, [41], rows_of(STAMPS), 59).list_stretches())
-    stamps, places = np.array([39, 40, 5, 50]), np.array([40, 40, 45, NOWHERE])
+    stamps = np.array([39, 40, 5, 50])
+    places = np.array([40, 40, 45, NOWHERE])
     assert Unknown(stretches).find(stamps, places).tolist() == [False, True, True, True]

@@ -89,7 +89,8 @@ def encode(record: Any, is_padded: bool) -> bytes:
 
 def write_variant(name: str, features: frozenset[str]) -> bytes:
     """Return the file of an input with some features."""
-    records, is_padded = INPUTS[name], "pad" in features
+    records = INPUTS[name]
+    is_padded = "pad" in features
     data = MAGIC + encode(Header("", ""), is_padded)
     indexes: dict[str, list[bytes]] = {"mdx": [], "ax": [], "chx": []}
     for each in records:
@@ -114,7 +115,9 @@ def _add_chunk(
     data: bytes, records: Sequence[Any], features: frozenset[str]
 ) -> tuple[bytes, bytes]:
     """Return the file so far with its chunk, and the index of that."""
-    content, entries, is_padded = b"", {}, "pad" in features
+    content = b""
+    entries = {}
+    is_padded = "pad" in features
     for each in records:
         if isinstance(each, Channel):
             entries.setdefault(each.id, [])
@@ -124,7 +127,9 @@ def _add_chunk(
     times = [each.log_time for each in records if isinstance(each, Message)]
     first, last = min(times, default=0), max(times, default=0)
     chunk = encode(Chunk("", content, last, first, zlib.crc32(content), len(content)), is_padded)
-    begin, behind, offsets = len(data), len(data) + len(chunk), {}
+    begin = len(data)
+    behind = len(data) + len(chunk)
+    offsets = {}
     data += chunk
     for number, found in entries.items() if "mx" in features else ():
         offsets[number] = len(data)
@@ -159,7 +164,8 @@ def _write_summary(
         Opcode.CHUNK_INDEX: b"".join(indexes["chx"]) if "chx" in features else b"",
     }
     summary = b"".join(groups.values())
-    start, offsets = begin if summary else 0, b""
+    start = begin if summary else 0
+    offsets = b""
     place = begin
     for opcode, group in groups.items():
         if group and "sum" in features:

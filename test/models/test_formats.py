@@ -67,7 +67,8 @@ def test_mujoco_reads_the_inertia_and_follows_the_closed_form(scene):
 def test_the_urdf_moves_in_mujoco_as_the_top_does(scene):
     mujoco, top, start, model, data = open_in_mujoco("urdf", scene)
     assert model.body("top_tilt").mass == MUJOCO_BOUND
-    model.opt.integrator, model.opt.timestep = mujoco.mjtIntegrator.mjINT_RK4, 2.0**-13
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    model.opt.timestep = 2.0**-13
     data.qpos, data.qvel = start.euler_angles, start.euler_rates
     mujoco.mj_step(model, data, nstep=int(DURATION * 2**13))
     mujoco.mj_kinematics(model, data)
@@ -113,7 +114,8 @@ FRAMES = [("world", "top"), ("map", "a/top"), ('w"&<', "gyro's")]
 @pytest.mark.parametrize(("with_tf", "with_state_publisher"), MOVERS)
 def test_the_body_hangs_from_the_world(world, top, with_tf, with_state_publisher):
     text = robot_description(ARTICLE, world, top, tf_moves_it=with_tf)
-    robot, parents = ElementTree.fromstring(text), {top: world} if with_tf else {}
+    robot = ElementTree.fromstring(text)
+    parents = {top: world} if with_tf else {}
     (body,) = robot.iterfind("link[visual]")
     for joint in robot.iterfind("joint") if with_state_publisher else ():
         if joint.get("type") != "floating":  # robot_state_publisher leaves these out

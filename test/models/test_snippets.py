@@ -45,10 +45,8 @@ def test_newton_starts_as_the_problem_does_in_single_precision(name, tmp_path, m
     exec(code, names)
     facts = read_problems()[name].facts
     start = State(facts["orientation"], facts["angular_velocity"])
-    (*_, x, y, z, w), rates = (
-        names["state"].body_q.numpy()[0],
-        names["state"].body_qd.numpy()[0][3:],
-    )
+    *_, x, y, z, w = names["state"].body_q.numpy()[0]
+    rates = names["state"].body_qd.numpy()[0][3:]
     assert abs(start.orientation @ [w, x, y, z]) > 1 - 1e-6
     omega = start.to_world(start.angular_velocity)
     assert rates == pytest.approx(omega, abs=1e-6 * np.abs(omega).max())

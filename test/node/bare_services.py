@@ -39,7 +39,8 @@ def main() -> None:
     data = serialize_message(QuaternionStamped())
 
     def publish() -> None:
-        begin, count = time.monotonic(), 0
+        begin = time.monotonic()
+        count = 0
         while rclpy.ok():
             count += 1
             time.sleep(max(0.0, begin + count * PERIOD - time.monotonic()))

@@ -27,7 +27,8 @@ def find_messages(package: str) -> Path | None:
 @contextlib.contextmanager
 def importing(package: str) -> Iterator[None]:
     """Make the messages of a package importable in this process."""
-    folder, module = find_messages(package), package.partition("-")[0]
+    folder = find_messages(package)
+    module = package.partition("-")[0]
     with pytest.MonkeyPatch.context() as patch:
         if folder:
             patch.syspath_prepend(folder)

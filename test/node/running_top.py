@@ -48,7 +48,9 @@ class RunningTop(Listener):
     ) -> None:
         self.domain = claim_domain()
         super().__init__(self.domain, "user")
-        self.now, self._advanced, self._frozen = 0, 0.0, realtime
+        self.now = 0
+        self._advanced = 0.0
+        self._frozen = realtime
         if record:
             parameters |= {"record__enabled": True, "record__directory": str(record)}
         if not realtime:
@@ -164,8 +166,13 @@ class _SharedConnection(Connection):
     """The client of the package, spun together with the node."""
 
     def __init__(self, running: RunningTop) -> None:
-        self.node, self.name, self._timeout, self._running = running.user, "/top", TIMEOUT, running
-        self._clients, self._unknown, self._question = {}, set(), None
+        self.node = running.user
+        self.name = "/top"
+        self._timeout = TIMEOUT
+        self._running = running
+        self._clients = {}
+        self._unknown = set()
+        self._question = None
 
     def spin_until(self, done: Callable[[], bool], timeout: float) -> bool:
         self._running.spin_until(done, timeout)
@@ -175,7 +182,8 @@ class _SharedConnection(Connection):
 def torque_of(x: float = 0.0, y: float = 0.0, z: float = 0.0, frame: str = "") -> WrenchStamped:
     """The message of a torque in N m."""
     message = WrenchStamped()
-    message.header.frame_id, torque = frame, message.wrench.torque
+    message.header.frame_id = frame
+    torque = message.wrench.torque
     torque.x, torque.y, torque.z = x, y, z
     return message
 

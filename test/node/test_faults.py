@@ -125,13 +125,15 @@ def assert_keeps_running(run):
 
 def test_one_in_a_request_that_took_effect_leaves_the_log_exact(start_top, tmp_path, monkeypatch):
     run = start_top(publish_rate=500.0, record=tmp_path)
-    events, event_of = run.collect_events(), Change.event
+    events = run.collect_events()
+    event_of = Change.event
 
     def break_kicks(change, *given):
         return fail() if change.act.name == "kick" else event_of(change, *given)
 
     monkeypatch.setattr(Change, "event", break_kicks)
-    before, report = run.top.simulation.segment, write("failure", BUG)
+    before = run.top.simulation.segment
+    report = write("failure", BUG)
     for _ in range(2):
         assert run.trigger("hurry_precession") == (False, report)
     run.spin_until(lambda: len(events_named(events, "failure")) == 2)

@@ -136,7 +136,8 @@ class Watched:
     """A client of a program that publishes samples, with the times at which they are published."""
 
     def __init__(self, domain: int) -> None:
-        self._client, self._sent = Listener(domain), []
+        self._client = Listener(domain)
+        self._sent = []
         subscribe = self._client.node.create_subscription
         subscribe(QuaternionStamped, "/top/orientation", self._receive, 10_000, raw=True)
         self._client.wait_for(self._sent)
@@ -180,6 +181,7 @@ def nodes(tmp_path_factory):
 @pytest.mark.realtime
 @pytest.mark.parametrize("name", choose(list_requests(), SHARP))
 def test_a_request_stops_samples_hardly_longer_than_those_of_a_bare_node(name, nodes):
-    request, (top, bare) = list_requests()[name](), nodes
+    request = list_requests()[name]()
+    top, bare = nodes
     allowed = max(bare.ask(*request) for _ in range(2)) + MORE
     assert any(top.ask(*request) <= allowed for _ in range(TRIES))

@@ -19,7 +19,8 @@ class Ticks:
     """Counts ticks, and answers with what they are to wait for."""
 
     def __init__(self, *waits):
-        self.waits, self.count = list(waits), 0
+        self.waits = list(waits)
+        self.count = 0
         self.done, self.failed = threading.Event(), threading.Event()
 
     def tick(self):
@@ -47,7 +48,8 @@ def test_it_ticks_at_once_after_each_wait_and_where_only_the_clock_can_tell_when
 
 
 def test_to_wake_it_during_a_tick_is_not_forgotten():
-    begun, ticks = threading.Event(), Ticks(None)
+    begun = threading.Event()
+    ticks = Ticks(None)
 
     def tick():
         begun.wait(TIMEOUT)
@@ -121,7 +123,8 @@ def test_the_program_and_its_middleware_have_a_short_slice():
 
 @skip_without_slices
 def test_it_alone_has_a_short_slice_and_keeps_its_niceness():
-    found, ended = [], threading.Event()
+    found = []
+    ended = threading.Event()
 
     def tick():
         found.append(read_scheduling())

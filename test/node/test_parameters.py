@@ -41,7 +41,8 @@ def test_a_bad_value_at_start_up_is_refused_in_one_line(start_top, values, words
 
 def test_a_bad_value_later_is_refused_and_the_motion_is_unchanged(start_top):
     run = start_top()
-    events, before = run.collect_events(), run.top.simulation.segment
+    events = run.collect_events()
+    before = run.top.simulation.segment
     for values, sentence in (
         ({"publish_rate": 5000.0}, "publish_rate must be 1 to 2000 Hz, got 5000"),
         *(({name: other(name)}, f"Trying to set a read-only parameter: {name}") for name in FIXED),

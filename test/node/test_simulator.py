@@ -136,7 +136,8 @@ def test_it_is_paused_played_and_stopped_and_tells_so(client):
 
 def test_steps_are_periods_to_the_nanosecond(start_top):
     run = start_top(realtime=True, publish_clock=True, publish_rate=30.0)
-    client, clocks = Client(run), run.collect(Clock, "/clock")
+    client = Client(run)
+    clocks = run.collect(Clock, "/clock")
     assert client.step(1).result == FAILED  # not while it runs
     assert client.set_state(STOPPED).result == OK
     run.spin_until(lambda: clocks)
@@ -169,19 +170,22 @@ def test_a_reset_goes_back_to_the_parameters_and_says_that_the_time_does_not(cli
     assert run.top.simulation.stamp >= before
     assert client.state() == PLAYING
     for scope in (1, 4, 5, 8, 10, 254):  # without the state, or of something unknown
-        refused, condition = client.reset(scope), "one that includes the state (2), 0 or 255"
+        refused = client.reset(scope)
+        condition = "one that includes the state (2), 0 or 255"
         assert refused.result == UNSUPPORTED
         assert refused.error_message == f"scope must be {condition}, got {scope}"
 
 
 def test_a_node_that_owns_the_clock_sets_it_back_and_its_log_is_exact(start_top, tmp_path):
     run = start_top(realtime=True, publish_clock=True, record=tmp_path)
-    client, clocks = Client(run), run.collect(Clock, "/clock")
+    client = Client(run)
+    clocks = run.collect(Clock, "/clock")
     assert 21 in client.features().features
     assert client.set_entity(**twist({"angular": {"z": 5.0}})).result == OK
     for scope in (1, 3, 0, 255, 2):
         run.wait_for(clocks, 20)
-        before, simulation = nanoseconds(clocks[-1].clock), run.top.simulation
+        before = nanoseconds(clocks[-1].clock)
+        simulation = run.top.simulation
         done = client.reset(scope)
         assert (done.result, done.error_message) == (OK, "")
         assert (simulation.stamp < before) == (scope != 2)
@@ -248,12 +252,14 @@ def test_the_state_of_the_top_is_that_of_the_topics(client):
     run.spin_until(lambda: messages and stamp_of(messages[-1]) >= stamp)
     sample = next(each for each in messages if stamp_of(each) >= stamp).quaternion
     assert numbers(found.state.pose.orientation) == numbers(sample)
-    state, motion = run.top.simulation.state, run.top.simulation.segment.motion
+    state = run.top.simulation.state
+    motion = run.top.simulation.segment.motion
     twist = np.array(vector(found.state.twist.angular))
     assert np.array_equal(twist, state.to_world(state.angular_velocity))
     # alpha, for which the change of omega in the world is measured: (0.1 us)^2 of curvature and
     # rounding of 2e-14 rad/s over it leave 1e-6 of 200 rad/s times 10 rad/s
-    h, t = 1e-7, run.top.simulation.segment.time_at(run.top.simulation.stamp)
+    h = 1e-7
+    t = run.top.simulation.segment.time_at(run.top.simulation.stamp)
     after, before = (motion.at(t + each) for each in (h, -h))
     change = after.to_world(after.angular_velocity) - before.to_world(before.angular_velocity)
     alpha = vector(found.state.acceleration.angular)
@@ -280,7 +286,8 @@ def test_the_state_of_the_top_is_set_in_the_world(client):
 
 
 FIXED = "must be 0 (the pivot is fixed), got ("
-NAN, FRAME = {"angular": {"z": float("nan")}}, {"header": {"frame_id": "map"}}
+NAN = {"angular": {"z": float("nan")}}
+FRAME = {"header": {"frame_id": "map"}}
 
 
 @pytest.mark.parametrize(
@@ -303,7 +310,8 @@ def test_what_no_top_can_do_is_refused_and_changes_nothing(client, fields, code,
 
 
 def test_the_action_steps_with_feedback_and_leaves_the_node_free(client):
-    run, feedback = client.run, []
+    run = client.run
+    feedback = []
     client.set_state(STOPPED)
     goal = client.simulate(40, lambda each: feedback.append(each.feedback))
     result = goal.get_result_async()
@@ -333,7 +341,8 @@ def test_the_action_is_cancelled_and_refused(client):
 
 
 def test_goals_that_come_together_are_carried_out_one_after_the_other(client):
-    run, ends = client.run, []
+    run = client.run
+    ends = []
     client.set_state(STOPPED)
     goals = [client.simulate(steps) for steps in (300, 10**6, 40)]
     results = [each.get_result_async() for each in goals]

@@ -33,7 +33,8 @@ READ = {
 
 def compute(motion, state):
     """Messages of a state of a motion by the library, by the topic."""
-    top, omega = motion.top, state.to_world(state.angular_velocity)
+    top = motion.top
+    omega = state.to_world(state.angular_velocity)
     force = Body.of(top).pivot_force(motion, state)
     return {
         "orientation": state.orientation.tolist(),

@@ -48,7 +48,10 @@ class Page:
     """The news of one page, while the test waits for them."""
 
     def __init__(self, bridge):
-        self._news, self.events, self.new, self.state = bridge.follow(), [], [], {}
+        self._news = bridge.follow()
+        self.events = []
+        self.new = []
+        self.state = {}
 
     def look(self):
         message = next(self._news)

@@ -60,7 +60,8 @@ class Promise:
 
 def climb(promise: Promise, evaluations: int, seed: str) -> tuple[float, Genes]:
     """Return the largest part of the promise that was reached, and its case."""
-    rng, best = Numbers(seed), [(0.0, promise.draw(Numbers(seed)))]
+    rng = Numbers(seed)
+    best = [(0.0, promise.draw(Numbers(seed)))]
     evaluations = min(evaluations, promise.most)
     for number in range(evaluations):
         is_new = number < evaluations // DRAWN or rng.randrange(DRAWN) == 0
@@ -127,7 +128,8 @@ def build_motion(genes: Genes) -> tuple[Motion, float]:
             round(y * 1024) / 1024,
             round(ratio * 64) / 64 or 1 / 64,
         )
-        top, q = Top(1.0, ratio, (x * x + y * y) / 2), (0.5, 0.5, 0.5, 0.5)
+        top = Top(1.0, ratio, (x * x + y * y) / 2)
+        q = (0.5, 0.5, 0.5, 0.5)
         return Motion(top, State(q, (x, y, y / ratio))), t
     if style == "swing":
         *q, x, y, ratio, weight, t = numbers
@@ -198,14 +200,19 @@ def draw_driven(rng: Numbers) -> Genes:
 def measure_driven(genes: Genes) -> float:
     """The larger part of eps (4 + growth/10): attitude, and omega of the largest one."""
     ratio, weight, theta, phi, psi, *rest = genes
-    rates, friction, torque, t = rest[:3], rest[3:5], rest[5:8], rest[8]
+    rates = rest[:3]
+    friction = rest[3:5]
+    torque = rest[5:8]
+    t = rest[8]
     top = Top(1.0, ratio, weight)
     names = ("theta_dot", "phi_dot", "psi_dot")
     start = State.from_euler(theta=theta, phi=phi, psi=psi, **dict(zip(names, rates, strict=True)))
     drag = Friction(*map(abs, friction))
-    motion, inputs = Motion(top, start, drag, tuple(torque)), Inputs.of(top, start)
+    motion = Motion(top, start, drag, tuple(torque))
+    inputs = Inputs.of(top, start)
     drive = (drag.axial, drag.transverse), tuple(torque)
-    state, (q, omega) = motion.at(t), Series(inputs, 30, *drive).at(t)
+    state = motion.at(t)
+    q, omega = Series(inputs, 30, *drive).at(t)
     shift = Fraction(1, 10**9)
     faster = tuple(each * (1 + shift) for each in inputs.angular_velocity)
     other, _ = Series(inputs._replace(angular_velocity=faster), 30, *drive).at(t)
@@ -273,7 +280,8 @@ def measure_euler_rates(genes: Genes) -> float:
 
 def measure_vectors(genes: Genes) -> float:
     """8 eps of torque and angular momentum, and twice what the norm is off."""
-    state, top = build_state(genes), Top(1.0, 0.7, 2.0)
+    state = build_state(genes)
+    top = Top(1.0, 0.7, 2.0)
     with mp.workdps(40):
         q, (wx, wy, wz) = exact_parts(state)
         axis = turn(q, [mpf(0), mpf(0), mpf(2)])
@@ -289,7 +297,8 @@ def measure_vectors(genes: Genes) -> float:
 
 def measure_kick(genes: Genes) -> float:
     """A new phi' within 15 eps of the larger angular velocity over sin(theta), and the same."""
-    state, rate = build_state(genes), genes[7]
+    state = build_state(genes)
+    rate = genes[7]
     kicked = set_precession_rate(state, rate)
     before = mp.norm(state.angular_velocity.tolist())
     with mp.workdps(40):
@@ -309,7 +318,8 @@ def measure_from_euler(genes: Genes) -> float:
     phi, theta, psi = (min(max(each, -1e4), 1e4) for each in genes)
     state = State.from_euler(phi=phi, theta=theta, psi=psi)
     with mp.workdps(40):
-        plus, minus = (mpf(phi) + mpf(psi)) / 2, (mpf(phi) - mpf(psi)) / 2
+        plus = (mpf(phi) + mpf(psi)) / 2
+        minus = (mpf(phi) - mpf(psi)) / 2
         c, s = mp.cos(mpf(theta) / 2), mp.sin(mpf(theta) / 2)
         q = c * mp.cos(plus), s * mp.cos(minus), s * mp.sin(minus), c * mp.sin(plus)
         return attitude_error(q, state.given_orientation) / (2 * EPS)
@@ -324,7 +334,8 @@ def measure_regular_rates(genes: Genes) -> float:
     """The nearest doubles: half a unit in the last place, which any double may be off."""
     Iz, Mgl, theta, spin = genes
     with mp.workdps(60):
-        a, b = (1 - mpf(Iz)) * mp.cos(mpf(theta)), mpf(Iz) * mpf(spin)
+        a = (1 - mpf(Iz)) * mp.cos(mpf(theta))
+        b = mpf(Iz) * mpf(spin)
         root = mp.sqrt(b * b - 4 * a * mpf(Mgl))
         q = (b + mp.sign(b) * root) / 2
         exact = sorted((mpf(Mgl) / q, q / a), key=abs)

@@ -30,7 +30,8 @@ def fall(pull, half, rate, t):
     if not pull:
         return half + rate * t / 2, rate
     # from the lowest place: chi'' = -k sin(chi)
-    lowest, k = mp.pi / 2 if pull > 0 else mpf(0), abs(pull)
+    lowest = mp.pi / 2 if pull > 0 else mpf(0)
+    k = abs(pull)
     chi = half - lowest
     m = rate**2 / (4 * k) + mp.sin(chi) ** 2
     if m == 0:
@@ -50,7 +51,8 @@ def swing(k, m, chi, rate, t):
 
 def circle(k, m, chi, rate, t):
     """sin(chi) = sn(sqrt(m) u, 1/m): it goes round."""
-    side, fast = mp.sign(rate), mp.sqrt(k * m)
+    side = mp.sign(rate)
+    fast = mp.sqrt(k * m)
     u = side * mp.ellipf(chi, 1 / m) + fast * t
     sn, cn, dn = (mp.ellipfun(name, u, m=1 / m) for name in ("sn", "cn", "dn"))
     return side * mp.atan2(sn, cn), 2 * side * fast * dn

@@ -25,13 +25,17 @@ def differentiate(motion, times, digits=DIGITS):
     moments = [Fraction(each) for each in motion.top.moments]
     orientation = [Fraction(each) for each in motion.start.given_orientation.tolist()]
     omega = [Fraction(each) for each in motion.start.angular_velocity.tolist()]
-    base, columns = follow(moments, orientation, omega), []
+    base = follow(moments, orientation, omega)
+    columns = []
     fastest = max(map(abs, omega))
     for k in range(9):
         sizes = abs(moments[k]) or moments[0] if k < 3 else 1 if k < 6 else fastest or 1
-        h, pair = step * sizes, []
+        h = step * sizes
+        pair = []
         for sign in (h, -h):
-            top, q, rates = list(moments), orientation, list(omega)
+            top = list(moments)
+            q = orientation
+            rates = list(omega)
             if k < 3:
                 top[k] += sign
             elif k < 6:
@@ -73,7 +77,8 @@ def find_errors(motion, found, right, counts_start=False):
     1e-3 rad, or of the spin, for all of the moment; with `counts_start` also for 1 rad of a start,
     and for its angular velocity: docs/filters.md promises no more.
     """
-    errors, spin = np.zeros(found.shape[:-2]), np.abs(motion.start.angular_velocity).max()
+    errors = np.zeros(found.shape[:-2])
+    spin = np.abs(motion.start.angular_velocity).max()
     for rows, size in ((slice(0, 3), 1.0), (slice(3, 6), spin)):
         for columns in BLOCKS:
             largest = np.abs(right[..., rows, columns]).max(axis=(-1, -2))

@@ -33,12 +33,14 @@ class ExactMotion:
     """A motion, the times in s, and its row of the table."""
 
     def __init__(self, row: dict[str, Any]) -> None:
-        self.row, self.family = row, str(row["family"])
+        self.row = row
+        self.family = str(row["family"])
         names = "top", "q", "omega", "friction", "torque", "t"
         parts = (list(map(float.fromhex, row[name])) for name in names)
         top, q, omega, friction, torque, times = parts
         self.motion = Motion(Top(*top), State(q, omega), Friction(*friction), torque)
-        self.inputs, self.times = Inputs.exact(*top, q, omega), times
+        self.inputs = Inputs.exact(*top, q, omega)
+        self.times = times
 
     @property
     def states(self) -> list[ExactState]:

@@ -95,15 +95,18 @@ def draw_near_the_separatrix(one: Ordinary) -> Draw:
 
 def draw_to_its_balance(one: Ordinary) -> Draw:
     """A pendulum from below with enough to rise to the top, exactly or nearly."""
-    rng, n = one.rng, 2.0 ** one.rng.randint(-6, 6)
+    rng = one.rng
+    n = 2.0 ** one.rng.randint(-6, 6)
     push = 2 * n * (1 + rng.choice([0, 0, 2.0**-52, -(2.0**-40)]))
-    top, start = Top(1.0, rng.uniform(0.1, 2), n * n), State((0.0, 1.0, 0.0, 0.0), (push, 0.0, 0.0))
+    top = Top(1.0, rng.uniform(0.1, 2), n * n)
+    start = State((0.0, 1.0, 0.0, 0.0), (push, 0.0, 0.0))
     return top, start, rng.uniform(0.1, 40) / n
 
 
 def draw_asymptotic(one: Ordinary) -> Draw:
     """Exactly on the separatrix: u = 1 is a double root, and the start has u = 0, g = (0, 1)."""
-    rng, n = one.rng, 2.0 ** one.rng.randint(-5, 5)
+    rng = one.rng
+    n = 2.0 ** one.rng.randint(-5, 5)
     Iz = rng.choice([0.25, 0.5, 1.0, 2.0])
     x, y = n * rng.randint(-99, 99), n * (rng.randint(-99, 99) or 1)
     start = State((0.5, 0.5, 0.5, 0.5), (x, y, y / Iz))
@@ -116,7 +119,8 @@ def draw_sleeping(one: Ordinary) -> Draw:
 
 
 def draw_regular(one: Ordinary) -> Draw:
-    theta, spin = one.rng.uniform(0.05, 3.0), one.spin
+    theta = one.rng.uniform(0.05, 3.0)
+    spin = one.spin
     rates = regular_precession_rates(one.top, theta=theta, psi_dot=spin)
     rate = one.rng.choice([each for each in rates if math.isfinite(each)] or [0.0])
     return one.top, State.from_euler(theta=theta, phi_dot=rate, psi_dot=spin), one.t

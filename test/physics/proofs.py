@@ -24,7 +24,8 @@ ATTITUDE, RATES = 20, 10  # eps that docs/accuracy.md promises
 
 def find_errors(motion: Motion, t: float) -> tuple[arb, arb]:
     """Return the errors at a time as balls, in eps: of the attitude, and of the rates by size."""
-    exact, found = prove_state(Inputs.of(motion.top, motion.start), t), motion.at(t)
+    exact = prove_state(Inputs.of(motion.top, motion.start), t)
+    found = motion.at(t)
     q, omega = found.orientation.tolist(), found.angular_velocity.tolist()
     with ctx.workprec(256):
         attitude, rates = bound_errors(exact, q, omega)

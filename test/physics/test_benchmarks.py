@@ -63,7 +63,9 @@ def test_the_top_of_simo_and_wong():
 
 
 def test_the_regular_precession_of_kinon_and_betsch():
-    radius, height, theta = 0.05, 0.1, math.pi / 3
+    radius = 0.05
+    height = 0.1
+    theta = math.pi / 3
     mass = 2700 * math.pi * radius**2 * height / 3
     Ix = mass * (3 / 20 * radius**2 + 3 / 5 * height**2)
     top = Top(Ix, mass * 3 / 10 * radius**2, mass * 9.81 * 3 / 4 * height)

@@ -71,7 +71,8 @@ def test_the_acceleration_of_a_point_is_the_second_derivative_of_its_place(drive
 
 def test_the_force_of_the_pivot_is_newtons_second_law():
     # Along the way of the article's top, with the momentum of the centre of mass from its place.
-    body, motion = Body.of(ARTICLE), Motion(ARTICLE, CUSPS)
+    body = Body.of(ARTICLE)
+    motion = Motion(ARTICLE, CUSPS)
     followed = ClosedForm(Case(ARTICLE, CUSPS, 0.0).inputs, DIGITS)
     for t in (0.0, 0.03, 0.08, 7.0):
         exact = differentiate(lambda h, t=t: followed.at(mpf(t) + h)[0], (0, 0, body.arm), 2.0**-21)
@@ -133,7 +134,8 @@ def test_a_disc_leads_back_to_itself():
 
 def find_disc(moments):
     """Mass, radius and distance of the disc that moves as a top does, as the page asks for them."""
-    found, top = np.empty(3), door.read_from(np.array(moments))
+    found = np.empty(3)
+    top = door.read_from(np.array(moments))
     door.demand(door.open_door().find_disc(top, STANDARD_GRAVITY, door.write_to(found, 3)))
     return found
 
@@ -145,8 +147,10 @@ def test_no_disc_moves_as_a_top_without_weight_does_or_as_a_disc_in_its_pivot():
 
 @pytest.mark.parametrize("top", [ARTICLE, DISC, Top(2.0, 2.0, 7.0)])
 def test_theta_acceleration_is_the_articles(top):
-    (Ix, Iz, Mgl), states = top.moments, random_states(500)
-    theta, rates = states.euler_angles.theta, states.euler_rates
+    Ix, Iz, Mgl = top.moments
+    states = random_states(500)
+    theta = states.euler_angles.theta
+    rates = states.euler_rates
     expected = (Ix - Iz) * rates.phi**2 * np.cos(theta) - Iz * rates.phi * rates.psi + Mgl
     found = theta_acceleration(top, theta, rates.phi, rates.psi)
     terms = (abs(rates.phi) + abs(rates.psi)) ** 2 + abs(Mgl) / Ix

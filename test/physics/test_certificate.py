@@ -44,7 +44,8 @@ def test_bounds_of_hard_cases_are_within_what_is_promised(name: str, is_driven: 
 
 def test_a_bound_is_that_of_the_states_which_are_given(monkeypatch: pytest.MonkeyPatch) -> None:
     """Attitudes that are turned by 1e-9 rad, and rates that are 1e-7 rad/s off."""
-    motion, right = Motion(ARTICLE, CUSPS), Motion.at
+    motion = Motion(ARTICLE, CUSPS)
+    right = Motion.at
 
     def at(self: Motion, t: float) -> State:
         state = right(self, t)
@@ -59,7 +60,8 @@ def test_a_bound_is_that_of_the_states_which_are_given(monkeypatch: pytest.Monke
 
 
 def test_exact_times_are_taken_exactly() -> None:
-    motion, year = Motion(ARTICLE, CUSPS), 365 * 86_400 * 10**9
+    motion = Motion(ARTICLE, CUSPS)
+    year = 365 * 86_400 * 10**9
     times = ExactTimes(np.array([year, year + 1]), factor=0.1)
     assert (motion.certify(times).attitude < 20 * EPS).all()
     assert isinstance(motion.certify(ExactTimes(year)).attitude, float)

@@ -37,7 +37,8 @@ def test_there_are_motions_of_every_family():
 
 
 # docs/accuracy.md, of the stored motions; attitudes as distances, half the angles
-STORED, OMEGA_OF_STORED = 5.3 / 2 * EPS, 3.3 * EPS
+STORED = 5.3 / 2 * EPS
+OMEGA_OF_STORED = 3.3 * EPS
 
 
 @families(UNDER_GRAVITY)
@@ -68,7 +69,8 @@ def test_states_under_friction_and_torques_are_right_to_a_part_of_what_rounding_
     for each in of_family(family):
         facts = zip(each.times, each.states, each.row["growth"], strict=True)
         for t, (q, omega), growth in facts:
-            state, promised = each.motion.at(t), EPS * (2 + growth / 10)
+            state = each.motion.at(t)
+            promised = EPS * (2 + growth / 10)
             assert attitude_error(q, state.orientation) <= promised
             largest = np.abs(each.motion.at(np.linspace(0, t, 50)).angular_velocity).max()
             assert error(omega, state.angular_velocity) <= 2 * promised * largest
@@ -77,7 +79,8 @@ def test_states_under_friction_and_torques_are_right_to_a_part_of_what_rounding_
 @families(UNDER_GRAVITY)
 def test_periods_and_mean_rates_are_right_to_rounding(family):
     for each in of_family(family):
-        motion, exact = each.motion, float(each.row["period"])
+        motion = each.motion
+        exact = float(each.row["period"])
         assert (motion.kind == "asymptotic") == (exact == math.inf and motion.engine != "free")
         if motion.engine == "free" or math.isnan(exact):
             continue  # nothing nods, or nothing falls
@@ -90,7 +93,8 @@ def test_periods_and_mean_rates_are_right_to_rounding(family):
 
 def rate_of(motion):
     """A rate in rad/s that no phase exceeds by much."""
-    top, spin = motion.top, np.abs(motion.start.angular_velocity).max()
+    top = motion.top
+    spin = np.abs(motion.start.angular_velocity).max()
     return max(math.sqrt(abs(top.Mgl) / top.Ix), float(spin))
 
 
@@ -121,7 +125,8 @@ def test_the_table_holds_what_its_program_writes(family):
 def test_a_tilt_however_small_keeps_its_digits():
     """Also x and y of the quaternion, which are as small as the tilt."""
     for each in of_family("tilt"):
-        (q, _), state = each.states[0], each.motion.at(each.times[0])
+        q, _ = each.states[0]
+        state = each.motion.at(each.times[0])
         # an unstable top magnifies rounding of the tilt by no more than the tilt itself grows
         off = attitude_error(q[1:3], state.orientation[1:3], mp.norm(q[1:3]))
         assert off <= 32 * EPS

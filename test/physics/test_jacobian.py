@@ -50,7 +50,8 @@ def make_case(number: int) -> Case:
 
 def _stand(rng: Numbers, ratio: float) -> tuple[Motion, float]:
     """A top next to the vertical, mostly too slow to stay there."""
-    Mgl, tilt = rng.uniform(1, 4), rng.power(-6.5, -1.3)
+    Mgl = rng.uniform(1, 4)
+    tilt = rng.power(-6.5, -1.3)
     critical = 2 * math.sqrt(Mgl) / ratio
     spin = critical * rng.uniform(-1.2, 1.2)
     w, z = rng.choice(TURNS)
@@ -65,7 +66,9 @@ def _stand(rng: Numbers, ratio: float) -> tuple[Motion, float]:
 
 def _pass_by(rng: Numbers, ratio: float) -> tuple[Motion, float]:
     """A motion from the horizontal that just reaches the upper vertical, or just does not."""
-    x, y, gap = rng.uniform(-2, 2), rng.uniform(-2, 2), rng.power(-8.3, -0.5)
+    x = rng.uniform(-2, 2)
+    y = rng.uniform(-2, 2)
+    gap = rng.power(-8.3, -0.5)
     # On the separatrix omega_y is Iz omega_z/Ix, and omega_xy^2 is 2 Mgl/Ix.
     Mgl = (x * x + y * y) / 2 * (1 + rng.choice((gap, -gap)))
     start = State((0.5, 0.5, 0.5, 0.5), (x, y, y / ratio))
@@ -159,7 +162,8 @@ def test_derivatives_at_exact_times_are_those_at_doubles_that_are_as_exact(frict
 
 def test_derivatives_at_late_exact_times_are_not_those_at_the_nearest_double():
     # A ns more after a year, of which a double of s has 4 ns: the body has turned by 2e-7 rad.
-    motion, year = Motion(ARTICLE, CUSPS), 365 * 86_400 * 10**9
+    motion = Motion(ARTICLE, CUSPS)
+    year = 365 * 86_400 * 10**9
     before, after = (motion.jacobian(ExactTimes(year + each)) for each in (0, 1))
     turn = 1e-9 * motion.at(ExactTimes(year)).angular_velocity[2]
     largest = np.abs(before[:2]).max()
@@ -215,7 +219,8 @@ WEAK = Friction(axial=1e-28)
 
 @pytest.mark.parametrize("tilt", choose((1e-6, 5e-6, 2e-5), (2e-5,)))
 def test_driven_motions_are_right_or_beyond_an_unstable_place_refused(tilt):
-    motion, free = near_the_vertical(tilt, WEAK), near_the_vertical(tilt)
+    motion = near_the_vertical(tilt, WEAK)
+    free = near_the_vertical(tilt)
     for part in (0.4, 0.9, 1.1, 1.9, 2.3):
         error = find_error(Case("vertical", motion, part * free.nutation_period, tilt), free)
         assert error < 1 if error is not None else tilt < 2e-5 and part > 1

@@ -67,7 +67,8 @@ def test_a_push_at_the_smallest_tilt_has_its_whole_size():
 def test_a_new_rate_is_met_as_closely_as_omega_has_it(hold):
     rng = Numbers(9)
     for _ in range(200):
-        theta, theta_dot = rng.power(-9, 0), rng.choice((0.0, rng.power(-3, 3)))
+        theta = rng.power(-9, 0)
+        theta_dot = rng.choice((0.0, rng.power(-3, 3)))
         angles = {"theta": theta, "phi": rng.uniform(-3, 3), "psi": rng.uniform(-3, 3)}
         before = State.from_euler(**angles, theta_dot=theta_dot, psi_dot=200.0)
         kicked = set_precession_rate(before, 1e6, hold)
@@ -94,7 +95,8 @@ def test_on_the_vertical_an_impulse_is_not_refused(q):
 def test_a_root_is_a_root_to_rounding(psi_dot, theta, Mgl):
     top = Top(0.000228, 0.0000572, Mgl)
     for root in regular_precession_rates(top, theta=theta, psi_dot=psi_dot):
-        a, b = (top.Ix - top.Iz) * math.cos(theta), top.Iz * psi_dot
+        a = (top.Ix - top.Iz) * math.cos(theta)
+        b = top.Iz * psi_dot
         terms = abs(a) * root**2 + abs(b * root) + abs(Mgl)
         assert abs(a * root**2 - b * root + Mgl) <= 8 * EPS * terms
 

@@ -62,7 +62,8 @@ def test_each_state_is_that_of_the_motion_alone(times):
 
 @pytest.mark.parametrize("name", PROPERTIES)
 def test_each_property_is_that_of_the_motion_alone(name):
-    found, singles = getattr(MANY, name), [getattr(each, name) for each in ALONE]
+    found = getattr(MANY, name)
+    singles = [getattr(each, name) for each in ALONE]
     if isinstance(found, tuple):
         found = np.stack(found, axis=1)
     np.testing.assert_array_equal(found, singles)
@@ -114,7 +115,8 @@ STAMPS = np.array([10**9 + 1, 3 * 10**15 + 7, 5])
 
 
 def test_each_motion_has_states_at_its_own_exact_times():
-    motions, exact = MANY[:3], ExactTimes(STAMPS, 0.5)
+    motions = MANY[:3]
+    exact = ExactTimes(STAMPS, 0.5)
     states = motions.at_each(exact)
     for n, alone in enumerate(ALONE[:3]):
         one = alone.at(ExactTimes(int(STAMPS[n]), 0.5))
@@ -167,7 +169,8 @@ def test_an_empty_array_of_motions_has_empty_states():
 
 
 COUNT = 200
-RNG, RATES = Numbers(8), (0.0, 1e-200, 3.0, 200.0)
+RNG = Numbers(8)
+RATES = (0.0, 1e-200, 3.0, 200.0)
 EULER = {
     "theta": RNG.uniforms(0.0, np.pi, COUNT),
     "phi": np.array(RNG.choices([0.1, 1.0, 1e4, 1e9, 1e20], k=COUNT)) * RNG.normals(COUNT),
@@ -176,7 +179,8 @@ EULER = {
 }
 STATES = State.from_euler(**EULER)
 TOPS = Top(RNG.uniforms(0.5, 1.0, COUNT), 0.4, RNG.normals(COUNT))
-NUMBERS, IMPULSES = RNG.normals(COUNT) * 3, RNG.normals(COUNT, 3)
+NUMBERS = RNG.normals(COUNT) * 3
+IMPULSES = RNG.normals(COUNT, 3)
 
 
 def from_euler(*values):

@@ -59,7 +59,8 @@ def test_threads_share_a_motion_with_friction():
 def test_the_start_has_the_same_signs_of_zero_alone_and_among_others(top):
     start = State((0.0, -1.0, 0.0, 0.0), (0.0, 1e-3, -0.0))
     motion = Motion(top, start)
-    alone, among = motion.at(0.0), motion.at([0.0, 1e-9, 1.0])
+    alone = motion.at(0.0)
+    among = motion.at([0.0, 1e-9, 1.0])
     assert np.signbit(alone.orientation).tolist() == np.signbit(among.orientation[0]).tolist()
     assert alone.orientation.tolist() == among.orientation[0].tolist()
 
@@ -90,7 +91,9 @@ ROUNDING = NODES * EPS
 @pytest.mark.parametrize("end", [0.05, 2.0, -1.0])
 def test_energy_and_angular_momentum_balance(name, end):
     motion = MOTIONS[name]
-    top, state, found = motion.top, motion.at(end), balance(motion, end, longest=1.0)
+    top = motion.top
+    state = motion.at(end)
+    found = balance(motion, end, longest=1.0)
     energy = np.abs(top.body_angular_momentum(state) * state.angular_velocity).sum() + abs(top.Mgl)
     assert abs(found.energy) < ROUNDING * energy
     momentum = np.linalg.norm(top.angular_momentum(state))
@@ -140,7 +143,8 @@ def test_the_energy_line_meets_the_potential_at_the_turning_angles(top, start):
 
 @everywhere
 def test_the_cubic_is_the_square_of_the_rate_of_u(top, start):
-    motion, potential = Motion(top, start), EffectivePotential.of(top, start)
+    motion = Motion(top, start)
+    potential = EffectivePotential.of(top, start)
     states = motion.at(np.linspace(0.0, 1.0, 50))
     rate = np.sin(states.euler_angles.theta) * states.euler_rates.theta
     u = states.vertical[:, 2]
@@ -150,7 +154,8 @@ def test_the_cubic_is_the_square_of_the_rate_of_u(top, start):
 
 @everywhere
 def test_the_cubic_vanishes_at_its_three_roots(top, start):
-    motion, potential = Motion(top, start), EffectivePotential.of(top, start)
+    motion = Motion(top, start)
+    potential = EffectivePotential.of(top, start)
     low, high = motion.turning_angles
     third = potential.find_third_root(low, high)
     assert abs(third) >= 1 - 16 * EPS

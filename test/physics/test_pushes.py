@@ -31,7 +31,8 @@ SLEEPING = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 200.0))
 
 def find_stretch(motion, stamp):
     """The motion of a stamp, one push after the other, and its begin in ns."""
-    now, begin = motion.restart(motion.start), 0
+    now = motion.restart(motion.start)
+    begin = 0
     for each in BEGINS[1:]:
         if each > stamp:
             break

@@ -35,7 +35,8 @@ from symtop_ros.physics import (
 from symtop_ros.physics.reference import exact_state
 
 START = State.from_euler(theta=0.5, phi=0.3, psi=1.2, theta_dot=2.0, phi_dot=6.5, psi_dot=200.0)
-MOTION, POTENTIAL = Motion(ARTICLE, CUSPS), EffectivePotential.of(ARTICLE, CUSPS)
+MOTION = Motion(ARTICLE, CUSPS)
+POTENTIAL = EffectivePotential.of(ARTICLE, CUSPS)
 MANY = Motions(Top([1.0, 2.0], 1.0, 1.0), CUSPS)
 DISC = {"mass": 1.0, "radius": 0.5, "distance": 0.25, "gravity": 9.81}
 BODY = {"mass": 1.0, "arm": 0.1, "Ix": 1.0, "Iz": 1.0, "gravity": 9.81}
@@ -52,14 +53,20 @@ ONE_STATE = "one state", "<State of shape (2,)>"
 STAMP = "an int or an array (n,) of ints, of at most 63 bits (ns)"
 ELAPSED = "a Fraction with a power of two as denominator (ns)"
 ROTATION = "a rotation (orthogonal within 0.001, determinant 1)"
-UNIT, REST, NAN, INF = (1, 0, 0, 0), (0, 0, 0), math.nan, math.inf
-UPRIGHT, HANGING = State(UNIT, (0, 0, 200.0)), State((0, 1, 0, 0), (0, 0, 200.0))
-BOTH, TILTED_BY = State([UNIT, (0, 1, 0, 0)], [REST] * 2), partial(State.from_euler, theta=0.5)
+UNIT = (1, 0, 0, 0)
+REST = (0, 0, 0)
+NAN = math.nan
+INF = math.inf
+UPRIGHT = State(UNIT, (0, 0, 200.0))
+HANGING = State((0, 1, 0, 0), (0, 0, 200.0))
+BOTH = State([UNIT, (0, 1, 0, 0)], [REST] * 2)
+TILTED_BY = partial(State.from_euler, theta=0.5)
 TOO_LONG = "within ten million steps of integration (a minute or two) of what is reached"
 LATE_DERIVATIVES = "s of the start for derivatives with friction or a torque"
 RESOLVED = "a time at which double precision resolves the derivatives"
 TOO_LATE = 1e17, -1e20, [1.0, 1e17], ExactTimes(2**63 - 1, 1e40)
-THROWN_UP, UNSTABLE = State([0.5] * 4, (-2, 0, 0)), State(UNIT, (0, 0, 30))
+THROWN_UP = State([0.5] * 4, (-2, 0, 0))
+UNSTABLE = State(UNIT, (0, 0, 30))
 OF_RATES = theta_torque, theta_acceleration, precessing_frame_torques
 PUSHED = partial(Motion, ARTICLE, CUSPS)
 RISING = Motion(Top(1, 1e-21, 0.0), CUSPS, torque=(1, 1, 1))  # turns too fast for all digits
@@ -71,7 +78,8 @@ TOO_FINE = [
 ]
 RATE_KICKS = hurry, precession_rate, partial(set_precession_rate, phi_dot=1.0)
 NO_TURNS = [1.0, 1.0, -1.0], [2.0, 2.0, 2.0]
-ODD, NO_RATES = (NAN, INF, -INF), (1e200, NAN, [1.0, INF])
+ODD = (NAN, INF, -INF)
+NO_RATES = (1e200, NAN, [1.0, INF])
 OF_ONE_TOP = (
     partial(MANY.top.sleeping_is_stable, CUSPS),
     partial(EffectivePotential.of, MANY.top, CUSPS),

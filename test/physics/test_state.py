@@ -59,7 +59,9 @@ def test_on_the_vertical_all_turning_is_spin(q, psi):
 def find_turn(state, phi, theta, psi):
     """The angle between the quaternion of a start and the exact one of its angles."""
     with mp.workdps(40):
-        half, plus, minus = mpf(theta) / 2, (mpf(phi) + psi) / 2, (mpf(phi) - psi) / 2
+        half = mpf(theta) / 2
+        plus = (mpf(phi) + psi) / 2
+        minus = (mpf(phi) - psi) / 2
         c, s = mp.cos(half), mp.sin(half)
         exact = c * mp.cos(plus), s * mp.cos(minus), s * mp.sin(minus), c * mp.sin(plus)
         given = [mpf(each) for each in state.given_orientation.tolist()]
@@ -135,7 +137,8 @@ def hold_given(state, n):
 
 
 def test_a_state_of_many_keeps_the_digits_that_were_given():
-    states, one = State(LONG, RATES), State(LONG[1], RATES[1])
+    states = State(LONG, RATES)
+    one = State(LONG[1], RATES[1])
     assert not hold_given(State(states.orientation, RATES)[1], 1)
     copies = copy.copy(states), copy.deepcopy(states), pickle.loads(pickle.dumps(states))
     for many in (states, *copies):
@@ -258,7 +261,9 @@ def test_angles_and_rates_keep_their_digits(near, count):
         with mp.workdps(50):
             q, omega = exact_parts(state)
             (phi, theta, psi), rates = exact_euler(q, omega)
-            angles, size, sine = state.euler_angles, mp.norm(omega), mp.sin(theta)
+            angles = state.euler_angles
+            size = mp.norm(omega)
+            sine = mp.sin(theta)
             off = abs(mp.norm([mpf(part) for part in state.orientation.tolist()]) - 1)
             assert abs(angles.theta - theta) <= PROMISED * theta
             for angle, value in ((angles.phi, phi), (angles.psi, psi)):
@@ -290,7 +295,8 @@ def test_angular_momentum_and_torque_keep_their_digits(near, count):
 @pytest.mark.parametrize("theta_dot", [-20.0, 30.0, -60.0])
 def test_an_axis_that_passes_the_pole_keeps_the_digits_of_its_tilt(theta_dot):
     start = State.from_euler(theta=0.9, theta_dot=theta_dot, phi=0.3)
-    motion, chance = Motion(ARTICLE, start), random.Random(theta_dot)
+    motion = Motion(ARTICLE, start)
+    chance = random.Random(theta_dot)
     times = [chance.uniform(1.0, 1e6) for _ in range(1000)]
     tilts = zip(times, motion.at(times).euler_angles.theta.tolist(), strict=True)
     for t, tilt in [each for each in tilts if 1e-3 < each[1] < 0.05][:8]:

@@ -191,7 +191,8 @@ DRAWS = [(draw_extreme, 120, 120), (draw_any, 400, 240)]
 @pytest.mark.parametrize("block", seeds(1, 40))
 @pytest.mark.parametrize(("draw", "count", "least"), DRAWS)
 def test_numbers_of_all_sizes_are_served_or_refused_in_words_and_in_time(draw, count, least, block):
-    rng, served = Numbers(block), 0
+    rng = Numbers(block)
+    served = 0
     for _ in range(count):
         with within(20.0):
             found = ask(draw, rng)

@@ -58,7 +58,8 @@ def random_case(seed: int, family: str) -> Case:
         spin = rng.choice([-1, 1]) * rng.power(5, 7)
     if family == "critical":
         spin = critical * (1 + rng.choice([0.0, rng.uniform(-1e-9, 1e-9)]))
-        tilt, across = rng.power(-12, -2), 0.0
+        tilt = rng.power(-12, -2)
+        across = 0.0
         t = rng.uniform(0.1, 30) / math.sqrt(abs(pull))
     if family == "pendulum":
         spin = 0.0
@@ -70,7 +71,8 @@ def random_case(seed: int, family: str) -> Case:
         t = rng.uniform(0.1, 10) / math.sqrt(abs(pull))
     angle, phi, psi = (rng.uniform(-3, 3) for _ in range(3))
     c, s = cos(tilt / 2), sin(tilt / 2)
-    plus, minus = (phi + psi) / 2, (phi - psi) / 2
+    plus = (phi + psi) / 2
+    minus = (phi - psi) / 2
     q = (c * cos(plus), s * cos(minus), s * sin(minus), c * sin(plus))
     omega = (across * cos(angle), across * sin(angle), spin)
     return Case(Top(Ix, Ix * ratio, Ix * pull), State(q, omega), t)
@@ -127,8 +129,11 @@ def exact_euler(q, omega):
     """phi, theta, psi and their rates, of a quaternion and body rates with many digits."""
     (w, x, y, z), (wx, wy, wz) = q, omega
     theta = 2 * mp.atan2(mp.hypot(x, y), mp.hypot(w, z))
-    upper, lower, sine = mp.atan2(z, w), mp.atan2(y, x), mp.sin(theta)
-    gx, gy = 2 * (x * z - w * y), 2 * (y * z + w * x)
+    upper = mp.atan2(z, w)
+    lower = mp.atan2(y, x)
+    sine = mp.sin(theta)
+    gx = 2 * (x * z - w * y)
+    gy = 2 * (y * z + w * x)
     phi_dot = (wx * gx + wy * gy) / sine**2
     rates = phi_dot, (wx * gy - wy * gx) / sine, wz - phi_dot * mp.cos(theta)
     return (upper + lower, theta, upper - lower), rates

@@ -85,7 +85,8 @@ def reverse_chunks(log, folder):
 
 def split(log, folder, left_out=()):
     """Three files, each of which begins with the latest event, as the recorder leaves them."""
-    latest, begin = [], 0
+    latest = []
+    begin = 0
     for number, end in enumerate((SECOND, 2 * SECOND, 99 * SECOND)):
         part = [each for each in log.messages if begin <= each.log_time < end]
         head = [replace(each, log_time=part[0].log_time) for each in latest]

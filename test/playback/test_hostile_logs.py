@@ -83,7 +83,8 @@ ABSURD = {
 
 @pytest.mark.parametrize("change", ABSURD, ids=range(len(ABSURD)))
 def test_an_event_of_absurd_numbers_is_told_in_one_sentence(change, tmp_path, capsys):
-    path, sentence = with_event(tmp_path, dict([change])), ABSURD[change]
+    path = with_event(tmp_path, dict([change]))
+    sentence = ABSURD[change]
     status, lines = asked(capsys, path, "--check")
     assert status == 1
     assert sum(sentence in line for line in lines) == 1

@@ -32,7 +32,8 @@ def log(tmp_path):
 
 def distributions(extra):
     """Distributions that `pip install symtop_ros[extra]` brings, by their metadata."""
-    found, wanted = set(), [("symtop_ros", extra)]
+    found = set()
+    wanted = [("symtop_ros", extra)]
     while wanted:
         name, with_extra = wanted.pop()
         every = map(Requirement, importlib.metadata.requires(name) or [])
@@ -91,7 +92,8 @@ def test_a_wrong_log_is_status_1_and_names_the_topic(log, tmp_path, capsys):
     run = Run()
     run.change(run.places("torque")[0], lambda wrench: np.array([*wrench[:3], 1.0, 0.0, 0.0]))
     assert module.main([str(run.write(tmp_path / "wrong")), "--check"]) == 1
-    output, found = capsys.readouterr().out, r"largest difference 0\.9\d+ \(\S+ of its size\)"
+    output = capsys.readouterr().out
+    found = r"largest difference 0\.9\d+ \(\S+ of its size\)"
     assert re.search(rf"/top/torque +400 samples, {found}", output)
     assert "DO NOT agree" in output.splitlines()[0]
 

@@ -50,7 +50,9 @@ TIMEOUT = 120.0
 
 
 def test_the_page_asks_no_other_host(capsys, browser):
-    process, asked, said = viewer.start(web=True), [], []
+    process = viewer.start(web=True)
+    asked = []
+    said = []
     address = re.search(r"open (\S+) in", capsys.readouterr().out)[1]
     try:
         tab = browser.new_page()

@@ -39,7 +39,8 @@ def processes(*commands):
 
 def assert_allowed(program, *names):
     """Assert that the nodes of these names, or of the program's, use what it is allowed to."""
-    seen, expected = set(), allowed()[f"/top/{program}"]
+    seen = set()
+    expected = allowed()[f"/top/{program}"]
 
     def all_seen():
         nonlocal seen

@@ -33,7 +33,8 @@ def test_it_stops_the_precession_and_says_what_follows():
     assert (granted, answer) == (True, str(clamp_verdict(ARTICLE, before)))
     assert motion.kind == "clamped"
     assert run.sink.events[-1].name == "clamp"
-    rates, former = run.simulation.state.euler_rates, before.euler_rates
+    rates = run.simulation.state.euler_rates
+    former = before.euler_rates
     assert abs(rates.phi) <= 4 * EPS * former.phi
     p_psi = [float(ARTICLE.axial_momentum(each)) for each in (before, run.simulation.state)]
     assert p_psi[0] == p_psi[1]
@@ -70,7 +71,8 @@ REFUSED = [
 def test_what_would_act_on_a_held_precession_is_refused_and_changes_nothing(
     held, service, values, reason
 ):
-    before, count = held.simulation.segment, len(held.sink.events)
+    before = held.simulation.segment
+    count = len(held.sink.events)
     given = () if values is None else (values,)
     assert held.ask(service, *given) == (False, reason)
     assert held.simulation.segment is before
@@ -137,7 +139,8 @@ def test_the_state_and_the_diagnostics_say_that_a_hand_holds_it(held):
     assert (found["why"], found["perrys_rule_holds"]) == ("", None)
     hand = np.array(found["torque"]) - ARTICLE.gravity_torque(held.simulation.state)
     assert np.linalg.norm(hand) > 0
-    motion, balance = motion_status(segment, stamp, 1), balance_status(segment, stamp)
+    motion = motion_status(segment, stamp, 1)
+    balance = balance_status(segment, stamp)
     assert motion.message == verdict
     assert abs(float(motion.values["L_z'.drift"])) > 1e-4
     assert balance.message == "a hand holds the precession: L_z' is not constant"

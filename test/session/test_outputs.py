@@ -27,7 +27,8 @@ class Publisher:
     """Keeps the bytes that it publishes."""
 
     def __init__(self):
-        self.has_subscriber, self.sent = False, []
+        self.has_subscriber = False
+        self.sent = []
 
     def publish(self, data):
         self.sent.append(data)
@@ -37,7 +38,8 @@ class Program:
     """A host without ROS that keeps what it is sent."""
 
     def __init__(self, publishes=True):
-        self.is_open, self._publishes = True, publishes
+        self.is_open = True
+        self._publishes = publishes
         self.publishers = {}
         self.said, self.warnings, self.errors = [], [], []
 
@@ -113,7 +115,8 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
     for each in last.markers:  # points in the world frame itself
         place, turn = each.pose.position, each.pose.orientation
         assert (place.x, place.y, place.z) == (turn.x, turn.y, turn.z) == (0, 0, 0)
-    motion, stamp = start_motion(Settings.from_scene("cusps")), trace.header.stamp
+    motion = start_motion(Settings.from_scene("cusps"))
+    stamp = trace.header.stamp
     state = motion.at(ExactTimes(stamp.sec * SECOND + stamp.nanosec))
     vectors = [state.to_world(each) for each in ([0.0, 0.0, 1.0], state.angular_velocity)]
     vectors += [motion.top.angular_momentum(state), motion.top.gravity_torque(state)]
@@ -135,7 +138,8 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
 def test_the_largest_vector_so_far_is_an_arrow_of_its_own_length(tmp_path):
     """About the length of the top, and each of another one: they do not hide each other."""
     logged = read_messages(record_with_markers(tmp_path))
-    types, longest = get_typestore(Stores.ROS2_JAZZY), dict.fromkeys(ARROWS, 0.0)
+    types = get_typestore(Stores.ROS2_JAZZY)
+    longest = dict.fromkeys(ARROWS, 0.0)
     for topic, _, data in logged:
         if topic == "/top/markers":
             _, *arrows = types.deserialize_cdr(data, "visualization_msgs/msg/MarkerArray").markers
@@ -203,7 +207,8 @@ def test_the_urdf_moves_by_tf_while_that_is_published():
 
 def test_without_odometry_the_sensor_alone_has_a_fixed_frame():
     host = Program()
-    place, attitude = (0.25, 0.5, -1.0), (0.6, 0.0, 0.8, 0.0)
+    place = (0.25, 0.5, -1.0)
+    attitude = (0.6, 0.0, 0.8, 0.0)
     start(host, imu__enabled=True, imu__position=place, imu__orientation=attitude)
     (sent,) = host.publishers["tf_static"].sent
     types = get_typestore(Stores.ROS2_JAZZY)

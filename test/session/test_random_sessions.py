@@ -36,9 +36,11 @@ def test_it_has_the_diagnostics_of_a_node(tmp_path):
 
 
 def test_of_acts_at_one_time_only_the_last_has_a_sample_and_what_is_undone_is_no_change(tmp_path):
-    (begin, kick, _), torque = make_run(), (0.0, 0.0, 1e-4)
+    begin, kick, _ = make_run()
+    torque = (0.0, 0.0, 1e-4)
     state = kick.motion.at(ExactTimes(1_000_000_000))
-    free, pushed = Motion(START.top, state), Motion(START.top, state, torque=torque)
+    free = Motion(START.top, state)
+    pushed = Motion(START.top, state, torque=torque)
     run = [
         *(begin, replace(begin, kind="start"), kick),
         RunEvent("torque", kick.time + 1_000_000_000, pushed, {}),

@@ -123,7 +123,8 @@ def test_a_rate_that_is_asked_for_takes_the_place_of_a_root_of_the_parameters(re
         assert rate is None or getattr(found, name) == pytest.approx(rate, abs=1e-12)
 
 
-UP, SPIN = [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 200.0]
+UP = [0.0, 0.0, 0.0, 1.0]
+SPIN = [0.0, 0.0, 200.0]
 START = "set_initial_conditions"
 DRIVEN, SLEEPING = {"scene": "friction"}, {"scene": "sleeping"}
 ONES = dict.fromkeys(("top.Ix", "top.Iz", "top.Mgl"), 1.0)

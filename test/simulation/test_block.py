@@ -145,7 +145,8 @@ def test_after_a_year_each_stamp_is_still_the_nearest_nanosecond():
     assert ticker.grid(stamp, 2)[1] == ticker.next_stamp
 
 
-TOP, START = Top(1e-3, 1e-3, 1.0), State.from_euler(theta=1.0, psi_dot=1e4)
+TOP = Top(1e-3, 1e-3, 1.0)
+START = State.from_euler(theta=1.0, psi_dot=1e4)
 
 
 def fast():
@@ -157,7 +158,8 @@ class Clock:
     """Advances by some seconds whenever it is read."""
 
     def __init__(self, each):
-        self.time, self.each = 0.0, each
+        self.time = 0.0
+        self.each = each
 
     def __call__(self):
         self.time += self.each
@@ -220,7 +222,8 @@ def test_after_a_long_stop_the_missed_stretch_may_take_as_long_as_it_lasts():
 
 
 def test_a_state_that_is_asked_for_in_between_does_not_make_the_factor_negative():
-    budget, motion = ComputeBudget(Clock(0.1)), fast()
+    budget = ComputeBudget(Clock(0.1))
+    motion = fast()
     segment = Segment.begin(motion, 0, 1.0)
     while not budget.prepare(segment, SECOND) and not budget.shortfall:
         motion.at(0.0)  # moves the integration back to its start
@@ -235,7 +238,8 @@ def test_a_log_may_take_steps_for_each_of_its_samples(count, is_reached):
 
 def test_a_motion_that_comes_to_its_last_state_is_stopped_there():
     motion = Motion(Top(1e-3, 1e-3, 1.0), State.from_euler(theta=1.0, psi_dot=1e12))
-    segment, budget = Segment.begin(motion, 0, 1.0), ComputeBudget()
+    segment = Segment.begin(motion, 0, 1.0)
+    budget = ComputeBudget()
     last = int(segment.last_stamp)
     assert 0 < last * 1e-9 < motion.farthest_time
     assert budget.prepare(segment, last)

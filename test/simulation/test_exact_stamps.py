@@ -100,7 +100,8 @@ def _euler_errors(q, omega, numbers):
         return {}
     with mp.workdps(60):
         (phi, theta, psi), rates = exact_euler(q, omega)
-        sine, off = mp.sin(theta), [a - b for a, b in zip(numbers[3:].tolist(), rates, strict=True)]
+        sine = mp.sin(theta)
+        off = [a - b for a, b in zip(numbers[3:].tolist(), rates, strict=True)]
         turns = [(a - b) / (2 * mp.pi) for a, b in ((numbers[0], phi), (numbers[2], psi))]
         found = [abs(numbers[1] - theta) / theta]
         found += [2 * abs(each - mp.nint(each)) * sine for each in turns]
@@ -143,7 +144,8 @@ CHANGED = "cusps", "free", "looping", "through_the_pole"
 @pytest.mark.parametrize("scene", choose(CHANGED, CHANGED[:1]))
 @pytest.mark.parametrize("count", trials(40, 1000))
 def test_samples_after_many_pauses_steps_and_changes(scene, count):
-    run, chance = start(scene, publish_rate=30.0), Numbers(1)
+    run = start(scene, publish_rate=30.0)
+    chance = Numbers(1)
     for _ in range(count):
         action = chance.randrange(3)
         if action == 0:

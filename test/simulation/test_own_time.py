@@ -25,7 +25,8 @@ def test_time_stands_still_in_a_pause_and_no_period_is_lost(factor):
     run.change({"real_time_factor": factor})
     run.advance(0.3)
     assert run.ask("pause", True)[0]
-    before, last = len(run.sink.samples), run.sink.samples[-1][0]
+    before = len(run.sink.samples)
+    last = run.sink.samples[-1][0]
     assert before == round(0.3 * factor * 400) + 1
     run.advance(3.0)
     assert len(run.sink.samples) == before
@@ -146,7 +147,8 @@ def test_a_reset_of_the_time_goes_back_to_0_with_a_sample_there(paused, with_sta
     assert run.ask("kick", {"precession_rate_change": 3.0})[0]
     assert run.ask("pause", paused)[0]
     simulation = run.simulation
-    before, count = simulation.state, len(run.sink.samples)
+    before = simulation.state
+    count = len(run.sink.samples)
     simulation.take_turn("reset", lambda: simulation.reset_time(with_state))
     assert run.stamps[count:] == [0]
     assert simulation.now == 0

@@ -58,7 +58,8 @@ class Told:
 
     def __init__(self, **values):
         settings = Settings.from_scene("cusps", **values)
-        self.timeline, self.events = Timeline.begin(settings, SECOND), []
+        self.timeline = Timeline.begin(settings, SECOND)
+        self.events = []
         self.do(self.timeline.announce(SECOND, "cusps"))
 
     def act(self, name, stamp, request=None):
@@ -82,7 +83,8 @@ def test_impulses_and_rates_are_kept_as_they_were_asked_for():
 
 
 def test_pushes_have_the_number_that_was_given_until_something_else_was_done():
-    told, pushes = Told(), {"axle_impulse": 1e-6, "rate": 20.0, "number": 20}
+    told = Told()
+    pushes = {"axle_impulse": 1e-6, "rate": 20.0, "number": 20}
     for seconds in (2, 5):
         told.act("push", seconds * SECOND, pushes)
     told.act("kick", 5 * SECOND + SECOND // 3, KICK)

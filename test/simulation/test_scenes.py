@@ -70,7 +70,8 @@ def test_what_a_class_has_at_hand_is_computed_from_its_mass_and_size():
 def test_a_sleeping_top_wakes_at_the_critical_spin():
     motion = motion_of("sleeping_wakes")
     states = motion.at(np.linspace(0.0, 12.0, 6001))
-    tilts, spins = states.euler_angles.theta, states.angular_velocity[:, 2]
+    tilts = states.euler_angles.theta
+    spins = states.angular_velocity[:, 2]
     critical = motion.top.critical_spin
     begin = int(np.argmax(spins < critical))
     # Towards the critical spin the restoring torque vanishes, and a nutation of constant action
@@ -153,7 +154,8 @@ def swings_of(motion, times):
 def test_friction_sinks_the_top_and_its_nutation_grows_before_it_shrinks():
     angles = swings_of(motion_of("friction"), np.arange(0.0, 24.0, 0.05))
     # means of three seconds, many nutations: at an instant they depend on the phase
-    tilts, swings = angles.mean(axis=1), np.diff(angles)[:, 0]
+    tilts = angles.mean(axis=1)
+    swings = np.diff(angles)[:, 0]
     tilts, swings = (each.reshape(8, 60).mean(axis=1) for each in (tilts, swings))
     assert np.all(np.diff(tilts) > 0)
     largest = int(swings.argmax())
@@ -163,7 +165,8 @@ def test_friction_sinks_the_top_and_its_nutation_grows_before_it_shrinks():
 
 
 def test_a_torque_about_the_vertical_raises_the_top_and_does_not_hurry_it():
-    motion, times = motion_of("vertical_torque"), np.arange(0.0, 20.0, 1.0)
+    motion = motion_of("vertical_torque")
+    times = np.arange(0.0, 20.0, 1.0)
     angles = swings_of(motion, times).mean(axis=1)
     rates = [Motion(motion.top, motion.at(float(t))).mean_precession_rate for t in times]
     assert motion.applied_torque[:2] == (0.0, 0.0)
@@ -226,7 +229,8 @@ def test_what_stays_and_what_goes_round_is_as_the_scenes_say():
         assert states.euler_rates.phi == pytest.approx(rate, abs=0.05)
         assert np.ptp(states.euler_angles.theta) < 1e-7
     motion, states = sample("free")
-    L, axle = motion.top.angular_momentum(states), states.to_world([0.0, 0.0, 1.0])
+    L = motion.top.angular_momentum(states)
+    axle = states.to_world([0.0, 0.0, 1.0])
     assert np.abs(L - L[0]).max() <= 1e-12 * np.abs(L[0]).max()
     assert np.ptp(axle @ L[0]) <= 1e-12 * np.linalg.norm(L[0])
     assert np.ptp(axle[:, 0]) > 0.1

@@ -45,7 +45,8 @@ def measured(topic, segment, stamps=STAMPS):
 def test_an_exact_sensor_has_the_attitude_the_rates_and_the_force_of_its_place():
     imu = Imu(PLACE, tuple(MOUNT.as_quat().tolist()))
     segment = segment_of(imu)
-    numbers, state = measured("imu", segment), segment.state_at(STAMPS)
+    numbers = measured("imu", segment)
+    state = segment.state_at(STAMPS)
     body = Rotation.from_quat(state.orientation[:, [1, 2, 3, 0]])
     found = Rotation.from_quat(numbers[:, :4])
     assert (found * (body * MOUNT).inv()).magnitude().max() < 8 * EPS
@@ -60,7 +61,8 @@ def test_an_exact_sensor_has_the_attitude_the_rates_and_the_force_of_its_place()
 
 
 def test_odometry_is_the_motion_of_the_centre_of_mass():
-    segment, step = segment_of(), 1000  # ns
+    segment = segment_of()
+    step = 1000  # ns
     numbers = measured("odometry", segment)
     body, state = Body.of(ARTICLE), segment.state_at(STAMPS)
     assert np.abs(numbers[:, :3] - body.centre_of_mass(state)).max() < 2 * EPS * body.arm
@@ -172,7 +174,8 @@ def test_noise_shows_in_the_covariances():
 def test_an_exact_magnetometer_has_the_field_of_the_world_in_its_frame():
     imu = replace(NOISY, magnetometer=Magnetometer((1e-5, 2e-5, -4e-5)))
     segment = segment_of(imu)
-    numbers, state = measured("magnetic_field", segment), segment.state_at(STAMPS)
+    numbers = measured("magnetic_field", segment)
+    state = segment.state_at(STAMPS)
     body = Rotation.from_quat(state.orientation[:, [1, 2, 3, 0]])
     expected = (body * MOUNT).inv().apply((1e-5, 2e-5, -4e-5))
     assert np.abs(numbers[:, :3] - expected).max() < 8 * EPS * 5e-5

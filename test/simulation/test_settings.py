@@ -97,7 +97,8 @@ def test_every_number_has_the_range_that_users_rely_on():
 
 @pytest.mark.parametrize("name", VECTORS)
 def test_a_vector_has_its_size_of_numbers_and_may_be_text_or_empty(name):
-    validate, size = PARAMETERS[name].validate, int(VECTORS[name])
+    validate = PARAMETERS[name].validate
+    size = int(VECTORS[name])
     ones = [0] * (size - 1) + [1]
     assert validate(name, ones) == validate(name, str(ones)) == tuple(ones)
     assert validate(name, []) == validate(name, ()) == ()

@@ -26,7 +26,8 @@ def test_the_tick_after_the_last_sample_waits_for_a_change_of_the_clock():
 
 
 def test_a_tick_computes_one_topic_of_the_samples_to_come_at_most():
-    run, computed = Run(publish_rate=1000.0), []
+    run = Run(publish_rate=1000.0)
+    computed = []
     run.sink.encode = lambda name, stamps, _: computed.append(name) or [b""] * len(stamps)
     run.sink.send_sample = lambda stamp, block: [block.message(n, stamp) for n in STATE_TOPICS]
     run.advance(0.1, step=0.001)
@@ -40,7 +41,8 @@ def test_a_tick_computes_one_topic_of_the_samples_to_come_at_most():
 
 
 def test_after_a_kick_the_next_sample_is_ready_when_it_is_due():
-    run, computed = Run("hurry_slow", publish_rate=1000.0, seconds=0.02), []
+    run = Run("hurry_slow", publish_rate=1000.0, seconds=0.02)
+    computed = []
     run.sink.encode = lambda name, stamps, _: computed.append(name) or [b""] * len(stamps)
     run.sink.send_sample = lambda stamp, block: [block.message(n, stamp) for n in STATE_TOPICS]
     run.advance(0.003, step=0.001)
@@ -53,7 +55,9 @@ def test_after_a_kick_the_next_sample_is_ready_when_it_is_due():
 
 def test_a_sample_that_is_due_does_not_wait_for_the_rest_of_an_event(monkeypatch):
     run = Run("hurry_slow", publish_rate=1000.0, seconds=0.02)
-    write_fields, write, sent = events.write_fields, events.write, []
+    write_fields = events.write_fields
+    write = events.write
+    sent = []
 
     def take_a_period(*given):
         run.clock.now += MS
@@ -132,7 +136,8 @@ def test_while_the_clock_jumps_no_sample_gets_a_stamp_of_the_new_time():
 
 def test_a_request_waits_for_one_sample_however_many_are_late():
     run = Run(publish_rate=1000.0, seconds=0.1)
-    sent, send = len(run.stamps), run.sink.send_sample
+    sent = len(run.stamps)
+    send = run.sink.send_sample
     asking = threading.Thread(target=run.ask, args=("pause", True))
 
     def send_and_ask(stamp, block):
@@ -227,7 +232,8 @@ def fail():
 
 
 def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running():
-    run, failure = Run(), Failure("a test", "ZeroDivisionError", "by a bug")
+    run = Run()
+    failure = Failure("a test", "ZeroDivisionError", "by a bug")
     for _ in range(2):
         assert run.simulation.take_turn("a test", fail) == failure
     assert run.sink.errors == [str(failure)]

@@ -28,7 +28,8 @@ def dedent_lines(text):
 
 
 def test_the_numbers_of_the_worked_example_are_those_of_the_reference():
-    top, start = Top(0.000228, 0.0000572, 0.068), State.from_euler(theta=0.5, psi_dot=200.0)
+    top = Top(0.000228, 0.0000572, 0.068)
+    start = State.from_euler(theta=0.5, psi_dot=200.0)
     inputs = Inputs.of(top, start)
     motion = closed_form.ClosedForm(inputs, 30)
     nutation, factors = motion._nutation, motion._factors

@@ -10,7 +10,8 @@ from workshop.speed.reference import EPS, Reference, read_entries
 pytestmark = pytest.mark.untraced
 
 REFERENCE = Reference.read()
-ENTRIES, DIGIT = read_entries(), mpf(10) ** -DIGITS
+ENTRIES = read_entries()
+DIGIT = mpf(10) ** -DIGITS
 
 
 # Each of these driven ones, which take the least time, is for the long trials.

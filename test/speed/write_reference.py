@@ -28,10 +28,12 @@ def find_limit(inputs: Inputs, t: float) -> float:
 def solve(entry: dict[str, Any]) -> dict[str, Any]:
     """Return an entry with its exact orientations and what half an ulp of its inputs does."""
     names = ("Ix", "Iz", "Mgl", "orientation", "angular_velocity")
-    inputs, torque = Inputs.exact(*(entry[name] for name in names)), entry.get("torque", (0, 0, 0))
+    inputs = Inputs.exact(*(entry[name] for name in names))
+    torque = entry.get("torque", (0, 0, 0))
     motion: ClosedForm | Series
     if any(entry["friction"]) or any(torque):
-        motion, limits = Series(inputs, 40, entry["friction"], torque), None
+        motion = Series(inputs, 40, entry["friction"], torque)
+        limits = None
     else:
         motion = ClosedForm(inputs)
         limits = [find_limit(inputs, t) for t in entry["t"]]

@@ -53,7 +53,8 @@ def ended_at_random(chance, *words):
 
 
 def test_top_node_ends_in_silence_and_its_log_is_whole_or_absent(tmp_path):
-    chance, statuses = random.Random(1), set()
+    chance = random.Random(1)
+    statuses = set()
     for attempt in range(2 * ATTEMPTS):
         folder = tmp_path / str(attempt)
         options = set_parameters(*RECORDING, f"record.directory:={folder}")
@@ -98,7 +99,8 @@ def _words(process):
 
 
 def test_top_replay_ends_in_silence_and_never_says_that_a_log_is_good(tmp_path):
-    chance, log = random.Random(4), Run(seconds=8.0, rate=1000.0).write(tmp_path)
+    chance = random.Random(4)
+    log = Run(seconds=8.0, rate=1000.0).write(tmp_path)
     for _ in range(ATTEMPTS):
         status, told = ended_at_random(chance, "top_replay", str(log), "--check")
         assert (status in {0, 130, *SILENT}, told) == (True, "")

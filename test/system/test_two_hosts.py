@@ -24,7 +24,9 @@ RANGE, PEERS = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS"
 SETTINGS = (RANGE, PEERS, *VARIABLES)
 LOOPBACK = dict.fromkeys(VARIABLES, str(CONFIG / "fastdds_loopback.xml"))
 LOSSY = dict.fromkeys(VARIABLES, str(CONFIG / LOSSY_PROFILES[distribution_name()]))
-LOCAL, OFF, TO_THE_TOP = {RANGE: "LOCALHOST"}, {RANGE: "OFF"}, {PEERS: ADDRESSES[0]}
+LOCAL = {RANGE: "LOCALHOST"}
+OFF = {RANGE: "OFF"}
+TO_THE_TOP = {PEERS: ADDRESSES[0]}
 # of the top, of the one who asks, and whether the top is found
 DISCOVERIES = [
     ({}, {}, True),

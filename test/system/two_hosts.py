@@ -117,7 +117,8 @@ class Cable:
         while not self._closing.is_set():
             wait = min(0.1, max(0.0, under_way[0][0] - time.monotonic())) if under_way else 0.1
             for end in select.select(self._ends, [], [], wait)[0]:
-                frame, now = os.read(end, FRAME), time.monotonic()
+                frame = os.read(end, FRAME)
+                now = time.monotonic()
                 arrival = self.weather.arrival(now, self._chance)
                 if arrival is None:
                     self.lost += 1

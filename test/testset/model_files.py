@@ -60,7 +60,8 @@ def read_mjcf(root: Element, _: str) -> Described:
 
 def read_sdf(root: Element, text: str) -> Described:
     model = root.find("world/model")
-    joint, found = model.find("joint[@type='ball']"), []
+    joint = model.find("joint[@type='ball']")
+    found = []
     place = None if joint is None else joint.find("pose")
     pivot = vector(ZERO if place is None else " ".join(place.text.split()[:3]))
     for link in model.findall("link"):
@@ -131,7 +132,8 @@ def read_usd(text: str) -> Described:
     omega = tuple_of(prims["top"], "physics:angularVelocity") * mp.pi / 180
     origin = tuple_of(prims["start_top"], "xformOp:translate")
     for name, turned, place in frames:
-        start, prim = prims[f"start_{name}"], prims[name]
+        start = prims[f"start_{name}"]
+        prim = prims[name]
         at, centre = tuple_of(start, "xformOp:translate"), tuple_of(prim, "physics:centerOfMass")
         arm = place + turned * centre if pivot else mp.zeros(3, 1)
         own = tuple_of(prim, "physics:angularVelocity") * mp.pi / 180
@@ -179,7 +181,8 @@ def gather_free(parts: Any, frame: Any, omega: Any, place: Any, velocity: Any) -
     """Return a body that nothing holds, about its centre of mass, which rests in the origin."""
     whole = gather(parts, frame, omega)
     centre = whole.weighted / whole.mass
-    arm, rest = frame * centre, matrix(cross(frame * omega, frame * centre))
+    arm = frame * centre
+    rest = matrix(cross(frame * omega, frame * centre))
     assert mp.norm(matrix(place) + arm) < 1e-14 * (1 + mp.norm(arm))
     assert mp.norm(matrix(velocity) + rest) < 1e-13 * (1 + mp.norm(velocity))
     return gather([(mass, c - centre, each) for mass, c, each in parts], frame, omega)
@@ -187,7 +190,8 @@ def gather_free(parts: Any, frame: Any, omega: Any, place: Any, velocity: Any) -
 
 def gather(parts: list[tuple[Any, Any, Any]], frame: Any, omega: Any) -> Described:
     """Return the body that some parts are: mass, centre of mass, and moments about it."""
-    moments, weighted = mp.zeros(3), mp.zeros(3, 1)
+    moments = mp.zeros(3)
+    weighted = mp.zeros(3, 1)
     for mass, centre, each in parts:
         square = (centre.T * centre)[0]
         moments += each + mass * (square * mp.eye(3) - centre * centre.T)

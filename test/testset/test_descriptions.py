@@ -29,7 +29,8 @@ def find_models(folder, name):
 def test_each_model_has_the_body_and_the_start_of_its_problem(name, folder):
     facts = PROBLEMS[name].facts
     # sums of a few products of rounded numbers
-    size, rounding = max(facts["Ix"], facts["Iz"]), 8 * EPS
+    size = max(facts["Ix"], facts["Iz"])
+    rounding = 8 * EPS
     arm = mp.sqrt(size * facts["mass"])  # a length, times the mass
     with mp.workdps(DIGITS):
         start = rotation([mpf(each) for each in facts["orientation"]])
@@ -38,7 +39,8 @@ def test_each_model_has_the_body_and_the_start_of_its_problem(name, folder):
         rates = start * mp.matrix(facts["angular_velocity"])
         first = rotation([mpf(each) for each in facts["orientations"][0]])
         for path, named in find_models(folder, name):
-            body, scored = read_model(path), find_problem(PROBLEMS, named).facts
+            body = read_model(path)
+            scored = find_problem(PROBLEMS, named).facts
             frame = body.frame
             assert body.mass == pytest.approx(facts["mass"], rel=rounding)
             off = frame * body.moments * frame.T - moments
@@ -55,7 +57,8 @@ def test_each_model_has_the_body_and_the_start_of_its_problem(name, folder):
 @pytest.mark.parametrize("name", ["cusps", "free_rod_fast", "flat_disc"])
 def test_pinocchio_has_the_same_body_from_each_urdf(name, folder):
     pinocchio = pytest.importorskip("pinocchio")
-    angles, found = np.array([0.25, 0.75, 1.5]), []
+    angles = np.array([0.25, 0.75, 1.5])
+    found = []
     for path, _ in find_models(folder, name):
         if path.suffix == ".urdf" and ".free." not in path.name:
             model = pinocchio.buildModelFromXML(path.read_text())

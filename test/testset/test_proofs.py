@@ -62,7 +62,8 @@ def test_a_wrong_last_digit_is_noticed(stores: list[Stored]) -> None:
         for each in map(shorten, stores)
         if all(abs(float(text)) > 0.01 for text in each.states[0])
     )
-    row, digits = stored.states[0], stored.digits
+    row = stored.states[0]
+    digits = stored.digits
     (exact,) = prove_states(stored.inputs, stored.times, digits + 10, *stored.drive)
     assert NOT_PROVED not in judge(row, exact, digits)
     for place in range(6):

@@ -80,7 +80,8 @@ TABLES = make_tables()
 
 @pytest.mark.parametrize("kind", TABLES)
 def test_a_table_is_read_in_every_form(kind, tmp_path):
-    good, path = make_table("cusps", 1e-7), tmp_path / "trajectory.csv"
+    good = make_table("cusps", 1e-7)
+    path = tmp_path / "trajectory.csv"
     path.write_text(TABLES[kind], encoding="utf-8")
     wanted = CUSPS.score(good[:, 1:5], good[:, 5:])
     found = CUSPS.score(*read_trajectory(path, CUSPS))
@@ -138,7 +139,8 @@ def test_other_refusals_are_a_line(capsys, tmp_path):
 
 def rotate(q, v):
     """R v of a unit quaternion, in vectors."""
-    w, u = q[0], q[1:]
+    w = q[0]
+    u = q[1:]
     return v + 2 * np.cross(u, np.cross(u, v) + w * v)
 
 
@@ -159,7 +161,9 @@ def mistake_starts(facts):
 
 @pytest.mark.parametrize("description", ["", ".turned"])
 def test_a_start_that_was_read_wrongly_is_named_and_a_right_one_never(description):
-    named, changed, rng = 0, 0, np.random.default_rng(3)
+    named = 0
+    changed = 0
+    rng = np.random.default_rng(3)
     for name in read_problems():
         problem = find_problem(read_problems(), name + description)
         q, omega = (np.array(problem.facts[k]) for k in ("orientation", "angular_velocity"))
@@ -168,7 +172,8 @@ def test_a_start_that_was_read_wrongly_is_named_and_a_right_one_never(descriptio
             describe_start(problem, *(np.float32(each).astype(float) for each in (q, omega))) == ""
         )
         assert describe_start(problem, np.full(4, np.nan), np.full(3, np.nan)) == ""
-        unit, size = q / np.linalg.norm(q), np.linalg.norm(omega)
+        unit = q / np.linalg.norm(q)
+        size = np.linalg.norm(omega)
         for words, attitude, rates in mistake_starts(problem.facts):
             ends = attitude / np.linalg.norm(attitude)
             turned = min(np.linalg.norm(ends - sign * unit) for sign in (1, -1))
@@ -185,9 +190,11 @@ def test_a_start_that_was_read_wrongly_is_named_and_a_right_one_never(descriptio
 
 
 def test_the_row_at_the_start_is_told_with_the_score(tmp_path, capsys):
-    path, rows = tmp_path / "mine.csv", make_table("heavy_top")
+    path = tmp_path / "mine.csv"
+    rows = make_table("heavy_top")
     problem = read_problems()["heavy_top"].facts
-    q, omega = problem["orientation"], np.array(problem["angular_velocity"])
+    q = problem["orientation"]
+    omega = np.array(problem["angular_velocity"])
     start = np.array([[0.0, *q, *rotate(np.array(q) / np.linalg.norm(q), omega)]])
     path.write_text(write(np.concatenate([start, rows])))
     assert main(["heavy_top", str(path)]) == 0

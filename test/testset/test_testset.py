@@ -68,8 +68,11 @@ def test_the_package_has_the_same_forces_energies_accelerations_and_states_in_th
     facts = PROBLEMS[setting.name]
     exact = {name: np.array(facts[name], dtype=float) for name in FORCES}
     motion = Motion(setting.top, setting.start)
-    states, body, top = motion.at([0.0, *facts["times"]]), setting.body, setting.top
-    omega, arm = states.angular_velocity, abs(body.arm)
+    states = motion.at([0.0, *facts["times"]])
+    body = setting.body
+    top = setting.top
+    omega = states.angular_velocity
+    arm = abs(body.arm)
     fastest = np.abs(omega).max() + 1
     # the centre of mass, and Euler's equations: rates and torques of a few ulp
     force = body.pivot_force(motion, states)

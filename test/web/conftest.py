@@ -33,7 +33,8 @@ def spare():
 @pytest.fixture
 def open_page(browser, path, spare, request):
     """A function that opens the page, with a fragment, in a browser of some kind."""
-    used, failed = [], request.session.testsfailed
+    used = []
+    failed = request.session.testsfailed
 
     def open_one(fragment="", file=path, script=USUAL, known=KNOWN, locale="en-US", **look):
         # lines are counted when a browser is closed

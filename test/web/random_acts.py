@@ -30,7 +30,9 @@ class Trial:
     """A page on which acts are drawn and done, one after the other."""
 
     def __init__(self, browser, folder, seed):
-        self.browser, self.folder, self.rng = browser, Path(folder), random.Random(seed)
+        self.browser = browser
+        self.folder = Path(folder)
+        self.rng = random.Random(seed)
         self.acts = Counter()
         path = self.folder / "top.html"
         path.write_text(write_file(), encoding="utf-8")

@@ -59,7 +59,8 @@ def kick_in_python(top, state, kick):
 
 
 def judge_in_python(case):
-    top, kick = physics.Top(**case["top"]), case["kick"]
+    top = physics.Top(**case["top"])
+    kick = case["kick"]
     start = case["angles"] | {f"{name}_dot": rate for name, rate in case["rates"].items()}
     state = physics.State.from_euler(**start)
     after = kick_in_python(top, state, kick)
@@ -83,7 +84,8 @@ def judge_in_python(case):
 
 def draw_in_python(top, state):
     """Return what the page draws in doubles of its own, each with the size of its largest term."""
-    theta, (phi, _, psi) = state.euler_angles.theta, state.euler_rates
+    theta = state.euler_angles.theta
+    phi, _, psi = state.euler_rates
     torques = physics.precessing_frame_torques(top, theta, phi, psi)
     torque = abs(top.Mgl) + (top.Iz * abs(psi) + (top.Ix + top.Iz) * abs(phi)) * abs(phi)
     fastest = float(np.abs(state.angular_velocity).max())
@@ -156,7 +158,8 @@ def test_a_state_without_norm_1_is_refused(tab):
 
 @pytest.mark.parametrize("count", trials(100, 400))
 def test_kicks_records_and_sentences_are_those_of_python(tab, count):
-    cases, kinds = list(list_cases(count)), set()
+    cases = list(list_cases(count))
+    kinds = set()
     for case, found in zip(cases, tab.evaluate("judgeCases", cases), strict=True):
         wanted, drawn = judge_in_python(case)
         for name, (values, size) in drawn.items():
@@ -178,7 +181,9 @@ def list_starts(Mgl):
     rates = [0.0, slow, fast, slow + 1e-9, slow + 1e-4, slow + 1, -3.0, 3 * slow, 100.0]
     if Mgl:
         cosine = math.cos(THETA)  # phi' = 2 Mgl/p_psi, where p_psi has phi' in it
-        a, b, c = IZ * cosine, IZ * SPIN, -2 * Mgl
+        a = IZ * cosine
+        b = IZ * SPIN
+        c = -2 * Mgl
         rates.append((-b + math.sqrt(b * b - 4 * a * c)) / (2 * a))
     starts = [{"theta": THETA, "phi_dot": rate, "psi_dot": SPIN} for rate in rates]
     starts += [{"theta": 2.5, "phi_dot": rate, "psi_dot": -SPIN} for rate in rates]
@@ -205,7 +210,8 @@ def find_direction(start):
 @pytest.mark.wording
 @pytest.mark.parametrize("Mgl", [0.068, -0.068, 0.0])
 def test_headline_and_reason_of_every_kind_agree_with_the_motion(tab, Mgl):
-    starts, kinds = list_starts(Mgl), set()
+    starts = list_starts(Mgl)
+    kinds = set()
     for start, (headline, why, kind) in zip(starts, tab.evaluate("sayStarts", starts), strict=True):
         kinds.add(kind)
         direction = find_direction(start)

@@ -24,7 +24,8 @@ def read_axis(page, name):
     ticks = page.tab.locator(f"#{name} text.tick[text-anchor=end]").evaluate_all(
         "all => all.map(e => [Number(e.textContent), Number(e.getAttribute('y')) - 3])"
     )
-    (first, lowest), (last, highest) = ticks[0], ticks[-1]
+    first, lowest = ticks[0]
+    last, highest = ticks[-1]
     assert lowest != highest
     return first, lowest, (last - first) / (highest - lowest)
 
@@ -87,7 +88,8 @@ def test_the_map_of_kinds_has_the_exact_curve_and_the_present_motion(open_page):
 
 def test_kinds_are_decided_as_in_the_article(tab):
     """The module of the page agrees with the article's answer, and that with the motions."""
-    random, cases = np.random.default_rng(20210330), []
+    random = np.random.default_rng(20210330)
+    cases = []
     for _ in range(200):
         Ix = 10 ** random.uniform(-4, 0)
         top = {"Ix": Ix, "Iz": random.uniform(0.1, 1.9) * Ix, "Mgl": random.normal() * 100 * Ix}
@@ -222,14 +224,16 @@ def is_right(page, seconds):
         shown.check(page)
     except AssertionError:
         return False
-    circles, cosines = page.tab.evaluate("window.circles"), np.cos(shown.free.turning_angles)
+    circles = page.tab.evaluate("window.circles")
+    cosines = np.cos(shown.free.turning_angles)
     are_right = len(circles) == 2 and np.abs(circles - cosines).max() <= SINGLE
     return are_right and float(page.tab.get_attribute("body", "data-time")) == seconds
 
 
 def read_well(page):
     """What the well shows: the energy of the state but for its spin, and the turning angles."""
-    (*heights, names, curve), shown = page.tab.evaluate("looks.readWell"), Shown(page)
+    *heights, names, curve = page.tab.evaluate("looks.readWell")
+    shown = Shown(page)
     first, lowest, scale = read_axis(page, "well")
     spin = shown.top.Iz * shown.state.angular_velocity[2] ** 2 / 2
     found = first + scale * (np.array(heights) - lowest)
@@ -249,7 +253,8 @@ def test_circles_and_energy_are_those_of_a_driven_state_after_waiting_and_a_seek
     page.tab.select_option("#speed", "1")
     page.wait_for_time(1.0)
     page.press("Space")
-    end, wells = page.read_run()["end"], []
+    end = page.read_run()["end"]
+    wells = []
     for time in (end, 0.3, end):
         page.seek(time)
         page.until(lambda time=time: is_right(page, time))

@@ -107,7 +107,8 @@ def test_charts_of_gravity_alone_are_hidden_while_it_is_held(open_page):
 
 def test_the_torque_that_is_drawn_has_that_of_the_hand(browser):
     start = State.from_euler(theta=0.5, phi=1.0, theta_dot=-3.0, psi_dot=200.0)
-    motion, tab = Motion(ARTICLE, start, clamped=True), open_tab(browser)
+    motion = Motion(ARTICLE, start, clamped=True)
+    tab = open_tab(browser)
     load_kernel(tab)
     found = tab.evaluate(
         """async ([top, orientation, omega]) => {

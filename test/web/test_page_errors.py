@@ -96,7 +96,8 @@ def test_a_browser_that_cannot_show_it_says_so(browser, path, missing, said):
 
 
 def test_scripts_find_the_motions_of_python(opened):
-    top, angular_velocity = {"Ix": 0.000228, "Iz": 0.0000572, "Mgl": 0.068}, [1.0, 2.0, 200.0]
+    top = {"Ix": 0.000228, "Iz": 0.0000572, "Mgl": 0.068}
+    angular_velocity = [1.0, 2.0, 200.0]
     start = {**top, "orientation": [0.8, 0.6, 0, 0], "angular_velocity": angular_velocity}
     found = opened.tab.evaluate(
         """(start) => {

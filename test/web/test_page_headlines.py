@@ -53,7 +53,8 @@ def test_a_run_of_one_language_is_read_in_the_words_of_another(opened, open_page
     opened.press("r")
     run = opened.read_run()
     assert "request" not in str(run)
-    other, texts = open_page(f"#lang={language}"), read_texts(language)
+    other = open_page(f"#lang={language}")
+    texts = read_texts(language)
     other.drop(run)
     changed = texts["request.parameter"].replace("{name}", "Mgl")
     expected = [
@@ -125,7 +126,8 @@ def test_what_a_button_that_is_held_would_do_is_computed(open_page, fragment):
     page = open_page(f"#{fragment}")
     motion = read_motion(page.read_events()[-1])
     for name, act in (("press", push_for_a_second), ("torque", turn_for_a_second)):
-        after, said = act(motion), page.say(f"outlook-{name}")
+        after = act(motion)
+        said = page.say(f"outlook-{name}")
         heights = [np.cos(each.turning_angles).sum() * motion.top.Mgl for each in (motion, after)]
         assert f"the weight is {HEIGHTS[int(np.sign(heights[1] - heights[0]))]}" in said, said
         rates = (

@@ -19,7 +19,8 @@ CUTS = [0, 1e-4, 1e-3, 1e-2, 0.1, 0.5]
 
 def draw_start(rng):
     """A start with theta' = 0: anywhere, or next to the vertical, where it falls or has risen."""
-    Ix, unit = rng.power(-4, 0), rng.power(0, 1.5)
+    Ix = rng.power(-4, 0)
+    unit = rng.power(0, 1.5)
     top = Top(Ix, Ix * rng.uniform(0.1, 2.0), rng.choice([1, 1, -1]) * Ix * unit * unit)
     theta = rng.choice([rng.uniform(0.1, 3.0), rng.power(-2.5, -0.5)])
     spin = rng.choice([rng.uniform(-10, 10), rng.uniform(0.1, 2.0)]) * unit
@@ -38,9 +39,12 @@ def integrate(top, start):
     wx, wy, wz = map(mpf, start.angular_velocity.tolist())
     norm = w * w + x * x + y * y + z * z
     above, below = 2 * (x * x + y * y) / norm, 2 * (w * w + z * z) / norm  # 1 - u0 and 1 + u0
-    u, square = 1 - above, above * below
+    u = 1 - above
+    square = above * below
     along = 2 * (wx * (x * z - w * y) + wy * (y * z + w * x)) / norm  # sin^2(theta) phi'
-    a, beta, across = Iz * wz / Ix, 2 * Mgl / Ix, along**2 / square
+    a = Iz * wz / Ix
+    beta = 2 * Mgl / Ix
+    across = along**2 / square
     f1 = 2 * a * along - 2 * u * across - beta * square
     f2 = 2 * beta * u - across - a * a
     root = mp.sqrt(f2 * f2 - 4 * beta * f1)
@@ -49,11 +53,13 @@ def integrate(top, start):
 
     def torque(at, part):
         s = end * mp.sin(at) ** 2
-        height, level = u + s, (above - s) * (below + s)
+        height = u + s
+        level = (above - s) * (below + s)
         phi_dot = (along - a * s) / level
         psi_dot = wz - phi_dot * height
         factor = 2 * mp.sqrt(level / (-f2 - beta * (end + s)))  # sin(theta) dt/dx
-        coriolis, centrifugal = -Iz * psi_dot * phi_dot, (Ix - Iz) * phi_dot**2 * height
+        coriolis = -Iz * psi_dot * phi_dot
+        centrifugal = (Ix - Iz) * phi_dot**2 * height
         return (Mgl, coriolis, centrifugal)[part] * factor
 
     points = [mpf(each) for each in CUTS]

@@ -28,7 +28,8 @@ def test_every_scene_starts_with_the_doubles_of_a_node_and_says_what_acts(opened
     for name in scene_names():
         opened.start_scene(name)
         assert opened.say("refusal") == ""
-        event, motion = opened.read_events()[-1], start_motion(Settings.from_scene(name))
+        event = opened.read_events()[-1]
+        motion = start_motion(Settings.from_scene(name))
         assert event["orientation"] == motion.start.given_orientation.tolist()
         assert event["angular_velocity"] == motion.start.angular_velocity.tolist()
         assert event["top"] == list(motion.top.moments)
@@ -128,7 +129,8 @@ def test_a_held_button_pushes_as_python_does_to_the_last_bit_and_letter(opened):
     *_, former, event, after = opened.read_events()  # one that is held up for long lets go
     assert (event["time"], event["act"]["number"]) == given
     begun = read_pushed(former) if former["kind"] == "push" else read_motion(former)
-    motion, before = read_pushed(event), begun.at(find_time(former, event))
+    motion = read_pushed(event)
+    before = begun.at(find_time(former, event))
     opened.seek(after["time"] - 0.02)
     assert opened.say("why") == write("push", Pushed.of(motion, motion.pushes, before))
     reached = motion.at(find_time(event, after))

@@ -29,7 +29,8 @@ class Shown:
 
     def __init__(self, page):
         self.texts = page.tab.evaluate("looks.readNumbers")
-        run, time = page.read_run(), round(float(self.texts["time"]) * 1e9)
+        run = page.read_run()
+        time = round(float(self.texts["time"]) * 1e9)
         events = [each for each in run["events"] if round(each["time"] * 1e9) <= time]
         self.event = events[-1]
         motion = read_motion(self.event)
@@ -38,7 +39,8 @@ class Shown:
         self.free = Motion(self.top, self.state)
 
     def check(self, page):
-        theta, rates = self.state.euler_angles.theta, self.state.euler_rates
+        theta = self.state.euler_angles.theta
+        rates = self.state.euler_rates
         if self.state.is_vertical:
             return
         shown = {"theta": theta, "phi_dot": rates.phi, "psi_dot": rates.psi}

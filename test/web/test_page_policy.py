@@ -55,7 +55,8 @@ def check(frame):
 
 
 def test_a_hostile_text_is_only_a_text_in_a_saved_page_of_a_saved_page(open_page, tmp_path):
-    run, file = change(1), tmp_path / "run.html"
+    run = change(1)
+    file = tmp_path / "run.html"
     run["events"] = [{**event, "request": text} for event, text in zip_texts(run["events"])]
     file.write_text(write_file(run=run))
     for _ in range(3):

@@ -181,7 +181,8 @@ def test_a_reload_loses_nothing(open_page, fragment):
     page.tab.select_option("#speed", label="1/20 of real time")
     page.wait_for_time(0.04)
     page.tab.click("#pause")
-    run, headline = page.read_run(), page.say("headline")
+    run = page.read_run()
+    headline = page.say("headline")
     page.reload()
     assert page.read_run() == run
     assert page.say("headline") == headline

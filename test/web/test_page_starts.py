@@ -23,7 +23,8 @@ def read_work(session):
 
 @pytest.mark.parametrize("count", trials(12, 500))
 def test_starts_over_300_decades_open_in_a_second_each(open_page, count):
-    opened, rng = open_page(script=UNDRAWN), random.Random(49)
+    opened = open_page(script=UNDRAWN)
+    rng = random.Random(49)
     session = opened.context.new_cdp_session(opened.tab)
     session.send("Performance.enable", {"timeDomain": "threadTicks"})  # of the processor
     for address in (HANGING, *(write_address(draw_start(rng)) for _ in range(count))):
@@ -73,7 +74,8 @@ def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, count
         page.press("Space")
     for fragment in (*runs, write_address(draw_start(random.Random(4)))[1:]):
         opened.follow(fragment)
-        link, headline = read_link(opened), opened.say("headline")
+        link = read_link(opened)
+        headline = opened.say("headline")
         other.follow(link)
         assert get_motion(other.read_events()[-1]) == get_motion(opened.read_events()[-1])
         assert other.say("headline") == headline

@@ -91,11 +91,9 @@ def _told(tmp_path_factory):
     act(partial(ask, "kick", {"axle_impulse": 2.0**-18, "rate": 200.0, "number": 2}))
     advance(session, clock, 0.1)
     state = json.loads(session.answer("get_state", lambda: None)[1])
-    path, stamp, values = (
-        session.recording.path,
-        session.simulation.last,
-        session.simulation.settings.values,
-    )
+    path = session.recording.path
+    stamp = session.simulation.last
+    values = session.simulation.settings.values
     session.close()
     return motions, path, stamp, values, changes, state
 
@@ -136,7 +134,8 @@ def test_every_number_of_a_start_is_one_of_a_motion_and_has_its_field_in_a_run()
 def test_a_coefficient_acts_in_the_kernel_the_reference_and_the_torque(name):
     friction = Friction(**{name: 2.0**-19})
     motion = Motion(ARTICLE, CUSPS, friction)
-    state, free = motion.at(0.5), Motion(ARTICLE, CUSPS).at(0.5)
+    state = motion.at(0.5)
+    free = Motion(ARTICLE, CUSPS).at(0.5)
     found = exact_state(ARTICLE, CUSPS, 0.5, friction=friction, digits=20)
     rates = np.array([float(each) for each in found.angular_velocity])
     # far above the rounding of 0.5 s, and below the least change of a rate by a coefficient
@@ -210,14 +209,16 @@ def test_run_json_and_its_replay_have_every_motion_and_every_kick(told, run, tmp
 
 def test_the_page_and_its_links_have_every_motion_and_every_kick(run, opened, open_page):
     events, _ = run
-    other, sizes = open_page(), [name for name, field in TABLE["event"].items() if "size" in field]
+    other = open_page()
+    sizes = [name for name, field in TABLE["event"].items() if "size" in field]
     for count, event in enumerate(events, start=1):
         content = json.loads(json.dumps(write_run(events[:count], event.time)))
         opened.drop(content)
         opened.until(lambda wanted=content: opened.read_run() == wanted or opened.say("refusal"))
         assert opened.say("refusal") == ""
         other.follow("#" + opened.tab.input_value("#link").split("#")[1])
-        given, started = content["events"][-1], other.read_events()[-1]
+        given = content["events"][-1]
+        started = other.read_events()[-1]
         assert {name: started[name] for name in sizes} == {name: given[name] for name in sizes}
 
 
@@ -233,7 +234,8 @@ def test_a_field_of_the_page_sets_its_own_coefficient(opened):
 @pytest.mark.parametrize("name", FRICTION_KINDS)
 def test_the_page_draws_the_torque_of_every_coefficient(name, browser):
     friction = Friction(**{name: 2.0**-10})
-    motion, tab = Motion(ARTICLE, CUSPS, friction), open_tab(browser)
+    motion = Motion(ARTICLE, CUSPS, friction)
+    tab = open_tab(browser)
     load_kernel(tab)
     found = tab.evaluate(
         """async ([top, orientation, omega, friction]) => {

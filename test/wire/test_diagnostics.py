@@ -24,7 +24,8 @@ from symtop_ros.wire.layout import DecodeError
 TEXT = st.text(st.characters(codec="utf-8", exclude_characters="\0"), max_size=20)
 
 
-LEVELS, VALUES = st.sampled_from([OK, WARN, ERROR]), st.dictionaries(TEXT, TEXT, max_size=4)
+LEVELS = st.sampled_from([OK, WARN, ERROR])
+VALUES = st.dictionaries(TEXT, TEXT, max_size=4)
 STATUSES = st.builds(Status, st.just(3_000_000_004), LEVELS, TEXT, TEXT, VALUES)
 
 

@@ -39,7 +39,8 @@ def test_significant_digits_are_those_of_the_exact_double():
     for value in doubles(4000):
         text = write_number(value, "3g")
         with localcontext() as context:
-            context.prec, context.rounding = 3, ROUND_HALF_EVEN
+            context.prec = 3
+            context.rounding = ROUND_HALF_EVEN
             assert Decimal(text) == +Decimal(value)
         assert text != "-0"
 

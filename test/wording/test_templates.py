@@ -80,7 +80,8 @@ def read_numbers(text):
 @pytest.mark.parametrize("nearness", [10.0**-n for n in range(1, 13)])
 def test_two_numbers_that_differ_read_differently(nearness, hold):
     for rate in (SLOW * (1 + nearness), SLOW * (1 - nearness), 9.0):
-        before, factor = precess(rate), 1 + nearness
+        before = precess(rate)
+        factor = 1 + nearness
         kicked = kick_verdict(Motion(ARTICLE, hurry(before, factor, hold)), before, hold)
         for verdict in (perrys_rule(ARTICLE, before, factor, hold), kicked):
             if verdict.reason.kind in ("hurried", "if_hurried"):

@@ -56,7 +56,8 @@ class Measured:
     """The result of a check: whether the claim holds, and the values that its texts name."""
 
     def __init__(self, holds: Any, **values: Any) -> None:
-        self.holds, self.values = bool(holds), values
+        self.holds = bool(holds)
+        self.values = values
 
 
 @cache

@@ -49,7 +49,8 @@ LOOKS = {"falls": (RED, "--"), "stays": (INK, "-"), "rises": (BLUE, "-.")}
 
 def draw_cusps_against_time() -> Figure:
     """Draw theta, theta', phi' and psi' of cusps."""
-    figure, motion = new_figure(6.6), cusps()
+    figure = new_figure(6.6)
+    motion = cusps()
     states = motion.at(TIMES)
     rates = states.euler_rates
     curves = {
@@ -166,7 +167,8 @@ def draw_inertial_torque() -> Figure:
         "$dL/dt$ in the body frame": (BLUE, "--"),
         r"$\omega \times L$": (RED, "-."),
     }
-    times, both = TIMES[:1401], columns(figure, 2, sharey=True)
+    times = TIMES[:1401]
+    both = columns(figure, 2, sharey=True)
     for axes, (title, motion) in zip(both, COMPARED.items(), strict=True):
         parts = split_torque(motion, times).values()
         for (label, (color, dash)), part in zip(looks.items(), parts, strict=True):

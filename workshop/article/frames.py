@@ -70,7 +70,8 @@ def torque_has_its_components_in_the_body(top: Top) -> Measured:
 @claim()
 def inertia_is_an_integral(top: Top) -> Measured:
     """Check the integral of equation 4, over mass elements in the fixed frame, against I'."""
-    states, (masses, places) = draw_states(), point_masses(top)
+    states = draw_states()
+    masses, places = point_masses(top)
     moved = np.einsum("nij,kj->nki", states.matrix, places)
     squares = (moved**2).sum(axis=-1)
     summed = np.einsum("k,nk,ij->nij", masses, squares, np.eye(3)) - np.einsum(

@@ -62,7 +62,8 @@ def make_map(name: str) -> PerryMap:
     across, phi_dot = np.linspace(*ends, POINTS), np.linspace(*PHI_DOTS, POINTS)
     theta, psi_dot = (across, PSI_DOT) if name == "tilt" else (THETA, across)
     grid = theta, phi_dot[:, np.newaxis], psi_dot
-    effect, torque = compare_hurried(TOP, *grid, FACTOR), theta_torque(TOP, *grid)
+    effect = compare_hurried(TOP, *grid, FACTOR)
+    torque = theta_torque(TOP, *grid)
     return PerryMap(name, title, label, across, phi_dot, effect, torque)
 
 
@@ -130,7 +131,8 @@ def _draw_panel(axes: Any, perry_map: PerryMap, raised: Real, title: str) -> Any
 
 def _draw_outcome(axes: Any, perry_map: PerryMap) -> None:
     """Draw what becomes of the height in the end, whatever theta'' is at the kick."""
-    effect, extent = perry_map.effect, _extent(perry_map)
+    effect = perry_map.effect
+    extent = _extent(perry_map)
     draw_regions(axes, find_outcome(effect), OUTCOMES, extent, edgecolor="k", lw=0.3)
     misled = effect.rule_holds & (find_outcome(effect) == LOWER)
     title = f"in the end (rule holds, yet lower: {misled.mean():.1%})"
@@ -142,7 +144,8 @@ def _draw_outcome(axes: Any, perry_map: PerryMap) -> None:
 def find_outcome(effect: HurryEffect) -> Any:
     """Return the place of each point among the `OUTCOMES`."""
     lifts = np.stack([effect.rise, -effect.fall])
-    up, down = (lifts > SAME_ANGLE).any(axis=0), (lifts < -SAME_ANGLE).any(axis=0)
+    up = (lifts > SAME_ANGLE).any(axis=0)
+    down = (lifts < -SAME_ANGLE).any(axis=0)
     return np.where(up, HIGHER, np.where(down, LOWER, SAME))
 
 
@@ -198,7 +201,10 @@ def _relief(perry_map: PerryMap) -> Any:
     colors = colormaps["RdBu"]((rise.ravel() / COLOR_LIMIT + 1) / 2)
     corner = np.arange(rise.size).reshape(rise.shape)
     # Each cell of the grid, with the corners a b above c d, is two triangles.
-    a, b, c, d = corner[:-1, :-1], corner[:-1, 1:], corner[1:, :-1], corner[1:, 1:]
+    a = corner[:-1, :-1]
+    b = corner[:-1, 1:]
+    c = corner[1:, :-1]
+    d = corner[1:, 1:]
     triangles = np.concatenate(
         [np.stack(each, axis=-1).reshape(-1, 3) for each in ((a, b, c), (b, d, c))]
     )

@@ -43,7 +43,8 @@ def horizontal_square(motion: Motion, times: Real) -> Real:
 
 def count_maxima(values: Real) -> int:
     """Count the maxima that stand out by half of the whole swing, and from rounding."""
-    swing, size = float(np.ptp(values)), float(np.abs(values).max())
+    swing = float(np.ptp(values))
+    size = float(np.abs(values).max())
     return len(find_peaks(values, prominence=max(swing / 2, ROUNDING * size))[0])
 
 
@@ -73,7 +74,8 @@ def precession_stops_at_the_cusps(top: Top) -> Measured:
         raise ValueError("theta has no minima")
     # Elsewhere: the hundredths of the way from each cusp to the next.
     between = times[:-1, None] + np.diff(times)[:, None] * np.linspace(0.01, 0.99, 99)
-    at_cusps, elsewhere = motion.at(times), motion.at(between.ravel())
+    at_cusps = motion.at(times)
+    elsewhere = motion.at(between.ravel())
     largest = np.abs(elsewhere.euler_rates.phi).max()
     stopped = np.abs(at_cusps.euler_rates.phi).max() / largest
     slowest = np.abs(elsewhere.euler_rates.phi).min() / largest
@@ -161,7 +163,8 @@ def spin_falls_with_the_axis(top: Top) -> Measured:
 @claim()
 def spin_decides_the_direction(top: Top) -> Measured:
     """Check that a top released with psi' < 0 precesses backwards, as a mirror image."""
-    forward, backward = cusps(top), Motion(top, start(0.0, -PSI_DOT))
+    forward = cusps(top)
+    backward = Motion(top, start(0.0, -PSI_DOT))
     rates = forward.mean_precession_rate, backward.mean_precession_rate
     off = abs(sum(rates)) / abs(rates[0])
     return Measured(
@@ -189,7 +192,8 @@ def momentum_is_smallest_when_highest(top: Top) -> Measured:
         motion = cusps(each)
         states = motion.at(np.linspace(0.0, motion.nutation_period / 2, 1001))
         square = (each.angular_momentum(states) ** 2).sum(axis=1)
-        spin, height = each.axial_momentum(motion.start), states.vertical[:, 2]
+        spin = each.axial_momentum(motion.start)
+        height = states.vertical[:, 2]
         energy = EffectivePotential.of(each, motion.start).energy
         expected = spin**2 + 2 * each.Ix * (energy - each.Mgl * height)
         offs.append(float(np.abs(square / expected - 1).max()))

@@ -29,7 +29,8 @@ def pivot_forces(motion: Motion, times: Real) -> tuple[Real, Real]:
 @claim()
 def force_accelerates_the_mass(top: Top) -> Measured:
     """Check the force against the acceleration of the centre of mass, found by differences."""
-    body, motion = Body.of(top), cusps(top)
+    body = Body.of(top)
+    motion = cusps(top)
     times = nutation_times(motion, SAMPLES)
 
     def velocity(t: Real) -> Real:
@@ -46,7 +47,8 @@ def force_accelerates_the_mass(top: Top) -> Measured:
 @claim()
 def pivot_carries_the_weight(top: Top) -> Measured:
     """Check that the vertical force is the weight on average over a nutation."""
-    body, motion = Body.of(top), cusps(top)
+    body = Body.of(top)
+    motion = cusps(top)
     vertical, _ = pivot_forces(motion, nutation_times(motion, SAMPLES))
     weight = body.mass * body.gravity
     off = abs(float(vertical.mean()) / weight - 1)
@@ -57,14 +59,17 @@ def pivot_carries_the_weight(top: Top) -> Measured:
 @claim()
 def peg_slips(top: Top) -> Measured:
     """Check the friction that a peg needs on both roots of regular precession."""
-    needed, offs, body = [], [], Body.of(top)
+    needed = []
+    offs = []
+    body = Body.of(top)
     for rate in (SLOW, FAST):
         motion = Motion(top, start(rate))
         vertical, horizontal = pivot_forces(motion, nutation_times(motion, SAMPLES))
         sine = np.sin(motion.start.euler_angles.theta)
         needed.append(float((horizontal / vertical).max()))
         offs.append(abs(needed[-1] / (body.arm * sine * rate**2 / body.gravity) - 1))
-    limit, short = 1e3 * body.arm / needed[1], needed[1] * SHORT_ARM / body.arm
+    limit = 1e3 * body.arm / needed[1]
+    short = needed[1] * SHORT_ARM / body.arm
     holds = needed[0] < 0.1 and max(offs) < BALANCED and f"{limit:.1f}" == "4.2" and short < 1
     return Measured(
         holds,
@@ -82,7 +87,8 @@ def peg_slips(top: Top) -> Measured:
 def peg_lifts(top: Top) -> Measured:
     """Check that a top hurried far enough from the fast root would lift its peg."""
     weight = Body.of(top).mass * Body.of(top).gravity
-    hurried, most = _least_force(top, 1.4), _least_force(top, MOST_HURRIED)
+    hurried = _least_force(top, 1.4)
+    most = _least_force(top, MOST_HURRIED)
     factor = float(brentq(lambda each: _least_force(top, each), 1.4, MOST_HURRIED, xtol=1e-6))
     holds = hurried > 0 > most
     return Measured(

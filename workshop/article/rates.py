@@ -52,7 +52,9 @@ def find_departure(motion: Motion) -> tuple[set[Direction], str]:
     By the article's equation, by the motion after a fiftieth of the nutation period, and by the
     farther turning angle; and the three answers with their numbers.
     """
-    top, theta, rates = motion.top, motion.start.euler_angles.theta, motion.start.euler_rates
+    top = motion.top
+    theta = motion.start.euler_angles.theta
+    rates = motion.start.euler_rates
     acceleration = float(theta_acceleration(top, theta, rates.phi, rates.psi))
     terms = abs(top.Iz * rates.phi * rates.psi) + abs(top.Mgl)
     rounding = ROUNDING * float(np.sin(theta)) / top.Ix * terms  # what it can make of zero
@@ -110,7 +112,8 @@ def acceleration_is_a_parabola(top: Top) -> Measured:
     )
     parabola = np.polynomial.Polynomial.fit(PARABOLA, measured, 2)
     off = np.abs(parabola(PARABOLA) - measured).max() / np.abs(measured).max()
-    zeros, roots = np.sort(parabola.roots().real), regular_precession_rates(top, THETA, PSI_DOT)
+    zeros = np.sort(parabola.roots().real)
+    roots = regular_precession_rates(top, THETA, PSI_DOT)
     missed = np.abs(zeros - roots).max() if len(roots) == len(zeros) else np.inf
     holds = off < FITTED and missed < FITTED * PARABOLA[-1]
     return Measured(holds, count=len(PARABOLA), off=off, zeros=zeros, missed=missed)
@@ -122,7 +125,8 @@ def hurrying_decides(top: Top, case: HurryCase) -> Measured:
     before = case.begin(top)
     top = before.top
     rises = case.direction == "rises"
-    verb, moved = "holds" if rises else "fails", "top" if top.Mgl > 0 else "axis"
+    verb = "holds" if rises else "fails"
+    moved = "top" if top.Mgl > 0 else "axis"
     end = "" if top.Mgl > 0 else ", and the centre of mass, below the pivot, rises"
     rate = before.start.euler_rates.phi
     found, departure = find_departure(Motion(top, hurry(before.start, FACTOR)))
@@ -164,11 +168,14 @@ def sign_decides(top: Top, root: Root) -> Measured:
 
 def _count_risen(root: Root, hold: Hold, top: Top) -> tuple[int, int]:
     """Return how many tops move as the rule says, and how many were tried."""
-    random, good, tried = np.random.default_rng(SEED), 0, 0
+    random = np.random.default_rng(SEED)
+    good = 0
+    tried = 0
     for _ in range(TRIED):
         drawn = draw_top(random, top)
         each = drawn if tried else top
-        theta, spin = random.uniform(0.2, 2.9), random.choice([-1, 1]) * random.uniform(30.0, 200.0)
+        theta = random.uniform(0.2, 2.9)
+        spin = random.choice([-1, 1]) * random.uniform(30.0, 200.0)
         a = LEADING[hold](each) * np.cos(theta)
         roots = np.roots([a, -each.Iz * spin, each.Mgl])
         slow, fast = sorted(roots.tolist(), key=abs)

@@ -44,7 +44,9 @@ COLORS = {"rises": entities.BLUE, "stays": entities.WHITE, "falls": entities.ORA
 PALE = (150, 156, 168)  # of the turning circles: no colour of a direction
 # A narrow eye from far away shows all tops from the same side. One of 55 degrees, which is the
 # default of Rerun, skews the tops at the sides.
-EYE, TARGET, NARROW = np.array([0.0, -16.0, 11.5]), np.array([0.0, 0.0, 0.3]), np.radians(12.0)
+EYE = np.array([0.0, -16.0, 11.5])
+TARGET = np.array([0.0, 0.0, 0.3])
+NARROW = np.radians(12.0)
 CAMERA = "/tops/eye"
 ANGLES, TORQUES = ViewOptions(angles=True), ViewOptions(torques=True)
 MOTIONS: dict[str, tuple[State, ViewOptions]] = {
@@ -139,7 +141,8 @@ def _place_eye(stream: entities.Stream) -> None:
 
 
 def _send(stream: entities.Stream, exhibit: Exhibit) -> None:
-    root, top = exhibit.root, exhibit.run.pieces[0][1].top
+    root = exhibit.root
+    top = exhibit.run.pieces[0][1].top
     stream.log(root, rr.Transform3D(translation=(*exhibit.place, 0.0)), static=True)
     stream.log_mesh(f"{root}/top", entities.create_body(top), static=True)
     if top.Mgl > 0:
@@ -233,7 +236,8 @@ def _record(motion: Motion, options: ViewOptions, file: Path) -> None:
 
 def sample(name: str, outcome: Outcome, before: State, segment: Segment, stamps: Stamps) -> Batch:
     """Return an event and the samples that follow it, as `TopLog` reads them from a log."""
-    samples, places = Samples.at(segment, stamps), 1 + np.arange(len(stamps))
+    samples = Samples.at(segment, stamps)
+    places = 1 + np.arange(len(stamps))
     columns = {
         topic: Columns(stamps, each.compute(samples), places)
         for topic, each in STATE_TOPICS.items()

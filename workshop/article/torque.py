@@ -47,7 +47,9 @@ def draw_states() -> State:
     random = np.random.default_rng(SEED)
     phi, psi = random.uniform(-np.pi, np.pi, (2, COUNT))
     theta = random.uniform(MARGIN, np.pi - MARGIN, COUNT)
-    plus, minus, half = (phi + psi) / 2, (phi - psi) / 2, theta / 2
+    plus = (phi + psi) / 2
+    minus = (phi - psi) / 2
+    half = theta / 2
     c, s = np.cos(half), np.sin(half)
     orientation = [c * np.cos(plus), s * np.cos(minus), s * np.sin(minus), c * np.sin(plus)]
     return State(np.transpose(orientation), random.uniform(-FASTEST, FASTEST, (COUNT, 3)))
@@ -55,7 +57,8 @@ def draw_states() -> State:
 
 def find_momentum_change(top: Top, states: State, alpha: Real) -> Real:
     """Return dL/dt (n, 3) in N m for d(omega)/dt in the body frame, by Euler's equations."""
-    moments, omega = np.array([top.Ix, top.Ix, top.Iz]), states.angular_velocity
+    moments = np.array([top.Ix, top.Ix, top.Iz])
+    omega = states.angular_velocity
     return states.to_world(moments * alpha + np.cross(omega, moments * omega))
 
 
@@ -64,10 +67,13 @@ def inertia_in_world(top: Top, phi: Real, theta: Real) -> Real:
 
     psi is not among the arguments: the body is symmetric.
     """
-    Ix, more = top.Ix, top.Iz - top.Ix
+    Ix = top.Ix
+    more = top.Iz - top.Ix
     s, c = np.sin(theta), np.cos(theta)
     a, b = np.sin(phi), np.cos(phi)
-    xy, xz, yz = -more * s * s * a * b, more * s * c * a, -more * s * c * b
+    xy = -more * s * s * a * b
+    xz = more * s * c * a
+    yz = -more * s * c * b
     rows = [
         [Ix + more * (s * a) ** 2, xy, xz],
         [xy, Ix + more * (s * b) ** 2, yz],
@@ -79,14 +85,22 @@ def inertia_in_world(top: Top, phi: Real, theta: Real) -> Real:
 def inertia_change(top: Top, states: State) -> Real:
     """Return dI'/dt (n, 3, 3) in kg m^2/s: the formulas differentiated by phi and theta."""
     phi, theta, _ = states.euler_angles
-    rates, more = states.euler_rates, top.Iz - top.Ix
-    s, c, s2, c2 = np.sin(theta), np.cos(theta), np.sin(2 * theta), np.cos(2 * theta)
-    a, b, a2, b2 = np.sin(phi), np.cos(phi), np.sin(2 * phi), np.cos(2 * phi)
+    rates = states.euler_rates
+    more = top.Iz - top.Ix
+    s = np.sin(theta)
+    c = np.cos(theta)
+    s2 = np.sin(2 * theta)
+    c2 = np.cos(2 * theta)
+    a = np.sin(phi)
+    b = np.cos(phi)
+    a2 = np.sin(2 * phi)
+    b2 = np.cos(2 * phi)
     p, t = more * rates.phi, more * rates.theta
     xx = t * s2 * a * a + p * s * s * a2
     yy = t * s2 * b * b - p * s * s * a2
     xy = -t * s2 * a2 / 2 - p * s * s * b2
-    xz, yz = t * c2 * a + p * s * c * b, -t * c2 * b + p * s * c * a
+    xz = t * c2 * a + p * s * c * b
+    yz = -t * c2 * b + p * s * c * a
     return np.moveaxis(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, -t * s2]]), -1, 0)
 
 
@@ -120,7 +134,8 @@ def fixed_frame_agrees_with_euler(top: Top) -> Measured:
 
 def split_torque(motion: Motion, times: Real) -> dict[str, Real]:
     """Return components (n,) along the line of nodes in N m, by the frame that they belong to."""
-    top, states = motion.top, motion.at(times)
+    top = motion.top
+    states = motion.at(times)
     change = slope(lambda t: top.body_angular_momentum(motion.at(t)), times)
     omega = states.to_world(states.angular_velocity)
     parts = {
@@ -218,7 +233,8 @@ CONSTANTS: dict[str, tuple[Callable[[Top, State], Any], str]] = {
 def is_constant(top: Top, name: str) -> Measured:
     """Check one of the `CONSTANTS` over ten seconds of each motion."""
     motions = seven_motions(top)
-    drifts, (compute, equation) = [], CONSTANTS[name]
+    drifts = []
+    compute, equation = CONSTANTS[name]
     for motion in motions:
         values = compute(motion.top, motion.at(TIMES))
         drifts.append(np.abs(values - values[0]).max() / abs(values[0]))
@@ -231,7 +247,8 @@ def torque_is_along_the_line_of_nodes(top: Top) -> Measured:
     """Check that the torque has no component along the axis or the vertical."""
     motion = cusps(top)
     states = motion.at(TIMES)
-    torque, nodes = motion.total_torque(states), nodes_of(states.euler_angles.phi)
+    torque = motion.total_torque(states)
+    nodes = nodes_of(states.euler_angles.phi)
     size = np.linalg.norm(torque, axis=-1)
     parts = {
         "off the line of nodes": np.linalg.norm(np.cross(torque, nodes), axis=-1),
@@ -262,7 +279,8 @@ def equations_hold(top: Top) -> Measured:
 def _compare(motion: Motion, function: Callable[[Real], Real], expected: Real) -> Measured:
     """Return how far the derivatives of a function are off what is expected."""
     found, coarse = (slope(function, TENTH, step) for step in (STEP, 2 * STEP))
-    off, error = differ(found, expected), np.abs(coarse - found).max() / np.abs(expected).max()
+    off = differ(found, expected)
+    error = np.abs(coarse - found).max() / np.abs(expected).max()
     count = len(expected)
     return Measured(off < DIFFERENTIATED, motion=motion, off=off, error=error, count=count)
 
@@ -276,5 +294,6 @@ def attitude_turns_with_the_angular_velocity(top: Top) -> Measured:
     # The vector part of conj(q) q', for quaternions w, x, y, z
     axis = q[:, 1:]
     vector = q[:, :1] * p[:, 1:] - p[:, :1] * axis - np.cross(axis, p[:, 1:])
-    off, error = differ(2 * vector, omega), 2 * np.abs(coarse - p).max() / np.abs(omega).max()
+    off = differ(2 * vector, omega)
+    error = 2 * np.abs(coarse - p).max() / np.abs(omega).max()
     return Measured(off < DIFFERENTIATED, motion=motion, off=off, error=error)

@@ -34,7 +34,8 @@ def look_from(elevation: float, azimuth: float) -> Real:
     return np.array([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)])
 
 
-EYE, TOWARDS = look_from(*SIGHT), look_from(22.0, 20.0)  # of the sphere and of the top
+EYE = look_from(*SIGHT)  # of the sphere
+TOWARDS = look_from(22.0, 20.0)  # of the top
 RIGHT = np.cross([0.0, 0.0, 1.0], TOWARDS)
 RIGHT /= np.linalg.norm(RIGHT)
 PROJECTION = np.stack([RIGHT, np.cross(TOWARDS, RIGHT)], axis=1)  # to the plane of the picture
@@ -137,7 +138,8 @@ def draw_sphere(motion: Motion) -> Figure:
     _draw_globe(axes)
     _draw_axis(axes, motion)
     _draw_vectors(axes, motion)
-    side, upwards = (-REACH, REACH), (-REACH + 0.5, REACH + 0.5)
+    side = (-REACH, REACH)
+    upwards = (-REACH + 0.5, REACH + 0.5)
     axes.set(xlim=side, ylim=side, zlim=upwards, box_aspect=(1, 1, 1))
     axes.legend(loc="upper left", bbox_to_anchor=(0.11, 0.872), handlelength=1.8)
     return figure

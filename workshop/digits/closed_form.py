@@ -98,7 +98,8 @@ class KleinStart(NamedTuple):
         A, B, omega, a, c, _ = self
         rate = sqrt(abs(omega) ** 2 + a**2)
         cosine, sine = cos(rate * t / 2), (sin(rate * t / 2) / rate if rate else mpf(0))
-        along, over = mpc(cosine, a * sine), omega * sine
+        along = mpc(cosine, a * sine)
+        over = omega * sine
         turn = expj(c * t / 2)
         return (
             (A * along - B * conj(over)) * turn,
@@ -115,8 +116,11 @@ class Nutation:
         square = w * w + x * x + y * y + z * z
         g = 2 * (x * z - w * y) / square, 2 * (w * x + y * z) / square
         below, above = 2 * (w * w + z * z) / square, 2 * (x * x + y * y) / square  # 1 + u, 1 - u
-        u, a, beta = below - 1, wz * Iz / Ix, 2 * Mgl / Ix
-        lift, u_dot = wx * g[0] + wy * g[1], wy * g[0] - wx * g[1]  # lift is b - a u
+        u = below - 1
+        a = wz * Iz / Ix
+        beta = 2 * Mgl / Ix
+        lift = wx * g[0] + wy * g[1]  # b - a u
+        u_dot = wy * g[0] - wx * g[1]
         energy = wx * wx + wy * wy  # alpha - beta u
         a2 = 2 * u - (energy + a * a) / beta
         a1 = 2 * (a * lift - u * energy) / beta - below * above
@@ -126,7 +130,8 @@ class Nutation:
         self.d = [mpf(lift - a * zero) for zero in self.zeros]
         self.beta = mpf(beta)
         self.s31 = self.s[2] - self.s[0]
-        self.m, self.k = self.s21 / self.s31, sqrt(self.s32 / self.s31)  # k is k'
+        self.m = self.s21 / self.s31
+        self.k = sqrt(self.s32 / self.s31)  # k is k'
         self.rate = sqrt(self.beta * self.s31) / 2
         self.K = pi / 2 / agm(1, self.k) if self.k else inf
         self.Kc = pi / 2 / agm(1, sqrt(self.m)) if self.m else inf
@@ -161,8 +166,11 @@ class Factor:
     """A, B or conj(omega): C th(v + i gamma)/th4(v) exp(i lambda t) [4]."""
 
     def __init__(self, nutation: Nutation, k: int, P: Number, slope: Number, share: Number) -> None:
-        self.share, self._nutation, self._is_A = share, nutation, k == 0
-        g, self._sign = nutation.distances(k), -1 if nutation.d[k] < 0 else 1
+        self.share = share
+        self._nutation = nutation
+        self._is_A = k == 0
+        g = nutation.distances(k)
+        self._sign = -1 if nutation.d[k] < 0 else 1
         if not nutation.m:  # [8] regular precession: the quotient is constant
             self.mean = nutation.d[k] / (2 * g[0]) if g[0] else mpf(0)
             self._constant = P
@@ -179,7 +187,8 @@ class Factor:
 
     def at(self, t: Number) -> Number:
         """Return the value at t in s."""
-        n, value = self._nutation, mpf(1)
+        n = self._nutation
+        value = mpf(1)
         if n.m:
             v = n.v0 + n.rate * t
             value, _ = self._quotient(v - 2 * n.K * nint(v / (2 * n.K)) if n.k else v)
@@ -201,27 +210,39 @@ class Factor:
         if not k:
             return self._sign * sqrt(beta * g1 * g3 / g2) / 2 if self._is_A else mpf(0)
         near = g1 / g2 if self._is_A else g2 / g1
-        x, y, p = 1 + near, 2 * (1 + k), (1 + k * near if self._is_A else k + near)
-        a, b, power = (1 + k) / 2, sqrt(k), mpf(4)
+        x = 1 + near
+        y = 2 * (1 + k)
+        p = 1 + k * near if self._is_A else k + near
+        a = (1 + k) / 2
+        b = sqrt(k)
+        power = mpf(4)
         while a - b > mp.eps * a:
             e = power * a * b / p
             x, y, p = near * y / p + x, 2 * (x * e + y), near * e + p
             a, b, power = (a + b) / 2, sqrt(a * b), 4 * power
-        root, h = sqrt(near), sqrt(power) * a
+        root = sqrt(near)
+        h = sqrt(power) * a
         return self._sign * a / 2 * sqrt(beta * g3) * (x * h + root * y) / (h * (root * h + p))
 
     def _quotient(self, v: Number) -> tuple[Number, Number]:
         """Return th_k(v + i gamma)/th4(v) up to a factor, and its derivative, |v| <= K [5]."""
-        n, at = self._nutation, mpc(v, self._gamma)
+        n = self._nutation
+        at = mpc(v, self._gamma)
         if n.Kc >= n.K:
-            q, scale, turn = exp(-pi * n.Kc / n.K), pi / (2 * n.K), mpf(0)
+            q = exp(-pi * n.Kc / n.K)
+            scale = pi / (2 * n.K)
+            turn = mpf(0)
             above = theta(0, scale * at + (pi / 2 if self._is_A else 0), q)
             below = theta(0, scale * v + pi / 2, q)
         else:  # Jacobi's imaginary transformation
-            q, scale, turn = exp(-pi * n.K / n.Kc), 0.5j * pi / n.Kc, -self._gamma * pi / 2 / n.Kc
-            above, below = theta(int(self._is_A), scale * at, q), theta(1, scale * v, q)
+            q = exp(-pi * n.K / n.Kc)
+            scale = 0.5j * pi / n.Kc
+            turn = -self._gamma * pi / 2 / n.Kc
+            above = theta(int(self._is_A), scale * at, q)
+            below = theta(1, scale * v, q)
             turn /= n.K
-        value, outer = above[0] / below[0], expj(turn * v)
+        value = above[0] / below[0]
+        outer = expj(turn * v)
         slope = scale * (above[1] - value * below[1]) / below[0]
         return outer * value, outer * (slope + 1j * turn * value)
 
@@ -255,7 +276,9 @@ def _split(b2: Fraction, b1: Fraction, b0: Fraction, square: Fraction) -> tuple[
             break
         r = following
     gap = sqrt(mpf(square)) / ((3 * r + 2 * a2) * r + a1)
-    product, total = (-a0 / r if r else a1), -(a2 + r)  # Vieta, of the other two
+    # Vieta, of the other two
+    product = -a0 / r if r else a1
+    total = -(a2 + r)
     if r > abs(total):  # both are small, and their sum would cancel
         total = (a1 - product) / r
     far = (total + (-gap if total < 0 else gap)) / 2
@@ -267,9 +290,13 @@ def theta(k: int, z: Number, q: Number) -> tuple[Number, Number]:
 
     theta_4(z) is theta_3(z + pi/2).
     """
-    up, turn = expj(k * z), expj(2 * z)
-    down, weight, step = 1 / up, mpf(1), q ** (k + 1)
-    value, slope = (up + down if k else mpc(1)), 1j * k * (up - down)
+    up = expj(k * z)
+    turn = expj(2 * z)
+    down = 1 / up
+    weight = mpf(1)
+    step = q ** (k + 1)
+    value = up + down if k else mpc(1)
+    slope = 1j * k * (up - down)
     least = mp.eps * max(abs(up), abs(down))
     while True:
         k, up, down, weight, step = k + 2, up * turn, down / turn, weight * step, step * q * q

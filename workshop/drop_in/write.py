@@ -43,7 +43,8 @@ HEAD = f"""\
 def inline(path: Path, seen: set[Path]) -> Iterator[str]:
     """Yield a source in one piece, after those of the kernel that it is the first to include."""
     *heads, body = LOCAL_INCLUDE.split(path.read_text())
-    before, names = "".join(heads[::2]), heads[1::2]
+    before = "".join(heads[::2])
+    names = heads[1::2]
     # These come first, as they do there: a header may rest on what is included before it.
     yield from SYSTEM_INCLUDE.findall(before)
     for header in [(path.parent / name).resolve() for name in names]:

@@ -28,7 +28,8 @@ def measure(seconds: float) -> list[float]:
     """Return the time in s of each call of `top_ctl reset` for some seconds."""
     with running(top_node("scene:=hurry_slow")):
         _call()  # waits for the node's start
-        times, end = [], time.monotonic() + seconds
+        times = []
+        end = time.monotonic() + seconds
         while time.monotonic() < end:
             times.append(_call())
         return times

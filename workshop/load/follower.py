@@ -98,14 +98,16 @@ class Follower(Subscriber):
         UnreachableError
             If nothing comes in time.
         """
-        self._facts, self.samples = {}, 0
+        self._facts = {}
+        self.samples = 0
         self.wait(lambda: bool(self.samples and self._facts), "sample and diagnostics")
         self._reset_counts()
 
     def _reset_counts(self) -> None:
         self.samples, self.lost, self.balance = 0, 0, 0.0
         self._gaps: dict[int, int] = {}  # samples that did not come, by the stamp of the next one
-        self._stamp, self._missed_before = 0, self.fact("missed")
+        self._stamp = 0
+        self._missed_before = self.fact("missed")
 
     def fact(self, name: str) -> int:
         """Return a count from the diagnostics; 0 before the first of them."""
@@ -141,7 +143,8 @@ def call(domain: int, seconds: float) -> dict[str, Any]:
     with closing(Subscriber(domain)) as user:
         user.connection.request("get_state")
         times: list[float] = []
-        unanswered, end = 0, time.monotonic() + seconds
+        unanswered = 0
+        end = time.monotonic() + seconds
         while (began := time.monotonic()) < end:
             try:
                 user.connection.request(*CALLS[len(times) % len(CALLS)])

@@ -81,7 +81,8 @@ def summarize(traffic: Traffic, rate: float, seconds: float) -> dict[str, float]
 
     A sample is late if it comes more than a period after its time, and lost ones are late.
     """
-    period, gaps = 1 / rate, np.diff(traffic.sent)
+    period = 1 / rate
+    gaps = np.diff(traffic.sent)
     late = max(float((gaps > 2 * period).mean()), 1 - traffic.arrived)
     return {
         CPU: 100 * traffic.cpu / seconds,

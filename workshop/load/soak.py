@@ -121,7 +121,8 @@ def soak(seconds: float, scene: str, rate: float) -> Iterator[Reading]:
 
 def _readings(user: "User", pid: int, seconds: float) -> Iterator[Reading]:
     user.begin()
-    began, first = time.monotonic(), 0.0
+    began = time.monotonic()
+    first = 0.0
     while (passed := time.monotonic() - began) < seconds:
         user.play(min(LINE_INTERVAL, seconds - passed))
         now = memory(pid)
@@ -173,7 +174,8 @@ class Logs:
     def add_to(self, reading: Reading) -> Reading:
         """Return a reading with the results of the checks."""
         done = [check.result() for check in self._checks.values() if check.done()]
-        wrong, sizes = sum(not good for good, _ in done), sum(size for _, size in done)
+        wrong = sum(not good for good, _ in done)
+        sizes = sum(size for _, size in done)
         return replace(reading, logs=len(done), wrong=wrong, megabytes=sizes / 1e6)
 
     def check(self, newest: bool = False) -> None:

@@ -38,7 +38,8 @@ from workshop.load.processes import (
 from workshop.speed.measure import find_machine
 from workshop.speed.publish import format_list, format_table, publish, write_chapter
 
-FAST, USUAL = 1000.0, SUBSCRIBED_RATE  # Hz
+FAST = 1000.0  # Hz
+USUAL = SUBSCRIBED_RATE  # Hz
 CLIENTS, SUBSCRIBERS, JOINERS, TOPS = 4, 50, 200, 8
 EVENTS = 20  # latched kicks that every late joiner must receive, after the start
 SETTLING = 1.5  # s; diagnostics come once a second

@@ -107,7 +107,8 @@ def draw_traces() -> str:
 def write_replay(file: Path) -> None:
     """Record a top on cusps that is hurried where it precesses fastest."""
     recording = create_recording(file, "replay")
-    view, start = View(recording), Segment.begin(Motion(TOP, CUSPS), 0, 1.0)
+    view = View(recording)
+    start = Segment.begin(Motion(TOP, CUSPS), 0, 1.0)
     stamps = np.arange(0, END, PERIOD)
     view.send(sample("start", Start.of(start.motion), CUSPS, start, stamps[stamps < KICK]))
     before = start.state_at(KICK)

@@ -57,7 +57,8 @@ def main(folder: Path) -> None:
 
 def draw(browser: Browser, picture: Picture, folder: Path) -> Path:
     """Draw a picture."""
-    path, (width, height) = folder / f"{picture.name}.png", picture.window
+    path = folder / f"{picture.name}.png"
+    width, height = picture.window
     with tempfile.TemporaryDirectory() as place:
         page = Path(place, "top.html")
         run = play(picture) if any(picture.nutations) else None  # without one it asks its question
@@ -86,7 +87,8 @@ def play(picture: Picture) -> dict[str, Any]:
     """Return the run of a picture."""
     motion = start_motion(Settings.from_scene(picture.scene))
     before, after = picture.nutations
-    events, now = [RunEvent("start", 0, motion, {})], to_nanoseconds(before, motion)
+    events = [RunEvent("start", 0, motion, {})]
+    now = to_nanoseconds(before, motion)
     if picture.act:
         kicked, _ = plan_kick(motion, motion.at(ExactTimes(now)), picture.act)
         events.append(RunEvent("kick", now, kicked, picture.act))

@@ -39,7 +39,8 @@ def _list_curves(results: Results) -> Iterator[str]:
 
 def _compare_curves(results: Results, curve: Curve) -> Iterator[str]:
     own = TAYLOR if curve.motion == FRICTION else CLOSED_FORM
-    ours, best = results.find_curve(own, curve.motion).best, curve.best
+    ours = results.find_curve(own, curve.motion).best
+    best = curve.best
     faster = [point for point in curve.points if point.seconds < ours.seconds]
     if faster:
         quick = min(faster, key=lambda point: point.error)

@@ -156,7 +156,8 @@ Step = tuple[str, Callable[[], None]]  # text for a progress bar, and the work
 def list_steps(scope: Scope, peers: Sequence[Peer], results: Results) -> Iterator[Step]:
     """Yield the steps of a report in their order; running a step adds to the results."""
     reference = Reference.read()
-    first, with_friction = reference.article[0], reference.article[-1]
+    first = reference.article[0]
+    with_friction = reference.article[-1]
     chosen = [peer for peer in peers if scope.includes(peer, 0)]
     frictionless = [peer for peer in chosen if peer.friction != "only"]
     yield "footprint", partial(_measure_footprint, scope, results)
@@ -229,7 +230,8 @@ def _lengthen(peer: Peer, motion: ReferenceMotion, scope: Scope, results: Result
 def _time_arrays(
     name: str, prepare: PrepareArrays, motion: ReferenceMotion, scope: Scope, results: Results
 ) -> None:
-    arrays, seconds = prepare(motion.task), []
+    arrays = prepare(motion.task)
+    seconds = []
     times = spread_times(SPAN)
     error = float(motion.errors(times, arrays(times)).max())
     for number in scope.states:
@@ -244,7 +246,8 @@ def _time_many(name: str, program: Program, scope: Scope, results: Results) -> N
 
 def _try(motion: ReferenceMotion, peers: Sequence[Peer], results: Results) -> None:
     (t,) = motion.times
-    error, limit = motion.error(t, prepare(motion.task, 0.0).reach(t)), motion.limit(t)
+    error = motion.error(t, prepare(motion.task, 0.0).reach(t))
+    limit = motion.limit(t)
     if np.linalg.norm(motion.task.start.angular_velocity) * t >= LARGEST_PHASE:
         peers = ()
     solutions = {peer.name: _prepare_default(peer, motion.task) for peer in peers}

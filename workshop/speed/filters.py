@@ -69,7 +69,8 @@ def run_filter(name: str, recording: ImuRecord) -> Errors:
 def _run(name: str, recording: ImuRecord, turn: Callable[[Real], Real]) -> Errors:
     import ahrs
 
-    rates, forces = recording.measured[:, :3], recording.measured[:, 3:]
+    rates = recording.measured[:, :3]
+    forces = recording.measured[:, 3:]
     options: dict[str, Any] = {"gyr": rates, "frequency": float(RATE)}
     if name != "AngularRate":
         options["acc"] = forces

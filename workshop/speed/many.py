@@ -76,7 +76,8 @@ def compute_exact(count: int, t: float) -> tuple[Real, Real]:
 
 def measure_many(name: str, program: Program, count: int, t: float) -> ManyCost:
     """Measure a program with a number of motions, which are the same for all programs."""
-    motions, exact = draw_motions(count), compute_exact(count, t)
+    motions = draw_motions(count)
+    exact = compute_exact(count, t)
     found = program(motions, t)  # a first time, of which what is done only once is a part
     seconds = median(repeat(partial(program, motions, t), number=1, repeat=RUNS))
     compared = len(exact[0])

@@ -53,7 +53,8 @@ def _write_tables(folder: Path, results: Results, environment: Environment) -> s
 
 
 def _write(folder: Path, results: Results, environment: Environment, docs: Path | None) -> None:
-    text, motion = _write_tables(folder, results, environment), Reference.read().article[0]
+    text = _write_tables(folder, results, environment)
+    motion = Reference.read().article[0]
     facts = {"environment": asdict(environment), "results": asdict(results)}
     write_results("report", facts, text, folder)
     write_plots(results, motion, folder)

@@ -71,7 +71,8 @@ class ReferenceMotion:
         """Return the motion of an entry in reference.json."""
         # stored as distances of quaternions
         limits = tuple(2 * each for each in facts["limit"] or ())
-        task, exact = _read_task(facts), split_decimals(facts["exact"])
+        task = _read_task(facts)
+        exact = split_decimals(facts["exact"])
         return cls(facts["name"], task, tuple(facts["t"]), exact, limits, facts.get("small"))
 
     def error(self, t: float, orientation: ArrayLike) -> float:

@@ -70,7 +70,8 @@ def score_testset(folder: Path, docs: Path | None = None) -> None:
 
 def find_best_run(peer: Peer, motion: ReferenceMotion) -> list[Entry]:
     """Return the best run of a peer within the limit of time, in a list; empty without one."""
-    end, places = motion.times[-1], [motion.times[k] for k in PLACES]
+    end = motion.times[-1]
+    places = [motion.times[k] for k in PLACES]
     in_limits: dict[float, float] = {}  # by the setting
 
     def run(setting: float) -> Measurement | None:
@@ -96,14 +97,16 @@ def find_best_run(peer: Peer, motion: ReferenceMotion) -> list[Entry]:
     best = min(good, key=lambda each: each.error, default=None)
     if best is None:
         return []
-    limits, names = in_limits[best.setting], (peer.name, motion.name, motion.level)
+    limits = in_limits[best.setting]
+    names = (peer.name, motion.name, motion.level)
     return [Entry(*names, best.setting, best.error, limits, best.seconds)]
 
 
 def format_scores(facts: dict[str, Any]) -> str:
     """Return the table of a measurement: for each level the median and the worst problem."""
     entries = [Entry(**each) for each in facts["entries"]]
-    rows, count = [], len(read_problems())
+    rows = []
+    count = len(read_problems())
     for peer, own in group(entries, lambda entry: entry.peer).items():
         cells = [_summarize([e.angle for e in own if e.level == level]) for level in LEVELS]
         rows.append([peer, *cells, f"{len(own)} of {count}"])

@@ -35,7 +35,9 @@ class ReturningSeries(Series):
         (w, x, y, z), (wx, wy, wz) = found
         with mp.workprec(self.bits + 10):
             a, b = (mp.expj(periods * angle) for angle in self._turns)
-            A, B, omega = mpc(w, z) * a, mpc(x, y) * b, mpc(wx, wy) * b / a
+            A = mpc(w, z) * a
+            B = mpc(x, y) * b
+            omega = mpc(wx, wy) * b / a
             return ExactState((A.real, B.real, B.imag, A.imag), (omega.real, omega.imag, wz))
 
     @cached_property

@@ -138,7 +138,8 @@ def read_effects() -> dict[str, float | None]:
 
 def main() -> None:
     """Compute all problems, and pack them."""
-    problems, effects = [], read_effects()
+    problems = []
+    effects = read_effects()
     with Pool() as pool:
         for setting, problem in zip(SETTINGS, pool.imap(describe, SETTINGS), strict=True):
             name = setting.name

@@ -79,7 +79,8 @@ def _compare(starts: Real, times: Real) -> int:
 def _time_device(name: str, starts: Real, times: Real) -> Any:
     """Print the times of set-ups and states; return the first states."""
     cupy = open_cupy()
-    columns, at = [cupy.asarray(each) for each in _split(starts)], cupy.asarray(times)
+    columns = [cupy.asarray(each) for each in _split(starts)]
+    at = cupy.asarray(times)
 
     def make(count: int) -> Motions:
         return Motions(
@@ -103,8 +104,10 @@ def _compare_integrator(starts: Real) -> None:
     cupy = open_cupy()
     code = (SOURCES / "rk4.cu").read_text(encoding="utf-8")
     module = cupy.RawModule(code=code, options=list_options(), backend="nvrtc")
-    integrate, count = module.get_function("integrate"), len(starts)
-    given, orientation = cupy.asarray(starts), cupy.empty((count, 4))
+    integrate = module.get_function("integrate")
+    count = len(starts)
+    given = cupy.asarray(starts)
+    orientation = cupy.empty((count, 4))
     columns = [cupy.asarray(each) for each in _split(starts)]
     exact = Motions(tuple(columns[:3]), tuple(columns[3:])).at([10.0, 100.0]).orientation
     for k, t in enumerate((10.0, 100.0)):
@@ -138,7 +141,8 @@ def _split(starts: Real) -> tuple[Real, ...]:
 
 def _measure(work: Callable[[], Any], repeats: int = 3) -> tuple[float, Any]:
     """Return the shortest time of some work (s), and what it returns."""
-    synchronize, times = open_cupy().cuda.Device().synchronize, []
+    synchronize = open_cupy().cuda.Device().synchronize
+    times = []
     for _ in range(repeats):
         synchronize()
         began = time.perf_counter()

@@ -79,7 +79,8 @@ class Functions:
 
     def read(self, motions: Any, times: Any, each: int, stride: int) -> States:
         """Return orientations, angular velocities and statuses of `each` states of each motion."""
-        count, empty = len(motions), self._cupy.empty
+        count = len(motions)
+        empty = self._cupy.empty
         to = empty((count, each, 4)), empty((count, each, 3)), empty((count, each), np.uint8)
         sizes = np.int64(each), np.int64(stride)
         for name in ("read_states", "read_free_states"):
@@ -160,7 +161,8 @@ def _telling(text: str) -> Iterator[None]:
 def try_bits(functions: Functions) -> None:
     """Refuse a device on which a stored motion, of any family, has other bits than on the CPU."""
     rows = np.load(TRIAL)
-    starts, times = np.ascontiguousarray(rows[:, :15]), np.ascontiguousarray(rows[:, 15:])
+    starts = np.ascontiguousarray(rows[:, :15])
+    times = np.ascontiguousarray(rows[:, 15:])
     asarray = open_cupy().asarray
     motions, _ = functions.prepare(asarray(starts))
     found = functions.read(motions, asarray(times), 1, 1)

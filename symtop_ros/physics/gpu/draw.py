@@ -57,7 +57,10 @@ class Draw:
     def tilt(self, theta: Real) -> Real:
         """Set orientations of a tilt, turned about both axes; return the angle psi."""
         phi, psi = self.random.uniform(-np.pi, np.pi, (2, self.count))
-        c, s, plus, minus = np.cos(theta / 2), np.sin(theta / 2), (phi + psi) / 2, (phi - psi) / 2
+        c = np.cos(theta / 2)
+        s = np.sin(theta / 2)
+        plus = (phi + psi) / 2
+        minus = (phi - psi) / 2
         parts = (c * np.cos(plus), s * np.cos(minus), s * np.sin(minus), c * np.sin(plus))
         self.q = np.stack(parts, axis=1)
         return np.asarray(psi)
@@ -86,7 +89,8 @@ def _separatrix(d: Draw) -> None:
     """The axis comes to rest upright, but for an energy that is missed by 0 or 1e-16 to 0.1."""
     theta = d.random.uniform(0.05, np.pi - 0.05, d.count)
     psi, d.Mgl = d.tilt(theta), np.abs(d.Mgl)
-    beta, u = 2 * d.Mgl / d.Ix, np.cos(theta)
+    beta = 2 * d.Mgl / d.Ix
+    u = np.cos(theta)
     spin = np.where(d.happens(0.2), 0.0, d.random.uniform(-2, 2, d.count) * np.sqrt(beta))
     across = np.sin(theta) * spin / (1 + u)
     rest = beta * (1 - u) * d.miss(0.1, -16, -1) - across**2
@@ -170,7 +174,9 @@ def draw_family(name: str, count: int, random: Generator) -> tuple[Real, Real]:
     draw = Draw(random, count)
     FAMILIES[name](draw)
     starts = np.zeros((count, 15))
-    starts[:, 0], starts[:, 1], starts[:, 2] = draw.Ix, draw.Ix * draw.ratio, draw.Mgl
+    starts[:, 0] = draw.Ix
+    starts[:, 1] = draw.Ix * draw.ratio
+    starts[:, 2] = draw.Mgl
     starts[:, 3:7], starts[:, 7:10] = draw.q, draw.omega
     early, far = draw.happens(0.15), draw.happens(0.02)
     times = np.where(early, draw.log(-9, 0) * draw.sign(), draw.times)

@@ -123,7 +123,9 @@ def digest_sources() -> str:
 def open_door() -> SimpleNamespace:
     """Return the functions of the library, which is loaded at the first call, by their names."""
     # Calls of the first release the interpreter's lock.
-    released, locked, door = _load(), ctypes.PyDLL(str(FILE)), SimpleNamespace()
+    released = _load()
+    locked = ctypes.PyDLL(str(FILE))
+    door = SimpleNamespace()
     for name, (result, arguments) in FUNCTIONS.items():
         # By index: a function object that belongs to this door alone.
         function = (released if name in LONG else locked)[f"symtop_{name}"]
@@ -224,7 +226,9 @@ class KernelMotion:
     def at(self, t: float | ExactTimes) -> tuple[float, ...] | None:
         """Return quaternion and angular velocity at one time, in s or exact; None for no state."""
         if isinstance(t, ExactTimes):
-            q, omega, clock = Quaternion(), Rates(), bytes(ClockRecord(*t.clock))
+            q = Quaternion()
+            omega = Rates()
+            clock = bytes(ClockRecord(*t.clock))
             stamp = int(t.nanoseconds).to_bytes(8, sys.byteorder, signed=True)
             given = clock, stamp, 1, 0.0
             status = self._door.states_of_clock(self._handle, *given, q, omega, c_size_t())
@@ -241,7 +245,8 @@ class KernelMotion:
         self, times: Real | ExactTimes, orientation: Real, omega: Real, steps: float
     ) -> tuple[int, int]:
         """Write the states at times (n,); return how many were written, and the status."""
-        (count,), done = times.shape, c_size_t()
+        (count,) = times.shape
+        done = c_size_t()
         rest = count, steps, write_to(orientation, 4 * count), write_to(omega, 3 * count), done
         if isinstance(times, ExactTimes):
             stamps = read_from(np.asarray(times.nanoseconds), INT64)
@@ -253,7 +258,8 @@ class KernelMotion:
 
     def find_piece(self, t: ExactTimes, steps: float) -> tuple[PieceRecord, int]:
         """Return the piece at one time between two pushes, and the status."""
-        found, clock = PieceRecord(), bytes(ClockRecord(*t.clock))
+        found = PieceRecord()
+        clock = bytes(ClockRecord(*t.clock))
         status = self._door.find_piece(self._handle, clock, int(t.nanoseconds), steps, found)
         return found, status
 
@@ -308,7 +314,8 @@ def fill_many(starts: Real, times: Real, orientation: Real, omega: Real, left: A
 
     `left` (n, m) of bytes becomes 0 for a state that is written, and 1 for others.
     """
-    count, each = len(starts), times.size
+    count = len(starts)
+    each = times.size
     states = write_to(orientation, 4 * count * each), write_to(omega, 3 * count * each)
     given = read_from(starts), count, read_from(times), each
     demand(open_door().states_of_many(*given, *states, write_to(left, count * each, "B")))
@@ -316,15 +323,18 @@ def fill_many(starts: Real, times: Real, orientation: Real, omega: Real, left: A
 
 def describe_many(starts: Real) -> NDArray[Any]:
     """Return the constants of motions (n, 15), as records (n,) of `CONSTANTS`."""
-    found, given = np.empty(len(starts), CONSTANTS), (read_from(starts), len(starts))
+    found = np.empty(len(starts), CONSTANTS)
+    given = (read_from(starts), len(starts))
     demand(open_door().describe_many(*given, _lend(found, ConstantsRecord), c_size_t()))
     return found
 
 
 def from_angles(angles: Real, rates: Real) -> tuple[Real, Real]:
     """Return orientations (..., 4) and angular velocities (..., 3) of angles and rates (..., 3)."""
-    orientation, omega = np.empty((*angles.shape[:-1], 4)), np.empty(angles.shape)
-    count, done = omega.size // 3, c_size_t()
+    orientation = np.empty((*angles.shape[:-1], 4))
+    omega = np.empty(angles.shape)
+    count = omega.size // 3
+    done = c_size_t()
     to = write_to(orientation, 4 * count), write_to(omega, 3 * count)
     status = open_door().from_angles(read_from(angles), read_from(rates), count, *to, done)
     if status == BAD_ANGULAR_VELOCITY:
@@ -337,7 +347,8 @@ def from_angles(angles: Real, rates: Real) -> tuple[Real, Real]:
 def _compute(name: str, width: int, *given: Real, then: tuple[int, ...] = ()) -> Real:
     """Return what a function finds for each of some elements, (..., width), of (..., columns)."""
     found = np.empty((*given[0].shape[:-1], width))
-    count, room = found.size // width, write_to(found, found.size)
+    count = found.size // width
+    room = write_to(found, found.size)
     demand(getattr(open_door(), name)(*map(read_from, given), count, *then, room))
     return found
 
@@ -370,9 +381,9 @@ def find_regular_rates(tops: Real, thetas: Real, spins: Real, hold: int) -> Real
 
 def find_body(kinds: Sequence[int], parts: Sequence[Sequence[float]]) -> BodyRecord:
     """Return mass, arm and moments about the centre of parts: mass, size, distance of each."""
-    found, count = BodyRecord(), len(kinds)
+    found = BodyRecord()
     given = np.array(kinds, np.int32).tobytes(), np.array(parts, np.float64).tobytes()
-    demand(open_door().find_body(*given, count, found, c_size_t()))
+    demand(open_door().find_body(*given, len(kinds), found, c_size_t()))
     return found
 
 
@@ -385,7 +396,8 @@ def find_body_top(body: Sequence[float], gravity: float) -> TopRecord:
 
 def solve_start(top: Sequence[float], seen: int, known: Sequence[float]) -> SolutionsRecord:
     """Return the starts that have what is known of them, or why there is none."""
-    found, numbers = SolutionsRecord(), (*known, 0.0)[:3]
+    found = SolutionsRecord()
+    numbers = (*known, 0.0)[:3]
     given = bytes(TopRecord(*top)), seen, bytes(Rates(*numbers))
     demand(open_door().solve_start(*given, found))
     return found
@@ -395,8 +407,11 @@ def kick(
     tops: Real, orientation: Real, omega: Real, kind: int, hold: int, amounts: Real
 ) -> tuple[Real, int, int]:
     """Return angular velocities (n, 3) after kicks, how many are done, and the status."""
-    kicked, done, count = np.empty(omega.shape), c_size_t(), omega.size // 3
-    state, to = map(read_from, (tops, orientation, omega)), write_to(kicked, 3 * count)
+    kicked = np.empty(omega.shape)
+    done = c_size_t()
+    count = omega.size // 3
+    state = map(read_from, (tops, orientation, omega))
+    to = write_to(kicked, 3 * count)
     status = open_door().kick(*state, kind, hold, read_from(amounts), count, to, done)
     return kicked, done.value, status
 
@@ -406,7 +421,8 @@ def judge(starts: Real, factors: Real, hold: int) -> tuple[NDArray[Any], int]:
 
     If the status is not OK, the verdicts end before the start that it is about.
     """
-    verdicts, done = np.empty(len(starts), VERDICTS), c_size_t()
+    verdicts = np.empty(len(starts), VERDICTS)
+    done = c_size_t()
     for part in _list_blocks(len(starts)):
         room = _lend(verdicts[part], VerdictRecord)
         given = read_from(starts[part]), read_from(factors[part]), part.stop - part.start
@@ -441,7 +457,8 @@ def compare_hurried(
     tops: Real, thetas: Real, phi_dots: Real, psi_dots: Real, factor: float, hold: int
 ) -> tuple[Real, NDArray[np.uint8]]:
     """Return the other turning angles without a kick and with it, (n, 2), and the rule, (n,)."""
-    angles, rules = np.empty((len(tops), 2)), np.empty(len(tops), np.uint8)
+    angles = np.empty((len(tops), 2))
+    rules = np.empty(len(tops), np.uint8)
     for part in _list_blocks(len(tops)):
         given = [read_from(each[part]) for each in (tops, thetas, phi_dots, psi_dots)]
         count = part.stop - part.start

@@ -19,7 +19,9 @@ from symtop_ros.physics.kernel.records import (
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
 from symtop_ros.refusals import refuse
 
-STATES, STEPS = 2**16, 256.0  # in one call of the kernel, some ms
+# In one call of the kernel, some ms.
+STATES = 2**16
+STEPS = 256.0
 LONGEST_WAY = 1e7  # steps, a minute or two; of kernel/driven/trail.hpp
 MOST_DECAYS = 1e5  # decay times on the way to a time, some seconds; of kernel/driven/motion.hpp
 WHY_NOT_PUSHED = {
@@ -100,7 +102,8 @@ def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
         # No time can be named: back in time friction drives a top, and the steps become shorter.
         way = "ten million steps of integration (a minute or two)"
         return refuse("t", f"within {way} of what is reached, {reached:.3g} s", t)
-    end, why = abs(reached), "the motion then becomes too fast"
+    end = abs(reached)
+    why = "the motion then becomes too fast"
     if status == TOO_STIFF:
         # After some decay times the top creeps, but explicit series cannot take longer steps.
         top, _, friction, _ = read_start(np.frombuffer(motion.start))

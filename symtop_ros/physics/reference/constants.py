@@ -84,7 +84,8 @@ def _is_small(found: ProvedConstants, least: Ball) -> bool:
 
 def _find_resting(fall: Fall) -> ProvedConstants:
     """Return what regular precession has, and an axis on the vertical."""
-    u, nan = to_ball(fall.u), arb.nan()
+    u = to_ball(fall.u)
+    nan = arb.nan()
     if fall.u**2 == 1:
         angle = arb(0) if fall.u > 0 else arb.pi()
         return ProvedConstants("sleeping", arb.pos_inf(), (angle, angle), (nan, nan))

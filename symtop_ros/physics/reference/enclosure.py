@@ -90,7 +90,8 @@ class Enclosure:
 
     def _scale(self, coefficients: Sequence[Any], h: Ball) -> arb_poly:
         """Return the polynomial of a step in time over its length, with numbers that are exact."""
-        unit, found = arb(2) ** -self._series.bits, []
+        unit = arb(2) ** -self._series.bits
+        found = []
         for each in coefficients:
             found.append((arb(int(each)) * unit).mid())
             unit = (unit * h).mid()
@@ -124,9 +125,11 @@ class Field:
     ) -> None:
         Ix, Iz, Mgl, q, omega = inputs
         axial, transverse = map(Fraction, friction)
-        pulls, moments = tuple(map(Fraction, torque)), (Ix, Ix, Iz)
+        pulls = tuple(map(Fraction, torque))
+        moments = (Ix, Ix, Iz)
         self._second = to_ball(second)
-        self._kappa, self._weight = to_ball((Ix - Iz) / Ix), to_ball(Mgl / Ix / second**2)
+        self._kappa = to_ball((Ix - Iz) / Ix)
+        self._weight = to_ball(Mgl / Ix / second**2)
         decays = transverse / Ix, transverse / Ix, axial / Iz
         self._decays = [to_ball(each / second) for each in decays]
         self._pulls = [[to_ball(each / moment / second**2) for each in pulls] for moment in moments]
@@ -143,7 +146,8 @@ class Field:
     def slopes(self, state: Sequence[Any]) -> list[Any]:
         """Return the derivatives of numbers or polynomials [derivation, 1]."""
         w, x, y, z, a, b, c = state
-        gx, gy = 2 * (x * z - w * y), 2 * (y * z + w * x)
+        gx = 2 * (x * z - w * y)
+        gy = 2 * (y * z + w * x)
         slopes = [
             -(x * a + y * b + z * c) * HALF,
             (w * a + y * c - z * b) * HALF,
@@ -179,7 +183,8 @@ class Field:
 
     def find_growth(self, p: Sequence[arb_poly], h: Ball, sign: int) -> Ball:
         """Return a bound of m in a step of length h."""
-        s, room = self._scale, to_ball(WIDEST)
+        s = self._scale
+        room = to_ball(WIDEST)
         decay = self._decays[0].max(self._decays[2]) if sign < 0 else arb(0)
         start = norm([each(arb(0)) for each in p[4:6]]) + room * s
         across = (start + self._pull * h) * (decay * h).exp() + room * s

@@ -52,11 +52,15 @@ class Fall:
         Ix, Iz, Mgl, (w, x, y, z), (wx, wy, self.wz) = inputs
         square = w * w + x * x + y * y + z * z
         self.u = (w * w + z * z - x * x - y * y) / square
-        gx, gy = 2 * (x * z - w * y) / square, 2 * (w * x + y * z) / square
-        self.a, self.c = self.wz * Iz / Ix, self.wz * (Ix - Iz) / Ix
-        self.beta, self.energy = 2 * Mgl / Ix, wx * wx + wy * wy
+        gx = 2 * (x * z - w * y) / square
+        gy = 2 * (w * x + y * z) / square
+        self.a = self.wz * Iz / Ix
+        self.c = self.wz * (Ix - Iz) / Ix
+        self.beta = 2 * Mgl / Ix
+        self.energy = wx * wx + wy * wy
         self.slope = wy * gx - wx * gy  # of u
-        self.b, self.alpha = wx * gx + wy * gy + self.a * self.u, self.energy + self.beta * self.u
+        self.b = wx * gx + wy * gy + self.a * self.u
+        self.alpha = self.energy + self.beta * self.u
         norm = to_ball(square).sqrt()
         self.A, self.B = acb(to_ball(w), to_ball(z)) / norm, acb(to_ball(x), to_ball(y)) / norm
         self.W = acb(to_ball(wx), to_ball(-wy))
@@ -110,7 +114,8 @@ class Fall:
         """Turn about the axis by c t, and about L by |L| t/Ix."""
         half = to_ball(self.energy + self.a * self.a).sqrt() * T / 2
         along = acb(half.cos(), to_ball(self.a) * T / 2 * half.sinc())
-        over, turn = self.W.conjugate() * T / 2 * half.sinc(), (I * to_ball(self.c) * T / 2).exp()
+        over = self.W.conjugate() * T / 2 * half.sinc()
+        turn = (I * to_ball(self.c) * T / 2).exp()
         A = (self.A * along - self.B * over.conjugate()) * turn
         B = (self.A * over + self.B * along.conjugate()) / turn
         return self._pack([A, B, self.W * turn * turn], to_ball(self.energy).sqrt())
@@ -125,30 +130,37 @@ class Nutation:
     """Weierstrass's p = beta u/4 - (alpha + a^2)/12, and quotients of theta functions."""
 
     def __init__(self, fall: Fall) -> None:
-        self.fall, self.parts = fall, fall.parts()
+        self.fall = fall
+        self.parts = fall.parts()
         self._find_roots()
         d1, d2, d3 = self.gaps(fall.u)
         x = (-d3).sqrt() * carlson_rf(self.e13 * d2, self.e23 * d1, self.e13 * self.e23)
-        self.largest, root = (to_ball(fall.energy) - 4 * d3).sqrt(), self.e13.sqrt()
+        self.largest = (to_ball(fall.energy) - 4 * d3).sqrt()
+        root = self.e13.sqrt()
         if self.simple:
             w1, w3 = (arb.pi() / 2 / root.agm(e.sqrt()) for e in (self.e12, self.e23))
-            self.unit, self.tau = 2 * w1, acb(0, w3 / w1)
+            self.unit = 2 * w1
+            self.tau = acb(0, w3 / w1)
         else:  # the separatrix: the real period is infinite
             self.unit = 1 / root
         self.X0 = x * (-1 if fall.slope < 0 else 1) / self.unit
 
     def _find_roots(self) -> None:
         a, b, alpha, beta = self.fall.a, self.fall.b, self.fall.alpha, self.fall.beta
-        self.shift, slope = (alpha + a * a) / 12, 2 * a * b - beta
+        self.shift = (alpha + a * a) / 12
+        slope = 2 * a * b - beta
         g2 = 12 * self.shift**2 - beta * slope / 4
         g3 = 8 * self.shift**3 - beta * slope * self.shift / 4 - beta**2 * (alpha - b * b) / 16
-        square, pi = g2**3 - 27 * g3**2, arb.pi()
-        size, self.simple = (to_ball(g2) / 3).sqrt(), bool(square)
+        square = g2**3 - 27 * g3**2
+        pi = arb.pi()
+        size = (to_ball(g2) / 3).sqrt()
+        self.simple = bool(square)
         phi = arb.atan2(to_ball(square).sqrt(), arb(27).sqrt() * to_ball(g3)) / 3
         self.e = [size * (phi + turn * pi / 3).cos() for turn in (0, -2, 2)]
         scale = arb(3).sqrt() * size
         self.e12 = scale * (pi / 3 - phi).sin() if self.simple else arb(0)
-        self.e13, self.e23 = scale * (pi / 3 + phi).sin(), scale * phi.sin()
+        self.e13 = scale * (pi / 3 + phi).sin()
+        self.e23 = scale * phi.sin()
 
     def gaps(self, v: Fraction) -> list[Ball]:
         """Return e1 - p, e2 - p, e3 - p at a height: exactly zero where it is a root."""
@@ -162,13 +174,18 @@ class Nutation:
         """Return theta_k, k = 1, 2, 3, 4, or its derivative."""
         if self.simple:
             return acb(z).modular_theta(self.tau, slopes)[k - 1]
-        sinh, cosh, one, zero = acb(z).sinh(), acb(z).cosh(), acb(1), acb(0)
+        sinh = acb(z).sinh()
+        cosh = acb(z).cosh()
+        one = acb(1)
+        zero = acb(0)
         return ((sinh, one, one, cosh), (cosh, zero, zero, sinh))[slopes][k - 1]
 
     def value(self, k: int, T: Ball) -> Ball:
         """Return A, B or conj(omega) at a time."""
         P, slope, v, _ = self.parts[k]
-        xi, X, above = self._find_xi(k, v), self._reduce(self.X0 + T / self.unit), 3 if k else 4
+        xi = self._find_xi(k, v)
+        X = self._reduce(self.X0 + T / self.unit)
+        above = 3 if k else 4
         if self.fall.u != v:
             start = P / self.theta(above, self.X0 + xi)
         else:  # of a zero at the start the slopes
@@ -179,7 +196,8 @@ class Nutation:
     def find_rate(self, k: int) -> Ball:
         """Return the rate of the exponential, i times the mean rate of the argument."""
         _, _, v, share = self.parts[k]
-        xi, beside = self._find_xi(k, v), 2 if k else 1
+        xi = self._find_xi(k, v)
+        beside = 2 if k else 1
         return I * to_ball(share) - self.theta(beside, xi, 1) / self.theta(beside, xi) / self.unit
 
     def _find_xi(self, k: int, v: Fraction) -> Ball:

@@ -135,7 +135,8 @@ def bound_errors(
     of the difference.
     """
     with ctx.workprec(ERROR_BITS):
-        (a, b, c, d), (w, x, y, z) = exact.orientation, map(arb, orientation)
+        a, b, c, d = exact.orientation
+        w, x, y, z = map(arb, orientation)
         across = (  # vector part of the conjugate exact quaternion times the other
             a * x - b * w - c * z + d * y,
             a * y + b * z - c * w - d * x,

@@ -106,7 +106,8 @@ class Series:
         self._is_driven = any(friction) or any(torque)
         rates = [self._to_integer(rate / self.second) for rate in omega]
         start = self._normalize(orientation) + rates
-        self._forward, self._back = Way(1, start), Way(-1, start)
+        self._forward = Way(1, start)
+        self._back = Way(-1, start)
 
     def find(self, t: Fraction) -> Integers:
         """Return the seven numbers at a time in s; rates are those in the unit of time."""

@@ -257,7 +257,8 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
     validate_one(motion, "motion")
     held = HOLDS.index(hold if hold is None else validate_hold(hold))
     found = door.judge_kick(motion.pack_with("before", before), motion.packed_start, held)
-    reason, (low, high) = read_reason(found, hold), found.turning_angles
+    reason = read_reason(found, hold)
+    low, high = found.turning_angles
     return KickVerdict(
         axis="vertical" if reason.before is None else "tilted",
         hold=hold,

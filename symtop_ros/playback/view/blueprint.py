@@ -69,7 +69,8 @@ def _find_ranges(motion: Motion) -> dict[str, tuple[float, float]]:
     if motion.is_driven:
         return {}
     states = motion.at(np.linspace(0.0, _clip(0.01, motion.nutation_period, 10.0), 201))
-    momentum, rates = motion.top.angular_momentum(states), states.euler_rates
+    momentum = motion.top.angular_momentum(states)
+    rates = states.euler_rates
     found = {}
     for entity, values in (
         (entities.THETA, np.asarray(states.euler_angles.theta)),

@@ -120,7 +120,8 @@ def create_body(top: Top | None) -> Mesh:
     """Return the body of a top, its rotor at the centre of mass and wider for larger Iz/Ix."""
     sign = 1.0 if top is None else math.copysign(bool(top.Mgl), top.Mgl)
     ratio = 0.25 if top is None else top.Iz / top.Ix
-    radius, height = 0.2 + 0.26 * math.sqrt(ratio), 0.56 * sign
+    radius = 0.2 + 0.26 * math.sqrt(ratio)
+    height = 0.56 * sign
     low = min(0.0, height - 0.22)
     axle = (
         (0.0, low),

@@ -29,7 +29,8 @@ class GhostView:
     def __init__(self, stream: Stream) -> None:
         # the run without the last kick; None before the first kick and after a restart
         self.segment: Segment | None = None
-        self._stream, self._trace = stream, Trace()
+        self._stream = stream
+        self._trace = Trace()
         stream.style_lines(GHOST_TRACE, (*WHITE, 150), 0.004)
 
     def follow(self, name: str, before: Segment | None, after: Segment) -> None:
@@ -38,7 +39,8 @@ class GhostView:
         if name in RESTARTS or before is None:
             self.segment = None
         elif name in KICKS:
-            self.segment, self._trace = before, Trace()
+            self.segment = before
+            self._trace = Trace()
         elif old is not None:
             self.segment = _continue(old, after, before)
         self._redraw(old)

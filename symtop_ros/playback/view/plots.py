@@ -42,7 +42,8 @@ class Plots:
 
     def __init__(self, stream: entities.Stream) -> None:
         self._stream = stream
-        self._potential, self._energy = PotentialView(stream), quantities.EnergyBook()
+        self._potential = PotentialView(stream)
+        self._energy = quantities.EnergyBook()
         self._reference: Real | None = None  # constants of motion when the segment began
         for entity, (names, colors) in LINES.items():
             stream.log(

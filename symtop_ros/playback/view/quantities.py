@@ -140,7 +140,9 @@ class EnergyBook:
         """
         energy = float(after.motion.top.energy(event.state()))
         if event.name in RESTARTS or before is None:
-            self._begin, self._work, self._lost = energy, 0.0, 0.0
+            self._begin = energy
+            self._work = 0.0
+            self._lost = 0.0
         else:
             left = float(before.motion.top.energy(event.state_before()))
             gained = left - self._segment_energy
@@ -148,7 +150,9 @@ class EnergyBook:
             self._work += work
             self._lost += work - gained
             self._work += energy - left
-        self._segment_energy, self._segment_work, self._last = energy, 0.0, None
+        self._segment_energy = energy
+        self._segment_work = 0.0
+        self._last = None
 
     def rows(self, samples: ColumnsByTopic, motion: Motion) -> tuple[Stamps, Real] | None:
         """Return stamps and four energies (n, 4) in J; None if a topic is missing.
@@ -159,7 +163,8 @@ class EnergyBook:
         if found is None:
             return None
         stamps, (orientation, velocity, momentum) = found
-        top, omega = motion.top, velocity[:, 3:]
+        top = motion.top
+        omega = velocity[:, 3:]
         kinetic = (omega * momentum).sum(axis=1) / 2
         height = top.Mgl * axis_of(orientation)[:, 2]
         gained = kinetic + height - self._segment_energy
@@ -182,5 +187,6 @@ class EnergyBook:
         powers = np.concatenate([[first[1]], power])
         steps = np.diff(times) * (powers[1:] + powers[:-1]) / 2
         work: Real = self._segment_work + steps.cumsum()
-        self._segment_work, self._last = float(work[-1]), (int(stamps[-1]), float(power[-1]))
+        self._segment_work = float(work[-1])
+        self._last = (int(stamps[-1]), float(power[-1]))
         return work

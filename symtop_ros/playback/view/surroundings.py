@@ -35,7 +35,8 @@ POINTS = 33  # of an arc
 # In scene units. The arcs have different radii, so that letters do not meet; that of theta is
 # outside of the sphere, where the rotor does not hide it. The z axis is longer than L and omega,
 # which are nearly parallel to it in a fast top, so that its letter stands beyond theirs.
-WORLD_AXES, BODY_AXES = 1.3, (0.8, 0.8, 1.55)
+WORLD_AXES = 1.3
+BODY_AXES = (0.8, 0.8, 1.55)
 RADII = {"phi": 0.5, "theta": 1.08, "psi": 0.66}
 NODES_LENGTH = 0.95
 LETTERS = {"phi": "\u03c6", "theta": "\u03b8", "psi": "\u03c8"}
@@ -114,7 +115,8 @@ def log_cones(stream: entities.Stream, motion: Motion, state: State, scale: floa
     size = float(np.linalg.norm(L))
     if size == 0.0:
         return
-    direction, omega = L / size, state.to_world(state.angular_velocity) / scale
+    direction = L / size
+    omega = state.to_world(state.angular_velocity) / scale
     along = float(omega @ direction)
     across = float(np.linalg.norm(omega - along * direction))
     _log_cone(stream, entities.HERPOLHODE, across, along, (entities.BLUE, entities.PALE_BLUE))

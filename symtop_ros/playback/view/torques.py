@@ -75,7 +75,8 @@ class Torques(NamedTuple):
         if found is None:
             return None
         stamps, (velocity, L, torque, euler) = found
-        total, turning = torque[:, 3:], np.cross(velocity[:, 3:], L)
+        total = torque[:, 3:]
+        turning = np.cross(velocity[:, 3:], L)
         precession = euler[:, 3:4] * np.stack([-L[:, 1], L[:, 0], np.zeros(len(L))], axis=1)
         return stamps, cls(total, total - turning, turning, precession, nodes_of(euler[:, 0]))
 
@@ -131,7 +132,8 @@ class FictitiousView:
 
     def follow(self, top: Top, state: State) -> dict[str, str]:
         """Take over the motion that begins with a state; return what the panel says of it."""
-        self._top, self._scale = top, find_scale(top, state)
+        self._top = top
+        self._scale = find_scale(top, state)
         return {"in the precessing frame": f"{EQUATION}, 1 unit {self._scale:g} N m"}
 
     def send(self, euler: Columns) -> None:

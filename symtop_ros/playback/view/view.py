@@ -64,7 +64,9 @@ class View:
         live: bool = False,
         options: ViewOptions = DEFAULT_OPTIONS,
     ) -> None:
-        self._stream, self._live, self._options = entities.Stream(recording), live, options
+        self._stream = entities.Stream(recording)
+        self._live = live
+        self._options = options
         self._plots = Plots(self._stream)
         self._ghost = GhostView(self._stream) if options.ghost else None
         self._fictitious = torques.FictitiousView(self._stream) if options.fictitious else None
@@ -104,7 +106,8 @@ class View:
 
     def _send_event(self, event: Event) -> None:
         previous, self._segment = self._segment, event.segment()
-        motion, framing = self._segment.final_motion, Framing.of(self._segment).after(self._framing)
+        motion = self._segment.final_motion
+        framing = Framing.of(self._segment).after(self._framing)
         before, self._framing = self._framing, framing
         if before is None or before.ranges != framing.ranges:
             self._send_layout(framing)

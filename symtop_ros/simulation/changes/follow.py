@@ -189,7 +189,9 @@ def _change_torque(segment: Segment, act: Act, before: State) -> Ruled:
 
 
 def _change_parameters(segment: Segment, act: Act, before: State) -> Ruled:
-    request, following, motion = act.request, segment, segment.motion
+    request = act.request
+    following = segment
+    motion = segment.motion
     values = list_body(motion)
     body = read_body(values | {name: float(request[name]) for name in values if name in request})
     if body != (motion.top, motion.friction):

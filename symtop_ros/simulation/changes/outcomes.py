@@ -84,7 +84,8 @@ class Pushed:
         given = pushes.number, duration, motion.is_driven
         if motion.is_driven:
             return cls(*given)
-        top, former = motion.top, Motion(motion.top, before)
+        top = motion.top
+        former = Motion(motion.top, before)
         last = motion.piece_at(ExactTimes(pushes.last_time)).motion
         rates = former.mean_precession_rate, last.mean_precession_rate
         return cls(

@@ -165,7 +165,8 @@ def demand_free(motion: Motion, what: str) -> None:
 
 def plan_release(segment: Segment, stamp: int) -> tuple[Segment, Pushes]:
     """Return the segment without pushes after a stamp (ns), and those before it."""
-    given, pushes = segment.count_pushes(stamp), segment.motion.pushes
+    given = segment.count_pushes(stamp)
+    pushes = segment.motion.pushes
     if not (pushes and given and given < pushes.number):
         raise RefusedError("release must follow pushes that have not ended, got none")
     ended = replace(pushes, number=given)

@@ -101,7 +101,8 @@ class Timeline:
         return replace(self, held_torque=NO_TORQUE)._apply_torque(stamp, "released")
 
     def _apply_torque(self, stamp: int, kind: Literal["applied", "released", "steady"]) -> "Change":
-        (a, b, c), (x, y, z) = self.settings.steady_torque, self.held_torque
+        a, b, c = self.settings.steady_torque
+        x, y, z = self.held_torque
         total = (a + x, b + y, c + z)
         return self.follow(Act("torque", stamp, {"torque": total}, told=Torque(kind, total)))
 

@@ -66,7 +66,8 @@ def random_walks(seed: int, streams: Sequence[int], times: Any) -> Real:
     computed alone.
     """
     times = np.clip(np.asarray(times, dtype=np.int64), 0, LONGEST_WALK)
-    block, rest = times >> BLOCK_BITS, times & (BLOCK - 1)
+    block = times >> BLOCK_BITS
+    rest = times & (BLOCK - 1)
     known = np.arange(int(block.max(initial=0)) + 1)
     steps = math.sqrt(BLOCK / NANOSECONDS) * _normals(seed, streams, known << (LEVELS + 2))
     ends = np.concatenate((np.zeros((len(streams), 1)), np.cumsum(steps, axis=1)), axis=1)

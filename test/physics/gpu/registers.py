@@ -97,7 +97,9 @@ class Flow:
         """Return the registers that a callee writes, or those that it calls."""
         if start not in self._written:
             self._written[start] = set()  # of a function that calls itself
-            seen, waiting, written = set(), [start], set()
+            seen = set()
+            waiting = [start]
+            written = set()
             while waiting:
                 place = waiting.pop()
                 if place in seen or place >= len(self.code):
@@ -134,7 +136,8 @@ class Flow:
         if self.reaching[place] is None:
             self.reaching[place] = {r: set(d) for r, d in given.items()}
             return True
-        here, is_new = self.reaching[place] or {}, False
+        here = self.reaching[place] or {}
+        is_new = False
         for register, definitions in given.items():
             if not definitions <= here.setdefault(register, set()):
                 here[register] |= definitions

@@ -75,7 +75,8 @@ def test_states_have_the_shape_of_the_motions_and_the_times(cupy):
 def test_each_motion_has_its_own_times(cupy):
     motions = Motions(Top(0.000228, 0.0000572, np.array([0.05, 0.068])), START)
     times = np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 1e9]])
-    table, column = motions.at_each(times), motions.at_each(times[:, 1])
+    table = motions.at_each(times)
+    column = motions.at_each(times[:, 1])
     for i in range(2):
         assert (table.orientation[i] == motions[i].at(times[i]).orientation).all()
         assert (column.orientation[i] == table.orientation[i, 1]).all()

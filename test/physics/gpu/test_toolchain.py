@@ -80,7 +80,8 @@ def test_the_count_finds_products_that_are_fused(tmp_path):
 @pytest.mark.parametrize("architecture", ARCHITECTURES)
 @pytest.mark.parametrize("version", COMPILERS)
 def test_no_uniform_register_is_overwritten_in_another_arm(version, architecture, tmp_path):
-    ptx, cubin = compile_ptx(version, architecture, tmp_path), tmp_path / "motions.cubin"
+    ptx = compile_ptx(version, architecture, tmp_path)
+    cubin = tmp_path / "motions.cubin"
     programs = find_nvidia() / COMPILERS[version][1]
     execute([programs / "ptxas", f"-arch=sm_{architecture}", ptx, "-o", cubin], check=True)
     newest = find_nvidia() / COMPILERS["13.0"][1]  # cuobjdump reads the code of all

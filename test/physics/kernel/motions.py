@@ -57,7 +57,8 @@ class Sample:
         motion = self.motion
         friction = motion.friction.axial, motion.friction.transverse
         state = motion.start.given_orientation, motion.start.angular_velocity
-        high, stamps = float(self.clock.elapsed), self.clock.nanoseconds
+        high = float(self.clock.elapsed)
+        stamps = self.clock.nanoseconds
         clock = self.clock.factor, high, float(self.clock.elapsed - Fraction(high)), 0.0, 0.0
         parts = [*motion.top.moments], *state, friction, motion.applied_torque
         numbers = [*parts, [len(self.times)], self.times, clock, [len(stamps)]]
@@ -70,7 +71,8 @@ class Sample:
 
     def expect(self):
         """Return what the program writes, as doubles."""
-        motion, rates = self.motion, self.motion._rates
+        motion = self.motion
+        rates = self.motion._rates
         kind = records.KINDS.index(motion.kind)
         constants = [kind, *motion.turning_angles, *(getattr(rates, n) for n, _ in rates._fields_)]
         verdicts = list_verdicts(motion)
@@ -87,8 +89,11 @@ class Sample:
 def list_verdicts(motion):
     """Yield the start from its angles, its regular rates, kicks and verdicts, by both holds."""
     start = np.frombuffer(motion.packed_start)
-    top, q, omega = start[:3], start[3:7], start[7:10]
-    angles, rates = door.find_angles(q), door.find_angle_rates(q, omega)
+    top = start[:3]
+    q = start[3:7]
+    omega = start[7:10]
+    angles = door.find_angles(q)
+    rates = door.find_angle_rates(q, omega)
     yield from (angles, rates, *door.from_angles(angles, rates))
     for hold in range(2):
         one = top[None], angles[1:2], rates[2:3]
@@ -124,7 +129,8 @@ def list_driven(numbers):
     """Motions with friction or an applied torque, which changes in some of them."""
     for number in numbers:
         for each in DRIVEN[number % 34 :: 34]:
-            motion, t = each.motion, min(max(each.times), LONGEST)
+            motion = each.motion
+            t = min(max(each.times), LONGEST)
             torque = (1e-3 * motion.top.Mgl, 0.0, 0.0) if number % 2 else None
             # Back in time friction drives a top: it soon becomes too fast.
             before = 0.0 if motion.friction else -0.1

@@ -67,7 +67,8 @@ def scale(norm):
 
 @pytest.mark.parametrize("norm", [1.0009, 0.9991])
 def test_an_orientation_of_another_norm_is_normalised_by_all_functions_of_it(norm):
-    found, expected = (c_double * 3)(), door.find_angles(TURN)
+    found = (c_double * 3)()
+    expected = door.find_angles(TURN)
     assert DOOR.find_angles(pack(*scale(norm)), 1, found) == door.OK
     assert list(found) == pytest.approx(expected.tolist(), rel=8 * EPS)
     status, rates = find_rates(scale(norm))
@@ -127,7 +128,8 @@ def test_nothing_is_held_by_impulses_alone():
     assert DOOR.find_tilt_accelerations(start, NOTHING, pack(1.0), 1, (c_double * 1)()) == HOLD
     verdict = door.VerdictRecord()
     assert DOOR.judge(start, pack(1.4), 1, NOTHING, verdict, c_size_t()) == HOLD
-    angles, rule = (c_double * 2)(), (door.c_uint8 * 1)()
+    angles = (c_double * 2)()
+    rule = (door.c_uint8 * 1)()
     row = pack(*TOP_ROW), pack(0.5), pack(6.5), pack(200.0), 1, 1.4
     assert DOOR.compare_hurried(*row, NOTHING, angles, rule) == HOLD
     assert DOOR.judge_kick(start, start, NOTHING, verdict) == door.OK
@@ -183,7 +185,9 @@ def test_what_is_seen_is_one_of_seven():
 
 
 def test_null_pointers_are_refused_and_arrays_without_elements_may_be_null():
-    handle, found, done = c_void_p(), (c_double * 4)(), c_size_t()
+    handle = c_void_p()
+    found = (c_double * 4)()
+    done = c_size_t()
     start = Motion(ARTICLE, START).packed_start
     assert DOOR.new(None, byref(handle)) == DOOR.new(start, None) == POINTER
     assert DOOR.find_angles(None, 1, found) == DOOR.find_angles(pack(*TURN), 1, None) == POINTER
@@ -200,7 +204,9 @@ def test_a_count_beyond_all_memory_and_steps_that_are_no_number_are_refused():
     assert find_angles(*TURN, count=2**62) == COUNT
     handle = c_void_p()
     assert DOOR.new(Motion(ARTICLE, START).packed_start, byref(handle)) == door.OK
-    q, omega, done = (c_double * 4)(), (c_double * 3)(), c_size_t()
+    q = (c_double * 4)()
+    omega = (c_double * 3)()
+    done = c_size_t()
     for steps in (NAN, -1.0):
         assert DOOR.states(handle, pack(1.0), 1, steps, q, omega, done) == STEPS
         assert DOOR.reach(handle, 1.0, steps, q) == STEPS

@@ -39,7 +39,8 @@ def compile_kernel(folder, *options, **keywords):
 
 def build(source, folder, kernel, *options):
     """Compile a program in C and link it with files of the kernel; return its path."""
-    program, target = folder / source.removesuffix(".c"), folder / "program.o"
+    program = folder / source.removesuffix(".c")
+    target = folder / "program.o"
     pedantic = ["gcc", *OPTIONS, "-std=c99", "-pedantic", *STRICT, *options]
     subprocess.run([*pedantic, "-c", FOLDER / source, "-o", target], check=True)
     subprocess.run(["g++", *options, target, *kernel, "-o", program], check=True)

@@ -28,7 +28,8 @@ def test_the_bits_are_those_of_every_other_machine():
 
 @pytest.mark.parametrize("stored", STORED[::8], ids=[each.family for each in STORED[::8]])
 def test_an_instant_has_the_same_bits_alone_and_among_others(stored):
-    motion, times = stored.motion, stored.times[0] * np.array(PARTS)
+    motion = stored.motion
+    times = stored.times[0] * np.array(PARTS)
     together = motion.at(times)
     for n, t in enumerate(times):
         for one, other in zip(together[n].parts, motion.at(float(t)).parts, strict=True):

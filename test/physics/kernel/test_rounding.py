@@ -11,7 +11,8 @@ from symtop_ros import physics
 
 # FE_UPWARD of fenv.h, by the system and the processor
 UPWARD = {"Linux x86_64": 0x800, "Linux aarch64": 0x400000}.get(" ".join(platform.uname()[::4]))
-TOPS, MOTION = physics.Top(ARTICLE.Ix, ARTICLE.Iz, [0.0625, 0.125]), physics.Motion(ARTICLE, CUSPS)
+TOPS = physics.Top(ARTICLE.Ix, ARTICLE.Iz, [0.0625, 0.125])
+MOTION = physics.Motion(ARTICLE, CUSPS)
 DRIVEN = physics.Motion(ARTICLE, CUSPS, physics.Friction(axial=1e-6))
 POTENTIAL = physics.EffectivePotential.of(ARTICLE, CUSPS)
 # What is found once is kept: nothing of it is known before.

@@ -102,7 +102,8 @@ def test_a_million_hostile_calls_are_answered_as_on_this_processor(page, tmp_pat
     options = ["-target", "wasm32-wasi", "-Os", "-ffp-contract=off", "-Wno-psabi"]
     source = Path(__file__).with_name("hostile.c")
     program, module = tmp_path / "hostile.o", tmp_path / "hostile.wasm"
-    zig, include = (ZIG, "-m", "ziglang"), ("-I", SOURCES)
+    zig = (ZIG, "-m", "ziglang")
+    include = ("-I", SOURCES)
     subprocess.run([*zig, "cc", *options, *include, "-c", source, "-o", program], check=True)
     library = ["-mexec-model=reactor", "-std=c++17", "-fno-exceptions", "-fno-rtti"]
     names = ("run", "digest", "count_calls")

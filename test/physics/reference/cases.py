@@ -16,7 +16,8 @@ PENDULUM = (
     ),
     2.326967634349247,
 )
-TILTED, OMEGA = (0.7, 0.5, 0.1, -0.5), (0.5, -1.25, 3.0)
+TILTED = (0.7, 0.5, 0.1, -0.5)
+OMEGA = (0.5, -1.25, 3.0)
 UPRIGHT, HANGING = (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
 CASES = {
     "asymptotic": ASYMPTOTIC[:2],

@@ -42,7 +42,8 @@ def test_periods_and_mean_rates_that_are_stored_are_proved(step: int) -> None:
 @pytest.mark.parametrize("step", STEPS)
 def test_kinds_are_those_of_the_kernel_but_for_what_it_takes_as_equal(step: int) -> None:
     for each in FALLS[::step]:
-        exact, kind = prove_constants(each.inputs, 10).kind, each.motion.kind
+        exact = prove_constants(each.inputs, 10).kind
+        kind = each.motion.kind
         assert exact == kind or (kind in ROUNDED and exact not in ("asymptotic", "sleeping"))
 
 

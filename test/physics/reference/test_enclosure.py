@@ -39,7 +39,8 @@ def test_balls_agree_with_a_series_of_more_digits(name: str, drive: str, t: floa
     series = Series(inputs, 60, *_drive(drive, inputs))
     with ctx.workprec(400):
         # the series has no proof: of 60 digits it has 40 and more
-        doubt, second = arb(0, 1e-40) * (1 + found.size), to_ball(series.second)
+        doubt = arb(0, 1e-40) * (1 + found.size)
+        second = to_ball(series.second)
         numbers = [arb(each) / 2**series.bits for each in series.find(Fraction(t))]
         numbers[4:] = [each * second for each in numbers[4:]]
         pairs = zip(_balls(found), numbers, strict=True)
@@ -51,7 +52,8 @@ def test_balls_agree_with_a_series_of_more_digits(name: str, drive: str, t: floa
 )
 def test_balls_of_few_bits_contain_those_of_many(name: str) -> None:
     inputs = Inputs.of(*CASES[name])
-    drive, t = _drive("both", inputs), Fraction(3, 4)
+    drive = _drive("both", inputs)
+    t = Fraction(3, 4)
     sharp = Enclosure(inputs, 400, *drive).at(t)
     for bits in (80, 110, 160, 240):
         found = Enclosure(inputs, bits, *drive).at(t)
@@ -62,7 +64,8 @@ def test_balls_of_few_bits_contain_those_of_many(name: str) -> None:
 
 def test_one_integration_serves_for_times_in_any_order() -> None:
     inputs = Inputs.of(*CASES["tilted"])
-    times, drive = [1.5, -0.25, 0.0, 0.5], _drive("both", inputs)
+    times = [1.5, -0.25, 0.0, 0.5]
+    drive = _drive("both", inputs)
     together = prove_states(inputs, times, 30, *drive)
     for t, one in zip(times, together, strict=True):
         with ctx.workprec(200):
@@ -101,7 +104,8 @@ def test_a_wrong_sign_in_an_equation_leaves_no_ball(
 def test_a_wrong_digit_of_a_coefficient_widens_the_ball(monkeypatch: pytest.MonkeyPatch) -> None:
     """The polynomials need no trust."""
     inputs = Inputs.of(*CASES["tilted"])
-    sharp, right = Enclosure(inputs, 400).at(Fraction(1, 2)), Series._expand
+    sharp = Enclosure(inputs, 400).at(Fraction(1, 2))
+    right = Series._expand
 
     def expand(self: Series, state: list[int]) -> list[list[int]]:
         found = right(self, state)

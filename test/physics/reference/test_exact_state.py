@@ -31,7 +31,8 @@ def test_balls_contain_those_of_more_digits():
 
 def test_an_exact_time_is_taken_exactly():
     """A day and a nanosecond: the nearest double of seconds is 7 ps off."""
-    times, factor = 86_400 * 10**9 + 1, 0.1
+    times = 86_400 * 10**9 + 1
+    factor = 0.1
     found = exact_state(ARTICLE, CUSPS, ExactTimes(times, factor))
     t = Fraction(factor) * times / 10**9
     with ctx.workdps(60):

@@ -16,7 +16,8 @@ from symtop_ros.physics.reference.enclosure import Enclosure
 from symtop_ros.physics.reference.fall import Fall, Nutation, find_fall
 from symtop_ros.physics.reference.proved import prove_state
 
-MANY, FEW = 1500, (53, 64, 80, 110, 160, 240)  # bits
+MANY = 1500  # bits
+FEW = (53, 64, 80, 110, 160, 240)  # bits
 RADIANS = 3.0  # so far the series follows random motions
 TIMES = Fraction(13, 8), Fraction(-3, 4)
 
@@ -70,7 +71,8 @@ def _find_time(inputs: Inputs) -> Fraction:
 
 def _agree(inputs: Inputs, t: Fraction) -> bool:
     """Return whether two proofs that share no formula overlap, with small balls."""
-    closed, series = prove_state(inputs, t, 40), Enclosure(inputs, 200).at(t)
+    closed = prove_state(inputs, t, 40)
+    series = Enclosure(inputs, 200).at(t)
     assert all(bool(each.rad() < 1e-25) for each in series.orientation)
     with ctx.workprec(300):
         pairs = zip(_balls(closed), _balls(series), strict=True)

@@ -82,7 +82,8 @@ class Seen:
     """A motion over a nutation (or a time of its own, if it has none), as vectors of the world."""
 
     def __init__(self, top, start):
-        self.top, self.motion = top, Motion(top, start)
+        self.top = top
+        self.motion = Motion(top, start)
         period = self.motion.nutation_period
         speed = top.Ix / max(np.linalg.norm(top.angular_momentum(start)), 1e-300)
         self.period = period if math.isfinite(period) else min(20 * speed, 1e3)
@@ -189,7 +190,8 @@ def goes_with(seen, cause):
 
 def swings(seen, cause):
     off = PI / 2 - from_line(seen.torque, seen.L)
-    longer, lower = np.diff(seen.size**2), -np.diff(seen.weight)
+    longer = np.diff(seen.size**2)
+    lower = -np.diff(seen.weight)
     rounding = TINY * np.maximum(np.abs(longer).max(), 1e-300)
     agree = np.sign(longer) == np.sign(lower)
     return bool(np.all(agree | (np.abs(longer) <= rounding))) and off.max() > PI / 6 - 0.02

@@ -51,7 +51,8 @@ def check_lowest(top, motion, held):
 
 
 def check(top, start):
-    held, motion = clamp_verdict(top, start), Motion(top, start, clamped=True)
+    held = clamp_verdict(top, start)
+    motion = Motion(top, start, clamped=True)
     state = motion.at(0.0)
     assert held.theta == start.euler_angles.theta
     assert held.subject == ("axis" if top.Mgl < 0 else "top")
@@ -90,7 +91,8 @@ def test_each_sentence_is_true_of_its_motion(first):
 
 
 def test_with_the_energy_to_stand_upright_it_rises_or_falls_first():
-    top, q = Top(1.0, 0.5, 0.5), (0.5, 0.5, 0.5, 0.5)
+    top = Top(1.0, 0.5, 0.5)
+    q = (0.5, 0.5, 0.5, 0.5)
     assert clamp_verdict(top, State(q, (-1.0, 0.0, 3.0))).kind == "rises"
     down = clamp_verdict(top, State(q, (1.0, 0.0, 3.0)))
     _, rate = fall(0.5, math.pi / 4, 1.0, down.lowest_in)

@@ -43,7 +43,10 @@ def exact_change(top, state, factor, hold):
     follows from what is held.
     """
     (_, theta, _), (rate, _, spin) = exact_euler(*exact_parts(state))
-    Ix, Iz, u, kicked = mpf(top.Ix), mpf(top.Iz), mp.cos(theta), factor * rate
+    Ix = mpf(top.Ix)
+    Iz = mpf(top.Iz)
+    u = mp.cos(theta)
+    kicked = factor * rate
     kicked_spin = spin if hold == "spin_rate" else spin + (rate - kicked) * u
 
     def theta_torque(p, s):
@@ -111,7 +114,8 @@ def test_where_the_rule_says_nothing_it_says_why(state, factor, why):
 
 @pytest.mark.parametrize("hold", HOLDS)
 def test_without_weight_nothing_rises_against_gravity(hold):
-    top, before = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0), precess(6.5)
+    top = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0)
+    before = precess(6.5)
     assert perrys_rule(top, before, 1.4, hold).reason.kind == "weightless"
     found = kick_verdict(Motion(top, hurry(before, 1.4, hold)), before, hold)
     assert (found.reason.kind, found.reason.rule) == ("weightless", None)
@@ -148,7 +152,9 @@ def push_along(top, state, size):
 @pytest.mark.parametrize("seed", range(20))
 def test_a_push_along_the_precession_is_judged_as_a_hurry_that_holds_the_spin_momentum(seed):
     rng = Numbers(seed)
-    top, theta, psi = ARTICLE, rng.uniform(0.2, 2.9), rng.uniform(-3, 3)
+    top = ARTICLE
+    theta = rng.uniform(0.2, 2.9)
+    psi = rng.uniform(-3, 3)
     rates = {"theta_dot": rng.choice((0.0, 1.0)), "phi_dot": 6.0, "psi_dot": 200.0}
     before = State.from_euler(theta=theta, phi=1.1, psi=psi, **rates)
     size = rng.choice([0.05, -0.05, 1.0]) * top.Ix * abs(before.euler_rates.phi)
@@ -194,13 +200,15 @@ def test_an_answer_states_the_facts_and_marks_those_against_the_rule(seed):
     before = precess(rng.uniform(-90, 90), rng.uniform(-300, 300), rng.uniform(0.1, 3.0))
     factor = rng.choice([0.5, 1.4])
     found = answer(before, factor)
-    motion, without = Motion(ARTICLE, hurry(before, factor)), Motion(ARTICLE, before)
+    motion = Motion(ARTICLE, hurry(before, factor))
+    without = Motion(ARTICLE, before)
     assert found.turning_angles == motion.turning_angles
     lifts = np.subtract(without.turning_angles, motion.turning_angles)
     for point, lift in zip((found.highest, found.lowest), lifts, strict=True):
         kind = "unchanged" if abs(lift) <= 1e-7 else "higher" if lift > 0 else "lower"
         assert (point.kind, point.amount) == (kind, 0.0 if kind == "unchanged" else abs(lift))
-    holds, direction = said(found), perrys_rule(ARTICLE, hurry(before, factor)).direction
+    holds = said(found)
+    direction = perrys_rule(ARTICLE, hurry(before, factor)).direction
     assert found.direction == direction
     against = found.contradiction.facts if found.contradiction else ()
     assert bool(against) is bool(found.contradiction)
@@ -302,7 +310,8 @@ def test_the_rule_next_to_the_vertical_is_that_of_sixty_digits(seed):
     for _ in range(1000):
         Ix = rng.power(-3, 1)
         top = Top(Ix, Ix * rng.uniform(0.1, 2.0), Ix * rng.gauss(0, 30))
-        state, hold = state_next_to_the_vertical(rng), rng.choice(HOLDS)
+        state = state_next_to_the_vertical(rng)
+        hold = rng.choice(HOLDS)
         # a factor that takes the sum of the rates to where the slope of the quadratic is nearly 0
         reason = perrys_rule(top, state, 1.4, hold).reason
         rate = reason.before or 1.0  # it is zero up to rounding

@@ -60,6 +60,7 @@ def test_at_a_root_the_other_turning_angle_is_the_tilt_itself():
 
 
 def test_axes_are_broadcast_to_a_map():
-    rates, spins = np.linspace(-20, 90, 30), np.linspace(50, 400, 20)
+    rates = np.linspace(-20, 90, 30)
+    spins = np.linspace(50, 400, 20)
     found = compare_hurried(ARTICLE, 0.5, rates[:, None], spins)
     assert found.rise.shape == found.rule_holds.shape == (30, 20)

@@ -15,7 +15,10 @@ ROUNDING = 64 * EPS * SIZE  # four sums of three energies, each of up to five ro
 
 def read(run, folder):
     """Return the rows of energies of a run, and its events."""
-    book, segment, rows, events = EnergyBook(), None, [], []
+    book = EnergyBook()
+    segment = None
+    rows = []
+    events = []
     for batch in run.open(folder).batches():
         for event, columns in batch.stretches():
             if event:

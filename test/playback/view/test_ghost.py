@@ -23,7 +23,8 @@ def kicked(segment, stamp):
 @pytest.fixture(name="ghost")
 def _ghost():
     """A ghost of a run that is kicked after one second, and the run from there on."""
-    ghost, after = GhostView(Mock()), kicked(BEGIN, SECOND)
+    ghost = GhostView(Mock())
+    after = kicked(BEGIN, SECOND)
     ghost.follow("start", None, BEGIN)
     ghost.follow("kick", BEGIN, after)
     return ghost, after
@@ -78,14 +79,16 @@ def test_a_parameter_changes_both(ghost):
 def test_a_jump_of_the_clock_leaves_it_where_it_is(ghost):
     ghost, after = ghost
     ghost.follow("clock", after, after.move(2 * SECOND, 50 * SECOND))
-    found, expected = ghost.segment.state_at(51 * SECOND), BEGIN.state_at(3 * SECOND)
+    found = ghost.segment.state_at(51 * SECOND)
+    expected = BEGIN.state_at(3 * SECOND)
     # one motion, evaluated from two starts or as one: up to the rounding of a start
     assert np.abs(found.orientation - expected.orientation).max() <= 64 * EPS
 
 
 def test_a_motion_that_is_too_long_to_integrate_has_no_ghost():
     segment = Segment.begin(Motion(ARTICLE, CUSPS, Friction(axial=1e-9)), stamp=0, factor=1.0)
-    ghost, year = GhostView(Mock()), 365 * 86_400 * SECOND
+    ghost = GhostView(Mock())
+    year = 365 * 86_400 * SECOND
     ghost.follow("start", None, segment)
     ghost.follow("kick", segment, segment.change(SECOND, CUSPS))
     assert len(ghost.states_at(np.array([SECOND]))[0]) == 1

@@ -12,7 +12,9 @@ from symtop_ros.playback.view.torques import ARROWS, DEPTHS, LENGTH, LONGEST, To
 def drawn(start, folder):
     """Origins and vectors of each arrow of half a second, (n, 3), and the times in ns."""
     run = Run(start=start, seconds=0.5, hurried=False)
-    target, found, times = record(run, folder, fictitious=True), {}, None
+    target = record(run, folder, fictitious=True)
+    found = {}
+    times = None
     for name in DEPTHS:
         entity = f"{entities.FICTITIOUS}/{name}"
         times, _ = rows(target, entity, "Arrows3D:vectors")
@@ -22,7 +24,9 @@ def drawn(start, folder):
 
 def test_on_cusps_the_fourth_arrow_is_the_angular_acceleration(tmp_path):
     times, found = drawn(CUSPS, tmp_path)
-    begin, motion, step = times[0], Motion(ARTICLE, CUSPS), 1e-5
+    begin = times[0]
+    motion = Motion(ARTICLE, CUSPS)
+    step = 1e-5
     seconds = (times - begin) * 1e-9
     before, after = (motion.at(seconds + h).euler_rates.theta for h in (-step, step))
     expected = ARTICLE.Ix * (after - before) / (2 * step) / find_scale(ARTICLE, CUSPS)
@@ -47,7 +51,9 @@ def test_through_the_vertical_no_arrow_is_too_long_and_the_others_are_drawn(tmp_
 def test_on_cusps_dL_in_the_body_is_the_derivative_of_its_components(tmp_path):
     (batch,) = Run(start=CUSPS, seconds=0.5, hurried=False).open(tmp_path).batches()
     stamps, torques = Torques.of(batch.columns)
-    times, step, motion = (stamps - stamps[0]) * 1e-9, 1e-5, Motion(ARTICLE, CUSPS)
+    times = (stamps - stamps[0]) * 1e-9
+    step = 1e-5
+    motion = Motion(ARTICLE, CUSPS)
     L = [ARTICLE.body_angular_momentum(motion.at(times + h)) for h in (-step, step)]
     found = motion.at(times).to_world((L[1] - L[0]) / (2 * step))
     # a central difference: its error is (200 rad/s step)^2 / 6, about 1e-6

@@ -58,7 +58,8 @@ def test_the_trace_is_an_unbroken_line_on_the_unit_sphere(recording, truth):
 
 
 def test_plots_hold_the_doubles_that_were_logged(recording, truth):
-    L, rates = ARTICLE.angular_momentum(truth[1]), truth[1].euler_rates
+    L = ARTICLE.angular_momentum(truth[1])
+    rates = truth[1].euler_rates
     for path, expected in (
         (entities.THETA, truth[1].euler_angles.theta[:, None]),
         (entities.PHI_DOT, rates.phi[:, None]),
@@ -91,7 +92,8 @@ def test_events_and_turning_circles_are_on_the_time_line(recording):
 
 @pytest.mark.parametrize("missing", ["events", "orientation", "angular_momentum", "euler_angles"])
 def test_a_scene_is_made_of_what_there_is(missing, tmp_path):
-    log, target = Run().without(missing).open(tmp_path), tmp_path / "part.rrd"
+    log = Run().without(missing).open(tmp_path)
+    target = tmp_path / "part.rrd"
     with strict():
         replay(log, target)
     assert any(missing in problem for problem in log.account.problems)

@@ -51,7 +51,8 @@ def find_nutation(motion: Motion, times: Real) -> Nutation:
 
 def draw_nutation() -> Figure:
     """Draw the path of the axis with the circle that moves along, and the way on the circle."""
-    figure, motion = new_figure(2.7), cusps()
+    figure = new_figure(2.7)
+    motion = cusps()
     period = motion.nutation_period
     times = np.linspace(0.0, period, 801)
     left, right = figure.subplots(1, 2, width_ratios=[9, 4])
@@ -83,7 +84,8 @@ def draw_nutation() -> Figure:
 
 def draw_cusp_story() -> Figure:
     """Draw one nutation from cusp to cusp with t1, T/2 and t2, and the signs of accelerations."""
-    figure, motion = new_figure(6.4), cusps()
+    figure = new_figure(6.4)
+    motion = cusps()
     period = motion.nutation_period
     first, second = times_of_extreme_rate(motion)
     marks = {"0": 0.0, "$t_1$  ": first, "$T/2$": period / 2, "  $t_2$": second, "$T$": period}
@@ -99,14 +101,16 @@ def draw_cusp_story() -> Figure:
         for low, high in pairwise(inner):
             between = (3 * low + high) / 4  # no mark is there
             sign = ">" if np.interp(between, times, changes[name]) > 0 else "<"
-            place, top = (between, 0.97), axes.get_xaxis_transform()
+            place = (between, 0.97)
+            top = axes.get_xaxis_transform()
             words = rf"$\ddot\{name} {sign} 0$"
             axes.text(*place, words, transform=top, ha="center", va="top", color=color)
         for time in marks.values():
             axes.axvline(time, color=GREY, lw=0.9, ls=":")
         for time in quarters.values():
             axes.axvline(time, color=GOLD, lw=0.9, ls="--")
-    upper, all_marks = figure.axes[0].secondary_xaxis("top"), marks | quarters
+    upper = figure.axes[0].secondary_xaxis("top")
+    all_marks = marks | quarters
     upper.set_xticks(list(all_marks.values()), list(all_marks))
     for label in upper.get_xticklabels():  # t1 is close to T/4, and t2 to 3T/4
         words = label.get_text()

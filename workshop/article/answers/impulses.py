@@ -56,7 +56,8 @@ def plot_impulses(axes: Axes, motion: Motion) -> None:
 
 def draw_impulses() -> Figure:
     """Draw the torques of one fall with their impulses, and theta', which is their sum over Ix."""
-    figure, motion = new_figure(5.6), cusps()
+    figure = new_figure(5.6)
+    motion = cusps()
     upper, lower = rows(figure, 2)
     plot_impulses(upper, motion)
     half = motion.nutation_period / 2

@@ -51,7 +51,8 @@ class Ledger:
     @classmethod
     def of(cls, top: Top, state: State) -> "Ledger":
         """Return the energies of a state."""
-        theta, rates = state.euler_angles.theta, state.euler_rates
+        theta = state.euler_angles.theta
+        rates = state.euler_rates
         return cls(
             spin=MILLI * float(top.axial_momentum(state)) ** 2 / (2 * top.Iz),
             weight=MILLI * top.Mgl * float(np.cos(theta)),
@@ -114,7 +115,9 @@ PRINTED: dict[Hold, tuple[str, str, str, str]] = {
 def precession_lifts(top: Top, hold: Hold) -> Measured:
     """Check how much of what lifts the hurried top comes from the push."""
     found = hurry_ledger(top, HURRIED["slow_root"], hold)
-    lift, push, spin = found.far.weight, found.kick.rest, abs(found.kick.spin)
+    lift = found.far.weight
+    push = found.kick.rest
+    spin = abs(found.kick.spin)
     words = f"{lift:.2f}", f"{push:.2f}", f"{-found.far.precession:.2f}", f"{spin:.1f}"
     printed = PRINTED[hold]
     holds = words == printed and found.missed < CLOSED
@@ -125,7 +128,8 @@ def precession_lifts(top: Top, hold: Hold) -> Measured:
 def hold_decides(_: Top) -> Measured:
     """Check the disc at its fast root: the axis rises with psi' held, and falls with p_psi held."""
     before = replace(HURRIED["disc"], root=1).begin()
-    disc, rate = before.top, before.start.euler_rates.phi
+    disc = before.top
+    rate = before.start.euler_rates.phi
     words, heights = [], []
     for hold in HOLDS:
         after = hurry(before.start, FACTOR, hold)

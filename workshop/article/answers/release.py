@@ -54,7 +54,8 @@ def spin_has_three_cases(top: Top) -> Measured:
         turn = (1 - np.sin(theta)) / np.cos(theta)  # cos(theta) where psi' is least
         low = np.cos(states.euler_angles.theta)
         # the steps whose ends are both above the tilt, and both below it
-        above, below = low[1:] > turn, low[:-1] < turn
+        above = low[1:] > turn
+        below = low[:-1] < turn
         found = "falls" if not below.any() else "falls, then rises" if above.any() else "rises"
         agrees.append(found == case and (slopes[above] < 0).all() and (slopes[below] > 0).all())
         words.append(f"theta_0 = {theta:g} rad, psi' = {spin:g} rad/s: {case}")
@@ -80,11 +81,13 @@ def regular_precession_needs_spin(top: Top) -> Measured:
 
 def integrate_torque(motion: Motion, times: Real) -> State:
     """Return the states (n,) of dL/dt = torque and dq/dt = q omega/2, by SciPy's DOP853."""
-    top, moments = motion.top, np.array([motion.top.Ix, motion.top.Ix, motion.top.Iz])
+    top = motion.top
+    moments = np.array([motion.top.Ix, motion.top.Ix, motion.top.Iz])
 
     def rates(_: float, y: Real) -> Real:
         turned = State(y[:4], np.zeros(3))
-        q, omega = y[:4], turned.to_body(y[4:]) / moments
+        q = y[:4]
+        omega = turned.to_body(y[4:]) / moments
         turning = [-q[1:] @ omega, *(q[0] * omega + np.cross(q[1:], omega))]
         return np.array([*(0.5 * np.array(turning)), *top.gravity_torque(turned)])
 
@@ -98,8 +101,10 @@ def integrate_torque(motion: Motion, times: Real) -> State:
 @claim()
 def torque_suffices(top: Top) -> Measured:
     """Check that torque = dL/dt alone, integrated, gives the motion and keeps the constants."""
-    times, motion = np.linspace(0.0, SPAN, 21), cusps(top)
-    found, exact = integrate_torque(motion, times), motion.at(times)
+    times = np.linspace(0.0, SPAN, 21)
+    motion = cusps(top)
+    found = integrate_torque(motion, times)
+    exact = motion.at(times)
     axes = [np.asarray(states.to_world([0.0, 0.0, 1.0])) for states in (found, exact)]
     off = float(np.linalg.norm(axes[0] - axes[1], axis=1).max())
     momenta = top.angular_momentum(found)
@@ -117,7 +122,8 @@ def draw_release() -> Figure:
         _draw_chain(axes, Motion(TOP, start(0.0, spin)))
         words = "turns" if spin else "grows along the nodes"
         axes.set_title(f"{spin:g} rad/s: $L$ {words}")
-    axes, times = lower.subplots(), np.linspace(0.0, 0.6, 1201)
+    axes = lower.subplots()
+    times = np.linspace(0.0, 0.6, 1201)
     shades = (INK, RED, GOLD, GREY, BLUE, INK)
     for spin, color, dash in zip(SPINS, shades, ("-", "--", "-.", "--", "-", ":"), strict=True):
         theta = Motion(TOP, start(0.0, spin)).at(times).euler_angles.theta

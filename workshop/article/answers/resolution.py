@@ -28,8 +28,10 @@ def resolve(motion: Motion, span: float, count: int, symmetric: bool = False) ->
 
     In a symmetric step half of the impulse comes before the free motion, and half after it.
     """
-    top, states = motion.top, [motion.start]
-    free, step = Top(top.Ix, top.Iz, 0.0), span / count
+    top = motion.top
+    states = [motion.start]
+    free = Top(top.Ix, top.Iz, 0.0)
+    step = span / count
     for _ in range(count):
         state = _push(top, states[-1], step / 2 if symmetric else step)
         state = Motion(free, state).at(step)

@@ -68,7 +68,8 @@ def six_rates_have_kinds(top: Top) -> Measured:
     words, agrees = [], []
     for rate in RATES:
         motion = Motion(top, start(rate.phi_dot))
-        near, far = rate.phi_dot, float(motion.at(motion.nutation_period / 2).euler_rates.phi)
+        near = rate.phi_dot
+        far = float(motion.at(motion.nutation_period / 2).euler_rates.phi)
         expected = "regular" if rate.direction == "stays" else "unidirectional"
         is_regular = abs(far - near) < SAME_RATE
         agrees.append(motion.kind == expected and is_regular == (expected == "regular"))
@@ -114,7 +115,8 @@ def constants_decide(top: Top) -> Measured:
 def parabola_opens_downward(top: Top, name: str, theta: float, disc: Top | None = None) -> Measured:
     """Check the sign rule of the roots, and rising and falling, for (Ix - Iz) cos(theta) < 0."""
     top = disc or top
-    a, b = (top.Ix - top.Iz) * float(np.cos(theta)), top.Iz * PSI_DOT
+    a = (top.Ix - top.Iz) * float(np.cos(theta))
+    b = top.Iz * PSI_DOT
     low, high = sorted(regular_precession_rates(top, theta, PSI_DOT))
     rates = [low - 5.0, (low + high) / 2, high + 5.0]
     starts = [State.from_euler(theta=theta, phi_dot=rate, psi_dot=PSI_DOT) for rate in rates]
@@ -128,7 +130,8 @@ def parabola_opens_downward(top: Top, name: str, theta: float, disc: Top | None 
 
 def loops(top: Top, theta: Any, phi_dot: Any, psi_dot: Any) -> Any:
     """Return True where a start with theta' = 0 leads to loops: phi' reverses."""
-    sine2, u = np.sin(theta) ** 2, np.cos(theta)
+    sine2 = np.sin(theta) ** 2
+    u = np.cos(theta)
     p_psi = top.Iz * (psi_dot + phi_dot * u)
     p_phi = top.Ix * phi_dot * sine2 + p_psi * u
     # Both sides times p_psi^2, so that no spin is no exception
@@ -138,7 +141,9 @@ def loops(top: Top, theta: Any, phi_dot: Any, psi_dot: Any) -> Any:
 
 def find_boundaries(top: Top) -> tuple[float, float, float]:
     """Return phi' in rad/s at the second cusp, through the upper pole and through the lower one."""
-    u, Ix, Iz = np.cos(THETA), top.Ix, top.Iz
+    u = np.cos(THETA)
+    Ix = top.Ix
+    Iz = top.Iz
     # phi' p_psi = 2 Mgl with p_psi = Iz (psi' + phi' u); the root that a fast top has
     cusp = max(np.roots([Iz * u, Iz * PSI_DOT, -TWICE * top.Mgl]).real, key=lambda x: x * top.Mgl)
     upper = Iz * PSI_DOT / (Ix * (1 + u) - Iz * u)
@@ -168,7 +173,11 @@ def start_decides(top: Top) -> Measured:
 @claim()
 def random_starts_decide(top: Top) -> Measured:
     """Check the rule for random tops and starts, by the kind of the motion."""
-    random, good, looping, decided, cusped = np.random.default_rng(SEED), 0, 0, 0, 0
+    random = np.random.default_rng(SEED)
+    good = 0
+    looping = 0
+    decided = 0
+    cusped = 0
     for k in range(TRIED):
         drawn = draw_top(random, top)
         each = drawn if k else top
@@ -193,7 +202,8 @@ def random_starts_decide(top: Top) -> Measured:
 
 def has_second_cusp(top: Top, theta: float, phi_dot: float) -> bool:
     """Return True if phi' = 2 Mgl/p_psi leads to a cusp: |p_phi| < |p_psi|."""
-    p_psi, sign = TWICE * top.Mgl / phi_dot, np.sign(top.Mgl)
+    p_psi = TWICE * top.Mgl / phi_dot
+    sign = np.sign(top.Mgl)
     return bool(p_psi**2 > 2 * top.Ix * abs(top.Mgl) * (1 + sign * np.cos(theta)))
 
 
@@ -210,7 +220,8 @@ def second_cusp_is_twice_as_fast(top: Top) -> Measured:
     motion = Motion(top, start(rate))
     p_psi = float(top.axial_momentum(motion.start))
     far = motion.at(motion.nutation_period / 2)
-    stopped, ratio = abs(float(far.euler_rates.phi)), rate * p_psi / top.Mgl
+    stopped = abs(float(far.euler_rates.phi))
+    ratio = rate * p_psi / top.Mgl
     angle = float(far.euler_angles.theta)
     holds = f"{angle:.4f}" == "0.3844" and abs(ratio - 2) < ROUNDED and stopped < ROUNDED * FAST
     return Measured(
@@ -220,7 +231,9 @@ def second_cusp_is_twice_as_fast(top: Top) -> Measured:
 
 def find_curves(top: Top, phi_dot: Real) -> dict[str, list[Real]]:
     """Return psi' of the boundaries over phi' (n,) at the article's tilt, by their names."""
-    u, Ix, Iz = np.cos(THETA), top.Ix, top.Iz
+    u = np.cos(THETA)
+    Ix = top.Ix
+    Iz = top.Iz
     turned = phi_dot * u
     p_psi = TWICE * top.Mgl / phi_dot
     # Where phi' would vanish beyond the vertical there is no cusp

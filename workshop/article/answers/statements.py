@@ -38,7 +38,8 @@ def line_of_nodes_is_principal(top: Top) -> Measured:
     rate = _fastest_fall(top)
     tilting = State.from_euler(theta=THETA, theta_dot=rate)
     turning = State.from_euler(theta=THETA, phi_dot=rate)
-    L, omega = top.angular_momentum(tilting), tilting.to_world(tilting.angular_velocity)
+    L = top.angular_momentum(tilting)
+    omega = tilting.to_world(tilting.angular_velocity)
     off = float(np.abs(L - top.Ix * omega).max() / (top.Ix * rate))
     across = top.angular_momentum(turning)
     angle = float(np.arctan2(np.linalg.norm(across[:2]), across[2]))
@@ -106,7 +107,8 @@ def _change_momentum(top: Top, states: State, changes: Real) -> Real:
     pp, tt, qq = changes.T
     s, c, sine, cosine = np.sin(theta), np.cos(theta), np.sin(psi), np.cos(psi)
     # omega_x = a sin(psi) + theta' cos(psi), omega_y = a cos(psi) - theta' sin(psi)
-    a, da = phi_dot * s, pp * s + phi_dot * theta_dot * c
+    a = phi_dot * s
+    da = pp * s + phi_dot * theta_dot * c
     alpha = np.stack(
         [
             da * sine + tt * cosine + psi_dot * (a * cosine - theta_dot * sine),
@@ -122,10 +124,12 @@ def _change_momentum(top: Top, states: State, changes: Real) -> Real:
 def axis_moves_too(top: Top) -> Measured:
     """Check that L_z is constant because Ix = Iy, and not for the torque alone."""
     states = cusps(top).at(np.linspace(0.0, 0.5, 501))
-    torque, z = top.gravity_torque(states), states.to_world([0.0, 0.0, 1.0])
+    torque = top.gravity_torque(states)
+    z = states.to_world([0.0, 0.0, 1.0])
     along = float(np.abs((torque * z).sum(axis=1)).max() / np.abs(torque).max())
     turning = np.cross(states.angular_velocity, [0.0, 0.0, 1.0])
-    body, other = np.array([top.Ix, top.Ix, top.Iz]), np.array([top.Ix, ACROSS_Y, top.Iz])
+    body = np.array([top.Ix, top.Ix, top.Iz])
+    other = np.array([top.Ix, ACROSS_Y, top.Iz])
     rates = [
         float(np.abs((moments * states.angular_velocity * turning).sum(axis=1)).max())
         for moments in (body, other)
@@ -172,7 +176,8 @@ def masses_feel_the_euler_force(top: Top) -> Measured:
     """Check that in the body frame gravity, centrifugal and Euler force are in balance."""
     motion = cusps(top)
     times = np.linspace(0.0, motion.nutation_period, 41)
-    states, moments = motion.at(times), np.array([top.Ix, top.Ix, top.Iz])
+    states = motion.at(times)
+    moments = np.array([top.Ix, top.Ix, top.Iz])
     change = slope(lambda t: motion.at(t).angular_velocity, times)
     gravity = states.to_body(top.gravity_torque(states))
     centrifugal = -np.cross(states.angular_velocity, moments * states.angular_velocity)

@@ -30,7 +30,8 @@ def compile_quaternion(task: Motion) -> tuple[Rates, Equations]:
 
     # CyRK compiles this function. A subset of Python, it cannot call `body_rates`.
     def rates(slopes: Any, _t: float, y: Any, _arguments: Any) -> None:
-        gx, gy = 2 * (y[1] * y[3] - y[0] * y[2]), 2 * (y[2] * y[3] + y[0] * y[1])
+        gx = 2 * (y[1] * y[3] - y[0] * y[2])
+        gy = 2 * (y[2] * y[3] + y[0] * y[1])
         slopes[0] = (-y[1] * y[4] - y[2] * y[5] - y[3] * y[6]) / 2
         slopes[1] = (y[0] * y[4] + y[2] * y[6] - y[3] * y[5]) / 2
         slopes[2] = (y[0] * y[5] - y[1] * y[6] + y[3] * y[4]) / 2
@@ -62,14 +63,16 @@ def prepare(
 ) -> Solution:
     """Compile; each solution starts anew."""
     rates, equations = form(task)
-    address, start = nb_diffeq_addr(rates), np.array(equations.start)
+    address = nb_diffeq_addr(rates)
+    start = np.array(equations.start)
 
     def run(t: float) -> tuple[Real, Real]:
         """Return the times (n,) and the variables (n, k) of all steps."""
         found = nbsolve2_ivp(
             address, (0.0, t), start, method=METHOD, rtol=tolerance, atol=tolerance
         )
-        times, states = np.array(found.t), np.array(found.y).T
+        times = np.array(found.t)
+        states = np.array(found.y).T
         found.free()  # the result is not freed with its Python object
         return times, states
 

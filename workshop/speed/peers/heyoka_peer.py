@@ -70,7 +70,8 @@ def integrator(equations: Equations, tolerance: float) -> Any:
 def prepare(make: Callable[[Motion], Equations], task: Motion, tolerance: float) -> Solution:
     """Compile; each solution starts anew."""
     equations = make(task)
-    taylor, start = integrator(equations, tolerance), np.array(equations.start)
+    taylor = integrator(equations, tolerance)
+    start = np.array(equations.start)
 
     def reach(t: float) -> Real:
         taylor.time = 0.0
@@ -110,7 +111,8 @@ def prepare_batches(tolerance: float) -> Callable[[Any, float], Real]:
 
     def compute(motions: Any, t: float) -> Real:
         top, start = motions.top, motions.start
-        angles, wz = start.euler_angles, start.angular_velocity[:, 2]
+        angles = start.euler_angles
+        wz = start.angular_velocity[:, 2]
         pars = [
             *(top.Mgl / top.Ix, top.angular_momentum(start)[:, 2] / top.Ix),
             *(top.Iz * wz / top.Ix, wz),
@@ -120,7 +122,8 @@ def prepare_batches(tolerance: float) -> Callable[[Any, float], Real]:
         for first in range(0, len(wz), size):
             places = np.arange(first, first + size) % len(wz)
             taylor.set_time(0.0)
-            taylor.state[:], taylor.pars[:] = variables[:, places], np.array(pars)[:, places]
+            taylor.state[:] = variables[:, places]
+            taylor.pars[:] = np.array(pars)[:, places]
             taylor.propagate_until(t)
             found[:, places] = taylor.state[:3]
         return from_euler_angles(found.T)

@@ -81,7 +81,8 @@ class Solution(NamedTuple):
 
         def record(t: float) -> tuple[Real, Real]:
             begin()
-            orientations, steps = [], count_steps(t, step)
+            orientations = []
+            steps = count_steps(t, step)
             stride = max(1, steps // RECORDED)
             for _ in range(steps // stride):
                 advance(stride)
@@ -167,7 +168,8 @@ def body_rates(task: Motion, t: float, y: Any) -> list[Any]:
     Ix, Iz, Mgl = task.top.moments
     axial, transverse = task.friction.axial, task.friction.transverse
     w, x, y_, z, wx, wy, wz = y.tolist() if hasattr(y, "tolist") else y
-    gx, gy = 2 * (x * z - w * y_), 2 * (y_ * z + w * x)
+    gx = 2 * (x * z - w * y_)
+    gy = 2 * (y_ * z + w * x)
     torque = task.applied_torque
     tx, ty, tz = _to_body(torque, w, x, y_, z) if any(torque) else torque
     return [

@@ -26,7 +26,8 @@ def prepare(task: Motion, step: float) -> Solution:
 
         Each slope is carried back to the start of the step by the series of dexp^-1.
         """
-        u1, a1 = v * step, acceleration(q, v) * step
+        u1 = v * step
+        a1 = acceleration(q, v) * step
         u2, a2 = _slope(q, v, u1 / 2, a1 / 2)
         u3, a3 = _slope(q, v, u2 / 2, a2 / 2)
         u4, a4 = _slope(q, v, u3, a3)
@@ -34,14 +35,16 @@ def prepare(task: Motion, step: float) -> Solution:
         return pinocchio.integrate(model, q, turn), v + (a1 + 2 * a2 + 2 * a3 + a4) / 6
 
     def _slope(q: Real, v: Real, u: Real, a: Real) -> tuple[Real, Real]:
-        turned, faster = pinocchio.integrate(model, q, u), v + a
+        turned = pinocchio.integrate(model, q, u)
+        faster = v + a
         w = faster * step
         bent = w + np.cross(u, w) / 2 + np.cross(u, np.cross(u, w)) / 12
         return bent, acceleration(turned, faster) * step
 
     def begin() -> None:
         nonlocal place, rate
-        place, rate = np.array([x, y, z, w]), np.array(omega)
+        place = np.array([x, y, z, w])
+        rate = np.array(omega)
 
     def advance(steps: int) -> None:
         nonlocal place, rate

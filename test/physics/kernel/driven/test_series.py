@@ -121,7 +121,8 @@ def test_a_state_is_the_same_bit_for_bit_among_any_number_of_others(count):
 # other one is dropped twice in 45 s, and four times in 75 s.
 @pytest.mark.parametrize("end", choose((75.0, -45.0, -75.0), (75.0, -45.0)))
 def test_one_can_come_back_from_anywhere(end):
-    motion, early = Motion(ARTICLE, CUSPS, FRICTION), 0.321 if end > 0 else -0.321
+    motion = Motion(ARTICLE, CUSPS, FRICTION)
+    early = 0.321 if end > 0 else -0.321
     first, far = motion.at(early), motion.at(end)
     assert motion.at(early) == first
     assert motion.at(end) == far == Motion(ARTICLE, CUSPS, FRICTION).at(end)

@@ -70,7 +70,8 @@ def list_regular_starts(seed):
     rng = Numbers(seed)
     for _ in range(150):
         top = Top(ARTICLE.Ix, ARTICLE.Ix * rng.uniform(0.05, 1.9), rng.choice((0.068, -0.068)))
-        theta, spin = PI / 2 + rng.uniform(-0.05, 0.05), rng.uniform(-400, 400)
+        theta = PI / 2 + rng.uniform(-0.05, 0.05)
+        spin = rng.uniform(-400, 400)
         for root, phi_dot in enumerate(regular_precession_rates(top, theta, spin)):
             angles = {"theta": theta, "phi": rng.uniform(-3, 3), "psi": rng.uniform(-3, 3)}
             yield root, top, State.from_euler(**angles, phi_dot=phi_dot, psi_dot=spin)
