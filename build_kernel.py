@@ -26,8 +26,17 @@ SOURCE = "symtop.cpp"
 # No fused products and sums, so that states have the same bits on every machine
 # (design/fused_products.py). -fno-fast-math stands behind all that CXXFLAGS may say.
 OPTIONS = (
-    *("-O2", "-std=c++17", "-fno-fast-math", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti"),
-    *("-fPIC", "-shared", "-fvisibility=hidden", "-Wno-psabi", "-DSYMTOP_SHARED"),
+    "-O2",
+    "-std=c++17",
+    "-fno-fast-math",
+    "-ffp-contract=off",
+    "-fno-exceptions",
+    "-fno-rtti",
+    "-fPIC",
+    "-shared",
+    "-fvisibility=hidden",
+    "-Wno-psabi",
+    "-DSYMTOP_SHARED",
 )
 ZIG = "ziglang==0.15.2"  # pinned: another Zig is another compiler
 TRIAL = "#include <mutex>\nint main() {}\n"

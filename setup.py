@@ -71,7 +71,9 @@ PEERS = [
     "pin>=3.4",
     "exudyn>=1.13",
     "diffrax>=0.7",
-    *("ahrs>=0.4", "vqf>=2", "imufusion>=1.3"),  # attitude filters
+    "ahrs>=0.4",
+    "vqf>=2",
+    "imufusion>=1.3",  # attitude filters
     "usd-core>=26",  # validates the stages of the top
     "distributed>=2024.8",  # a local cluster of Dask computes a map
 ]
@@ -103,7 +105,9 @@ LINT = [
     "scipy-stubs>=1.14",  # types for SciPy
     "codespell>=2.2",
     # a test builds the package in a workspace, as with --packages-select and setup.bash
-    *("colcon-ros>=0.5", "colcon-package-selection>=0.2", "colcon-bash>=0.5"),
+    "colcon-ros>=0.5",
+    "colcon-package-selection>=0.2",
+    "colcon-bash>=0.5",
 ]
 
 # `colcon build --symlink-install` runs this file by a link: the other one is beside the real one.
@@ -175,7 +179,9 @@ setup(
             "wording/*.json",
         ],
         f"{NAME}.testset": [
-            *("*.md", "*.xz", "LICENSE"),
+            "*.md",
+            "*.xz",
+            "LICENSE",
         ],
     },
     data_files=[

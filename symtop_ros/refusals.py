@@ -9,13 +9,16 @@ import re
 from array import array
 from collections.abc import Callable, Collection, Mapping, Sequence, Sized
 from numbers import Real
-from typing import Any
+from typing import Any, TypeVar
 
 MAX_SHOWN = 60  # characters of a value in a message
 MAX_SENTENCE = 400  # characters of a text from another program or a file
 # YAML 1.1 takes 2e-06, without a point, as text, in scene files and in `ros2 service call`. It is
 # accepted as a number.
 NUMBER = re.compile(r"[-+]?\d+[eE][-+]?\d+")
+
+
+Word = TypeVar("Word", bound=str)  # one of some words, as a type: Literal["slow", "fast"]
 
 
 class RefusedError(ValueError):
@@ -143,11 +146,12 @@ def vector(name: str, value: Any, size: int, limit: float, unit: str) -> tuple[f
         raise refuse(name, condition, list(parts)) from None
 
 
-def choice(name: str, value: object, options: tuple[str, ...]) -> str:
+def choice(name: str, value: object, options: tuple[Word, ...]) -> Word:
     """Return one of some words."""
-    if not isinstance(value, str) or value not in options:
-        raise refuse(name, " or ".join(f'"{option}"' for option in options), value)
-    return value
+    for option in options:
+        if isinstance(value, str) and value == option:
+            return option
+    raise refuse(name, " or ".join(f'"{option}"' for option in options), value)
 
 
 def flag(name: str, value: object) -> bool:

@@ -27,9 +27,27 @@ for variable, folder in PLACES.items():
 # Packages that package.xml does not declare: for most of them rosdep has no key. `colcon test`
 # skips the tests that need them. Any other module that is missing is an error.
 UNDECLARED = (
-    *("PIL", "ahrs", "axe_playwright_python", "distributed", "docutils", "flint", "gmpy2", "lz4"),
-    *("matplotlib", "mcap", "mpmath", "mujoco", "pinocchio", "playwright", "pyarrow", "rerun"),
-    *("psutil", "rerun_cli", "rosbags", "tqdm", "zstandard"),
+    "PIL",
+    "ahrs",
+    "axe_playwright_python",
+    "distributed",
+    "docutils",
+    "flint",
+    "gmpy2",
+    "lz4",
+    "matplotlib",
+    "mcap",
+    "mpmath",
+    "mujoco",
+    "pinocchio",
+    "playwright",
+    "pyarrow",
+    "rerun",
+    "psutil",
+    "rerun_cli",
+    "rosbags",
+    "tqdm",
+    "zstandard",
 )
 MISSING = re.compile(r"ModuleNotFoundError: No module named '(\w+)")
 

@@ -37,9 +37,14 @@ JUDGE = ("test/judge", "test/imu", "test/check")
 # that take long compare bits, or have no input of these libraries (`make test-elsewhere` runs all).
 NUMBERS = ("test/physics", "test/simulation", "test/check")
 NOT_TWICE = (
-    *("test/physics/kernel", "test/physics/reference", "test/physics/test_jacobian.py"),
-    *("test/physics/test_exact_motions.py", "test/physics/test_interrupts.py"),
-    *("test/simulation/test_run_file.py", "test/check/test_run.py", "test/check/test_storm.py"),
+    "test/physics/kernel",
+    "test/physics/reference",
+    "test/physics/test_jacobian.py",
+    "test/physics/test_exact_motions.py",
+    "test/physics/test_interrupts.py",
+    "test/simulation/test_run_file.py",
+    "test/check/test_run.py",
+    "test/check/test_storm.py",
 )
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
 PAGE = ("test/panel", "test/web")

@@ -8,8 +8,27 @@ from hypothesis import strategies as st
 CONTROL = "\x1b[31m\r\n\t\u2028\u202e"
 NUMBERS = st.sampled_from(
     [
-        *(0.0, -0.0, math.nan, math.inf, -math.inf, 5e-324, 1e-308, 1e-160, 1e-30, 1e-12),
-        *(0.5, 1.0, -1.0, math.pi, math.nextafter(math.pi, 4), 1e3, 1e9, -1e9, 1e30, -1e30, 1e308),
+        0.0,
+        -0.0,
+        math.nan,
+        math.inf,
+        -math.inf,
+        5e-324,
+        1e-308,
+        1e-160,
+        1e-30,
+        1e-12,
+        0.5,
+        1.0,
+        -1.0,
+        math.pi,
+        math.nextafter(math.pi, 4),
+        1e3,
+        1e9,
+        -1e9,
+        1e30,
+        -1e30,
+        1e308,
     ]
 )
 ANY_NUMBER = NUMBERS | st.floats() | st.integers(-(2**63), 2**63 - 1)

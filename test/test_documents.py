@@ -39,8 +39,13 @@ WITH_PYTHON = [page for page in PAGES if blocks(page, "python")]
 PARSED = ("top_panel", "top_live")  # their options are; tests of their own run them
 # These need a network, a shell, or a ROS 2 with security.
 NOT_RUN = (
-    *(["git", "clone"], ["cd"], ["ros2", "security"], ["export"]),
-    *(["python3", "-m", "venv"], ["~/symtop_venv/bin/pip"], ["source"]),
+    ["git", "clone"],
+    ["cd"],
+    ["ros2", "security"],
+    ["export"],
+    ["python3", "-m", "venv"],
+    ["~/symtop_venv/bin/pip"],
+    ["source"],
 )
 # test_lesson.py runs the commands of the lesson, one step after the other, and
 # node/test_simulator.py those with messages that must be built first.

@@ -56,9 +56,13 @@ def let_go():
     period = motion.nutation_period
     fastest = motion.at(period / 2).euler_rates.phi
     return [
-        *(f"{1e3 * (fell - THETA):.3f}", f"{1e3 * first:.4f}"),
-        *(f"{1e3 * (lower - THETA):.1f}", f"{1e3 * later:.1f}"),
-        *(f"{period:.2f}", f"{10 * period:.1f}", f"{fastest:.1f}"),
+        f"{1e3 * (fell - THETA):.3f}",
+        f"{1e3 * first:.4f}",
+        f"{1e3 * (lower - THETA):.1f}",
+        f"{1e3 * later:.1f}",
+        f"{period:.2f}",
+        f"{10 * period:.1f}",
+        f"{fastest:.1f}",
     ]
 
 
@@ -67,8 +71,10 @@ def depths():
     lowest = start(0.0).turning_angles[1]
     slow, fast = (start(0.0, spin).turning_angles for spin in (150.0, 300.0))
     return [
-        *(f"{p_psi:.5f}", f"{p_psi**2 / (2 * TOP.Ix * TOP.Mgl):.2f}"),
-        *(f"{np.cos(lowest):.3f}", f"{lowest:.3f}"),
+        f"{p_psi:.5f}",
+        f"{p_psi**2 / (2 * TOP.Ix * TOP.Mgl):.2f}",
+        f"{np.cos(lowest):.3f}",
+        f"{lowest:.3f}",
         *(f"{angle:.2f}" for angle in (*slow, *fast)),
         f"{lowest:.4f}",
     ]
@@ -80,10 +86,18 @@ def slow_root():
     turned = np.cross(SLOW_STATE.to_world(SLOW_STATE.angular_velocity), L)[0]
     turn = 2 * np.pi / SLOW
     return [
-        *(f"{SLOW:.2f}", f"{turn:.2f}", f"{10 * turn:.1f}", f"{size:.4f}", f"{lean:.2f}"),
-        *(f"{flat:.5f}", f"{torque:.4f}", f"{torque / flat:.2f}"),
+        f"{SLOW:.2f}",
+        f"{turn:.2f}",
+        f"{10 * turn:.1f}",
+        f"{size:.4f}",
+        f"{lean:.2f}",
+        f"{flat:.5f}",
+        f"{torque:.4f}",
+        f"{torque / flat:.2f}",
         f"{TOP.Mgl / (TOP.Iz * SPIN):.2f}",
-        *(f"{torque - turned:+.3f}", f"{turned:+.3f}", f"{torque:+.3f}"),
+        f"{torque - turned:+.3f}",
+        f"{turned:+.3f}",
+        f"{torque:+.3f}",
     ]
 
 
@@ -93,10 +107,20 @@ def fast_root():
     body = Body.of(TOP)
     friction = np.sin(THETA) * FAST**2 / body.gravity  # that a peg needs, for an arm of 1 m
     return [
-        *(f"{torque:.4f}", f"{FAST:.1f}", f"{2 * np.pi / FAST:.3f}", f"{size:.4f}"),
-        *(f"{momentum(SLOW_STATE)[0]:.4f}", f"{lean:.2f}", f"{flat:.6f}", f"{torque / flat:.1f}"),
-        *(f"{1e3 * SHORT_ARM:.1f}", f"{SHORT_ARM * friction:.2f}", f"{1e3 / friction:.1f}"),
-        *(f"{1e3 * body.arm:.1f}", f"{body.arm * friction:.1f}", f"{body.mass:.3f}"),
+        f"{torque:.4f}",
+        f"{FAST:.1f}",
+        f"{2 * np.pi / FAST:.3f}",
+        f"{size:.4f}",
+        f"{momentum(SLOW_STATE)[0]:.4f}",
+        f"{lean:.2f}",
+        f"{flat:.6f}",
+        f"{torque / flat:.1f}",
+        f"{1e3 * SHORT_ARM:.1f}",
+        f"{SHORT_ARM * friction:.2f}",
+        f"{1e3 / friction:.1f}",
+        f"{1e3 * body.arm:.1f}",
+        f"{body.arm * friction:.1f}",
+        f"{body.mass:.3f}",
     ]
 
 
@@ -108,8 +132,13 @@ def three_pushes():
     highest = start(PUSH).turning_angles[0]
     p_psi = TOP.Iz * (SPIN + PUSH * np.cos(THETA))
     return [
-        *(f"{PUSH:.3f}", f"{at_top(9.0):.2f}", f"{highest:.3f}", f"{at_top(20.0):.1f}"),
-        *(f"{p_psi:.4f}", f"{np.cos(highest):.3f}", f"{at_top(11.325):.4f}"),
+        f"{PUSH:.3f}",
+        f"{at_top(9.0):.2f}",
+        f"{highest:.3f}",
+        f"{at_top(20.0):.1f}",
+        f"{p_psi:.4f}",
+        f"{np.cos(highest):.3f}",
+        f"{at_top(11.325):.4f}",
     ]
 
 
@@ -137,7 +166,8 @@ def hurry_on():
     heights = (hurried(SLOW_STATE, hold)[0] for hold in ("spin_rate", "spin_momentum"))
     energies = (found.far.weight, found.kick.rest, -found.far.precession)
     return [
-        *(f"{FACTOR:.1f}", f"{found.kick.spin:.1f}"),
+        f"{FACTOR:.1f}",
+        f"{found.kick.spin:.1f}",
         *(f"{height:.3f}" for height in heights),
         *(f"{energy:.2f}" for energy in energies),
     ]
@@ -170,7 +200,8 @@ def one_fall():
     gravity, coriolis, centrifugal = torques_at(motion, [half])[:, 0]
     return [
         *(f"{1e3 * each:+.3f}" for each in (*moved, moved.total, *taken)),
-        *(f"{1e3 * fastest:.1f}", f"{moved.total / TOP.Ix:.2f}"),
+        f"{1e3 * fastest:.1f}",
+        f"{moved.total / TOP.Ix:.2f}",
         *(f"{each:.3f}" for each in (gravity, coriolis, -coriolis, centrifugal)),
     ]
 

@@ -17,9 +17,20 @@ from symtop_ros import __version__
 
 pytestmark = pytest.mark.untraced
 PARTS = (
-    *("symtop_ros", "config", "launch", "resource", "setup.py", "setup.cfg", "package.xml"),
+    "symtop_ros",
+    "config",
+    "launch",
+    "resource",
+    "setup.py",
+    "setup.cfg",
+    "package.xml",
     "build_kernel.py",
-    *("pyproject.toml", "MANIFEST.in", "LICENSE", "README.md", "CITATION.cff", "CHANGELOG.rst"),
+    "pyproject.toml",
+    "MANIFEST.in",
+    "LICENSE",
+    "README.md",
+    "CITATION.cff",
+    "CHANGELOG.rst",
 )
 PROGRAMS = ("node", "ctl", "replay", "live", "panel", "model", "imu", "judge")
 OLDEST_PYTHON = 11  # 3.11

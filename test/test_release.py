@@ -16,9 +16,20 @@ NAMES = ("numpy", "scipy", "yaml", "pytest", "coverage", "hypothesis", "setuptoo
 KEYS = {f"python3-{name}" for name in NAMES}
 # Packages of ROS 2 itself, in all its distributions from Jazzy on.
 ROS = {
-    *("builtin_interfaces", "diagnostic_msgs", "geometry_msgs", "launch", "launch_ros", "nav_msgs"),
-    *("rcl_interfaces", "rclpy", "rosgraph_msgs", "sensor_msgs", "std_msgs", "std_srvs"),
-    *("tf2_msgs", "visualization_msgs"),
+    "builtin_interfaces",
+    "diagnostic_msgs",
+    "geometry_msgs",
+    "launch",
+    "launch_ros",
+    "nav_msgs",
+    "rcl_interfaces",
+    "rclpy",
+    "rosgraph_msgs",
+    "sensor_msgs",
+    "std_msgs",
+    "std_srvs",
+    "tf2_msgs",
+    "visualization_msgs",
 }
 LINK = re.compile(r"`[^`]*<([^>:]+)>`__")
 HEAD = "^" * 32

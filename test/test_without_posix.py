@@ -35,11 +35,14 @@ for command in sys.argv[1:]:
 TRAJECTORY = "t,w,x,y,z\n" + "".join(f"{k / 2},1,0,0,0\n" for k in range(41))
 COMMANDS = (  # of one process each
     (
-        *("top_panel --write page.html", "top_model --format urdf -o top.urdf"),
+        "top_panel --write page.html",
+        "top_model --format urdf -o top.urdf",
         "top_imu --seconds 0.1 -o größe.csv",
     ),
     (
-        *("top_judge --help", "top_judge --testset", "top_judge --testset cusps trajectory.csv"),
+        "top_judge --help",
+        "top_judge --testset",
+        "top_judge --testset cusps trajectory.csv",
         "top_judge --scene cusps --estimates trajectory.csv",
     ),
     ("top_replay --check run.mcap", "top_replay run.mcap --repair größe.mcap"),

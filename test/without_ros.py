@@ -7,9 +7,20 @@ import sys
 from pathlib import Path
 
 BLOCKED = (
-    *("rclpy", "rcl_interfaces", "rosgraph_msgs", "rosidl_parser", "builtin_interfaces"),
-    *("std_msgs", "std_srvs", "geometry_msgs", "sensor_msgs", "diagnostic_msgs", "tf2_msgs"),
-    *("rerun", "rerun_cli", "rerun_sdk"),
+    "rclpy",
+    "rcl_interfaces",
+    "rosgraph_msgs",
+    "rosidl_parser",
+    "builtin_interfaces",
+    "std_msgs",
+    "std_srvs",
+    "geometry_msgs",
+    "sensor_msgs",
+    "diagnostic_msgs",
+    "tf2_msgs",
+    "rerun",
+    "rerun_cli",
+    "rerun_sdk",
 )
 # They compare with ROS itself.
 WITH_ROS = ("test_definitions.py", "test_bridge.py")

@@ -18,10 +18,17 @@ NAMES = ("chromium", "chromium-browser", "google-chrome")
 # process draws all pages, and functions of the kernel are compiled when they are called: a page is
 # opened with a fifth less work.
 OPTIONS = (
-    *("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
-    *("--ignore-gpu-blocklist", "--disable-dev-shm-usage", "--disable-gpu-rasterization"),
-    *("--disable-gpu-compositing", "--in-process-gpu", "--renderer-process-limit=1"),
-    *("--disable-site-isolation-trials", "--js-flags=--wasm-lazy-compilation"),
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+    "--disable-dev-shm-usage",
+    "--disable-gpu-rasterization",
+    "--disable-gpu-compositing",
+    "--in-process-gpu",
+    "--renderer-process-limit=1",
+    "--disable-site-isolation-trials",
+    "--js-flags=--wasm-lazy-compilation",
 )
 
 

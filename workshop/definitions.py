@@ -23,7 +23,13 @@ TF_MESSAGE = "tf2_msgs/msg/TFMessage"
 TF_TEXT = "geometry_msgs/TransformStamped[] transforms\n"
 FIELD = re.compile(r"^\s*([A-Za-z]\w*(?:/\w+)*)(?:<=\d+)?(?:\[[^\]]*\])?\s+\w+", re.MULTILINE)
 PRIMITIVES = {
-    *("bool", "byte", "char", "float32", "float64", "string", "wstring"),
+    "bool",
+    "byte",
+    "char",
+    "float32",
+    "float64",
+    "string",
+    "wstring",
     *(f"{sign}int{size}" for sign in ("", "u") for size in (8, 16, 32, 64)),
 }
 

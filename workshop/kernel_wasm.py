@@ -21,9 +21,18 @@ FUNCTIONS = re.findall(r"^SYMTOP_API .*?symtop_(\w+)\(", (SOURCES / "symtop.h").
 # Vectors of WebAssembly would make it no faster: 16.5 us and 70 ns against 16 us and 73 ns. With
 # -O2 it would be a sixth larger, and a tenth faster.
 OPTIONS = (
-    *("-target", "wasm32-wasi", "-mexec-model=reactor", "-Os", "-std=c++17"),
-    *("-ffp-contract=off", "-fno-exceptions", "-fno-rtti", "-Wno-psabi"),
-    *("-Wl,--strip-all", "-Wl,--export=malloc", "-Wl,--export=free"),
+    "-target",
+    "wasm32-wasi",
+    "-mexec-model=reactor",
+    "-Os",
+    "-std=c++17",
+    "-ffp-contract=off",
+    "-fno-exceptions",
+    "-fno-rtti",
+    "-Wno-psabi",
+    "-Wl,--strip-all",
+    "-Wl,--export=malloc",
+    "-Wl,--export=free",
     *(f"-Wl,--export=symtop_{name}" for name in FUNCTIONS),
 )
 

@@ -28,7 +28,11 @@ BUILT = PREFIX / "messages"
 CONVERTERS = {"msg": convert_msg_to_idl, "srv": convert_srv_to_idl, "action": convert_action_to_idl}
 # Packages whose types the interfaces use, and their libraries.
 USED = (
-    *("action_msgs", "builtin_interfaces", "geometry_msgs", "service_msgs", "std_msgs"),
+    "action_msgs",
+    "builtin_interfaces",
+    "geometry_msgs",
+    "service_msgs",
+    "std_msgs",
     "unique_identifier_msgs",
 )
 GENERATORS = (
@@ -139,12 +143,17 @@ def compile_library(folder: Path, target: Path, sources: list[Path], needed: lis
     shared = ["g++", "-shared", "-o", str(target), f"-Wl,-soname,{target.name}"]
     subprocess.run(
         [
-            *(*shared, *map(str, objects)),
+            *shared,
+            *map(str, objects),
             *(f"-L{each}" for each in places),
             *(f"-Wl,-rpath,{each}" for each in places),
             *(f"-l{each}" for each in (*needed, *installed, "rosidl_runtime_c", "rcutils")),
-            *("-lfastcdr", "-lrosidl_typesupport_fastrtps_c", "-lrosidl_typesupport_fastrtps_cpp"),
-            *("-lrosidl_typesupport_c", "-lrosidl_typesupport_introspection_c", "-lrmw"),
+            "-lfastcdr",
+            "-lrosidl_typesupport_fastrtps_c",
+            "-lrosidl_typesupport_fastrtps_cpp",
+            "-lrosidl_typesupport_c",
+            "-lrosidl_typesupport_introspection_c",
+            "-lrmw",
         ],
         check=True,
     )

@@ -29,8 +29,14 @@ PYTHON = "python"  # the stamp of the environment itself
 PACKAGE = "package"  # that of the package's build
 # What an installation copies or compiles; Python is read from the checkout.
 BUILT_OF = (
-    *("setup.py", "setup.cfg", "build_kernel.py", "package.xml"),
-    *("symtop_ros/__init__.py", "config/*.*", "launch/*.py", "resource/*"),
+    "setup.py",
+    "setup.cfg",
+    "build_kernel.py",
+    "package.xml",
+    "symtop_ros/__init__.py",
+    "config/*.*",
+    "launch/*.py",
+    "resource/*",
     *(f"symtop_ros/physics/kernel/**/*.{suffix}" for suffix in ("cpp", "hpp", "h")),
 )
 LIBRARY = "symtop_ros/physics/kernel/libsymtop.*"
@@ -103,10 +109,16 @@ SET_UPS = {
     "gpu": SetUp(
         "NVIDIA's compilers, to look at what they make, and MuJoCo Warp (1.5 GB, once)",
         packages=(
-            *("nvidia-cuda-nvrtc==13.0.88", "nvidia-cuda-nvcc==13.0.88"),
-            *("nvidia-cuda-cuobjdump==13.5.37", "nvidia-cuda-nvdisasm==13.5.37"),
-            *("nvidia-cuda-nvrtc-cu12==12.9.86", "nvidia-cuda-nvcc-cu12==12.9.86"),
-            *("mujoco-warp>=4", "numpy>=2", "pyyaml", "scipy"),
+            "nvidia-cuda-nvrtc==13.0.88",
+            "nvidia-cuda-nvcc==13.0.88",
+            "nvidia-cuda-cuobjdump==13.5.37",
+            "nvidia-cuda-nvdisasm==13.5.37",
+            "nvidia-cuda-nvrtc-cu12==12.9.86",
+            "nvidia-cuda-nvcc-cu12==12.9.86",
+            "mujoco-warp>=4",
+            "numpy>=2",
+            "pyyaml",
+            "scipy",
         ),
         place="gpu",
     ),

@@ -38,8 +38,16 @@ def build(source: Path, platform: str, folder: Path) -> Path:
     options = {"CXXFLAGS": "-s", **dict.fromkeys(("CPPFLAGS", "LDFLAGS"), "")}
     subprocess.run(
         [
-            *(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", folder),
-            *("--no-build-isolation", source),
+            sys.executable,
+            "-m",
+            "pip",
+            "wheel",
+            "--quiet",
+            "--no-deps",
+            "--wheel-dir",
+            folder,
+            "--no-build-isolation",
+            source,
         ],
         # What Python says of its machine: the name of the wheel, and of the library, follow it.
         env=os.environ | {"CXX": compiler, "_PYTHON_HOST_PLATFORM": platform} | options,

@@ -43,8 +43,14 @@ GROUPS = {name.partition(".")[0] for name in PARAMETERS if "." in name}
 MAX_COUNT = 1000  # parameters of a request; a file with all of them has a tenth
 MAX_UNUSED = 5  # unknown names that are named: a file for /** may have those of many nodes
 VALUE_FIELDS = (
-    *("bool_value", "integer_value", "double_value", "string_value"),
-    *("bool_array_value", "integer_array_value", "double_array_value", "string_array_value"),
+    "bool_value",
+    "integer_value",
+    "double_value",
+    "string_value",
+    "bool_array_value",
+    "integer_array_value",
+    "double_array_value",
+    "string_array_value",
 )
 # By the kind of a service: its ROS type, and how the argument of the request is read.
 SERVICE_TYPES: dict[ServiceKind, tuple[type, Callable[[Any], Any]]] = {

@@ -29,7 +29,14 @@ from symtop_ros.simulation.topics import STATE_TOPICS
 DRAWN = "orientation"  # topic of the samples that are drawn
 PARAMETERS = "set_parameters_atomically"
 SERVICES = (
-    *("set_initial_conditions", "kick", "release", "clamp", "step", "reset", "pause", "record"),
+    "set_initial_conditions",
+    "kick",
+    "release",
+    "clamp",
+    "step",
+    "reset",
+    "pause",
+    "record",
     PARAMETERS,
 )
 TIMEOUT = 3.0  # s for an answer

@@ -28,8 +28,20 @@ SMALLEST = 1e-100  # the square of anything smaller would underflow
 NAMES = ("phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot")
 UNITS = (*("rad",) * 3, *("rad/s",) * 3)
 COLUMNS = (
-    *("t", "w", "x", "y", "z", "wx", "wy", "wz"),
-    *("phi", "theta", "psi", "phi_dot", "theta_dot", "psi_dot"),
+    "t",
+    "w",
+    "x",
+    "y",
+    "z",
+    "wx",
+    "wy",
+    "wz",
+    "phi",
+    "theta",
+    "psi",
+    "phi_dot",
+    "theta_dot",
+    "psi_dot",
 )
 
 

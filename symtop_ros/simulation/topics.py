@@ -265,6 +265,12 @@ APPLIED_TORQUE = Topic("~/applied_torque", messages.WRENCH.type)
 TOPICS: dict[str, Topic] = {
     topic.name: topic
     for topic in (
-        *(EVENTS, DESCRIPTION, TF_STATIC, *SAMPLE_TOPICS.values(), DIAGNOSTICS, CLOCK, MARKERS),
+        EVENTS,
+        DESCRIPTION,
+        TF_STATIC,
+        *SAMPLE_TOPICS.values(),
+        DIAGNOSTICS,
+        CLOCK,
+        MARKERS,
     )
 }

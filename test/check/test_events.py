@@ -23,8 +23,13 @@ from symtop_ros.wire.layout import Reader
 # another version wrote it, and why a torque changed. `GIVEN` is of the first event.
 GIVEN = ("top", "friction", "applied_torque", "gravity", "motion.", "imu.", "magnetic_field.")
 FREE = (
-    *("request.scene", "outcome.path", "top_frame", "version", "kernel_version"),
-    *("number", "format"),
+    "request.scene",
+    "outcome.path",
+    "top_frame",
+    "version",
+    "kernel_version",
+    "number",
+    "format",
 )
 
 
@@ -53,8 +58,17 @@ def found(before, event):
 
 def test_events_of_every_kind_are_those_that_follow(events):
     assert {event.name for event in events} == {
-        *("start", "reset", "kick", "push", "pause", "resume", "step", "torque", "parameters"),
-        *("clock", "record"),
+        "start",
+        "reset",
+        "kick",
+        "push",
+        "pause",
+        "resume",
+        "step",
+        "torque",
+        "parameters",
+        "clock",
+        "record",
     }
     assert list(find_mismatches(events)) == []
     assert all(map(is_of_this_version, events))

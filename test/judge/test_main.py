@@ -126,7 +126,10 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert {path.name for path in tmp_path.iterdir()} == models - left_out | {
         *(f"cusps.{suffix}" for suffix in ("json", *forms)),
         *(f"{name}.csv" for name in ("problems", "states", "forces", "world")),
-        *("score.py", "README.md", "LICENSE", "SHA256SUMS"),
+        "score.py",
+        "README.md",
+        "LICENSE",
+        "SHA256SUMS",
     }
     readme = (tmp_path / "README.md").read_text()
     assert "[symtop_ros]" not in readme.replace("[symtop_ros](", "")

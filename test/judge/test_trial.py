@@ -26,8 +26,16 @@ from symtop_ros.simulation.changes.requests import start_motion
 from symtop_ros.simulation.settings import Settings
 
 SCENES = (
-    *("cusps", "looping", "unidirectional", "hurry_slow", "conical_pendulum", "disc"),
-    *("spherical_pendulum", "through_the_pole", "perry_fails", "spin_reversal"),
+    "cusps",
+    "looping",
+    "unidirectional",
+    "hurry_slow",
+    "conical_pendulum",
+    "disc",
+    "spherical_pendulum",
+    "through_the_pole",
+    "perry_fails",
+    "spin_reversal",
 )
 NOISES = (0.0, 0.0, 1e-3, 5e-3)  # rad
 OWN_NOISES = (0.0, 3e-4, 1e-3)

@@ -27,9 +27,16 @@ from symtop_ros.physics import (
 )
 
 PROPERTIES = (
-    *("kind", "nutation_period", "mean_precession_rate", "mean_spin_rate", "nutation_rate"),
-    *("precession_per_nutation", "spin_reverses", "fast_top_precession_rate"),
-    *("fast_top_nutation_rate", "turning_angles"),
+    "kind",
+    "nutation_period",
+    "mean_precession_rate",
+    "mean_spin_rate",
+    "nutation_rate",
+    "precession_per_nutation",
+    "spin_reverses",
+    "fast_top_precession_rate",
+    "fast_top_nutation_rate",
+    "turning_angles",
 )
 TIMES = np.array([[0.0, 1e-4, 0.7], [-3.0, 12.0, 1e4]])
 
@@ -70,7 +77,11 @@ def test_each_property_is_that_of_the_motion_alone(name):
 
 
 QUANTITIES = (
-    *("energy", "axial_momentum", "vertical_momentum", "angular_momentum", "gravity_torque"),
+    "energy",
+    "axial_momentum",
+    "vertical_momentum",
+    "angular_momentum",
+    "gravity_torque",
     "total_torque",
 )
 

@@ -143,8 +143,10 @@ def multiply(p, q):
     """The product of two quaternions of any numbers."""
     (w, x, y, z), (a, b, c, d) = p, q
     return (
-        *(w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c),
-        *(w * c - x * d + y * a + z * b, w * d + x * c - y * b + z * a),
+        w * a - x * b - y * c - z * d,
+        w * b + x * a + y * d - z * c,
+        w * c - x * d + y * a + z * b,
+        w * d + x * c - y * b + z * a,
     )
 
 

@@ -32,8 +32,13 @@ def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
         shot = picture(client)
         Image.fromarray(shot).save(tmp_path / f"{name}.png")
         assert {each.origin for each in found.values()} == {
-            *(entities.SPACE, entities.PANEL, entities.EVENTS, entities.SENTENCE),
-            *(entities.POTENTIAL, entities.CUBIC, *entities.PLOTS),
+            entities.SPACE,
+            entities.PANEL,
+            entities.EVENTS,
+            entities.SENTENCE,
+            entities.POTENTIAL,
+            entities.CUBIC,
+            *entities.PLOTS,
         }
         assert [each.reports for each in views(client, VIEWS).values()] == [[]] * VIEWS
         drawn = picture(client, found["the top"])

@@ -42,7 +42,9 @@ def test_of_acts_at_one_time_only_the_last_has_a_sample_and_what_is_undone_is_no
     free = Motion(START.top, state)
     pushed = Motion(START.top, state, torque=torque)
     run = [
-        *(begin, replace(begin, kind="start"), kick),
+        begin,
+        replace(begin, kind="start"),
+        kick,
         RunEvent("torque", kick.time + 1_000_000_000, pushed, {}),
         RunEvent("torque", kick.time + 1_000_000_000, free, {}),
     ]
@@ -159,7 +161,8 @@ def move(rng, folder):
     scene = rng.choice(("cusps", "regular_precession", "friction", "sleeping"))
     host = Program()
     session, clock = start(
-        *(host, scene),
+        host,
+        scene,
         record__enabled=True,
         record__directory=str(folder),
         publish_rate=100.0,

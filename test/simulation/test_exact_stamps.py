@@ -26,9 +26,20 @@ BOUND = 4.0
 YEAR = 365 * 86_400 * SECOND
 FACTORS = choose((1.0, 1 / 3, 0.1, 7.0, 1e-3), (1 / 3,))
 SCENES = (
-    *("cusps", "looping", "unidirectional", "regular_precession", "fast_precession"),
-    *("hurry_slow", "hurry_fast", "perry_fails", "sleeping", "sleeping_unstable"),
-    *("through_the_pole", "hanging", "disc", "free"),
+    "cusps",
+    "looping",
+    "unidirectional",
+    "regular_precession",
+    "fast_precession",
+    "hurry_slow",
+    "hurry_fast",
+    "perry_fails",
+    "sleeping",
+    "sleeping_unstable",
+    "through_the_pole",
+    "hanging",
+    "disc",
+    "free",
 )
 LAYOUTS = {name: topic.layout("world", "top") for name, topic in STATE_TOPICS.items()}
 

@@ -42,8 +42,14 @@ def test_sensors_frames_topics_and_the_log_are_chosen_at_the_start():
     fixed = {name for name, parameter in PARAMETERS.items() if parameter.read_only}
     groups = ("imu.", "magnetic_field.", "odometry.")
     assert fixed - {name for name in PARAMETERS if name.startswith(groups)} == {
-        *("gravity", "publish_clock", "publish_markers", "record.directory", "record.enabled"),
-        *("scheduling_priority", "top_frame", "world_frame"),
+        "gravity",
+        "publish_clock",
+        "publish_markers",
+        "record.directory",
+        "record.enabled",
+        "scheduling_priority",
+        "top_frame",
+        "world_frame",
     }
     assert fixed >= {name for name in PARAMETERS if name.startswith(groups)}
 

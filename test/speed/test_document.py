@@ -38,7 +38,8 @@ def test_a_peer_that_is_ahead_in_a_table_is_named(name):
 TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"
 PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SECTIONS = (
-    *("chapters", "summary"),
+    "chapters",
+    "summary",
     *(each.NAME for each in (derivatives, filters, testset, node_cost, stress)),
 )
 

@@ -139,8 +139,17 @@ class Trial:
 
 ACTS = (
     *Counter(start=6, key=6, field=4, scrub=4, run=3).elements(),
-    *("scene", "torque", "pull", "speed", "restart", "hostile", "series", "reload"),
-    *("save_and_open", "save_and_drop", "lesson"),
+    "scene",
+    "torque",
+    "pull",
+    "speed",
+    "restart",
+    "hostile",
+    "series",
+    "reload",
+    "save_and_open",
+    "save_and_drop",
+    "lesson",
 )
 
 

@@ -19,14 +19,34 @@ from workshop.article.motions import TOP
 TEXTS = Path(__file__).with_name("texts")
 WIDTH = 96  # characters in a line
 MODULES = (
-    *("torque", "rates", "nutation", "pivot", "frames", "answers.fictitious"),
-    *("answers.release", "answers.ledger", "answers.starts", "answers.resolution"),
+    "torque",
+    "rates",
+    "nutation",
+    "pivot",
+    "frames",
+    "answers.fictitious",
+    "answers.release",
+    "answers.ledger",
+    "answers.starts",
+    "answers.resolution",
     "answers.statements",
 )
 # The files of texts, in the order of the claims
 CHAPTERS = (
-    *("torque", "momentum", "rates", "nutation", "kinds", "pivot", "fictitious", "release"),
-    *("corrections", "ledger", "starts", "resolution", "statements", "frames"),
+    "torque",
+    "momentum",
+    "rates",
+    "nutation",
+    "kinds",
+    "pivot",
+    "fictitious",
+    "release",
+    "corrections",
+    "ledger",
+    "starts",
+    "resolution",
+    "statements",
+    "frames",
 )
 # Characters that Markdown would read as cell borders or emphasis
 ESCAPES = str.maketrans({character: f"\\{character}" for character in "\\|*_"})

@@ -43,9 +43,11 @@ def list_commands(folder: str) -> dict[str, Command]:
 
     def top(rate: float, recording: bool = False, priority: int = 0) -> list[str]:
         return top_node(
-            *(f"publish_rate:={rate}", f"record.enabled:={recording}".lower()),
+            f"publish_rate:={rate}",
+            f"record.enabled:={recording}".lower(),
             f"scheduling_priority:={priority}",
-            *(f"record.directory:={folder}", "hurry_factor:=1.0"),
+            f"record.directory:={folder}",
+            "hurry_factor:=1.0",
         )
 
     commands: dict[str, Command] = {

@@ -105,8 +105,11 @@ def soak(seconds: float, scene: str, rate: float) -> Iterator[Reading]:
     """Yield the counts every ten seconds, and at the end, after the check of the last log."""
     with tempfile.TemporaryDirectory() as folder, closing(Logs(Path(folder))) as logs:
         command = top_node(
-            *(f"scene:={scene}", f"publish_rate:={rate}", "record.enabled:=true"),
-            *(f"record.directory:={folder}", f"record.max_duration:={LOG_DURATION}"),
+            f"scene:={scene}",
+            f"publish_rate:={rate}",
+            "record.enabled:=true",
+            f"record.directory:={folder}",
+            f"record.max_duration:={LOG_DURATION}",
         )
         with running(command) as node, closing(User(rate)) as user:
             for reading in _readings(user, node.pid, seconds):

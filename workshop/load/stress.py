@@ -92,8 +92,13 @@ def format_section(outcomes: Sequence[Outcome], seconds: float, machine: str) ->
     head = ["load", "Hz", "lost", "missed", "unanswered", "CPU", "MB more"]
     rows = [
         [
-            *(each.load, f"{each.rate:.1f}", f"{each.lost}", f"{each.missed}"),
-            *(f"{each.unanswered}", f"{100 * each.cpu:.0f} %", f"{each.growth:.1f}"),
+            each.load,
+            f"{each.rate:.1f}",
+            f"{each.lost}",
+            f"{each.missed}",
+            f"{each.unanswered}",
+            f"{100 * each.cpu:.0f} %",
+            f"{each.growth:.1f}",
         ]
         for each in outcomes
     ]

@@ -28,8 +28,12 @@ DRIVEN_PEER = "heyoka, quaternion"
 # The peers of the quick report, which must not take long, by the beginnings of their names
 EVERY_MOTION = (CLOSED_FORM, TAYLOR, "heyoka", "CyRK")
 FIRST_MOTION = (
-    *("SciPy DOP853", "SciPy LSODA, Euler angles", "MuJoCo RK4", "Drake RK5, quaternion"),
-    *("EXUDYN RK67", "diffrax Dopri8"),
+    "SciPy DOP853",
+    "SciPy LSODA, Euler angles",
+    "MuJoCo RK4",
+    "Drake RK5, quaternion",
+    "EXUDYN RK67",
+    "diffrax Dopri8",
 )
 HARD_PEERS = ("SciPy DOP853, quaternion", "heyoka, quaternion")
 

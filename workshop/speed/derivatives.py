@@ -65,8 +65,10 @@ class Variations:
         w, x, y, z, a, b, c = names = hy.make_vars(*"wxyzabc")
         Ix, Iz, Mgl = (hy.par[k] for k in range(3))
         rates = [
-            *((-x * a - y * b - z * c) / 2, (w * a + y * c - z * b) / 2),
-            *((w * b + z * a - x * c) / 2, (w * c + x * b - y * a) / 2),
+            (-x * a - y * b - z * c) / 2,
+            (w * a + y * c - z * b) / 2,
+            (w * b + z * a - x * c) / 2,
+            (w * c + x * b - y * a) / 2,
             ((Ix - Iz) * b * c + 2 * Mgl * (y * z + w * x)) / Ix,
             ((Iz - Ix) * c * a - 2 * Mgl * (x * z - w * y)) / Ix,
             0.0 * a,

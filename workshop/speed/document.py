@@ -117,7 +117,8 @@ def _format_costs(results: Results, curves: list[Curve]) -> str:
     costs = {each.peer: each for each in results.states}
     rows = [
         [
-            *(curve.peer, *_format_levels(curve)),
+            curve.peer,
+            *_format_levels(curve),
             _format_array_cost(costs.get(curve.peer)),
             format_ms(curve.best.preparing),
             f"{results.checks[curve.peer]:.0e}",

@@ -15,7 +15,16 @@ from workshop.speed.publish import publish, track, write_results
 from workshop.speed.reference import Reference
 
 PACKAGES = (
-    *("numpy", "scipy", "heyoka", "CyRK", "mujoco", "drake", "pin", "exudyn", "diffrax", "jax"),
+    "numpy",
+    "scipy",
+    "heyoka",
+    "CyRK",
+    "mujoco",
+    "drake",
+    "pin",
+    "exudyn",
+    "diffrax",
+    "jax",
     "symtop_ros",
 )
 

@@ -24,8 +24,12 @@ SHIM = SOURCES / "shim"
 # for the device. 177: functions of the kernel that are not used here.
 OPTIONS = ("-default-device", "-device-int128", "--fmad=false", "--std=c++17", "-diag-suppress=177")
 FUNCTIONS = (
-    *("prepare_motions", "prepare_free_motions", "read_states", "read_free_states"),
-    *("read_statuses", "find_size_of_motion"),
+    "prepare_motions",
+    "prepare_free_motions",
+    "read_states",
+    "read_free_states",
+    "read_statuses",
+    "find_size_of_motion",
 )
 BLOCK = 64  # threads
 PERIOD = 10.0  # s between two lines while the functions are compiled

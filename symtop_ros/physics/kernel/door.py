@@ -71,10 +71,24 @@ CONSTANTS, VERDICTS = np.dtype(ConstantsRecord), np.dtype(VerdictRecord)  # of a
 NOT_PUSHED = (VERTICAL, BAD_KICK)  # why there are no states from a push on
 # These may take long, and release Python's lock.
 LONG = {
-    *("states", "states_of_clock", "reach", "find_piece", "find_farthest_time"),
-    *("states_of_many", "describe_many", "from_angles"),
-    *("find_angles", "find_angle_rates", "find_regular_rates", "find_tilt_torques"),
-    *("find_tilt_accelerations", "kick", "judge", "judge_kick", "judge_clamp", "compare_hurried"),
+    "states",
+    "states_of_clock",
+    "reach",
+    "find_piece",
+    "find_farthest_time",
+    "states_of_many",
+    "describe_many",
+    "from_angles",
+    "find_angles",
+    "find_angle_rates",
+    "find_regular_rates",
+    "find_tilt_torques",
+    "find_tilt_accelerations",
+    "kick",
+    "judge",
+    "judge_kick",
+    "judge_clamp",
+    "compare_hurried",
     "find_doubt",
 }
 

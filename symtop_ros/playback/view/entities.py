@@ -187,8 +187,16 @@ def _join(parts: Sequence[Mesh]) -> Mesh:
 def _rotor(radius: float, height: float) -> Profile:
     """Return the profile of the rotor: a flat pear, widest at the centre of mass."""
     shape = (
-        *((0.022, -0.2), (0.10, -0.17), (0.35, -0.11), (0.72, -0.06), (0.94, -0.035)),
-        *((0.94, 0.035), (0.80, 0.05), (0.45, 0.075), (0.16, 0.105), (0.022, 0.14)),
+        (0.022, -0.2),
+        (0.10, -0.17),
+        (0.35, -0.11),
+        (0.72, -0.06),
+        (0.94, -0.035),
+        (0.94, 0.035),
+        (0.80, 0.05),
+        (0.45, 0.075),
+        (0.16, 0.105),
+        (0.022, 0.14),
     )
     return tuple((max(0.022, r * radius), height + z) for r, z in shape)
 

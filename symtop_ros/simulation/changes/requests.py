@@ -99,7 +99,7 @@ def find_hold(request: Mapping[str, Any]) -> Hold | None:
     if held is None:
         return None
     word = request.get("hold", HOLDS[0]) if held == "chosen" else held
-    return HOLDS[HOLDS.index(choice("hold", word, HOLDS))]
+    return choice("hold", word, HOLDS)
 
 
 def _read_amount(kind: str, value: Any) -> Any:

@@ -38,8 +38,13 @@ def test_an_instant_has_the_same_bits_alone_and_among_others(stored):
 
 HALF_ROOT = float.fromhex("0x1.6a09e667f3bcdp-1")
 ATTITUDES = (
-    *((0.5, 0.5, 0.5, 0.5), (HALF_ROOT, HALF_ROOT, 0, 0), (0.8, 0.6, 0, 0), (0, 0.6, 0.8, 0)),
-    *((0.6, 0, 0.8, 0), (HALF_ROOT, 0, HALF_ROOT, 0), (0, 1, 0, 0)),
+    (0.5, 0.5, 0.5, 0.5),
+    (HALF_ROOT, HALF_ROOT, 0, 0),
+    (0.8, 0.6, 0, 0),
+    (0, 0.6, 0.8, 0),
+    (0.6, 0, 0.8, 0),
+    (HALF_ROOT, 0, HALF_ROOT, 0),
+    (0, 1, 0, 0),
 )
 RATES = list(itertools.product((-1, 0, 1, 2), repeat=3))
 TOPS = [

@@ -17,13 +17,25 @@ DRIVEN = physics.Motion(ARTICLE, CUSPS, physics.Friction(axial=1e-6))
 POTENTIAL = physics.EffectivePotential.of(ARTICLE, CUSPS)
 # What is found once is kept: nothing of it is known before.
 FOUND = (
-    *("kind", "turning_angles", "nutation_period", "nutation_rate", "mean_precession_rate"),
-    *("mean_spin_rate", "precession_per_nutation", "spin_reverses", "farthest_time"),
-    *("fast_top_precession_rate", "fast_top_nutation_rate"),
+    "kind",
+    "turning_angles",
+    "nutation_period",
+    "nutation_rate",
+    "mean_precession_rate",
+    "mean_spin_rate",
+    "precession_per_nutation",
+    "spin_reverses",
+    "farthest_time",
+    "fast_top_precession_rate",
+    "fast_top_nutation_rate",
 )
 OF_A_STATE = "vertical", "is_vertical", "euler_angles", "euler_rates", "matrix"
 OF_A_TOP = (
-    *("energy", "axial_momentum", "vertical_momentum", "angular_momentum", "gravity_torque"),
+    "energy",
+    "axial_momentum",
+    "vertical_momentum",
+    "angular_momentum",
+    "gravity_torque",
     "sleeping_is_stable",
 )
 

@@ -26,7 +26,12 @@ def prepare(method: str, task: Motion, rtol: float) -> Solution:
 
     def run(saved: Any, most_steps: int, t: Any) -> Any:
         found = diffrax.diffeqsolve(
-            *(term, getattr(diffrax, method)(), 0.0, t, 1e-4, start),
+            term,
+            getattr(diffrax, method)(),
+            0.0,
+            t,
+            1e-4,
+            start,
             saveat=saved,
             stepsize_controller=control,
             max_steps=most_steps,

@@ -114,8 +114,10 @@ def prepare_batches(tolerance: float) -> Callable[[Any, float], Real]:
         angles = start.euler_angles
         wz = start.angular_velocity[:, 2]
         pars = [
-            *(top.Mgl / top.Ix, top.angular_momentum(start)[:, 2] / top.Ix),
-            *(top.Iz * wz / top.Ix, wz),
+            top.Mgl / top.Ix,
+            top.angular_momentum(start)[:, 2] / top.Ix,
+            top.Iz * wz / top.Ix,
+            wz,
         ]
         variables = np.array([*angles, start.euler_rates.theta])
         found = np.empty((3, len(wz)))

@@ -31,7 +31,9 @@ def integrate(
 ) -> tuple[Real, Real]:
     """Return the times (n,) asked for, or those of all steps, and the variables (n, k)."""
     solution = solve_ivp(
-        *(equations.rates, (0.0, t), equations.start),
+        equations.rates,
+        (0.0, t),
+        equations.start,
         method=method,
         rtol=tolerance,
         atol=tolerance,

@@ -18,7 +18,8 @@ import { phrase } from "../words/wording.js";
 const HEIGHTS = [150, 105]; // of the torques, and of theta'
 const LOWER = 20; // of the torques: their times are written below theta'
 const POINTS = 201;
-const [MILLI, DIGITS] = [1000, 4];
+const MILLI = 1000;
+const DIGITS = 4;
 const ZERO = 1e-6; // of the sizes of the parts: their sum is shown with no more digits than they are
 /** @type {[keyof Instant["torques"], string][]} */
 const LOOKS = [

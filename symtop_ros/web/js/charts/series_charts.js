@@ -58,7 +58,8 @@ export const drawOneSeries = (id, samples, facts) => {
     samples.map(({ time, [whose]: state }) => {
       return /** @type {Pair} */ ([time / NANO, state ? pick(state) : NaN]);
     });
-  const [own, ghost] = [list("state"), isTilt ? list("ghost") : []];
+  const own = list("state");
+  const ghost = isTilt ? list("ghost") : [];
   const { range, kicks } = findRange(own[0][0], own[own.length - 1][0], facts);
   const edges = findEdges(own, ghost, SERIES[id]);
   const frame = new Frame(HEIGHT, range, edges, 3, isTilt ? toUnit : undefined);

@@ -4,7 +4,8 @@ import { find, findAll } from "../controls/document.js";
 
 const EDGE = 3; // px between a text and its frame
 const LINE = 26; // px of the sentence
-const [LARGER, WIDE] = [2, 1.3]; // labels on a small picture, and its shape
+const LARGER = 2; // labels on a small picture
+const WIDE = 1.3; // its shape
 const LABELS = ".label:not([hidden])";
 const SHOWN = `${LABELS}, #legend [aria-pressed=true], #legend li:not([hidden]) > i`;
 

@@ -33,9 +33,12 @@ const SHORTEST = 0.02; // arrows that are shorter have no direction that can be 
 const GHOST_OPACITY = 0.34;
 const BALL = 0.055;
 const PUSH = 0.34; // length of the arrow of a push
-const [WIDE, HORIZON] = [1.1, 1.65]; // rad; the axis goes below the pivot: no stand, and the whole sphere
+// rad; the axis goes below the pivot: no stand, and the whole sphere
+const WIDE = 1.1;
+const HORIZON = 1.65;
 const GROUND = -0.365;
-const [SOFT, FOOT] = [0.18, 0.34]; // the edge of a shadow, and the stand's
+const SOFT = 0.18; // the edge of a shadow
+const FOOT = 0.34; // the stand's
 /** @type {{eye: Vector, target: Vector}[]} */
 const VIEWS = [
   { eye: [1.46, -1.7, 0.95], target: [0, 0, 0.33] },
@@ -181,7 +184,8 @@ export class Scene {
     if (!ghost) return;
     const { painter, models } = this;
     painter.drawMesh(models.body, createPose(ghost.orientation), GHOST_OPACITY);
-    const [axis, size] = [ghost.toWorld([0, 0, 1]), 0.8 * BALL];
+    const axis = ghost.toWorld([0, 0, 1]);
+    const size = 0.8 * BALL;
     painter.drawMesh(models.ghost, createPose([1, 0, 0, 0], [size, size, size], axis), 0.8);
     const isFree = this.top.run.findSpared(this.top.time) === "clamp";
     const name = phrase(isFree ? "scene.ghost_free" : "scene.ghost");

@@ -26,7 +26,9 @@ import { shorten } from "./quantities.js";
 
 const CURVE = 241; // points of a potential
 const SEARCHED = 2001; // tilts among which the box of the potential is found
-const [ABOVE, LEAST] = [1, 0.02]; // of the box, over the energy: in depths of the well, and of Mgl
+// Of the box, over the energy: in depths of the well, and of Mgl.
+const ABOVE = 1;
+const LEAST = 0.02;
 const KICKS = ["kick", "push"];
 const HELD = ["push", "torque"]; // which a button may still be giving
 const TRACE_NUTATIONS = 12; // longest plot, in nutations
