@@ -232,7 +232,7 @@ def call_service(name, kind, text="{}"):
     with Listener(DOMAIN) as listener:
         connection = Connection(listener.node, node, timeout=300.0)
         request = fill(service.Request(), yaml.safe_load(text))
-        answer = str(connection._call(service, short, request))
+        answer = str(connection.call(service, short, request))
     assert "success=True" in answer or "successful=True" in answer
 
 

@@ -44,6 +44,6 @@ def test_statuses_have_the_numbers_of_the_compiled_kernel():
 
 def test_a_record_of_another_size_is_called_that():
     right = [ctypes.sizeof(record) for record in records.RECORDS]
-    door._demand_sizes(right)
+    door.demand_sizes(right)
     with pytest.raises(ImportError, match=r"^RatesRecord must have the 48 bytes .* got 40: run"):
-        door._demand_sizes([*right[:4], 48, *right[5:]])
+        door.demand_sizes([*right[:4], 48, *right[5:]])

@@ -36,7 +36,7 @@ def find_faults(language: str) -> Iterator[str]:
         read_file("en") | (scenes if language != "en" else {}), read_file(language)
     )
     for key in english.keys() & texts.keys():
-        yield from (f"{key}: {fault}" for fault in _compare(english[key], texts[key]))
+        yield from (f"{key}: {fault}" for fault in compare_texts(english[key], texts[key]))
 
 
 def _compare_keys(english: Mapping[str, str], texts: Mapping[str, str]) -> Iterator[str]:
@@ -52,7 +52,8 @@ def _read_terms(language: str) -> dict[str, str]:
     return terms
 
 
-def _compare(english: str, text: str) -> Iterator[str]:
+def compare_texts(english: str, text: str) -> Iterator[str]:
+    """Yield what a text lacks of the English one, or has too much."""
     for name, pattern in (("arrow", ARROW), ("symbol", SYMBOL)):
         yield from _compare_parts(name, pattern.findall(english), pattern.findall(text))
     parts = [["".join(each) for each in PLACEHOLDER.findall(one)] for one in (english, text)]

@@ -47,12 +47,12 @@ class Connection:
     ) -> tuple[bool, str]:
         """Call a service with named values, on or off, or nothing; return success and answer."""
         if argument is None:
-            answer = self._call(Trigger, service, Trigger.Request())
+            answer = self.call(Trigger, service, Trigger.Request())
         elif isinstance(argument, bool):
-            answer = self._call(SetBool, service, SetBool.Request(data=argument))
+            answer = self.call(SetBool, service, SetBool.Request(data=argument))
         else:
             named = [Parameter(each, value=argument[each]).to_parameter_msg() for each in argument]
-            result = self._call(
+            result = self.call(
                 SetParametersAtomically,
                 service,
                 SetParametersAtomically.Request(parameters=named),
@@ -90,7 +90,14 @@ class Connection:
             self._question = None
         return self._clients[service]
 
-    def _call(self, kind: Any, service: str, request: Any) -> Any:
+    def call(self, kind: Any, service: str, request: Any) -> Any:
+        """Return the response of a service of the top, of any type.
+
+        Raises
+        ------
+        UnreachableError
+            If there is none in time.
+        """
         client = self._client(kind, service)
         question = self._find_question() if service in self._unknown - {QUESTION} else None
         if not self.spin_until(client.service_is_ready, self._timeout):

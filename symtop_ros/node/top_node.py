@@ -119,7 +119,7 @@ class TopNode(Node):
         priority = settings.scheduling_priority
         if priority and (failure := use_real_time(priority)):
             host.warn(failure)
-        self._clock_is_missing = False
+        self.clock_is_missing = False
         self.create_timer(
             CLOCK_WAIT, self._check_clock, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
@@ -170,11 +170,11 @@ class TopNode(Node):
         """Warn once if time is simulated and nothing has set it: the top then stands still."""
         clock = NodeClock(self)
         missing = clock.is_simulated and not clock.now
-        if missing and not self._clock_is_missing:
+        if missing and not self.clock_is_missing:
             self.get_logger().warning(
                 f"use_sim_time is true, but no /clock was received for {CLOCK_WAIT:g} s: no samples"
             )
-        self._clock_is_missing = missing
+        self.clock_is_missing = missing
 
     def _clock_set(self, jump: TimeJump) -> None:
         """Follow a jump of simulated time; any change of it wakes the pacer."""

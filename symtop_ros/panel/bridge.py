@@ -76,8 +76,8 @@ class SharedConnection(Connection):
 class Bridge:
     """A node for the pages. Methods may be called from any thread."""
 
-    def __init__(self, node: Node, name: str) -> None:
-        self._connection = SharedConnection(node, name, TIMEOUT)
+    def __init__(self, node: Node, name: str, timeout: float = TIMEOUT) -> None:
+        self._connection = SharedConnection(node, name, timeout)  # s
         self.name = self._connection.name
         self._connection.prepare(*SERVICES)
         self._torque = node.create_publisher(WrenchStamped, f"{self.name}/applied_torque", 10)
@@ -91,7 +91,7 @@ class Bridge:
         self._events: deque[Message] = deque(maxlen=KEPT)  # of this run, each as a message
         self._count = 0  # events of this run
         self._runs = 0  # runs that have begun; a page with another number has an old one
-        self._last: Event | None = None
+        self.last: Event | None = None  # the newest event of the node
         self._sample: Message = {}
         self._heard = time.monotonic()
         self._lost = False
@@ -207,7 +207,7 @@ class Bridge:
             if columns := batch.columns.get(DRAWN):
                 self._follow_sample(int(columns.stamps[-1]), columns.numbers[-1].tolist())
             # with publish_clock a pause has no samples
-            if columns or (self._last and not self._last.segment().running):
+            if columns or (self.last and not self.last.segment().running):
                 self._heard = time.monotonic()
             self._lost = self._samples is not None and time.monotonic() > self._heard + SILENCE
             self._news.notify_all()
@@ -224,12 +224,12 @@ class Bridge:
         return newest
 
     def _follow_event(self, event: Event) -> None:
-        if event.number == 1 or self._last is None:  # another node, or the first event that is seen
+        if event.number == 1 or self.last is None:  # another node, or the first event that is seen
             self._recorder, self._runs, self._count = RunRecorder(), self._runs + 1, 0
             self._events.clear()
             self._sample = {}
         found = self._recorder.add(event)
-        self._last = event
+        self.last = event
         segment = event.segment()
         told: Message = {"running": segment.running, "factor": segment.factor}
         if event.name == "record":
@@ -242,7 +242,7 @@ class Bridge:
         self._count += 1
 
     def _follow_sample(self, stamp: int, numbers: list[float]) -> None:
-        if self._last is None or stamp < self._last.stamp:
+        if self.last is None or stamp < self.last.stamp:
             return  # of the motion before
         x, y, z, w = numbers
         self._sample = {"time": self._recorder.time_at(stamp), "orientation": [w, x, y, z]}

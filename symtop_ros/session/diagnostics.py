@@ -30,8 +30,8 @@ def collect_statuses(simulation: Simulation, recorder: Recorder) -> list[Status]
     """Return the statuses of a simulation at its next stamp."""
     return [
         motion_status(simulation.segment, simulation.stamp, simulation.event_number),
-        _pace_status(simulation),
-        _log_status(recorder),
+        pace_status(simulation),
+        log_status(recorder),
         balance_status(simulation.segment, simulation.stamp),
     ]
 
@@ -95,7 +95,8 @@ def _name_forces(motion: Motion) -> str:
     return "friction or an applied torque acts" if motion.is_driven else "only gravity acts"
 
 
-def _pace_status(simulation: Simulation) -> Status:
+def pace_status(simulation: Simulation) -> Status:
+    """Return whether the samples come in time, and how fast the motion is."""
     asked = simulation.settings.real_time_factor
     kept = simulation.factor
     ticker = simulation.ticker
@@ -120,7 +121,8 @@ def _pace_status(simulation: Simulation) -> Status:
     )
 
 
-def _log_status(recorder: Recorder) -> Status:
+def log_status(recorder: Recorder) -> Status:
+    """Return whether the recording, if there is one, is complete."""
     level, message = OK, "recording" if recorder.running else "not recording"
     if recorder.failure:
         level, message = ERROR, recorder.failure

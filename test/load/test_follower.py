@@ -25,17 +25,17 @@ def make_report(missed, name="/top", tick=99):
 
 def test_samples_that_the_node_reports_as_missed_are_not_lost():
     follower = Follower(RATE)
-    follower._read_diagnostics(make_report(missed=3))  # before the count begins
-    follower._reset_counts()
+    follower.read_diagnostics(make_report(missed=3))  # before the count begins
+    follower.reset_counts()
     for tick in (1, 2, 4, 7):  # 3, 5 and 6 are absent
-        follower._receive(make_sample(tick))
+        follower.receive(make_sample(tick))
     for report in (make_report(missed=5), make_report(missed=9, name="/other")):
-        follower._read_diagnostics(report)
+        follower.read_diagnostics(report)
     assert (follower.samples, follower.missed) == (4, 2)
     assert (follower.lost, follower.balance) == (1, 1e-15)
-    follower._receive(make_sample(20))  # 8 to 19 are of the next report
-    follower._read_diagnostics(make_report(missed=5, tick=20))
+    follower.receive(make_sample(20))  # 8 to 19 are of the next report
+    follower.read_diagnostics(make_report(missed=5, tick=20))
     assert follower.lost == 1
-    follower._read_diagnostics(make_report(missed=5, tick=21))
+    follower.read_diagnostics(make_report(missed=5, tick=21))
     assert follower.lost == 13
     follower.close()

@@ -150,7 +150,7 @@ class RunningTop(Listener):
         """Send parameters as they are to a service of named values; return its answers."""
         each = service == "set_parameters"
         kind = SetParameters if each else SetParametersAtomically
-        answer = self.connection._call(kind, service, kind.Request(parameters=parameters))
+        answer = self.connection.call(kind, service, kind.Request(parameters=parameters))
         results = answer.results if each else [answer.result]
         assert len(results) == (len(parameters) if each else 1)
         return [(result.successful, result.reason) for result in results]

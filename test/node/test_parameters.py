@@ -72,7 +72,7 @@ BYTES = ParameterType.PARAMETER_BYTE_ARRAY
 
 def read(run, *names):
     request = GetParameters.Request(names=names)
-    return run.connection._call(GetParameters, "get_parameters", request).values
+    return run.connection.call(GetParameters, "get_parameters", request).values
 
 
 def put(run, name, **value):
@@ -121,7 +121,7 @@ def test_all_that_a_dumped_file_sets_is_accepted_while_the_node_runs(start_top):
 def test_every_parameter_is_described_with_its_range(start_top):
     run = start_top()
     request = DescribeParameters.Request(names=[*PARAMETERS])
-    described = run.connection._call(DescribeParameters, "describe_parameters", request)
+    described = run.connection.call(DescribeParameters, "describe_parameters", request)
     assert [found.name for found in described.descriptors] == [*PARAMETERS]
     for found in described.descriptors:
         assert found.description

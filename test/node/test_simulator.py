@@ -46,7 +46,7 @@ class Client:
 
     def call(self, kind, name, **fields):
         kind = getattr(self.srv, kind)
-        return self.run.connection._call(kind, name, fill(kind.Request(), fields))
+        return self.run.connection.call(kind, name, fill(kind.Request(), fields))
 
     def features(self):
         return self.call("GetSimulatorFeatures", "get_simulator_features").features
@@ -384,7 +384,7 @@ def test_the_goal_of_a_client_that_leaves_goes_on_and_can_be_cancelled_by_others
     assert client.entity().result.result == OK
     kind = importlib.import_module("action_msgs.srv").CancelGoal
     name = "simulate_steps/_action/cancel_goal"
-    cancelled = run.connection._call(kind, name, kind.Request())  # without an id: all goals
+    cancelled = run.connection.call(kind, name, kind.Request())  # without an id: all goals
     assert len(cancelled.goals_canceling) == 1
     again = Client(run).simulate(3).get_result_async()
     run.spin_until(again.done)

@@ -86,9 +86,9 @@ def test_simulated_time_without_a_clock_is_warned_of_once(start_top, monkeypatch
     run = start_top(realtime=True, use_sim_time=True)
     for _ in range(8):
         run.executor.spin_once(timeout_sec=0.05)
-    assert run.top._clock_is_missing
+    assert run.top.clock_is_missing
     run.set_clock(10**9)
-    run.spin_until(lambda: not run.top._clock_is_missing)
+    run.spin_until(lambda: not run.top.clock_is_missing)
     warning = "use_sim_time is true, but no /clock was received for 0.05 s: no samples"
     assert capfd.readouterr().err.count(warning) == 1
 

@@ -22,9 +22,9 @@ DOMAIN = claim_domain()
 
 
 @contextlib.contextmanager
-def bridge_to(name, context):
+def bridge_to(name, context, **options):
     user = rclpy.create_node("top_panel", context=context, start_parameter_services=False)
-    bridge = Bridge(user, name)
+    bridge = Bridge(user, name, **options)
     yield bridge
     bridge.close()
     user.destroy_node()
@@ -187,7 +187,7 @@ def test_silence_is_told_and_its_end(node, page):
 
 def test_a_node_that_begins_again_is_a_new_run(node, page):
     _, bridge = node
-    first = bridge._last
+    first = bridge.last
     assert ask(bridge, "reset")[0]
     page.until(lambda: len(page.events) == 2)
     with bridge._news:
@@ -199,7 +199,7 @@ def test_a_node_that_begins_again_is_a_new_run(node, page):
 
 def test_of_a_long_run_the_last_events_are_kept(node, page):
     _, bridge = node
-    event = bridge._last
+    event = bridge.last
     later = type(event)(event.stamp, "reset", "", {**event.values, "number": "2"})
     with bridge._news:
         for _ in range(KEPT + 5):
@@ -211,8 +211,10 @@ def test_of_a_long_run_the_last_events_are_kept(node, page):
 
 
 def test_a_missing_node_is_one_message():
-    with Listener(DOMAIN) as alone, bridge_to("missing", alone.context) as bridge:
-        bridge._connection._timeout = 0.1
+    with (
+        Listener(DOMAIN) as alone,
+        bridge_to("missing", alone.context, timeout=0.1) as bridge,
+    ):
         assert bridge.name == "/missing"
         granted, answer = ask(bridge, "kick", {"precession_rate": 1.0})
     assert not granted
@@ -274,12 +276,12 @@ def test_a_held_button_pushes_the_node_until_it_is_released(node, browser):
         button.dispatch_event("pointerdown")
         until(lambda: re.search(r"sideways \d+ times", tab.text_content("#headline")), look)
         button.dispatch_event("pointerup")
-        until(lambda: bridge._last.name == "release", look)
-        given = int(bridge._last.values["before.pushes"])
+        until(lambda: bridge.last.name == "release", look)
+        given = int(bridge.last.values["before.pushes"])
         assert running.top.simulation.segment.motion.pushes.number == given > 0
         events = partial(tab.evaluate, "window.symtop.run().events")
         until(lambda: events()[-1]["act"]["number"] == given, look)
         assert (events()[-1]["kind"], events()[-1]["act"]["rate"]) == ("push", 20)
         until(lambda: f"sideways {given} times" in tab.text_content("#headline"), look)
-        assert bridge._last.verdict.startswith(f"Pushed sideways {given} times in ")
+        assert bridge.last.verdict.startswith(f"Pushed sideways {given} times in ")
         tab.close()

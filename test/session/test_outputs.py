@@ -11,7 +11,7 @@ from simulation.runs import HandClock
 
 from symtop_ros.models.urdf import LENGTH
 from symtop_ros.physics import Body, ExactTimes
-from symtop_ros.session.diagnostics import _log_status, _pace_status
+from symtop_ros.session.diagnostics import log_status, pace_status
 from symtop_ros.session.outputs import ARROWS, PERIOD, Markers
 from symtop_ros.session.session import Session
 from symtop_ros.simulation.changes.requests import start_motion
@@ -248,7 +248,7 @@ def test_a_slower_pace_and_missed_ticks_are_a_warning(kept, missed, level, text)
     simulation.apply(simulation.timeline.set_pace(simulation.stamp, 2.0, kept))
     simulation.ticker.missed = missed
     for achieved in (kept, 0.0):
-        status = _pace_status(simulation)
+        status = pace_status(simulation)
         assert (status.level, status.values["real_time_factor.achieved"]) == (level, str(achieved))
         assert text in status.message
         session.answer("pause", lambda: True)
@@ -260,7 +260,7 @@ RECORDINGS = [(7, "a: no space", ERROR), (7, "", WARN), (0, "", OK)]
 @pytest.mark.parametrize(("dropped", "failure", "level"), RECORDINGS)
 def test_a_failed_recording_is_an_error_and_dropped_messages_are_a_warning(dropped, failure, level):
     recorder = SimpleNamespace(path="a", dropped=dropped, failure=failure, running=not failure)
-    status = _log_status(recorder)
+    status = log_status(recorder)
     facts = {"file": "a", "dropped": str(dropped)}
     assert (status.level, status.values) == (level, facts)
     assert failure in status.message

@@ -7,7 +7,7 @@ from trials import choose
 
 from symtop_ros.panel.main import main
 from symtop_ros.web.join import LANGUAGES, TEXTS, read_texts
-from workshop.languages import _compare, check_languages
+from workshop.languages import check_languages, compare_texts
 
 PHONE = (360, 640)
 
@@ -32,8 +32,8 @@ def test_every_language_is_complete_and_the_command_names_each_fault(capsys):
     ],
 )
 def test_a_fault_of_a_translation_is_found(english, text, fault):
-    assert fault in list(_compare(english, text))
-    assert list(_compare(english, english)) == []
+    assert fault in list(compare_texts(english, text))
+    assert list(compare_texts(english, english)) == []
 
 
 # The narrowest window, and German, a third longer than English; the others in the long run.

@@ -81,11 +81,11 @@ class Follower(Subscriber):
         super().__init__(domain(), name)
         self._rate = rate
         self.node.create_subscription(
-            QuaternionStamped, f"{name}/orientation", self._receive, DEPTH, raw=True
+            QuaternionStamped, f"{name}/orientation", self.receive, DEPTH, raw=True
         )
-        self.node.create_subscription(DiagnosticArray, "/diagnostics", self._read_diagnostics, 100)
+        self.node.create_subscription(DiagnosticArray, "/diagnostics", self.read_diagnostics, 100)
         self._facts: dict[str, str] = {}
-        self._reset_counts()
+        self.reset_counts()
 
     def begin(self) -> None:
         """Wait for a sample and for diagnostics, and count from then on.
@@ -101,9 +101,10 @@ class Follower(Subscriber):
         self._facts = {}
         self.samples = 0
         self.wait(lambda: bool(self.samples and self._facts), "sample and diagnostics")
-        self._reset_counts()
+        self.reset_counts()
 
-    def _reset_counts(self) -> None:
+    def reset_counts(self) -> None:
+        """Count from now on."""
         self.samples, self.lost, self.balance = 0, 0, 0.0
         self._gaps: dict[int, int] = {}  # samples that did not come, by the stamp of the next one
         self._stamp = 0
@@ -118,14 +119,16 @@ class Follower(Subscriber):
         """Samples that the node reports as missed."""
         return self.fact("missed") - self._missed_before
 
-    def _receive(self, data: bytes) -> None:
+    def receive(self, data: bytes) -> None:
+        """Count an encoded sample, and those between it and the one before."""
         stamp = read_stamp(data)
         if self._stamp and (gap := round((stamp - self._stamp) * 1e-9 * self._rate) - 1):
             self._gaps[stamp] = gap
         self._stamp = stamp
         self.samples += 1
 
-    def _read_diagnostics(self, message: DiagnosticArray) -> None:
+    def read_diagnostics(self, message: DiagnosticArray) -> None:
+        """Compare the gaps with what the node reports as missed."""
         facts = {pair.key: pair.value for status in message.status for pair in status.values}
         if facts["name"] != self.connection.name:  # all nodes of a domain share the topic
             return

@@ -111,11 +111,11 @@ def _load() -> ctypes.CDLL:
         is_own = False
     if not is_own:
         raise ImportError(f"the compiled kernel is of another version: {AGAIN}")
-    _demand_sizes((ctypes.c_uint32 * len(RECORDS)).in_dll(library, "symtop_sizes"))
+    demand_sizes((ctypes.c_uint32 * len(RECORDS)).in_dll(library, "symtop_sizes"))
     return library
 
 
-def _demand_sizes(sizes: Iterable[int]) -> None:
+def demand_sizes(sizes: Iterable[int]) -> None:
     """Refuse a library whose records are not laid out as those of ctypes."""
     for record, size in zip(RECORDS, sizes, strict=True):
         if ctypes.sizeof(record) != size:
