@@ -63,13 +63,13 @@ test-newcomer:  ## the README and all documents typed by a new user; Pythons, pu
 test-ubuntu:  ## tests of node and client with NumPy 1.26 and pytest 7.4, as on Ubuntu 24.04
 	$(SET_UP) ubuntu
 	@.venv/ubuntu/bin/python -m pytest -q -m "not realtime and not long" \
-	  test/client test/node/test_topics.py test/node/test_recording.py
+	  test/ros/client test/ros/node/test_topics.py test/ros/node/test_recording.py
 
 test-kilted:  ## tests of node, client and log on ROS 2 Kilted
 	$(SET_UP) kilted
 	@.venv/kilted/bin/python workshop/messages.py
-	@.venv/kilted/bin/python -m pytest -q -m "not realtime and not long" --ignore=test/log/test_definitions.py \
-	  test/node test/client test/log test/simulation/test_simulation.py
+	@.venv/kilted/bin/python -m pytest -q -m "not realtime and not long" --ignore=test/run/log/test_definitions.py \
+	  test/ros/node test/ros/client test/run/log test/run/simulation/test_simulation.py
 
 test-cyclone:  ## tests of the node on CycloneDDS; CYCLONE=FOLDER: its libraries, as docs/ros.md says
 	$(SET_UP) test
@@ -91,7 +91,7 @@ wheels:  ## wheels with the compiled kernel for Linux, macOS and Windows, in dis
 	$(SET_UP) zig
 	@.venv/zig/bin/python workshop/wheels.py dist
 
-kernel-wasm:  ## the kernel in WebAssembly, symtop_ros/web/kernel.wasm (1 minute)
+kernel-wasm:  ## the kernel in WebAssembly, symtop_ros/page/web/kernel.wasm (1 minute)
 	$(SET_UP) zig
 	@.venv/zig/bin/python workshop/kernel_wasm.py
 

@@ -159,15 +159,15 @@ setup(
     package_data={
         NAME: [
             "py.typed",
-            "log/definitions.json",
-            "simulation/run_fields.json",
-            "web/*.css",
-            "web/js/*.js",
-            "web/js/*/*.js",
-            "web/*.html",
-            "web/*.yaml",
-            "web/texts/*.json",
-            "web/*.wasm",
+            "run/log/definitions.json",
+            "run/simulation/run_fields.json",
+            "page/web/*.css",
+            "page/web/js/*.js",
+            "page/web/js/*/*.js",
+            "page/web/*.html",
+            "page/web/*.yaml",
+            "page/web/texts/*.json",
+            "page/web/*.wasm",
             # the kernel for programs in C, C++ and Rust
             "physics/kernel/*.h*",
             "physics/kernel/*.cpp",
@@ -176,9 +176,9 @@ setup(
             "physics/gpu/*.npy",
             "physics/gpu/device/*",
             "physics/gpu/device/shim/*",
-            "wording/*.json",
+            "words/*.json",
         ],
-        f"{NAME}.testset": [
+        f"{NAME}.truth.testset": [
             "*.md",
             "*.xz",
             "LICENSE",

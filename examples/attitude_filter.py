@@ -17,7 +17,7 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from sensor_msgs.msg import Imu, MagneticField
 
-from symtop_ros.arrays import Real, compose, invert
+from symtop_ros.base.arrays import Real, compose, invert
 
 NORTH_TO_EAST = np.sqrt([0.5, 0.0, 0.0, 0.5])  # a quarter of a turn about the vertical
 NANOTESLA = 1e9  # per T

@@ -7,11 +7,11 @@ before the time and the one after it. That of the latest transform takes the one
 import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
-from symtop_ros.arrays import Stamps
-from symtop_ros.judge.clock import Clock, measure_clock
-from symtop_ros.judge.compare import compare
-from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.truth import scene_truth
+from symtop_ros.base.arrays import Stamps
+from symtop_ros.truth.judge.clock import Clock, measure_clock
+from symtop_ros.truth.judge.compare import compare
+from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.judge.truth import scene_truth
 
 SECOND, LOOK_UPS = 1_000_000_000, 2000
 TRUTH = scene_truth("cusps")

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from symtop_ros.imu import CONSUMER, Imu, record_imu
 from symtop_ros.physics import Motion, State, Top
+from symtop_ros.truth.imu import CONSUMER, Imu, record_imu
 
 motion = Motion(
     Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068),

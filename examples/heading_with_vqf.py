@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 from vqf import VQF
 
-from symtop_ros.arrays import Real, compose, invert
-from symtop_ros.imu import CONSUMER, Magnetometer, record_imu
-from symtop_ros.simulation.changes.requests import start_motion
-from symtop_ros.simulation.settings import Settings
+from symtop_ros.base.arrays import Real, compose, invert
+from symtop_ros.run.simulation.changes.requests import start_motion
+from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.truth.imu import CONSUMER, Magnetometer, record_imu
 
 SECONDS = 20
 NOISY = Magnetometer(vector=(0.0, 2e-5, -4.5e-5), magnetometer_noise_density=6.7e-8, seed=1)

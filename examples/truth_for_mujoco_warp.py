@@ -16,8 +16,8 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
-from symtop_ros.models.engines import format_mjcf
 from symtop_ros.physics import Body, Motions, State, Top, gpu
+from symtop_ros.run.models.engines import format_mjcf
 
 TOP = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 

@@ -56,7 +56,7 @@ def _ros() -> str:
         import rclpy
     except ModuleNotFoundError:
         return ABSENT
-    from symtop_ros.node.host import distribution_name
+    from symtop_ros.ros.node.host import distribution_name
 
     name = distribution_name() or "unknown distribution"
     return f"{name}, rclpy {_version('rclpy')} ({Path(rclpy.__file__).parent})"

@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from itertools import takewhile
 from typing import Any, NoReturn
 
-from symtop_ros.missing import find_package, name_remedy
+from symtop_ros.base.missing import find_package, name_remedy
 
 # Statuses of programs that a signal has ended, as shells have them: SIGINT, and SIGPIPE, which says
 # that the output is no longer read.
@@ -23,7 +23,7 @@ THREADS = "OPENBLAS_NUM_THREADS"
 
 def top_ctl() -> int:
     """Call the services of a running node; it ends the process."""
-    return _leave(run("top_ctl", "symtop_ros.client"))
+    return _leave(run("top_ctl", "symtop_ros.ros.client"))
 
 
 def _leave(status: int) -> NoReturn:
@@ -87,13 +87,13 @@ def _answer_without_the_program(options: str) -> None:
         importlib.import_module(options).make_parser().parse_args(words)
 
 
-top_node = partial(run, "top_node", "symtop_ros.node")
-top_live = partial(run, "top_live", "symtop_ros.live")
-top_panel = partial(run, "top_panel", "symtop_ros.panel")
-top_replay = partial(run, "top_replay", "symtop_ros.playback", interruptible=True)
-top_model = partial(run, "top_model", "symtop_ros.models")
-top_imu = partial(run, "top_imu", "symtop_ros.imu", interruptible=True)
-top_judge = partial(run, "top_judge", "symtop_ros.judge", interruptible=True)
+top_node = partial(run, "top_node", "symtop_ros.ros.node")
+top_live = partial(run, "top_live", "symtop_ros.ros.live")
+top_panel = partial(run, "top_panel", "symtop_ros.page.panel")
+top_replay = partial(run, "top_replay", "symtop_ros.replay", interruptible=True)
+top_model = partial(run, "top_model", "symtop_ros.run.models")
+top_imu = partial(run, "top_imu", "symtop_ros.truth.imu", interruptible=True)
+top_judge = partial(run, "top_judge", "symtop_ros.truth.judge", interruptible=True)
 
 
 def _spare_the_user() -> None:

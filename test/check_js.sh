@@ -10,5 +10,5 @@ fi
 case $2 in
   types) "$modules"/@typescript/*/lib/tsc --project tsconfig.json ;;
   # With the folders named: it would follow every link of an environment beside them.
-  style) "$modules"/@biomejs/cli-*/biome ci --colors=off --error-on-warnings symtop_ros/web test/web ;;
+  style) "$modules"/@biomejs/cli-*/biome ci --colors=off --error-on-warnings symtop_ros/page/web test/page/web ;;
 esac

@@ -20,7 +20,7 @@ NAME = "rmw_cyclonedds_cpp"
 LIBRARY = f"lib{NAME}.so"
 SUBJECTS = ("topics", "recording", "parameters", "time", "odd_calls", "faults", "simulator")
 ASK = "from rclpy import get_rmw_implementation_identifier as ask; print(ask())"
-TESTS = ("test/client", *(f"test/node/test_{each}.py" for each in SUBJECTS))
+TESTS = ("test/ros/client", *(f"test/ros/node/test_{each}.py" for each in SUBJECTS))
 
 
 def list_variables(folder: Path) -> dict[str, str]:

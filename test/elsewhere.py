@@ -23,7 +23,7 @@ from processors import list_processors
 
 ROOT = groups.ROOT
 ROOMS = tuple(f"test/{room}" for room in ("physics", "simulation", "session", "log", "check"))
-ROOMS = (*ROOMS, "test/judge")
+ROOMS = (*ROOMS, "test/truth/judge")
 # Decimal commas, a dotless i, and times at which it is another day.
 COUNTRIES = {"tr_TR": "Pacific/Kiritimati", "de_DE": "Pacific/Pago_Pago"}
 NOT_COPIED = (".git", ".venv", ".hypothesis", "__pycache__", "report", "site", "build")

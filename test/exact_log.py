@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from symtop_ros.check.run import check_messages, check_run
-from symtop_ros.check.samples import Deviation
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
+from symtop_ros.run.check.run import check_messages, check_run
+from symtop_ros.run.check.samples import Deviation
+from symtop_ros.run.log.reader import McapFile
+from symtop_ros.run.log.top_log import TopLog
 
 STATES = ("orientation", "angular_velocity", "angular_momentum", "torque", "euler_angles", "tf")
 

@@ -30,28 +30,28 @@ BIN = Path(sys.executable).parent
 OUTPUT = Path(sys.prefix, "test-output")
 AT_A_TIME = 4
 PERIOD = 15.0  # s between two lines of progress
-NODES = ("test/node", "test/system", "test/load", "test/client")
-PLAIN = ("test/digits", "test/speed", "test/wire", "test/models", "test/testset")
-JUDGE = ("test/judge", "test/imu", "test/check")
+NODES = ("test/ros/node", "test/system", "test/load", "test/ros/client")
+PLAIN = ("test/digits", "test/speed", "test/run/wire", "test/run/models", "test/truth/testset")
+JUDGE = ("test/truth/judge", "test/truth/imu", "test/run/check")
 # These run once more as on an old processor, on which BLAS, NumPy and libm round otherwise; those
 # that take long compare bits, or have no input of these libraries (`make test-elsewhere` runs all).
-NUMBERS = ("test/physics", "test/simulation", "test/check")
+NUMBERS = ("test/physics", "test/run/simulation", "test/run/check")
 NOT_TWICE = (
     "test/physics/kernel",
     "test/physics/reference",
     "test/physics/test_jacobian.py",
     "test/physics/test_exact_motions.py",
     "test/physics/test_interrupts.py",
-    "test/simulation/test_run_file.py",
-    "test/check/test_run.py",
-    "test/check/test_storm.py",
+    "test/run/simulation/test_run_file.py",
+    "test/run/check/test_run.py",
+    "test/run/check/test_storm.py",
 )
 # These run as on a machine without ROS and Rerun, but for two files that compare with ROS itself.
-PAGE = ("test/panel", "test/web")
-WITHOUT_ROS = ("test/simulation", "test/session", "test/log")
-WITH_ROS = ("test/log/test_definitions.py", "test/panel/test_bridge.py")
+PAGE = ("test/page/panel", "test/page/web")
+WITHOUT_ROS = ("test/run/simulation", "test/run/session", "test/run/log")
+WITH_ROS = ("test/run/log/test_definitions.py", "test/page/panel/test_bridge.py")
 ELSEWHERE = (*NODES, "test/physics", *PLAIN, *JUDGE, *PAGE, *WITHOUT_ROS)
-REALTIME = ("test/node", "test/system", "test/load")
+REALTIME = ("test/ros/node", "test/system", "test/load")
 # These read no wording: they pass with every template replaced by its key, but for marked ones.
 KEYS = Path(__file__).with_name("keys")
 READ_NO_WORDING = ("nodes", "page", "rest", "plain", "judge", "physics", "without-ros")

@@ -9,19 +9,19 @@ from typing import Any, Self
 import numpy as np
 from mcap.writer import Writer
 
-from symtop_ros.arrays import Real
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
-from symtop_ros.log.writer import NODE_ENTRY, TOPICS_ENTRY, LogFile
-from symtop_ros.models.urdf import robot_description
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict, regular_precession_rates
-from symtop_ros.simulation.changes.outcomes import Start
-from symtop_ros.simulation.changes.requests import plan_kick
-from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.topics import DESCRIPTION, EVENTS, STATE_TOPICS, Samples
-from symtop_ros.wire.layout import encode_string
-from symtop_ros.wire.messages import decode_messages
+from symtop_ros.run.log.reader import McapFile
+from symtop_ros.run.log.top_log import TopLog
+from symtop_ros.run.log.writer import NODE_ENTRY, TOPICS_ENTRY, LogFile
+from symtop_ros.run.models.urdf import robot_description
+from symtop_ros.run.simulation.changes.outcomes import Start
+from symtop_ros.run.simulation.changes.requests import plan_kick
+from symtop_ros.run.simulation.events import Event
+from symtop_ros.run.simulation.segment import Segment
+from symtop_ros.run.simulation.topics import DESCRIPTION, EVENTS, STATE_TOPICS, Samples
+from symtop_ros.run.wire.layout import encode_string
+from symtop_ros.run.wire.messages import decode_messages
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 CUSPS = State.from_euler(theta=0.5, psi_dot=200.0)

@@ -72,11 +72,11 @@ PREPARE = """
 import json, sys
 from pathlib import Path
 sys.path[:0] = ["test"]
-from judge.cases import encode, make_estimates, truth_and_stamps, write_log
+from truth.judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from log_files import Run
-from simulation.page_runs import make_run
-from symtop_ros.simulation.run_file import write_run
-from symtop_ros.testset.score import read_problems
+from run.simulation.page_runs import make_run
+from symtop_ros.run.simulation.run_file import write_run
+from symtop_ros.truth.testset.score import read_problems
 if sys.argv[1] == "logs":
     Run(seconds=2.0).write(Path.cwd()).rename("run.mcap")
 if sys.argv[1] == "truth":
@@ -289,7 +289,7 @@ def try_later(user: User) -> None:
 
     built = "make: sources of the package have changed: it is built anew"
     demand("make panel")
-    pull("symtop_ros/command.py")
+    pull("symtop_ros/base/command.py")
     demand("make panel")
     demand("make demo")
     pull("symtop_ros/physics/kernel/symtop.h")

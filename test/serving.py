@@ -5,7 +5,7 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
-from symtop_ros.panel.server import LOCAL_HOST, PageServer
+from symtop_ros.page.panel.server import LOCAL_HOST, PageServer
 
 
 @contextlib.contextmanager

@@ -23,7 +23,7 @@ class Hidden:
 sys.meta_path.insert(0, Hidden())
 """
 # Files that need nothing else, files that cannot be imported, and one that finds no browser.
-SOME = ("test/wire", "test/check", "test/playback/view", "test/web/test_page_sizes.py")
+SOME = ("test/run/wire", "test/run/check", "test/replay/view", "test/page/web/test_page_sizes.py")
 ALL = ("--collect-only", "test")
 
 

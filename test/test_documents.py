@@ -15,19 +15,19 @@ import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from documents import PAGES, ROOT, blocks, broken_links, commands, console, names, rows, same
 from geometry_msgs.msg import WrenchStamped
-from judge.cases import encode, make_estimates, truth_and_stamps, write_log
 from log_files import Run
-from node.listener import Listener, fill
-from node.running_top import RunningTop
 from programs import PATIENT, execute, find_fault, running_node
-from simulation.page_runs import make_run
+from ros.node.listener import Listener, fill
+from ros.node.running_top import RunningTop
+from run.simulation.page_runs import make_run
 from test_command_lines import MAINS
+from truth.judge.cases import encode, make_estimates, truth_and_stamps, write_log
 
 import workshop.main
-from symtop_ros.client.connection import Connection
-from symtop_ros.judge.main import main as judge_main
-from symtop_ros.simulation.run_file import write_run
-from symtop_ros.testset.score import read_problems
+from symtop_ros.ros.client.connection import Connection
+from symtop_ros.run.simulation.run_file import write_run
+from symtop_ros.truth.judge.main import main as judge_main
+from symtop_ros.truth.testset.score import read_problems
 from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced

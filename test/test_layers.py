@@ -8,47 +8,45 @@ import pytest
 from documents import ROOT
 
 PACKAGE = ROOT / "symtop_ros"
-# Files of the package itself.
-TOP = {
-    "__init__",
-    "__main__",
-    "arrays",
-    "command",
-    "missing",
-    "programs",
-    "refusals",
-    "shutdown",
-    "units",
-}
-# Folder -> folders and files of the package | other packages. Each entry is exact: an import that
-# is missing here fails, and so does an entry that is not used.
+# Files beside the rooms, and what every folder may use of the ground floor.
+TOP = {"__init__", "__main__", "programs"}
+GROUND = {"base/arrays", "base/refusals", "base/units"}
+# Rooms of several folders.
+DIVIDED = ("run", "ros", "page", "truth")
+# Folder -> folders of the package, and files of `base` | other packages. Each entry is exact: an
+# import that is missing here fails, and so does an entry that is not used.
 TABLE = {
     # text from records of any kind, so it is below them
-    "wording": " | ",
+    "words": " | ",
     # flint: only in reference, cupy: only in gpu
-    "physics": "missing wording | cupy flint numpy",
-    "wire": " | numpy",
-    "simulation": "__init__ physics wire wording | numpy scipy yaml",
-    "log": "__init__ simulation wire | lz4 mcap numpy zstandard",
-    # the page as one file
-    "web": "__init__ physics simulation wording | yaml",
+    "physics": "base/missing words | cupy flint numpy",
+    "run/wire": " | numpy",
+    "run/simulation": "__init__ physics run/wire words | numpy scipy yaml",
+    "run/log": "__init__ run/simulation run/wire | lz4 mcap numpy zstandard",
+    "run/models": "base/command physics run/simulation | ",
+    "run/session": "__init__ base/missing physics run/log run/models run/simulation run/wire words"
+    " | numpy",
     # of session what it says of a motion
-    "check": "__init__ log models physics session simulation wire | mcap numpy",
+    "run/check": "__init__ physics run/log run/models run/session run/simulation run/wire | "
+    "mcap numpy",
+    # the page as one file
+    "page/web": "__init__ physics run/simulation words | yaml",
     # of session the log that a node would have written of a run of the page
-    "playback": "check command log physics session simulation web | numpy rerun rerun_cli",
-    "session": "__init__ log missing models physics simulation wire wording | numpy",
-    "node": "__init__ command physics session shutdown simulation wire | "
+    "replay": "base/command page/web physics run/check run/log run/session run/simulation | "
+    "numpy rerun rerun_cli",
+    "ros/node": "__init__ base/command base/shutdown physics run/session run/simulation run/wire | "
     "geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces std_srvs",
     # of session only the table of services, which imports nothing; physics only in solve.py
-    "client": "command physics session shutdown wire | rcl_interfaces rclpy sensor_msgs std_srvs",
-    "live": "command log playback shutdown simulation wire | rclpy rerun",
+    "ros/client": "base/command base/shutdown physics run/session run/wire | "
+    "rcl_interfaces rclpy sensor_msgs std_srvs",
+    "ros/live": "base/command base/shutdown replay run/log run/simulation run/wire | rclpy rerun",
     # client, live and rclpy: only in bridge.py, which main.py imports for --node
-    "panel": "client command live shutdown simulation web | geometry_msgs rclpy",
-    "models": "command physics simulation | ",
-    "imu": "command log physics simulation wire | numpy yaml",
-    "testset": " | numpy",
-    "judge": "command log models physics shutdown simulation testset wire wording | "
-    "matplotlib numpy rclpy scipy",
+    "page/panel": "base/command base/shutdown page/web ros/client ros/live run/simulation | "
+    "geometry_msgs rclpy",
+    "truth/imu": "base/command physics run/log run/simulation run/wire | numpy yaml",
+    "truth/testset": " | numpy",
+    "truth/judge": "base/command base/shutdown physics run/log run/models run/simulation run/wire "
+    "truth/testset words | matplotlib numpy rclpy scipy",
 }
 ARROWS = {k: tuple(set(part.split()) for part in v.split("|")) for k, v in TABLE.items()}
 
@@ -59,22 +57,34 @@ def nodes(folder):
         yield from ((path, node) for node in ast.walk(ast.parse(path.read_text())))
 
 
-def imports(folder):
-    """Top-level packages that the files of a folder import, own folders by their names.
+def name_place(module):
+    """Return the folder of a module of the package, or its file if that is on the ground floor."""
+    first, *others = module.split(".")[1:] or ["__init__"]
+    return "/".join([first, *others[:1]]) if first in (*DIVIDED, "base") else first
 
-    Every folder may use `arrays`, `refusals` and `units`, the ground floor.
-    """
+
+def imports(folder):
+    """Places in the package and other packages that the files of a folder import."""
     own, others = set(), set()
     for _, node in nodes(folder):
         if not isinstance(node, ast.Import | ast.ImportFrom):
             continue
         for module in [getattr(node, "module", None) or each.name for each in node.names]:
-            package, _, rest = module.partition(".")
+            package = module.partition(".")[0]
             if package == "symtop_ros":
-                own.add(rest.partition(".")[0] or "__init__")
+                own.add(name_place(module))
             elif package not in {*sys.stdlib_module_names, "_typeshed"}:  # types only
                 others.add(package)
-    return own - {folder, "arrays", "refusals", "units"}, others
+    return own - {folder, *GROUND}, others
+
+
+def list_folders():
+    """Yield the rooms, and the folders of those that are divided."""
+    for room in [path.parent for path in PACKAGE.glob("*/__init__.py")]:
+        if room.name in DIVIDED:
+            yield from (f"{room.name}/{path.parent.name}" for path in room.glob("*/__init__.py"))
+        elif room.name != "base":
+            yield room.name
 
 
 @pytest.mark.parametrize("folder", ARROWS)
@@ -83,9 +93,16 @@ def test_a_folder_imports_exactly_what_the_table_says(folder):
 
 
 def test_every_folder_is_in_the_table():
-    found = {path.name for path in PACKAGE.iterdir() if (path / "__init__.py").is_file()}
-    assert found == set(ARROWS)
+    assert {*list_folders()} == set(ARROWS)
     assert {path.stem for path in PACKAGE.glob("*.py")} == TOP
+
+
+def test_the_ground_floor_imports_no_room():
+    assert imports("base")[0] <= {"__init__", *(f"base/{path.stem}" for path in nodes_of_base())}
+
+
+def nodes_of_base():
+    return (PACKAGE / "base").glob("*.py")
 
 
 def test_the_arrows_have_no_circle():
@@ -117,7 +134,7 @@ def test_records_are_frozen_but_for_those_that_count():
 
 def scripts(folder):
     """Folders that the page's modules of a folder import from, types included."""
-    texts = [path.read_text() for path in (PACKAGE / "web/js" / folder).glob("*.js")]
+    texts = [path.read_text() for path in (PACKAGE / "page/web/js" / folder).glob("*.js")]
     return {found for text in texts for found in re.findall(r'"\.\./(\w+)/\w+\.js"', text)}
 
 

@@ -8,16 +8,16 @@ from itertools import pairwise
 
 import pytest
 from documents import ROOT
-from node.listener import Listener
 from programs import running_node
+from ros.node.listener import Listener
 from shown_pictures import assert_same_picture
 from trials import choose
 from waiting import until
 
-from symtop_ros.client import main as client
-from symtop_ros.client.connection import Connection
-from symtop_ros.client.main import parse_values
-from symtop_ros.panel import main as panel
+from symtop_ros.page.panel import main as panel
+from symtop_ros.ros.client import main as client
+from symtop_ros.ros.client.connection import Connection
+from symtop_ros.ros.client.main import parse_values
 from workshop.lesson.page import PAGE, write_page
 from workshop.lesson.pictures import picture_of, run_step
 from workshop.lesson.steps import read_lesson

@@ -17,7 +17,7 @@ from symtop_ros.physics import (
     push_axle,
 )
 from symtop_ros.physics import regular_precession_rates as find_roots
-from symtop_ros.simulation.changes.outcomes import Pushed
+from symtop_ros.run.simulation.changes.outcomes import Pushed
 from workshop.article.answers.impulses import find_impulses, torques_at
 from workshop.article.answers.ledger import hurry_ledger
 from workshop.article.motions import FAST, HANGING_DISC, HURRIED, SLOW, TOP

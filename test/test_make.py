@@ -11,7 +11,7 @@ import pytest
 from documents import ROOT
 from programs import execute
 
-from symtop_ros.web.join import write_file
+from symtop_ros.page.web.join import write_file
 
 README = ROOT / "README.md"
 PACKAGE = ("setup.py", "setup.cfg", "build_kernel.py", "package.xml", "symtop_ros/__init__.py")

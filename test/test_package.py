@@ -149,7 +149,7 @@ def test_every_file_of_the_package_is_installed(sources, tmp_path):
     execute(setup, cwd=sources, check=True)
     needed, found = (list_files(folder / "symtop_ros", "") for folder in (sources, tmp_path))
     # the digest is for those who build the module anew
-    assert needed - found == {"web/kernel.sha256"}
+    assert needed - found == {"page/web/kernel.sha256"}
 
 
 def test_an_sdist_has_the_whole_project(tmp_path):

@@ -8,8 +8,8 @@ from documents import ROOT
 from programs import run_python, write_without
 
 from symtop_ros import __version__, missing, programs
-from symtop_ros.node.host import VARIABLES
 from symtop_ros.physics import kernel_version
+from symtop_ros.ros.node.host import VARIABLES
 
 pytestmark = pytest.mark.usefixtures("signals_as_before")
 

@@ -14,9 +14,9 @@ import pytest
 import yaml
 from documents import ROOT
 
-from symtop_ros.simulation.settings import PARAMETERS
-from symtop_ros.simulation.topics import TOPICS
-from symtop_ros.wire.messages import JOINTS
+from symtop_ros.run.simulation.settings import PARAMETERS
+from symtop_ros.run.simulation.topics import TOPICS
+from symtop_ros.run.wire.messages import JOINTS
 
 CONFIG = ROOT / "config"
 NAMES = {topic.resolve("/top") for topic in TOPICS.values()}

@@ -1,6 +1,6 @@
 """Pytest plugin: the tests run as on a machine without ROS and Rerun.
 
-pytest -p without_ros test/simulation test/log test/panel
+pytest -p without_ros test/run/simulation test/run/log test/page/panel
 """
 
 import sys

@@ -1,4 +1,4 @@
-"""Writes symtop_ros/log/definitions.json from the message packages of the installed ROS 2 (Jazzy).
+"""Writes run/log/definitions.json from the message packages of the installed ROS 2 (Jazzy).
 
 Run it when a topic with a new message type is added: python -m workshop.definitions
 
@@ -14,9 +14,9 @@ from pathlib import Path
 
 from rosbags.typesys import Stores, get_typestore
 
-from symtop_ros.simulation.topics import TOPICS
+from symtop_ros.run.simulation.topics import TOPICS
 
-TARGET = Path(__file__).parents[1] / "symtop_ros" / "log" / "definitions.json"
+TARGET = Path(__file__).parents[1] / "symtop_ros" / "run/log/definitions.json"
 SEPARATOR = "=" * 80 + "\nMSG: {name}\n{text}"
 # tf2_msgs is not on PyPI, where the rest of ROS 2 is.
 TF_MESSAGE = "tf2_msgs/msg/TFMessage"

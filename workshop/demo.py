@@ -17,15 +17,15 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.executors import ExternalShutdownException
 from sensor_msgs.msg import JointState
 
-from symtop_ros.client.connection import Connection, UnreachableError
-from symtop_ros.command import has_screen
-from symtop_ros.log.reader import LogError, McapFile
-from symtop_ros.log.top_log import TopLog
-from symtop_ros.node.host import use_profile
-from symtop_ros.playback import viewer
-from symtop_ros.playback.viewer import replay
+from symtop_ros.base.command import has_screen
+from symtop_ros.base.shutdown import describe_failure, ros_context
 from symtop_ros.programs import INTERRUPTED
-from symtop_ros.shutdown import describe_failure, ros_context
+from symtop_ros.replay import viewer
+from symtop_ros.replay.viewer import replay
+from symtop_ros.ros.client.connection import Connection, UnreachableError
+from symtop_ros.ros.node.host import use_profile
+from symtop_ros.run.log.reader import LogError, McapFile
+from symtop_ros.run.log.top_log import TopLog
 
 SCENE = "cusps"
 PROFILE = "fastdds_loopback.xml"

@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ROOT / "symtop_ros/physics/kernel"
-MODULE = ROOT / "symtop_ros/web/kernel.wasm"
+MODULE = ROOT / "symtop_ros/page/web/kernel.wasm"
 DIGEST = MODULE.with_suffix(".sha256")  # of the sources and of the command
 # The functions of the header: one that is added there is exported here.
 FUNCTIONS = re.findall(r"^SYMTOP_API .*?symtop_(\w+)\(", (SOURCES / "symtop.h").read_text(), re.M)

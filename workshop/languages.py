@@ -5,9 +5,9 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from symtop_ros.web.join import TERMS, TEXTS, read_file, read_texts
-from symtop_ros.wording.templates import FOLDER as WORDING
-from symtop_ros.wording.templates import PLACEHOLDER, read_templates
+from symtop_ros.page.web.join import TERMS, TEXTS, read_file, read_texts
+from symtop_ros.words.templates import FOLDER as WORDING
+from symtop_ros.words.templates import PLACEHOLDER, read_templates
 
 # What must be the same in every language: placeholders, arrows of the scene, symbols, numbers.
 ARROW = re.compile(r"\[[^|\]]+\|([^|\]]+)\]")

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import yaml
 
-from symtop_ros.command import positive
-from symtop_ros.web.join import LANGUAGES
+from symtop_ros.base.command import positive
+from symtop_ros.page.web.join import LANGUAGES
 
 COMMANDS: dict[str, dict[str, str]] = yaml.safe_load(
     Path(__file__).with_name("commands.yaml").read_text(encoding="utf-8")

@@ -17,7 +17,11 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 ENVIRONMENT = ROOT / ".venv" / "matrix" / "cell"
-TESTS = ("test/node/test_topics.py", "test/client/test_main.py", "test/check/test_samples.py")
+TESTS = (
+    "test/ros/node/test_topics.py",
+    "test/ros/client/test_main.py",
+    "test/run/check/test_samples.py",
+)
 DISTRIBUTIONS = {
     "jazzy": ("3.11", "3.12", "3.13", "3.14"),
     "kilted": ("3.11", "3.12", "3.13", "3.14"),
@@ -25,7 +29,7 @@ DISTRIBUTIONS = {
 NUMPYS = {"1": "numpy<2", "2": "numpy>=2,<3"}
 # The oldest Rerun of setup.py, and the newest.
 RERUNS = ("rerun-sdk~=0.38.0", "rerun-sdk")
-PLAYBACK_TESTS = ("test/playback/view", "test/playback/test_other_readers.py")
+PLAYBACK_TESTS = ("test/replay/view", "test/replay/test_other_readers.py")
 TOOLS = ("pytest", "coverage", "hypothesis", "mpmath", "python-flint", "rosbags", "pillow")
 PACKAGES = ("numpy", "scipy", "ros-rclpy", "rerun-sdk")
 # An active environment, and that of ROS wheels, would reach into the cell.

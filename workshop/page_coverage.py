@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.web.join import EXPORT, IMPORT, MODULES, drop_comments
+from symtop_ros.page.web.join import EXPORT, IMPORT, MODULES, drop_comments
 
 FOLDER = os.environ.get("PAGE_COVERAGE")
 PLACES = {path.stem: path for path in MODULES.rglob("*.js")}  # no two have the same name

@@ -25,7 +25,7 @@ from flint import arb, ctx
 from symtop_ros.physics.reference import Inputs
 from symtop_ros.physics.reference.balls import ProvedState, to_ball
 from symtop_ros.physics.reference.proved import prove_states
-from symtop_ros.testset.score import read_problems
+from symtop_ros.truth.testset.score import read_problems
 
 TABLE = Path(__file__).parents[1] / "test/physics/exact_motions.json.xz"
 TABLE_DIGITS, SHOWN = 25, 30  # of the table, and of the test set

@@ -1,9 +1,9 @@
 """The twins of symtop.h and of the units, for Python and the page: python -m workshop.twins.
 
 Enums, records and functions are defined in the header alone, units that may be typed in
-symtop_ros/units.py; the files that this writes say the same in other languages. A test fails if
-they are not current. The name of an enumerator is that in quotes at the head of its comment ("" for
-one without a name), or else its own in small letters.
+base/units.py; the files that this writes say the same in other languages. A test fails if they are
+not current. The name of an enumerator is that in quotes at the head of its comment ("" for one
+without a name), or else its own in small letters.
 """
 
 import json
@@ -13,14 +13,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from symtop_ros.units import QUANTITIES, UNITS
+from symtop_ros.base.units import QUANTITIES, UNITS
 
 PACKAGE = Path(__file__).parents[1] / "symtop_ros"
 KERNEL = PACKAGE / "physics/kernel"
 HEADER = KERNEL / "symtop.h"
 LIBRARY = KERNEL / "functions/library.hpp"  # what only ctypes calls
-PYTHON, PAGE = KERNEL / "records.py", PACKAGE / "web/js/physics/records.js"
-UNITS_OF_PAGE = PACKAGE / "web/js/words/units.js"
+PYTHON, PAGE = KERNEL / "records.py", PACKAGE / "page/web/js/physics/records.js"
+UNITS_OF_PAGE = PACKAGE / "page/web/js/words/units.js"
 WIDTH = 100
 NUMBERED = ("status",)  # enums that Python and the page know by their numbers
 NAMELESS = re.compile("UNKNOWN_|KINDS_OF_")  # enumerators that are no names of anything
@@ -262,7 +262,7 @@ def write_units() -> str:
     lines = [
         "// Units that people type, each in that of SI, which comes first.",
         "//",
-        "// Written by `python -m workshop.twins`: change symtop_ros/units.py, and not this file.",
+        "// Written by `python -m workshop.twins`: change base/units.py, and not this file.",
         "",
         "/** @type {{[unit: string]: {[name: string]: number}}} */",
         "export const UNITS = {",

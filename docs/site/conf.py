@@ -37,7 +37,7 @@ extensions = [
     "sphinx-mathjax-offline",  # the pages need no network
 ]
 root_doc = "docs/site/index"
-include_patterns = ["*.md", "*.rst", "docs/*.md", "docs/site/*.md", "symtop_ros/testset/*.md"]
+include_patterns = ["*.md", "*.rst", "docs/*.md", "docs/site/*.md", "symtop_ros/truth/testset/*.md"]
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
 autodoc_member_order = "bysource"

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symtop_ros.arrays import Mask, Real, Vector
+from symtop_ros.base.arrays import Mask, Real, Vector
+from symtop_ros.base.refusals import refuse
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import FRICTION_KINDS
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import fit_shapes, validate_array, validate_vectors
-from symtop_ros.refusals import refuse
 
 NO_FRICTION = Friction()
 NO_TORQUE = (0.0, 0.0, 0.0)

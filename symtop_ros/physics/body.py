@@ -9,7 +9,8 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
+from symtop_ros.base.refusals import Words, require
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY, specific_force
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import PART_KINDS
@@ -18,7 +19,6 @@ from symtop_ros.physics.parts import Part
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import validate_number, validate_one, validate_positive
-from symtop_ros.refusals import Words, require
 
 LONGEST_ARM = 10.0  # m, of a body that is chosen: a weight of 1e-9 J would have kilometres
 SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user
@@ -213,7 +213,7 @@ class Body:
         --------
         >>> Body.of(Top(Ix=1.0, Iz=2.0, Mgl=1.0))  # doctest: +ELLIPSIS
         Traceback (most recent call last):
-        symtop_ros.refusals.RefusedError: Iz must be < 2 Ix = 2 kg m^2 for a body with Mgl = 1 J ...
+        symtop_ros.base.refusals.RefusedError: Iz must be < 2 Ix = 2 kg m^2 for a body with ...
         """
         validate_one(top)
         gravity = validate_positive("gravity", gravity, "m/s^2")

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symtop_ros.missing import name_remedy
+from symtop_ros.base.missing import name_remedy
+from symtop_ros.base.refusals import RefusedError, Words, refuse
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.values import validate_array
-from symtop_ros.refusals import RefusedError, Words, refuse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

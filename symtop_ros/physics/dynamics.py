@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real, split, stack
+from symtop_ros.base.arrays import Real, split, stack
+from symtop_ros.base.refusals import require
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import (
@@ -18,7 +19,6 @@ from symtop_ros.physics.values import (
     validate_positive,
     validate_vector,
 )
-from symtop_ros.refusals import require
 
 STANDARD_GRAVITY = 9.81  # m/s^2
 NODES = 24  # of the Gauss-Legendre quadrature: exact to rounding over a stretch of STRETCH radians

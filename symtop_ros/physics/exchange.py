@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from symtop_ros.wording import write
+from symtop_ros.words import write
 
 if TYPE_CHECKING:
     from symtop_ros.physics.ledger import Ledger

@@ -18,12 +18,12 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.arrays import Places, Real, compose, find_rotation_vectors, invert
+from symtop_ros.base.arrays import Places, Real, compose, find_rotation_vectors, invert
+from symtop_ros.base.refusals import refuse
 from symtop_ros.physics.arguments import STARTS, fill_states, read_start
 from symtop_ros.physics.kernel import door, states
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
 from symtop_ros.physics.values import EPS
-from symtop_ros.refusals import refuse
 
 ORDER = 10  # of the derivatives, and as many nodes
 PAIRS = (1.0, 2.13, 2.88, 4.07, 5.0)

@@ -8,7 +8,8 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
+from symtop_ros.base.refusals import Words, refuse
 from symtop_ros.physics.kernel import door, records
 from symtop_ros.physics.kernel.records import Hold, KickKind
 from symtop_ros.physics.state import State
@@ -20,7 +21,6 @@ from symtop_ros.physics.values import (
     validate_rate,
     validate_vectors,
 )
-from symtop_ros.refusals import Words, refuse
 
 HOLDS: tuple[Hold, ...] = get_args(Hold)
 ANY_TOP = np.ones(3)  # a change of phi' asks for no top
@@ -260,7 +260,7 @@ def validate_hold(hold: Any) -> Hold:
     >>> from symtop_ros.physics import validate_hold
     >>> validate_hold("spin")
     Traceback (most recent call last):
-    symtop_ros.refusals.RefusedError: hold must be 'spin_rate' or 'spin_momentum', got 'spin'
+    symtop_ros.base.refusals.RefusedError: hold must be 'spin_rate' or 'spin_momentum', got 'spin'
     """
     for each in HOLDS:
         if isinstance(hold, str) and hold == each:

@@ -14,7 +14,8 @@ from operator import add
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
+from symtop_ros.base.refusals import Words, refuse, require
 from symtop_ros.physics.dynamics import find_fastest_rate
 from symtop_ros.physics.exchange import Exchange
 from symtop_ros.physics.motion import Motion
@@ -23,7 +24,6 @@ from symtop_ros.physics.state import State
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import validate_number, validate_one
-from symtop_ros.refusals import Words, refuse, require
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to rounding over a part
 PART = 2.0  # rad of the fastest rate in a part

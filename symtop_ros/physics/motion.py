@@ -11,7 +11,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
+from symtop_ros.base.refusals import refuse, require
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
@@ -33,7 +34,6 @@ from symtop_ros.physics.state import State
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import validate_array, validate_number, validate_vector
-from symtop_ros.refusals import refuse, require
 
 
 def find_period(rate: float) -> float:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
+from symtop_ros.base.refusals import Words, require
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
@@ -30,7 +31,6 @@ from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes, to_seconds
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import validate_array
-from symtop_ros.refusals import Words, require
 
 
 class Motions:

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
+from symtop_ros.base.refusals import choice, flag, require
 from symtop_ros.physics.kernel.records import PART_KINDS, PartKind
 from symtop_ros.physics.values import validate_number, validate_positive
-from symtop_ros.refusals import choice, flag, require
 
 # What the size of each kind is; a point has none.
 SIZES = {"rod": "length", "hoop": "radius", "disc": "radius", "ball": "radius"}
@@ -41,7 +41,7 @@ class Part:
     'disc'
     >>> Part("ball", mass=0.9, distance=-0.253, size=0.05, spins=False)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
-    symtop_ros.refusals.RefusedError: spins must be true for a ball, which has a moment ...
+    symtop_ros.base.refusals.RefusedError: spins must be true for a ball, which has a moment ...
     """
 
     kind: PartKind

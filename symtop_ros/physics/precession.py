@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (

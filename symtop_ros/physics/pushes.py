@@ -8,9 +8,9 @@ from dataclasses import astuple, dataclass
 from struct import pack
 from typing import TYPE_CHECKING, NamedTuple
 
+from symtop_ros.base.refusals import refuse, require
 from symtop_ros.physics.times import SECOND
 from symtop_ros.physics.values import validate_number
-from symtop_ros.refusals import refuse, require
 
 if TYPE_CHECKING:
     from symtop_ros.physics.motion import Motion

@@ -7,13 +7,13 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from symtop_ros.base.refusals import RefusedError, Words, refuse
+from symtop_ros.base.units import QUANTITIES
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import DEMANDS, QUESTIONS, SolutionsRecord
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import LARGEST_MOMENT, validate_number, validate_one
-from symtop_ros.refusals import RefusedError, Words, refuse
-from symtop_ros.units import QUANTITIES
 
 # The names of each question, in the order of the kernel, by what a caller gives in any order.
 ROWS = {frozenset(each.split()): tuple(each.split()) for each in QUESTIONS}

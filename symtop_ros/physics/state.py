@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real, rotate, split, stack
+from symtop_ros.base.arrays import Real, rotate, split, stack
+from symtop_ros.base.refusals import Words, refuse, require
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.times import ExactTimes, to_seconds
 from symtop_ros.physics.values import (
@@ -20,7 +21,6 @@ from symtop_ros.physics.values import (
     validate_array,
     validate_together,
 )
-from symtop_ros.refusals import Words, refuse, require
 
 NORM_TOLERANCE = 1e-3  # a norm further from 1 is refused: it is an error of the caller
 NORM_ROUNDING = 4 * EPS  # a norm this close to 1 is left alone: normalising would only add rounding

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.base.refusals import Words, refuse
 from symtop_ros.physics.values import ignore_underflow, validate_number
-from symtop_ros.refusals import Words, refuse
 
 SECOND = 10**9  # ns
 LARGEST_STAMP = 2**63 - 1  # ns

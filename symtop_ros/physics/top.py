@@ -7,7 +7,8 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.arrays import Real, Vector, split, stack
+from symtop_ros.base.arrays import Real, Vector, split, stack
+from symtop_ros.base.refusals import Words, refuse
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import FRICTION_KINDS
 from symtop_ros.physics.state import State
@@ -18,7 +19,6 @@ from symtop_ros.physics.values import (
     validate_one,
     validate_together,
 )
-from symtop_ros.refusals import Words, refuse
 
 
 class _Numbers:

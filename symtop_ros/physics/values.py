@@ -11,8 +11,8 @@ from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
-from symtop_ros.arrays import Real, Vector
-from symtop_ros.refusals import Words, describe_range, is_real, number, refuse, require
+from symtop_ros.base.arrays import Real, Vector
+from symtop_ros.base.refusals import Words, describe_range, is_real, number, refuse, require
 
 P = ParamSpec("P")
 T = TypeVar("T")

@@ -6,12 +6,12 @@ from urllib.parse import parse_qsl
 
 import pytest
 from documents import ROOT, rows
+from page.web.opened import UNDRAWN
 from shown_pictures import assert_same_picture
 from trials import choose
-from web.opened import UNDRAWN
 
+from symtop_ros.page.web.join import write_file
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.web.join import write_file
 from workshop.article.figures import FIGURES
 from workshop.pictures.pack import pack_figure
 

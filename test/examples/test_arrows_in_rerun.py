@@ -17,7 +17,7 @@ def arrows(tmp_path_factory):
     """The columns of each topic with arrows, by name."""
     target = tmp_path_factory.mktemp("arrows") / "run.rrd"
     program = ROOT / "examples/arrows_in_rerun.py"
-    execute([sys.executable, program, ROOT / "test/check/run_0.3.0.mcap", target], check=True)
+    execute([sys.executable, program, ROOT / "test/run/check/run_0.3.0.mcap", target], check=True)
     batches = [each.to_record_batch() for each in chunk.RrdReader(target).stream()]
     found = [each for each in batches if "Arrows3D:vectors" in each.schema.names]
     paths = [each.schema.metadata[b"rerun:entity_path"].decode() for each in found]

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 pytest.importorskip("ahrs", reason="no ahrs: pip install ahrs")
-from node.running_top import RunningTop
+from ros.node.running_top import RunningTop
 from sensor_msgs.msg import Imu, MagneticField
 from trials import choose
 
 from examples.attitude_filter import FILTERS, AttitudeFilter
-from symtop_ros.arrays import compose, invert
+from symtop_ros.base.arrays import compose, invert
 
 # Madgwick, Harrison, Vaidyanathan (2011): root mean square in motion; Valenti's is held to it, too.
 PROMISE = np.radians(1.7)

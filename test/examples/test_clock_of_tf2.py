@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from examples.clock_of_tf2 import SECOND, TRUTH, look_up
-from symtop_ros.judge.clock import measure_clock
-from symtop_ros.judge.compare import compare
+from symtop_ros.truth.judge.clock import measure_clock
+from symtop_ros.truth.judge.compare import compare
 
 TIMES = np.sort(np.random.default_rng(5).integers(SECOND, 5 * SECOND, 2000))
 

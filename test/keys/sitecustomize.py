@@ -3,7 +3,7 @@
 What still works does not depend on wording. Python imports this module when it starts.
 """
 
-from symtop_ros.wording import templates
+from symtop_ros.words import templates
 
 for key in templates.TEMPLATES:
     templates.TEMPLATES[key] = key

@@ -3,7 +3,7 @@
 import pytest
 from programs import execute
 
-from symtop_ros.simulation.block import CATCH_UP
+from symtop_ros.run.simulation.block import CATCH_UP
 from workshop.load import calls, soak, stress
 from workshop.load.processes import script
 from workshop.load.stress import HEAD, Outcome

@@ -9,11 +9,11 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS, DISC, EPS, Case, follow_exactly, random_states, turn
 from trials import seeds
 
+from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import BODIES, Body, Friction, Motion, Part, State, Top
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY, point_acceleration
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.precession import theta_acceleration, theta_torque
-from symtop_ros.refusals import RefusedError
 from workshop.digits import ClosedForm
 from workshop.testset.exact import DIGITS
 

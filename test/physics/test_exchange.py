@@ -5,7 +5,7 @@ from physics.families import DRAWS, draw_motion
 from physics.tops import ARTICLE, CUSPS, SLOW, precess
 
 from symtop_ros.physics import Exchange, Friction, Ledger, Motion, Pushes, State, Top, push_axle
-from symtop_ros.wording import write
+from symtop_ros.words import write
 
 pytestmark = pytest.mark.wording
 KEPT = "p_phi and p_psi are constant"

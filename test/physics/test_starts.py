@@ -13,9 +13,9 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, EPS
 from trials import seeds
 
+from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import Motion, Motions, State, Top, solve_start
 from symtop_ros.physics.starts import ROWS
-from symtop_ros.refusals import RefusedError
 
 FEW = 200  # of each question, in a run of all tests
 MANY = 5000

@@ -11,6 +11,7 @@ from physics.refusals import FINITE_ARRAY, meet, refused
 from physics.tops import ARTICLE, CUSPS, EPS, distance, within
 from trials import seeds
 
+from symtop_ros.base.refusals import refuse
 from symtop_ros.physics import (
     EffectivePotential,
     ExactTimes,
@@ -26,7 +27,6 @@ from symtop_ros.physics import (
     theta_acceleration,
 )
 from symtop_ros.physics.values import validate_array, validate_number
-from symtop_ros.refusals import refuse
 
 TWO = 2, 2.0, np.float32(2), np.int8(2), np.array(2.0), np.array(2), Fraction(4, 2)
 MASKED = np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0])

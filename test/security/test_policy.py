@@ -7,16 +7,16 @@ import urllib.error
 import urllib.request
 
 import pytest
-from node.listener import Listener
-from node.running_top import RunningTop
 from programs import command, running, running_node
 from rclpy.node import NodeNameNonExistentError
+from ros.node.listener import Listener
+from ros.node.running_top import RunningTop
 from security.policy import allowed, used
 from waiting import TIMEOUT, until
 
-from symtop_ros.playback import viewer
-from symtop_ros.session.services import SERVICES
-from symtop_ros.simulation.topics import STATE_TOPICS
+from symtop_ros.replay import viewer
+from symtop_ros.run.session.services import SERVICES
+from symtop_ros.run.simulation.topics import STATE_TOPICS
 from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced

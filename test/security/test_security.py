@@ -7,13 +7,13 @@ from itertools import product
 import pytest
 from listening import tcp_addresses
 from log_files import Run
-from node.running_top import RunningTop
 from programs import command, run, running
 from rclpy.parameter import Parameter
+from ros.node.running_top import RunningTop
 from trials import choose
 from waiting import until
 
-from symtop_ros.playback import viewer
+from symtop_ros.replay import viewer
 from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced

@@ -35,7 +35,7 @@ def test_a_peer_that_is_ahead_in_a_table_is_named(name):
     assert all("peer" in line for line in lines)
 
 
-TESTSET = ROOT / "symtop_ros" / "testset" / "README.md"
+TESTSET = ROOT / "symtop_ros/truth/testset/README.md"
 PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SECTIONS = (
     "chapters",

@@ -16,16 +16,16 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact, assert_no_deviation, stamps_of
 from log_files import Run
-from node.listener import Listener
-from node.running_top import facts, stamp_of
 from programs import command, running, running_node, set_parameters
+from ros.node.listener import Listener
+from ros.node.running_top import facts, stamp_of
 from sensor_msgs.msg import JointState
 from trials import trials
 from waiting import TIMEOUT, until
 
-from symtop_ros.log.reader import McapFile
-from symtop_ros.log.top_log import TopLog
-from symtop_ros.playback import viewer
+from symtop_ros.replay import viewer
+from symtop_ros.run.log.reader import McapFile
+from symtop_ros.run.log.top_log import TopLog
 from workshop.load.domains import claim_domain
 
 pytestmark = pytest.mark.untraced

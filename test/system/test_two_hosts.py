@@ -13,7 +13,7 @@ from programs import LOSSY_PROFILES, command, set_parameters
 from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
 from waiting import TIMEOUT, until
 
-from symtop_ros.node.host import VARIABLES, distribution_name
+from symtop_ros.ros.node.host import VARIABLES, distribution_name
 from workshop.load.endings import bound
 
 skip = pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}")

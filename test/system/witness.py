@@ -21,10 +21,10 @@ from rclpy.serialization import deserialize_message
 from std_msgs.msg import Header
 
 sys.path.append(str(Path(__file__).parents[1]))
-from node.listener import Listener
+from ros.node.listener import Listener
 
-from symtop_ros.live.feed import DEPTH, LATCHED
-from symtop_ros.simulation.topics import STATE_TOPICS
+from symtop_ros.ros.live.feed import DEPTH, LATCHED
+from symtop_ros.run.simulation.topics import STATE_TOPICS
 
 SECOND = 1_000_000_000
 PERIOD = SECOND // 200  # of the samples of a top

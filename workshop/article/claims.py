@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import yaml
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Top
 from workshop.article.motions import TOP
 

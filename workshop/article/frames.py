@@ -4,7 +4,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion, Top, hurry, regular_precession_rates
 from workshop.article.answers.fictitious import point_masses
 from workshop.article.claims import Measured, claim, differ

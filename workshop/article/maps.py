@@ -18,7 +18,7 @@ import rerun.blueprint as rrb
 from matplotlib import colormaps
 from matplotlib.figure import Figure
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import HurryEffect, compare_hurried, theta_torque
 from workshop.article.answers.starts import PHI_DOTS, PSI_DOTS, draw_regions
 from workshop.article.motions import PSI_DOT, THETA, TOP

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.signal import find_peaks
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import EffectivePotential, Motion, Top
 from workshop.article.claims import Measured, claim
 from workshop.article.motions import (

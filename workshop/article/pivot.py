@@ -6,7 +6,7 @@ The motion does not depend on mass and arm, the force does. `symtop_ros.physics.
 import numpy as np
 from scipy.optimize import brentq
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Body, Motion, Top
 from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import FAST, SLOW, cusps, slope, start

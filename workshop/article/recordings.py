@@ -12,18 +12,18 @@ import numpy as np
 import rerun as rr
 import rerun.blueprint as rrb
 
-from symtop_ros.arrays import Stamps
-from symtop_ros.log.batch import Batch, Columns
+from symtop_ros.base.arrays import Stamps
 from symtop_ros.physics import Motion, State, Top, hurry
-from symtop_ros.playback.view import entities
-from symtop_ros.playback.view.blueprint import PLOT_BACKGROUND, around_cursor
-from symtop_ros.playback.view.surroundings import Trace, create_stand, turning_circles
-from symtop_ros.playback.view.view import View, ViewOptions
-from symtop_ros.playback.viewer import create_recording
-from symtop_ros.simulation.changes.outcomes import Outcome, Start
-from symtop_ros.simulation.events import Event
-from symtop_ros.simulation.segment import Segment
-from symtop_ros.simulation.topics import STATE_TOPICS, Samples
+from symtop_ros.replay.view import entities
+from symtop_ros.replay.view.blueprint import PLOT_BACKGROUND, around_cursor
+from symtop_ros.replay.view.surroundings import Trace, create_stand, turning_circles
+from symtop_ros.replay.view.view import View, ViewOptions
+from symtop_ros.replay.viewer import create_recording
+from symtop_ros.run.log.batch import Batch, Columns
+from symtop_ros.run.simulation.changes.outcomes import Outcome, Start
+from symtop_ros.run.simulation.events import Event
+from symtop_ros.run.simulation.segment import Segment
+from symtop_ros.run.simulation.topics import STATE_TOPICS, Samples
 from workshop.article.motions import (
     FAST,
     HURRIED,

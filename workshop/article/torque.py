@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.playback.view.quantities import nodes_of
+from symtop_ros.replay.view.quantities import nodes_of
 from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import (
     FAST,

@@ -13,8 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from symtop_ros.arrays import Real
-from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import (
     Motion,
     State,
@@ -23,10 +22,11 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from symtop_ros.playback.view.entities import draw_parallel
-from symtop_ros.playback.view.torques import torques_of
-from symtop_ros.simulation.changes.requests import initial_state
-from symtop_ros.simulation.settings import Settings
+from symtop_ros.replay.view.entities import draw_parallel
+from symtop_ros.replay.view.torques import torques_of
+from symtop_ros.run.simulation.changes.requests import initial_state
+from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.truth.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
 from workshop.article.answers.fictitious import draw_arrow, plot_torques
 from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from symtop_ros.page.web.join import read_steps, read_texts
 from symtop_ros.physics import Hold
-from symtop_ros.web.join import read_steps, read_texts
-from symtop_ros.wording.templates import write_number
+from symtop_ros.words.templates import write_number
 
 TEXTS = ("title", "predict", "look", "seen", "question", "answer", "picture", "source")
 # Scenes of the steps, and the options by which top_ctl finds the node of each.

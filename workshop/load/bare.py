@@ -20,7 +20,7 @@ from rclpy.serialization import serialize_message
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from symtop_ros.shutdown import ros_context
+from symtop_ros.base.shutdown import ros_context
 
 TOPICS = {
     "orientation": QuaternionStamped,

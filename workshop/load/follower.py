@@ -15,7 +15,7 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped
 
-from symtop_ros.client.connection import Connection, UnreachableError
+from symtop_ros.ros.client.connection import Connection, UnreachableError
 from workshop.load.bare import LATCHED
 from workshop.load.processes import domain
 

@@ -7,7 +7,7 @@ import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
 from std_srvs.srv import Trigger
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from workshop.load.bare import LATCHED, TOPICS
 from workshop.load.follower import Subscriber, read_stamp, to_nanoseconds
 from workshop.load.processes import cpu_seconds

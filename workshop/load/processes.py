@@ -11,9 +11,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.client.connection import UnreachableError
-from symtop_ros.command import positive
+from symtop_ros.base.command import positive
 from symtop_ros.programs import INTERRUPTED
+from symtop_ros.ros.client.connection import UnreachableError
 from workshop.load.domains import claim_domain
 from workshop.load.endings import bound
 

@@ -14,11 +14,11 @@ import yaml
 from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
+from symtop_ros.page.web.join import write_file
 from symtop_ros.physics import ExactTimes, Motion
-from symtop_ros.simulation.changes.requests import plan_kick, start_motion
-from symtop_ros.simulation.run_file import RunEvent, write_run
-from symtop_ros.simulation.settings import Settings
-from symtop_ros.web.join import write_file
+from symtop_ros.run.simulation.changes.requests import plan_kick, start_motion
+from symtop_ros.run.simulation.run_file import RunEvent, write_run
+from symtop_ros.run.simulation.settings import Settings
 from workshop.browser import launch
 from workshop.pictures.pack import pack_shaded
 

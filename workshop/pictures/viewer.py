@@ -17,8 +17,8 @@ import numpy as np
 from PIL import Image
 from rerun.experimental import ViewerClient
 
-from symtop_ros.playback import viewer
-from symtop_ros.playback.viewer import HOST
+from symtop_ros.replay import viewer
+from symtop_ros.replay.viewer import HOST
 from workshop.load.endings import bound
 
 DRIVER = Path(sys.prefix, "vulkan")  # where `make test` unpacks one

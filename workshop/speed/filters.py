@@ -14,14 +14,23 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.arrays import Real, invert
-from symtop_ros.imu import CONSUMER, ImuRecord, record_imu
-from symtop_ros.judge.compare import NONE, Errors, compare
-from symtop_ros.judge.estimates import Estimates
-from symtop_ros.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure, rows, write_figures
-from symtop_ros.judge.truth import Truth
-from symtop_ros.simulation.changes.requests import start_motion
-from symtop_ros.simulation.settings import Settings
+from symtop_ros.base.arrays import Real, invert
+from symtop_ros.run.simulation.changes.requests import start_motion
+from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.truth.imu import CONSUMER, ImuRecord, record_imu
+from symtop_ros.truth.judge.compare import NONE, Errors, compare
+from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.judge.figures import (
+    BLUE,
+    GOLD,
+    GREY,
+    INK,
+    RED,
+    new_figure,
+    rows,
+    write_figures,
+)
+from symtop_ros.truth.judge.truth import Truth
 from workshop.pictures.pack import pack
 from workshop.speed.publish import format_table, group, track, write_results
 

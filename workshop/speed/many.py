@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motions, State, Top
-from symtop_ros.testset.score import measure_angles
+from symtop_ros.truth.testset.score import measure_angles
 from workshop.speed.peers import CLOSED_FORM
 from workshop.speed.publish import format_table, write_chapter
 from workshop.speed.reference import integrate, split_orientations

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.testset.score import FILE, read_problems
+from symtop_ros.truth.testset.score import FILE, read_problems
 from workshop.speed.peers import CLOSED_FORM, find_peers
 from workshop.speed.peers.peer import Peer
 from workshop.speed.publish import format_table, group, replace_section, track, write_results

@@ -10,9 +10,9 @@ import math
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from symtop_ros.arrays import Real
-from symtop_ros.models.urdf import MUJOCO_BOUND
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion, State, Top
+from symtop_ros.run.models.urdf import MUJOCO_BOUND
 from workshop.speed.peers.peer import from_euler_angles
 from workshop.testset.problems import Setting
 

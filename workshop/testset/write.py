@@ -18,8 +18,8 @@ from mpmath import mp, mpf
 
 from symtop_ros.physics import STANDARD_GRAVITY
 from symtop_ros.physics.reference import Inputs
-from symtop_ros.testset.score import FILE, read_problems
-from symtop_ros.testset.tables import FORCES, LIMITS, STATES, WORLD, complete, format_problems
+from symtop_ros.truth.testset.score import FILE, read_problems
+from symtop_ros.truth.testset.tables import FORCES, LIMITS, STATES, WORLD, complete, format_problems
 from workshop.digits import ClosedForm, ExactState, Series
 from workshop.testset.exact import DIGITS, distance, perturb, returning_series
 from workshop.testset.links import find_link_effect

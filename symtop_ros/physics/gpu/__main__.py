@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics.gpu import DeviceError, Motions
 from symtop_ros.physics.gpu.device import (
     BLOCK,

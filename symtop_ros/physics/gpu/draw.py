@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.random import Generator
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 
 # Orientations of few digits, of which exact resting points, turning points and poles are made.
 EXACT = (

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from symtop_ros.base.refusals import refuse, require
 from symtop_ros.physics.arguments import read_start
 from symtop_ros.physics.gpu.device import open_cupy, open_functions
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
-from symtop_ros.refusals import refuse, require
 
 NUMBERS = 15  # of a start: moments, orientation, angular velocity; friction and torque are zero
 STATE_BYTES = 8 * 7 + 1

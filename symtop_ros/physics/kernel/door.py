@@ -19,7 +19,8 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
+from symtop_ros.base.refusals import RefusedError, refuse
 from symtop_ros.physics.kernel.records import (
     BAD_ANGULAR_VELOCITY,
     BAD_ARITHMETIC,
@@ -47,7 +48,6 @@ from symtop_ros.physics.kernel.records import (
 )
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY
-from symtop_ros.refusals import RefusedError, refuse
 
 P = ParamSpec("P")
 T = TypeVar("T")

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
+from symtop_ros.base.refusals import refuse
 from symtop_ros.physics.arguments import read_start
 from symtop_ros.physics.kernel.door import NOT_PUSHED, KernelMotion, demand, refuse_status
 from symtop_ros.physics.kernel.records import (
@@ -17,7 +18,6 @@ from symtop_ros.physics.kernel.records import (
     PieceRecord,
 )
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
-from symtop_ros.refusals import refuse
 
 # In one call of the kernel, some ms.
 STATES = 2**16

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple, TypeVar
 
-from symtop_ros.missing import name_remedy
+from symtop_ros.base.missing import name_remedy
 
 try:
     from flint import acb, arb, ctx, fmpq

@@ -17,7 +17,7 @@ from symtop_ros.physics.kernel.records import (
     Subject,
     Turn,
 )
-from symtop_ros.wording import write
+from symtop_ros.words import write
 
 COLOURED = re.compile(r"\[([^|\]]*)\|[^\]]*\]")  # a word that the page draws in the arrow's colour
 

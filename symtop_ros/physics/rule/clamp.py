@@ -9,7 +9,7 @@ from symtop_ros.physics.kernel.records import HELD_KINDS, SUBJECTS, HeldKind, Su
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import validate_one
-from symtop_ros.wording import write
+from symtop_ros.words import write
 
 
 @dataclass(frozen=True, slots=True)

@@ -58,7 +58,7 @@ from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.rule.cause import Cause, read_cause
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import validate_one
-from symtop_ros.wording import write
+from symtop_ros.words import write
 
 VERTICAL = REASON_KINDS.index("undefined")  # from here on the axis is on the vertical
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import RULES, Hold
 from symtop_ros.physics.kicks import HOLDS, validate_hold

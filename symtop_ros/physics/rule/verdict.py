@@ -7,7 +7,8 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symtop_ros.arrays import Real, split
+from symtop_ros.base.arrays import Real, split
+from symtop_ros.base.refusals import refuse
 from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, list_starts
 from symtop_ros.physics.kernel import door, records
 from symtop_ros.physics.kernel.records import (
@@ -29,8 +30,7 @@ from symtop_ros.physics.values import (
     validate_array,
     validate_number,
 )
-from symtop_ros.refusals import refuse
-from symtop_ros.wording import write
+from symtop_ros.words import write
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,8 @@ ZIG = ROOT / ".venv/zig/bin/python"
 SCRIPT = Path(__file__).with_name("print_motions.js").read_text()
 # Two modules of the page, as one script.
 RECORDS, BINDING = (
-    (ROOT / f"symtop_ros/web/js/physics/{name}.js").read_text() for name in ("records", "kernel")
+    (ROOT / f"symtop_ros/page/web/js/physics/{name}.js").read_text()
+    for name in ("records", "kernel")
 )
 LINES = [line for line in BINDING.splitlines() if not line.startswith("import ")]
 KERNEL = "\n".join([RECORDS, *LINES, "window.binding = { Kernel, pack };"])

@@ -15,8 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from symtop_ros.arrays import Real
-from symtop_ros.judge.figures import GREY, INK, RED, new_figure
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
@@ -25,6 +24,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
+from symtop_ros.truth.judge.figures import GREY, INK, RED, new_figure
 from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import (
     FAST,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Body, Motion, State, Top
 from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import FAST, SLOW, THETA, accelerations, cusps, regular, slope, start

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from CyRK import nb_diffeq_addr, nbsolve2_ivp
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import (
     Equations,

@@ -7,7 +7,7 @@ import diffrax
 import jax
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import Peer, Solution, on_quaternion
 

@@ -20,9 +20,9 @@ from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator
 from pydrake.systems.framework import DiagramBuilder, EventStatus
 from pydrake.systems.primitives import ConstantValueSource
 
-from symtop_ros.arrays import Real
-from symtop_ros.models.engines import format_sdf
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Body, Motion, State
+from symtop_ros.run.models.engines import format_sdf
 from workshop.speed.peers.peer import Peer, Solution, normalize
 
 SCHEMES = {"RK3": "runge_kutta3", "RK5": "runge_kutta5"}

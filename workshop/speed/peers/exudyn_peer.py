@@ -18,7 +18,7 @@ from exudyn.itemInterface import (
 )
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import RECORDED, Peer, Solution, count_steps
 

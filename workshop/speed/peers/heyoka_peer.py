@@ -12,7 +12,7 @@ from typing import Any
 import heyoka as hy
 import numpy as np
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import (
     Arrays,

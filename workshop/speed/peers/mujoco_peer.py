@@ -5,8 +5,8 @@ from functools import partial
 import mujoco
 import numpy as np
 
-from symtop_ros.models.engines import format_mjcf
 from symtop_ros.physics import Body, Motion
+from symtop_ros.run.models.engines import format_mjcf
 from workshop.speed.peers.peer import Peer, Solution
 
 FOURTH_ORDER = tuple(2.0**-k for k in (9, 11, 13, 15, 16, 17, 18, 19, 20, 21))  # s

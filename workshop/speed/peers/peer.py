@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from symtop_ros.arrays import Real, Vector
+from symtop_ros.base.arrays import Real, Vector
 from symtop_ros.physics import Motion
 
 Arrays = Callable[[Any], Real]  # a time or times (n,) in s -> orientations (..., 4)

@@ -3,9 +3,9 @@
 import numpy as np
 import pinocchio
 
-from symtop_ros.arrays import Real
-from symtop_ros.models.urdf import format_urdf
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Body, Motion
+from symtop_ros.run.models.urdf import format_urdf
 from workshop.speed.peers.peer import Peer, Solution, initial_values
 
 SETTINGS = tuple(2.0**-k for k in range(7, 19))  # s

@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from symtop_ros.arrays import Real
+from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import (
     TOLERANCES,

@@ -1,0 +1,181 @@
+"""The page as one file: its modules, the kernel, scenes, lesson and wording, joined without Node.
+
+A page that is opened from a disk can import no module and fetch no file. So each module becomes a
+function of one script, which takes what it imports from those before it.
+"""
+
+import base64
+import dataclasses
+import functools
+import gzip
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from symtop_ros import __version__
+from symtop_ros.physics import BODIES, Part
+from symtop_ros.run.simulation.presets import describe_scenes, scene_names
+from symtop_ros.run.simulation.run_file import TABLE
+from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.words.templates import read_templates
+
+FOLDER = Path(__file__).parent
+MODULES = FOLDER.resolve() / "js"
+MAIN = MODULES / "start.js"
+IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.[./\w]*)\.js";\n', re.M)
+# What the page takes of a button and of a step of the lesson, and what stands for what is left out.
+ACT = {"start": None, "hurry": None, "hold": "spin_rate", "push": None, "clamp": None}
+STEP = {"name": "", "scene": "cusps", "charts": (), "layers": (), "ask": None, "table": None}
+PART = re.compile(r"/\*([A-Z]+)\*/")  # of page.html
+EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
+# Nothing is loaded from anywhere, and no script or style acts but those of the file, by hash. Data
+# are no script: the hashes stay the same in a page that saves itself with a run. A page of a node
+# has its server.
+POLICY = (
+    "default-src 'none'; script-src {script} 'wasm-unsafe-eval'; style-src {style}; "
+    "img-src data: blob:; connect-src {server}; base-uri 'none'; form-action 'none'"
+)
+TEXTS = FOLDER / "texts"
+LANGUAGES = tuple(sorted(path.stem for path in TEXTS.glob("*.json")))
+TERMS = "terms"  # those of the textbooks of a language, for its translators
+
+
+def write_file(
+    run: Mapping[str, Any] | None = None,
+    opening: str = "",
+    node: str = "",
+    language: str | None = None,
+) -> str:
+    """Return the page as one document.
+
+    It may hold a run (run.json), open what a fragment of its address would (`lesson=1`), belong to
+    a running node, given by its name, and have a language of its own instead of the browser's.
+    """
+    page, style = (
+        (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
+    )
+    script = join_modules()
+    parts = {
+        "VERSION": __version__,
+        "POLICY": POLICY.format(
+            script=_sign(script), style=_sign(style), server="'self'" if node else "'none'"
+        ),
+        "STYLE": style,
+        "LANGUAGE": f'lang="{language}" data-own' if language else 'lang="en"',
+        "CONTENT": _write_data(
+            {"packed": _pack(collect_content()), "opening": opening, "node": node}
+        ),
+        "RUN": _write_data(run),
+        "SCRIPT": script,
+    }
+    return PART.sub(lambda found: parts[found[1]], page)
+
+
+def _sign(text: str) -> str:
+    """Return the source that allows a script or a style with this text."""
+    digest = hashlib.sha256(text.encode()).digest()
+    return f"'sha256-{base64.b64encode(digest).decode()}'"
+
+
+def _write_data(data: Any) -> str:
+    """Return data for an element of the page: no end of an element is in it."""
+    return json.dumps(data).replace("<", "\\u003c")
+
+
+def _pack(data: Any) -> str:
+    """Return data packed by gzip, in base64: the kernel and five languages are a third as long."""
+    text = json.dumps(data, ensure_ascii=False).encode()
+    return base64.b64encode(gzip.compress(text, mtime=0)).decode()
+
+
+def collect_content() -> dict[str, Any]:
+    """Return what the script reads: the kernel, texts, scenes, fields of a run, lesson."""
+    return {
+        "kernel": base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
+        "texts": {language: read_texts(language) for language in LANGUAGES},
+        "scenes": [{"name": name, **_read_values(name)} for name in scene_names()],
+        "run_fields": TABLE,
+        "bodies": {name: list(map(_list_part, parts)) for name, parts in BODIES.items()},
+        "lesson": [_read_step(step) for step in read_steps()],
+    }
+
+
+def _list_part(part: Part) -> dict[str, Any]:
+    """Return what the page has of a part."""
+    return {name: getattr(part, name) for name in ("kind", "mass", "size", "distance")}
+
+
+def _read_step(step: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the fields of a step that are the same in all languages."""
+    return {
+        "acts": [{**ACT, **act} for act in step["acts"]],
+        **{name: step.get(name, default) for name, default in STEP.items()},
+    }
+
+
+def _read_values(name: str) -> dict[str, Any]:
+    """Return the parameters of a scene; the page's kernel computes the start, as a node's does."""
+    settings = Settings.from_scene(name)
+    return {
+        "initial": dataclasses.asdict(settings.initial),
+        "top": settings.top.moments,
+        "friction": dataclasses.astuple(settings.friction),
+        "torque": settings.steady_torque,
+    }
+
+
+def join_modules() -> str:
+    """Return all modules as one script, which starts the page."""
+    ordered: list[Path] = []
+    _order(MAIN, ordered)
+    return "\n".join([*map(_write_function, ordered), f"module_{MAIN.stem}.start();"])
+
+
+def _order(path: Path, ordered: list[Path]) -> None:
+    """Add a module after those that it imports."""
+    for _, imported in IMPORT.findall(path.read_text(encoding="utf-8")):
+        other = (path.parent / f"{imported}.js").resolve()
+        if other not in ordered:
+            _order(other, ordered)
+    if path not in ordered:
+        ordered.append(path)
+
+
+def _write_function(path: Path) -> str:
+    """Return a module as a function; no two modules have the same name."""
+    text = drop_comments(path.read_text(encoding="utf-8"))
+    names = [found for _, found in EXPORT.findall(text)]
+    text = IMPORT.sub(lambda m: f"const {{{m[1]}}} = module_{Path(m[2]).name};\n", text)
+    text = EXPORT.sub(r"\1 \2", text)
+    return f"const module_{path.stem} = (() => {{\n{text}return {{ {', '.join(names)} }};\n}})();"
+
+
+def drop_comments(text: str) -> str:
+    """Return a module without the comments that fill whole lines: they are for its readers."""
+    text = re.sub(r"^ */\*\*(?:(?!\*/).)*\*/\n", "", text, flags=re.M | re.S)
+    return re.sub(r"^ *//[^\n]*\n", "", text, flags=re.M)
+
+
+def read_file(language: str) -> dict[str, str]:
+    """Return the texts of a language that no record makes, by their keys."""
+    text = (TEXTS / f"{language}.json").read_text(encoding="utf-8")
+    return {key: value for key, value in json.loads(text).items() if key != TERMS}
+
+
+@functools.cache
+def read_texts(language: str) -> dict[str, str]:
+    """Return all texts of a language; a scene that it does not know has its English story."""
+    texts: dict[str, str] = {}
+    for name, title, story in describe_scenes():
+        texts |= {f"scene.{name}.title": title, f"scene.{name}.story": story}
+    return texts | read_templates(language) | read_file(language)
+
+
+def read_steps() -> list[dict[str, Any]]:
+    """Return the steps of the lesson; each has its texts by their keys."""
+    return list(yaml.safe_load((FOLDER / "lesson.yaml").read_text(encoding="utf-8")))

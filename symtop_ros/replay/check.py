@@ -1,0 +1,103 @@
+"""`top_replay --check`: what was compared, what was not, and whether it agrees."""
+
+import sys
+
+from symtop_ros.base.refusals import one_line
+from symtop_ros.run.check.events import Mismatch
+from symtop_ros.run.check.run import Findings, check_run
+from symtop_ros.run.check.samples import Deviation
+from symtop_ros.run.log.account import Account
+from symtop_ros.run.log.names import KNOWN
+from symtop_ros.run.log.reader import LogError, list_problems
+from symtop_ros.run.log.top_log import TopLog
+from symtop_ros.run.simulation.topics import EVENTS
+
+WIDTH = 28  # of a topic in its line
+MAX_OTHERS = 20  # topics of others that are named
+
+
+def check(log: TopLog, strict: bool = False) -> int:
+    """Print the results of a check; return 0 if everything agrees and nothing is missing."""
+    account = log.account
+    found = check_run(log)
+    unreached = sum(each.unreached for each in found.deviations.values())
+    if unreached:
+        _print_problem(
+            f"{unreached} samples cannot be checked: "
+            "the motion is too fast or too long to integrate"
+        )
+    elif not any(each.samples for each in found.deviations.values()):
+        raise LogError("nothing can be checked: no sample follows an event")
+    for line in list_problems([_describe(account, each) for each in found.mismatches]):
+        _print_problem(line)
+    is_whole = not account.problems and not found.unjudged
+    _print_verdict(found)
+    if found.samples_agree and not is_whole:
+        ends_early = account.lacks_only_its_end and not found.unjudged
+        print("the log ends early" if ends_early else "the log is damaged or incomplete")
+    _print_topics(account, found)
+    lacks = strict and bool(account.never_recorded)
+    return 0 if found.samples_agree and not found.mismatches and is_whole and not lacks else 1
+
+
+def _print_problem(text: str) -> None:
+    print(f"top_replay: {text}", file=sys.stderr)
+
+
+def _print_verdict(found: Findings) -> None:
+    if any(each.samples for each in found.deviations.values()):
+        print(f"the samples {'agree' if found.samples_agree else 'DO NOT agree'} with the events")
+    if found.mismatches:
+        print("events or descriptions of the motion DO NOT agree with the computation")
+    if found.first > 1:
+        print(f"the log begins with event {found.first} of the run")
+    if found.foreign:
+        by = f"symtop_ros {', '.join(found.versions)}" if found.versions else "another engine"
+        print(f"{found.foreign} events are of {by}: their words and verdicts are not judged")
+
+
+def _describe(account: Account, mismatch: Mismatch) -> str:
+    is_event = mismatch.topic == EVENTS.name
+    topic = account.topics[EVENTS.name].name if is_event else mismatch.topic
+    right, got = one_line(mismatch.expected, 100), one_line(mismatch.got, 100)
+    return f"{topic} at {mismatch.stamp} ns: {mismatch.field} must be {right}, got {got}"
+
+
+def _print_topics(account: Account, found: Findings) -> None:
+    """Print a line for each topic: how much of it was compared, or why it was not."""
+    for name, topic in account.topics.items():
+        if name in found.deviations:
+            print(_row(topic.name, found.deviations[name]))
+        else:
+            print(f"{one_line(topic.name):{WIDTH}}{_describe_text(name, topic.count, found)}")
+    for name in account.never_recorded:
+        if name not in account.topics:
+            print(f"{KNOWN[name].ros_name:{WIDTH}} not compared: it was never recorded")
+    others = sorted(map(one_line, account.others))
+    if others:
+        more = f" and {len(others) - MAX_OTHERS} more" if len(others) > MAX_OTHERS else ""
+        print(f"not compared, as not of {account.node}: {', '.join(others[:MAX_OTHERS])}{more}")
+
+
+def _describe_text(name: str, count: int, found: Findings) -> str:
+    """Return how many messages of a topic without samples were compared, and why not all."""
+    compared = found.compared.get(name, 0)
+    reason = found.reasons.get(name)
+    if not count:
+        return " not compared: it has no messages"
+    if not compared:
+        return f" not compared: {reason or 'no message is of this node'}"
+    left = f"; {count - compared} not compared: {reason}" if reason and count > compared else ""
+    return f"{compared:9} messages compared{left}"
+
+
+def _row(topic: str, deviation: Deviation) -> str:
+    row = f"{topic:{WIDTH}}{deviation.samples:9} samples, largest difference {deviation.largest:g}"
+    if deviation.largest:
+        row += f" ({deviation.relative:.1e} of its size)"
+    notes = {
+        "before the first event not compared": deviation.unchecked,
+        "not compared: the motion is not known": deviation.unjudged,
+        "not compared: the motion is too fast or too long to integrate": deviation.unreached,
+    }
+    return row + "".join(f"; {count} {text}" for text, count in notes.items() if count)

@@ -1,0 +1,164 @@
+"""The plots next to the 3D scene, the charts of the potential, and the table of the motion."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict
+
+import numpy as np
+import rerun as rr
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.physics import Motion, State, Top, perrys_rule
+from symtop_ros.replay.view import entities, quantities
+from symtop_ros.replay.view.potential import PotentialView
+from symtop_ros.replay.view.torques import Torques
+from symtop_ros.run.log.batch import Columns
+from symtop_ros.run.simulation.events import Event
+from symtop_ros.run.simulation.segment import Segment
+
+EPS = float(np.finfo(float).eps)
+RATE_OF_DOTS = 125.0  # positions per s of the clock
+DRIFT_INTERVAL = 100_000_000  # ns between two curves of a potential that drifts
+LINES = {
+    entities.THETA: (["theta"], [entities.GOLD]),
+    entities.PHI_DOT: (["phi'"], [entities.ORANGE]),
+    entities.PSI_DOT: (["psi'"], [entities.GREEN]),
+    entities.L: (["L_x'", "L_y'", "L_z'"], [entities.RED, entities.GREEN, entities.BLUE]),
+    entities.L_HORIZONTAL: (["L\u00b2 - L_z'\u00b2"], [entities.BLUE]),
+    entities.ENERGY: (
+        ["kinetic", "+ potential", "+ lost to friction", "start + work"],
+        [entities.GREEN, entities.GOLD, entities.RED, entities.WHITE],
+    ),
+    entities.NODES_TORQUE: (
+        ["torque", "dL/dt in the body", "omega x L"],
+        [entities.RED, entities.GREEN, entities.BLUE],
+    ),
+    entities.DRIFT: (["E", "L_z", "L_z'"], [entities.GOLD, entities.RED, entities.BLUE]),
+}
+
+
+class Plots:
+    """The plots and the charts of the potential in a recording."""
+
+    def __init__(self, stream: entities.Stream) -> None:
+        self._stream = stream
+        self._potential = PotentialView(stream)
+        self._energy = quantities.EnergyBook()
+        self._reference: Real | None = None  # constants of motion when the segment began
+        for entity, (names, colors) in LINES.items():
+            stream.log(
+                entity,
+                rr.SeriesLines(names=names, colors=colors, widths=[1.6] * len(names)),
+                static=True,
+            )
+
+    def follow(self, event: Event, before: Segment | None, after: Segment) -> None:
+        """Take over an event; a new motion has another potential."""
+        self._reference = None
+        self._energy.follow(event, before, after)
+        old, new = before.motion if before else None, after.motion
+        if old is None or (old.top, old.friction, old.start) != (new.top, new.friction, new.start):
+            self._potential.log_motion(after.final_motion)
+
+    def send(self, columns: Mapping[str, Columns], segment: Segment | None) -> None:
+        """Send the samples of a segment; without it (None) the top is unknown."""
+        if "euler_angles" in columns:
+            euler = columns["euler_angles"]
+            for entity, column in (
+                (entities.THETA, 1),
+                (entities.PHI_DOT, 3),
+                (entities.PSI_DOT, 5),
+            ):
+                self._stream.send_scalars(entity, euler.stamps, euler.numbers[:, [column]])
+        if "angular_momentum" in columns:
+            momentum = columns["angular_momentum"]
+            self._stream.send_scalars(entities.L, momentum.stamps, momentum.numbers)
+            # L^2 - L_z'^2, as L_x'^2 + L_y'^2, where nothing cancels
+            square = (momentum.numbers[:, :2] ** 2).sum(axis=1, keepdims=True)
+            self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square)
+        if segment:
+            if not (segment.motion.pushes or segment.motion.clamped):  # which change the constants
+                self._send_drift(columns, segment.motion.top)
+            self._send_constants(columns, segment.motion)
+
+    def _send_drift(self, columns: Mapping[str, Columns], top: Top) -> None:
+        if found := quantities.constants(columns, top):
+            stamps, values = found
+            if self._reference is None:
+                self._reference = values[0]
+            scales = EPS * quantities.scales_of_constants(top, self._reference)
+            self._stream.send_scalars(entities.DRIFT, stamps, (values - self._reference) / scales)
+
+    def _send_constants(self, columns: Mapping[str, Columns], motion: Motion) -> None:
+        """Send the moving dots of the potential, the energies and the inertial torque."""
+        if "euler_angles" in columns:
+            euler = columns["euler_angles"]
+            step = quantities.find_step(euler.stamps, RATE_OF_DOTS)
+            heights = quantities.heights_of_dots(motion.top, euler.numbers[::step])
+            for entity, points in self._potential.place(*heights).items():
+                self._stream.send(
+                    f"{entity}/state", euler.stamps[::step], rr.Points2D.columns(positions=points)
+                )
+            if motion.is_driven or motion.clamped:
+                self._send_drifting_curves(euler, motion)
+        parts = Torques.of(columns)
+        for entity, found in (
+            (entities.ENERGY, self._energy.rows(columns, motion)),
+            (entities.NODES_TORQUE, (parts[0], parts[1].along_nodes()) if parts else None),
+        ):
+            if found:
+                self._stream.send_scalars(entity, *found)
+
+    def _send_drifting_curves(self, euler: Columns, motion: Motion) -> None:
+        instants = np.unique(euler.stamps // DRIFT_INTERVAL, return_index=True)[1]
+        potentials = quantities.potentials_at(motion.top, euler.numbers[instants])
+        for entity, strips in self._potential.draw(potentials).items():
+            self._stream.send(
+                entity, euler.stamps[instants], rr.LineStrips2D.columns(strips=strips)
+            )
+
+
+def describe_motion(
+    segment: Segment, state: State, scales: dict[str, str], equations: Mapping[str, str]
+) -> str:
+    """Return the table for the segment that begins with an event."""
+    motion = segment.final_motion
+    top = motion.top
+    low, high = motion.turning_angles
+    rates = ", ".join(f"{rate:.4g}" for rate in perrys_rule(top, state).regular_rates) or "no"
+    facts = {
+        "motion": f"{motion.kind}, {f'speed {segment.factor:g}' if segment.running else 'paused'}",
+        "theta": f"{low:.4f} .. {high:.4f} rad",
+        "nutation": f"{_number(motion.nutation_period, 's')}, "
+        f"{_number(motion.nutation_rate, 'rad/s')} "
+        f"(p_psi/Ix: {_number(motion.fast_top_nutation_rate)})",
+        "mean precession": f"{_number(motion.mean_precession_rate, 'rad/s')} "
+        f"(Mgl/p_psi: {_number(motion.fast_top_precession_rate)})",
+        "in a nutation": f"{_number(motion.precession_per_nutation, 'turns')}"
+        + (", psi' changes sign" if motion.spin_reverses else ""),
+        "regular precession": f"{rates} rad/s",
+        "Ix, Iz; Mgl": f"{top.Ix:g}, {top.Iz:g} kg m\u00b2; {top.Mgl:g} J",
+        **_added_torques(motion),
+    }
+    if scales:
+        facts[f"1 unit of {', '.join(scales)}"] = ", ".join(scales.values())
+    rows = (f"| {name} | **{value}** |" for name, value in {**facts, **equations}.items())
+    return "\n".join(["| | |", "|---|---|", *rows])
+
+
+def _added_torques(motion: Motion) -> dict[str, str]:
+    """Return friction and applied torque; angles, period and rates then hold at the event only."""
+    if motion.clamped:
+        return {"precession": "held by hand"}
+    if not motion.is_driven:
+        return {}
+    friction = asdict(motion.friction)
+    sizes = ", ".join(f"{each:g}" for each in friction.values())
+    return {
+        f"friction {', '.join(friction)}": f"{sizes} N m s",
+        "applied torque": "{:g} {:g} {:g} N m".format(*motion.applied_torque),
+    }
+
+
+def _number(value: float, unit: str = "") -> str:
+    return f"{value:.5g} {unit}".rstrip() if math.isfinite(value) else "-"

@@ -1,0 +1,7 @@
+"""The top among ROS programs: the node, its client, and Rerun beside it.
+
+`node/` is the host of a session of `run/`; `client/` is `top_ctl`; `live/` draws a running node.
+
+It is the only room that needs rclpy, with the bridge of `page/panel/`. Nothing but the programs
+imports it. Begin with `node/top_node.py`.
+"""

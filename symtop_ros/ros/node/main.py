@@ -1,0 +1,47 @@
+"""Entry point of `top_node`."""
+
+import argparse
+import gc
+import sys
+from collections.abc import Callable
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+
+from symtop_ros.base.shutdown import run_with_ros
+from symtop_ros.ros.node.host import shorten_slice, use_profile
+from symtop_ros.ros.node.options import make_parser
+from symtop_ros.ros.node.top_node import TopNode
+
+SWITCH_INTERVAL = 1e-4  # s that a tick may wait for the thread that writes the log
+
+
+def main(args: list[str] | None = None) -> int:
+    """Run the node until it is shut down; return the exit status."""
+    sys.setswitchinterval(SWITCH_INTERVAL)
+    # Those of the middleware inherit it: else a request waits for each of them on a busy machine.
+    shorten_slice()
+    # Fast DDS announces this node every 0.1 s instead of 3 s: the file says why.
+    use_profile("fastdds_discovery.xml")
+    return run_with_ros(make_parser(), args, _run)
+
+
+def _run(_: argparse.Namespace, listen: Callable[[], None]) -> int:
+    """Spin until shutdown; return 1 if a tick or the recording failed (both were reported)."""
+    # Not rclpy's EventsExecutor: as it waits, other threads stand still (rclpy 9.1, Kilted). It is
+    # created before a signal can shut ROS down, as the node is.
+    executor = SingleThreadedExecutor()
+    top = TopNode()
+    gc.freeze()  # collecting garbage among the objects of the start would delay ticks
+    try:
+        listen()
+        rclpy.spin(top, executor)
+    except Exception:
+        if rclpy.ok():
+            raise
+    finally:
+        top.destroy_node()  # else the middleware ends after what it shares with other processes
+    failure = top.session.recording.unreported_failure
+    if failure:
+        print(f"top_node: recording stopped: {failure}", file=sys.stderr)
+    return 1 if top.failure or failure else 0

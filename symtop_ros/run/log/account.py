@@ -1,0 +1,390 @@
+"""The account of a log: all that is known of it, found out once, for everything that reads it.
+
+For each stretch of time it has the motion that is known, or why none is; for each topic its name,
+its rate and its count; and what is damaged, missing or there twice.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import groupby, pairwise
+from pathlib import Path
+
+import numpy as np
+
+from symtop_ros.base.arrays import Places, Stamps
+from symtop_ros.run.log.checksums import find_damage
+from symtop_ros.run.log.chronicle import Ordered, order_events
+from symtop_ros.run.log.contents import Contents, read_contents
+from symtop_ros.run.log.grid import Gap, Grid, GridFindings, Recording, list_recordings
+from symtop_ros.run.log.names import KNOWN, TELLING, Names, read_names
+from symtop_ros.run.log.reader import list_problems
+from symtop_ros.run.log.source import Loss, MessageSource
+from symtop_ros.run.log.stamps import ROUNDING, StampRows
+from symtop_ros.run.log.stretches import (
+    NO_PROOF,
+    NOWHERE,
+    Finder,
+    Mark,
+    Proofs,
+    Stretch,
+    find_missing,
+)
+from symtop_ros.run.log.writer import ENDING, METADATA
+from symtop_ros.run.simulation.events import MOTION, WHOLE, Event
+from symtop_ros.run.simulation.topics import DESCRIPTION, DIAGNOSTICS, EVENTS, STATE_TOPICS
+
+GUESSED = (
+    "topics are recognised by their types and the ends of their names: the log does not say how "
+    "they were remapped"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class TopicAccount:
+    """The account of a topic of the top."""
+
+    name: str  # full name
+    type: str
+    count: int  # messages
+    rate: float | None  # samples per s, of the first ones; None for topics without samples
+    missing: int  # samples, beyond those that the node has counted as missed
+    repeated: int  # samples
+    unreadable: str  # why messages cannot be read; empty: all can
+
+
+@dataclass(frozen=True)
+class Account:
+    """All that is known of a log."""
+
+    path: Path
+    node: str | None  # full name; None: the log has no top
+    topics: Mapping[str, TopicAccount]  # those of the top that the log has, by our names
+    guess: str  # what is said if the log does not name the topics of the top; else empty
+    others: Mapping[str, str]  # types of the other topics of the log, by their full names
+    ordered: Ordered  # its events
+    stretches: tuple[Stretch, ...]  # in the order of the run
+    end: int | None  # stamp (ns) of the last sample; None without samples
+    count: int  # messages of all topics
+    losses: tuple[Loss, ...]  # as reading the files has found them
+    never_recorded: tuple[str, ...]  # topics that the node has and the log lacks, by our names
+    problems: tuple[str, ...]  # everything that is damaged, missing or there twice
+    notes: tuple[str, ...]  # what else a reader should know
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """The events, each once, in the order of the run."""
+        return self.ordered.events
+
+    @property
+    def frame(self) -> str | None:
+        """Child frame of the top on /tf, which is shared; None if no event names it."""
+        return self.events[0].values.get("top_frame") if self.events else None
+
+    @property
+    def unknown(self) -> tuple[Stretch, ...]:
+        """The stretches of which the motion is not known."""
+        return tuple(each for each in self.stretches if each.event is None)
+
+    def list_continuous(self) -> list[Stretch]:
+        """Return the stretches with motions, up to where the motion may have changed.
+
+        What is not known before the first event, and between two events of one motion, is passed
+        over.
+        """
+        found: list[Stretch] = []
+        is_open = False  # True after a stretch of which the motion is not known
+        for each in self.stretches:
+            if each.event and is_open and found and not _is_same(found[-1].event, each.event):
+                break
+            is_open = each.event is None
+            found += [each] if each.event else []
+        return found
+
+    @property
+    def lacks_only_its_end(self) -> bool:
+        """True if nothing but the end of the log is lost, as after `kill -9`."""
+        return len(self.problems) == len(self.losses) == 1 and self.losses[0].place == self.count
+
+    @property
+    def has_top(self) -> bool:
+        """True if the log has messages of a top."""
+        return any(name in self.topics and self.topics[name].count for name in TELLING)
+
+    @property
+    def lines(self) -> list[str]:
+        """The problems, then notes, each in one line: what a program prints first."""
+        return [*self.problem_lines, *list_problems(self.notes), *filter(None, [self.guess])]
+
+    @property
+    def problem_lines(self) -> list[str]:
+        """The first problems, each in one line, and the number of the others."""
+        return list_problems(self.problems)
+
+    def find_topic(self, full: str) -> TopicAccount | None:
+        """Return what the log has of a topic of the top, by its full name."""
+        return next((each for each in self.topics.values() if each.name == full), None)
+
+
+def _is_same(before: Event | None, after: Event) -> bool:
+    """Return True if two events say the same of the motion itself."""
+    return before is not None and all(before.values.get(k) == after.values.get(k) for k in MOTION)
+
+
+def read_account(file: MessageSource, names: Names) -> Account:
+    """Return the account of a log."""
+    contents = read_contents(file, names)
+    return _Conclusions(file, names, contents).conclude()
+
+
+class _Conclusions:
+    """The conclusions from the contents of a log."""
+
+    def __init__(self, file: MessageSource, names: Names, contents: Contents) -> None:
+        self._file, self._names, self._contents = file, names, contents
+        self._ordered = order_events(contents.events, file.begins)
+        self._recordings = list_recordings(file)
+        grid = Grid(self._ordered, self._recordings)
+        self._found = {name: grid.judge(name, rows) for name, rows in contents.rows.items()}
+        # the topic with the fewest gaps: where it has one, the others have one too
+        self._main = min(
+            self._found,
+            key=lambda name: (self._found[name].missing, -contents.rows[name].count),
+            default="",
+        )
+        self._rows = contents.rows.get(self._main, StampRows())
+        self._counted = self._count_missed()
+        self._proofs = Proofs(self._ordered, [*contents.marks, *self._list_repeated()])
+        ends = [row.last for rows in contents.rows.values() for row in rows.rows]
+        self._end = max(ends, default=None)
+        breaks = [*self._list_breaks()]
+        finder = Finder(self._ordered, self._proofs, breaks, self._rows, self._end)
+        self._stretches = tuple(finder.list_stretches())
+        self._topics = self._list_topics()
+
+    def conclude(self) -> Account:
+        """Return the account."""
+        file, names = self._file, self._names
+        others = {
+            channel.topic: schema.name if (schema := file.schemas.get(channel.schema_id)) else ""
+            for number, channel in file.channels.items()
+            if not names.find(number)
+        }
+        lacking = tuple(self._list_never_recorded())
+        return Account(
+            path=file.path,
+            node=names.node,
+            topics=self._topics,
+            guess=GUESSED if names.is_guessed else "",
+            others=others,
+            ordered=self._ordered,
+            stretches=self._stretches,
+            end=self._end,
+            count=file.count,
+            losses=tuple(file.losses),
+            never_recorded=lacking,
+            problems=tuple(self._list_problems()),
+            notes=tuple(self._list_notes(lacking)),
+        )
+
+    # What the node has counted, and what is shown of the events
+
+    def _count_missed(self) -> int:
+        """Return the samples that the node itself has counted as missed while it recorded."""
+        begins = [each.place for each in self._recordings]
+        ends = [*begins[1:], self._file.count + 1]
+        return sum(map(self._count_in_recording, self._recordings, begins, ends))
+
+    def _count_in_recording(self, recording: Recording, begin: int, end: int) -> int:
+        counts = [count for place, count in self._contents.missed if begin <= place < end]
+        first = counts[0] if counts else 0
+        for place, each in zip(self._file.begins, self._file.files, strict=False):
+            text = each.metadata.get(ENDING, {}).get("missed", "")
+            counts += [int(text)] if begin <= place < end and WHOLE.fullmatch(text) else []
+        if WHOLE.fullmatch(recording.missed):
+            at_begin = int(recording.missed)
+        else:
+            begins_later = any(event.number > 1 for event in self._ordered.events[:1])
+            at_begin = first if begins_later else 0
+        return max(0, max(counts, default=0) - at_begin)
+
+    def _list_repeated(self) -> Iterator[Mark]:
+        """Yield what events show that a recorder has repeated at the beginning of a file."""
+        for place, event in self._ordered.repeated:
+            stamp = self._rows.find_stamp(0, place)
+            yield Mark(place, event.stamp if stamp is None else stamp + 1, event.number)
+
+    def _list_breaks(self) -> Iterator[int]:
+        """Yield the places at which an event may have been lost without a trace."""
+        found = self._found.get(self._main, GridFindings())
+        if found.missing > self._counted:
+            yield from (gap.place for gap in found.gaps)
+        yield from found.returns
+        places = (each.place for each in self._file.losses if each.place is not None)
+        # after the last message nothing is judged
+        yield from (place for place in places if place < self._file.count)
+        yield from self._contents.lost_events
+        # The node begins each file with its latest event.
+        heads = {place for place, _ in self._contents.events}
+        for begin, file in zip(self._file.begins, self._file.files, strict=False):
+            if METADATA in file.metadata and begin not in heads:
+                yield begin
+
+    # Topics
+
+    def _list_topics(self) -> dict[str, TopicAccount]:
+        channels: dict[str, str] = {}
+        for number, channel in self._file.channels.items():
+            channels.setdefault(self._names.find(number), channel.topic)
+        return {
+            name: self._describe_topic(name, channels[name]) for name in KNOWN if name in channels
+        }
+
+    def _describe_topic(self, name: str, full: str) -> TopicAccount:
+        found = self._found.get(name, GridFindings())
+        missing = sum(gap.missing for gap in self._list_gaps(name))
+        return TopicAccount(
+            name=full,
+            type=KNOWN[name].type,
+            count=self._contents.counts[name],
+            rate=found.rate,
+            missing=missing if missing > self._counted else 0,
+            repeated=found.repeated,
+            unreadable=self._contents.unreadable.get(name, ""),
+        )
+
+    def _list_gaps(self, name: str) -> list[Gap]:
+        """Return the gaps of a topic, but for those that an event may explain that is lost."""
+        gaps = self._found.get(name, GridFindings()).gaps
+        unknown = [each.places for each in self._stretches if each.event is None]
+        return [
+            *(g for g in gaps if not any(begin <= g.place <= end for begin, end in unknown)),
+            *self._list_absent(name),
+        ]
+
+    def _list_absent(self, name: str) -> Iterator[Gap]:
+        """Yield the gaps at the begin and the end of each file of the node.
+
+        It has all samples of each topic that the node has, so other topics show the missing ones.
+        """
+        begins = [*self._file.begins, self._file.count + 1]
+        for file, (begin, end) in zip(self._file.files, pairwise(begins), strict=False):
+            given = read_names(file.metadata.get(METADATA, {}))
+            if name in STATE_TOPICS and given and name in given.topics.values():
+                yield from self._compare_ends(name, begin, end)
+
+    def _compare_ends(self, name: str, begin: int, end: int) -> Iterator[Gap]:
+        """Yield the gaps of a topic at both ends of a range of places, compared with another."""
+        stamps, places = _cut(*self._samples, begin, end)
+        own_stamps, own = _cut(*self._contents.rows.get(name, StampRows()).expand(), begin, end)
+        if not len(own):
+            found = [stamps]
+        else:
+            around = ((places < own[0], own_stamps[0]), (places > own[-1], own_stamps[-1]))
+            found = [stamps[a][np.abs(stamps[a] - s) > ROUNDING] for a, s in around]
+        for absent in map(np.unique, found):
+            # A file may begin and end within a sample.
+            if (missing := len(absent) - bool(len(own))) > 0:
+                yield Gap(int(absent[0]), int(absent[-1]), NOWHERE, missing)
+
+    @cached_property
+    def _samples(self) -> tuple[Stamps, Places]:
+        """Stamps and places of the topic that has most samples."""
+        return self._rows.expand()
+
+    def _list_never_recorded(self) -> Iterator[str]:
+        """Yield the topics that the node has and the log lacks."""
+        expected = EVENTS.name, *STATE_TOPICS, DIAGNOSTICS.name, DESCRIPTION.name
+        is_named = any(map(self._names.find_given, KNOWN))
+        for name in KNOWN:
+            is_there = name in self._topics and (is_named or self._topics[name].count)
+            is_of_node = self._names.find_given(name) if is_named else name in expected
+            if is_of_node and not is_there:
+                yield name
+
+    # Sentences
+
+    def _list_problems(self) -> Iterator[str]:
+        yield from self._file.problems
+        yield from find_damage(self._file)
+        for number in self._contents.channels:
+            if number not in self._file.channels:
+                yield f"channel {number} is not described: its messages are lost"
+        yield from (f"{name}: {text}" for name, text in self._contents.unreadable.items())
+        missing = find_missing(self._ordered, self._proofs).values()
+        yield from (each.describe() for each in missing if not each.is_off)
+        yield from self._describe_events()
+        yield from self._describe_samples()
+
+    def _describe_events(self) -> Iterator[str]:
+        """Yield what is said of a beginning that is missing, and of events that are there twice."""
+        ordered = self._ordered
+        if not ordered.events and self._rows.count:
+            yield f"the log has no {EVENTS.name}: the motion is not known"
+        if ordered.doubled:
+            yield f"{ordered.doubled} events are repeated"
+        for event in ordered.contradicting:
+            yield f"event {event.number} at {event.stamp} ns is there twice, and the two differ"
+        begin = min((event.stamp for event in ordered.events), default=None)
+        if begin is not None:
+            rows = self._contents.rows.values()
+            if early := max((_count_before(each, begin) for each in rows), default=0):
+                yield (
+                    f"the beginning is missing: {early} samples are before the first event, "
+                    f"which is number {ordered.events[0].number}"
+                )
+        unproved = (each for each in self._stretches if each.reason.startswith(NO_PROOF))
+        for _, parts in groupby(unproved, key=lambda each: each.places):
+            first = next(parts)
+            yield f"from {first.begin} ns on the motion is not known: {first.reason}"
+
+    def _describe_samples(self) -> Iterator[str]:
+        """Yield what is missing and repeated; topics of which the same is said share a line."""
+        lines: dict[str, list[str]] = {}
+        for name, topic in self._topics.items():
+            if topic.missing:
+                widest = max(self._list_gaps(name), key=lambda gap: gap.after - gap.before)
+                text = (
+                    f"{topic.missing} samples are missing, most of them between {widest.before} "
+                    f"and {widest.after} ns; the node has counted {self._counted} as missed"
+                )
+                lines.setdefault(text, []).append(name)
+            if topic.repeated:
+                text = (
+                    f"{topic.repeated} samples are repeated: their stamps are not later than before"
+                )
+                lines.setdefault(text, []).append(name)
+        yield from (f"{', '.join(names)}: {text}" for text, names in lines.items())
+
+    def _list_notes(self, lacking: Sequence[str]) -> Iterator[str]:
+        names = self._names
+        if not any(self._contents.counts[name] for name in TELLING):
+            return
+        stated = [each for each in lacking if each in STATE_TOPICS or names.find_given(each)]
+        if stated:
+            yield f"the log has no {', no '.join(stated)}"
+        if names.others:
+            yield (
+                f"the node is {names.node}; others can be chosen by --node: "
+                f"{', '.join(sorted(names.others))}"
+            )
+        missing = find_missing(self._ordered, self._proofs).values()
+        yield from (each.describe() for each in missing if each.is_off)
+
+
+def _cut(stamps: Stamps, places: Places, begin: int, end: int) -> tuple[Stamps, Places]:
+    """Return the samples in a range of places."""
+    inside = (places >= begin) & (places < end)
+    return stamps[inside], places[inside]
+
+
+def _count_before(rows: StampRows, stamp: int) -> int:
+    """Return the number of samples before a stamp (ns)."""
+    return sum(
+        row.samples
+        if row.last < stamp
+        else math.ceil((stamp - row.first) / max(1, row.last - row.first) * (row.samples - 1))
+        for row in rows.rows
+        if row.first < stamp
+    )

@@ -1,0 +1,210 @@
+"""Files of a run: one MCAP file, bags of rosbag2, split recordings, compressed files.
+
+A bag of any kind is read like one `McapFile`, as a `MessageSource`.
+"""
+
+import os
+import sqlite3
+import tempfile
+import weakref
+from collections.abc import Iterator, Sequence
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import zstandard
+from mcap.records import Channel, Message, Schema
+
+from symtop_ros.run.log.reader import MAX_MESSAGES, PIECE, LogError, McapFile
+from symtop_ros.run.log.source import ZSTD_START, Loss, MessageSource, name_kind
+from symtop_ros.run.log.writer import BEGUN_ENTRY, FILE_ENTRY, METADATA
+
+MCAP, SQLITE, ZSTD = ".mcap", ".db3", ".zstd"
+SUFFIXES = (MCAP, SQLITE, f"{MCAP}{ZSTD}", f"{SQLITE}{ZSTD}")
+MAX_FILES = 10_000  # of one run
+
+
+def open_run(paths: Sequence[Path]) -> MessageSource:
+    """Open files and rosbag2 folders as one run; their order does not matter."""
+    files = [file for path in paths for file in _files_of(path)]
+    if len(files) > MAX_FILES:
+        raise LogError(f"a run must have at most {MAX_FILES} files, got {len(files)}")
+    sources = [_open(file) for file in dict.fromkeys(files)]
+    return sources[0] if len(sources) == 1 else SeveralFiles(paths[0], sources)
+
+
+def _files_of(path: Path) -> list[Path]:
+    if not os.path.isdir(path):  # Path.is_dir raises for names that are too long
+        return [path]
+    files = sorted(file for suffix in SUFFIXES for file in path.glob(f"*{suffix}"))
+    if not files:
+        raise LogError(f"cannot open {path}: no .mcap or .db3 file in it")
+    return files
+
+
+def _open(path: Path) -> MessageSource:
+    """Open a file that may be compressed, or hold compressed messages."""
+    if path.suffix == ZSTD:
+        copy, folder = _unpack(path)
+        source = _open(copy)
+        weakref.finalize(source, folder.cleanup)  # when the source is no longer read
+        return source
+    source = SqliteBag(path) if path.suffix == SQLITE else McapFile(path)
+    source.is_packed = any(each.data.startswith(ZSTD_START) for each in next(source.chunks(), []))
+    return source
+
+
+def _unpack(path: Path) -> tuple[Path, tempfile.TemporaryDirectory[str]]:
+    """Return a copy of a file that was compressed as a whole, and the folder that removes it.
+
+    LogError if the file cannot be read.
+    """
+    folder = tempfile.TemporaryDirectory(prefix="symtop_ros_")
+    copy = Path(folder.name, path.name.removesuffix(ZSTD))
+    try:
+        with path.open("rb") as packed, copy.open("wb") as file:
+            zstandard.ZstdDecompressor().copy_stream(packed, file, PIECE, PIECE)
+    except (zstandard.ZstdError, OSError) as error:
+        folder.cleanup()
+        text = getattr(error, "strerror", None) or name_kind(
+            path, f"it cannot be decompressed: {error}"
+        )
+        raise LogError(f"cannot open {path}: {text}") from None
+    return copy, folder
+
+
+class SqliteBag(MessageSource):
+    """A bag of rosbag2's sqlite3 storage, which has no metadata."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        try:
+            self.size = path.stat().st_size
+            for row in self._rows("SELECT id, name, type, serialization_format FROM topics"):
+                number = int(row[0])
+                name, kind, encoding = map(str, row[1:])
+                self.schemas[number] = Schema(number, b"", "ros2msg", kind)
+                self.channels[number] = Channel(number, name, encoding, {}, number)
+        except OSError as error:
+            raise LogError(f"cannot open {path}: {error.strerror}") from None
+        except (sqlite3.Error, ValueError) as error:
+            kind = name_kind(path, f"not a bag of rosbag2 ({error})")
+            raise LogError(f"cannot open {path}: {kind}") from None
+
+    def _read(self) -> Iterator[list[Message]]:
+        """Yield messages in the order of their arrival."""
+        messages: list[Message] = []
+        # In the order in which they arrived: simulated times may go back.
+        query = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
+        try:
+            for number, time, data in self._rows(query):
+                messages.append(Message(number, time, bytes(data), time, 0))
+                if len(messages) == MAX_MESSAGES:
+                    yield messages
+                    messages = []
+        except (sqlite3.Error, ValueError, TypeError) as error:
+            yield messages
+            messages = []
+            self.report(f"the bag is damaged after the messages that were read: {error}")
+        self.offset = self.size
+        yield messages
+
+    def _rows(self, query: str) -> Iterator[tuple[Any, ...]]:
+        # Immutable: without locks and files next to the bag, whose disk may be read-only. But a
+        # recorder that was killed may have left messages in a file next to it (write-ahead log),
+        # which SQLite would then ignore.
+        pending = self.path.with_name(f"{self.path.name}-wal").exists()
+        name = f"{self.path.absolute().as_uri()}?mode=ro{'' if pending else '&immutable=1'}"
+        with closing(sqlite3.connect(name, uri=True)) as database:
+            yield from database.execute(query)
+
+
+class SeveralFiles(MessageSource):
+    """Several logs, read one after the other in the order in which they were begun."""
+
+    def __init__(self, path: Path, sources: Sequence[MessageSource]) -> None:
+        super().__init__(path)
+        self._files = _sort(sources)
+        self._begins: list[int] = []
+        self._numbers: dict[tuple[int, int], int] = {}
+        self._places: dict[int, int] = {}  # of files, by the numbers of channels
+        self.size = sum(source.size for source in sources)
+        for place, source in enumerate(self._files):
+            self._describe(place, source)
+
+    @property
+    def files(self) -> Sequence[MessageSource]:
+        """The files in the order in which they are read."""
+        return self._files
+
+    @property
+    def begins(self) -> Sequence[int]:
+        """The number of messages before each file."""
+        return self._begins
+
+    def find_file(self, channel: int) -> MessageSource:
+        """Return the file that has a channel."""
+        return self._files[self._places[channel]]
+
+    def _read(self) -> Iterator[list[Message]]:
+        """Yield messages; numbers of channels are those of this run."""
+        self._begins.clear()
+        for place, source in enumerate(self._files):
+            begin = self.count
+            self._begins.append(begin)
+            for messages in source.chunks():
+                self._describe(place, source)
+                self.offset = sum(each.offset for each in self._files)
+                yield [
+                    replace(each, channel_id=self._number(place, each.channel_id))
+                    for each in messages
+                ]
+            self.metadata = source.metadata | self.metadata  # of several the first
+            self.losses += [
+                Loss(
+                    f"{source.path.name}: {each.text}",
+                    None if each.place is None else begin + each.place,
+                )
+                for each in source.losses
+            ]
+
+    def _describe(self, place: int, source: MessageSource) -> None:
+        """Take over the channels of a file that are new."""
+        for number, channel in list(source.channels.items()):
+            mine = self._number(place, number)
+            if mine not in self.channels:
+                self.channels[mine] = replace(channel, id=mine, schema_id=mine)
+            schema = source.schemas.get(channel.schema_id)
+            if schema and mine not in self.schemas:
+                self.schemas[mine] = replace(schema, id=mine)
+
+    def _number(self, place: int, number: int) -> int:
+        """Return the number in this run of a channel in a file."""
+        mine = self._numbers.setdefault((place, number), len(self._numbers) + 1)
+        self._places[mine] = place
+        return mine
+
+
+def _sort(sources: Sequence[MessageSource]) -> list[MessageSource]:
+    """Return files in the order in which their recorders have begun them.
+
+    The clock of a run may go back, so the times of messages decide only if the node does not say
+    by the clock of its host when each recording began, and which of its files each one is.
+    """
+    by_messages = sorted(sources, key=_begin)
+    if all(BEGUN_ENTRY in each.metadata.get(METADATA, {}) for each in sources):
+        return sorted(by_messages, key=_find_order)
+    return by_messages
+
+
+def _find_order(source: MessageSource) -> tuple[str, int]:
+    values = source.metadata[METADATA]
+    number = values.get(FILE_ENTRY, "1")
+    return values[BEGUN_ENTRY], int(number) if number.isdecimal() and len(number) < 10 else 0
+
+
+def _begin(source: MessageSource) -> tuple[int, str]:
+    """Return the time of the first message, and the name for files that begin together."""
+    first = next(source.chunks(), [])
+    return (first[0].log_time if first else 0), source.path.name

@@ -1,0 +1,244 @@
+"""Samples that are missing or repeated: the node publishes on a grid of stamps.
+
+Every event that changes the grid names it, and so does the metadata of each recording. Two
+neighbours that are further apart than a period have lost those between them: in the node, which
+counts them as missed, or afterwards.
+"""
+
+import math
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from symtop_ros.base.arrays import Places, Real, Stamps
+from symtop_ros.run.log.batch import TF
+from symtop_ros.run.log.chronicle import Chronicle, Ordered
+from symtop_ros.run.log.source import MessageSource
+from symtop_ros.run.log.stamps import StampRows
+from symtop_ros.run.log.writer import BEGUN_ENTRY, METADATA
+from symtop_ros.run.simulation.events import MAX_STAMP, WHOLE, Event
+from symtop_ros.run.wire.layout import NANOSECONDS
+
+Empty = tuple[int, int, int]  # number of an event, and two stamps in ns
+MIN_RATE, MAX_RATE = 1e-3, 1e6  # Hz; a log may be hostile
+RATE, TF_SWITCH, OWN_TIME = "publish_rate", "publish_tf", "publish_clock"
+BEGUN = "begun"  # the outcome of an event with which a recording begins
+WIDE = 1.5  # periods: neighbours that are further apart have lost samples
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """Neighbours between which samples are missing."""
+
+    before: int  # stamps in ns
+    after: int
+    place: int  # in the log, right behind the earlier one
+    missing: int  # samples
+
+
+@dataclass(frozen=True, slots=True)
+class GridFindings:
+    """Samples of a topic that are missing or repeated."""
+
+    gaps: tuple[Gap, ...] = ()
+    repeated: int = 0
+    # places in the log at which time goes back without an event that says so
+    returns: tuple[int, ...] = ()
+    rate: float | None = None  # samples per s, of the first ones
+
+    @property
+    def missing(self) -> int:
+        """Number of samples that are missing."""
+        return sum(gap.missing for gap in self.gaps)
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """A recording of the node in a log, which may have several files."""
+
+    place: int  # of its first message in the log
+    rate: str = ""  # parameter publish_rate, as the metadata has it
+    missed: str = ""  # samples that the node had missed at its begin
+    is_own_time: bool = False  # True if the run has its own time, which a pause stops
+
+
+def list_recordings(file: MessageSource) -> list[Recording]:
+    """Return the recordings of a log; files of other recorders are one."""
+    found: dict[str, Recording] = {}
+    for place, each in zip(file.begins, file.files, strict=False):
+        values = each.metadata.get(METADATA, {})
+        recording = Recording(
+            place,
+            values.get(f"parameter.{RATE}", ""),
+            values.get("missed", ""),
+            values.get(f"parameter.{OWN_TIME}") == str(True),
+        )
+        found.setdefault(values.get(BEGUN_ENTRY, ""), recording)
+    return list(found.values())
+
+
+class Grid:
+    """The grid of stamps of a log."""
+
+    def __init__(self, ordered: Ordered, recordings: Sequence[Recording]) -> None:
+        self._chronicle = Chronicle(ordered.events, ordered.places)
+        self._periods = np.array([*_list_periods(ordered, recordings)])  # first before all events
+        is_own_time = any(each.is_own_time for each in recordings)
+        # Times without samples, each with the number of the event that says so.
+        empty = [
+            *_list_jumps(ordered.events),
+            *_list_pauses(ordered.events),
+            *(_list_resumptions(ordered.events, self._periods[1:]) if is_own_time else ()),
+        ]
+        self._jumps = _find_jumps(ordered)
+        self._empty = sorted(empty)
+        self._empty_of_tf = sorted([*empty, *_list_times_without_tf(ordered.events)])
+
+    def judge(self, name: str, rows: StampRows) -> GridFindings:
+        """Return what is missing and repeated in a topic."""
+        if not rows.rows:
+            return GridFindings()
+        stamps, places = samples = rows.expand()
+        # In time that went back, a stamp may be there once for each event that holds at it.
+        repeated = rows.count_repeated(self._chronicle.count_holding)
+        if self._chronicle.is_ordered:  # whatever the order of the chunks of a file is
+            order = np.argsort(stamps, kind="stable")
+            stamps, places = stamps[order], places[order]
+        owners = self._chronicle.find_owners(stamps, places)
+        periods = self._find_periods(owners, _find_usual_period(rows))
+        gaps = self._find_gaps(name, (stamps, places, owners), periods)
+        rate = float(NANOSECONDS / periods[0]) if periods[0] else None
+        return GridFindings(tuple(gaps), repeated, tuple(self._list_returns(*samples)), rate)
+
+    def _list_returns(self, stamps: Stamps, places: Places) -> Iterator[int]:
+        if not self._chronicle.is_in_log_order:  # chunks or messages are in another order
+            return
+        latest = self._chronicle.find_latest(places)
+        for k in np.flatnonzero(stamps[1:] < stamps[:-1]).tolist():
+            # An event may come late.
+            if not self._explains_return(range(int(latest[k]) + 1, int(latest[k + 1]) + 2)):
+                yield int(places[k]) + 1
+
+    def _explains_return(self, numbers: range) -> bool:
+        """Return True if one of some events sets the clock, or begins another run."""
+        return any(number in self._jumps for number in numbers)
+
+    def _find_periods(self, owners: Places, usual: float) -> Real:
+        """Return the period (ns) of the grid at each sample, of which the owners are the events."""
+        periods = self._periods[owners + 1]
+        if not self._chronicle.is_ordered:  # the next event may have come late
+            following = np.minimum(owners + 2, len(self._periods) - 1)
+            periods = np.fmax(periods, self._periods[following])
+        return np.where(np.isnan(periods), usual, periods)
+
+    def _find_gaps(
+        self, name: str, samples: tuple[Stamps, Places, Places], periods: Real
+    ) -> Iterator[Gap]:
+        stamps, places, owners = samples
+        before, after = stamps[:-1], stamps[1:]
+        period = np.maximum(periods[:-1], periods[1:])
+        wide = np.flatnonzero((period > 0) & (after - before > WIDE * period))
+        columns = before, after, owners[:-1], owners[1:], period, places[:-1] + 1
+        for begin, end, owner, next_owner, step, place in zip(
+            *(each[wide].tolist() for each in columns), strict=True
+        ):
+            # An event that came late is the next one.
+            last = next_owner + (not self._chronicle.is_ordered)
+            empty = self._empty_of_tf if name == TF else self._empty
+            numbers = slice(*(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, last)))
+            lost = end - begin - _measure(empty[numbers], begin, end)
+            if (missing := round(lost / step) - 1) > 0:
+                yield Gap(begin, end, place, missing)
+
+
+def _measure(intervals: Iterable[Empty], begin: int, end: int) -> int:
+    """Return how much (ns) of a stretch is in intervals, which may overlap."""
+    covered = 0
+    reached = begin
+    for first, last in sorted((first, min(last, end)) for _, first, last in intervals):
+        covered += max(0, last - max(first, reached))
+        reached = max(reached, last)
+    return covered
+
+
+def _find_usual_period(rows: StampRows) -> float:
+    """Return the step (ns) that most samples have: the period of a grid that nothing names."""
+    steps: dict[int, int] = {}
+    for row in rows.rows:
+        if row.samples > 1 and row.last > row.first:
+            step = round((row.last - row.first) / (row.samples - 1))
+            steps[step] = steps.get(step, 0) + row.samples - 1
+    return float(max(steps, key=lambda step: steps[step], default=0))
+
+
+def _list_periods(ordered: Ordered, recordings: Sequence[Recording]) -> Iterator[float]:
+    """Yield the period (ns) of the grid before all events, and after each; nan if it is unknown."""
+    begun = [*recordings]
+    period = _read_period(begun[0].rate) if begun else float("nan")
+    yield period
+    for place, event in zip(ordered.places, ordered.events, strict=True):
+        # The first event that is new in a recording was the latest one at its begin.
+        while begun and begun[0].place <= place:
+            period = _read_period(begun.pop(0).rate)
+        if RATE in event.request:
+            period = _read_period(event.request[RATE])
+        yield period
+
+
+def _read_period(text: str) -> float:
+    """Return the period in ns of a rate; nan if the text is no rate."""
+    try:
+        rate = float(text)
+    except ValueError:
+        return float("nan")
+    return NANOSECONDS / rate if MIN_RATE <= rate <= MAX_RATE else float("nan")
+
+
+def _find_jumps(ordered: Ordered) -> set[int]:
+    """Return the numbers of events at which time may go back: jumps, and the first of each run."""
+    firsts = {ordered.runs.index(run) for run in set(ordered.runs)}
+    return firsts | {k for k, event in enumerate(ordered.events) if event.name == "clock"}
+
+
+def _list_jumps(events: Sequence[Event]) -> Iterator[Empty]:
+    """Yield the times that a clock or a step has passed over."""
+    for number, event in enumerate(events):
+        if event.name == "clock":
+            yield number, event.previous_end, event.stamp
+        to = event.request.get("to", "")
+        if event.name == "step" and WHOLE.fullmatch(to):
+            yield number, event.stamp, min(int(to), MAX_STAMP)
+
+
+def _list_pauses(events: Sequence[Event]) -> Iterator[Empty]:
+    """Yield the pauses of a recording."""
+    records = ((number, event) for number, event in enumerate(events) if event.name == "record")
+    for (_, before), (number, after) in pairwise(records):
+        if after.values.get("outcome.kind") == BEGUN:
+            yield number, before.stamp, after.stamp
+
+
+def _list_resumptions(events: Sequence[Event], periods: Real) -> Iterator[Empty]:
+    """Yield the times after a pause in which a recording began, of a run in its own time.
+
+    The sample at the beginning of the pause is then not recorded, and the next one comes a period
+    after its end.
+    """
+    is_begun = False
+    for number, (event, period) in enumerate(zip(events, periods.tolist(), strict=True)):
+        if event.name == "resume":
+            if is_begun and not math.isnan(period):
+                yield number, event.stamp, event.stamp + int(period)
+            is_begun = False
+        is_begun |= event.values.get("outcome.kind") == BEGUN
+
+
+def _list_times_without_tf(events: Sequence[Event]) -> Iterator[Empty]:
+    """Yield the times in which /tf was switched off: only a log of the node has its samples."""
+    changes = [(number, event) for number, event in enumerate(events) if TF_SWITCH in event.request]
+    for (number, before), (_, after) in pairwise([*changes, (-1, None)]):
+        if before and before.request[TF_SWITCH] == "false":
+            yield number, before.stamp, after.stamp if after else MAX_STAMP

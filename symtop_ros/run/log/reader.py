@@ -1,0 +1,454 @@
+"""Reading of whole and damaged MCAP files, chunk by chunk, with a list of what is missing.
+
+A file that was cut, a damaged chunk or a nonsensical length loses only what it covers, and memory
+stays bounded by the largest chunk. The readers of the mcap package stop at the first of these.
+"""
+
+import json
+import struct
+import zlib
+from bisect import bisect_right
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from functools import cached_property
+from io import BytesIO
+from itertools import islice
+from pathlib import Path
+from types import NoneType
+from typing import Any, BinaryIO, NamedTuple
+
+import lz4.frame
+import zstandard
+from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.records import (
+    Attachment,
+    Channel,
+    Chunk,
+    ChunkIndex,
+    DataEnd,
+    Footer,
+    Header,
+    Message,
+    Metadata,
+    MetadataIndex,
+    Schema,
+)
+
+from symtop_ros.base.refusals import one_line
+from symtop_ros.run.log.source import Loss, MessageSource, decompress, name_kind
+from symtop_ros.run.log.writer import ENDING, METADATA, REPAIR, REPAIR_LOSSES
+
+MAGIC = b"\x89MCAP0\r\n"
+# Bytes of a chunk, compressed or not, and of any record that is held in memory; the recorder writes
+# chunks of up to 4 MiB.
+MAX_RECORD = 256 * 2**20
+PIECE = 2**20  # bytes of a file that are read at once
+RECORD_START = struct.Struct("<BQ")  # opcode and length of a record
+FOOTER_SIZE = RECORD_START.size + 20 + len(MAGIC)  # at the end of a complete file
+MESSAGE_START = struct.Struct("<HIQQ")  # channel, sequence, log and publish time of a message
+MAX_MESSAGES = 65_536  # in memory: a chunk of a few bytes may decompress to millions
+Description = Schema | Channel | Metadata
+Parse = Callable[[ReadDataStream], Description]
+Span = tuple[int, int, int]
+Contents = tuple[list[Description], Iterator[Message]]  # of a record
+PARSED_IN_CHUNK: dict[int, Parse] = {Opcode.SCHEMA: Schema.read, Opcode.CHANNEL: Channel.read}
+PARSED: dict[int, Parse] = {**PARSED_IN_CHUNK, Opcode.METADATA: Metadata.read}
+SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX, Opcode.METADATA_INDEX)
+# Records whose content is read; the others may have any length that the file has.
+HELD = frozenset((*PARSED, Opcode.MESSAGE, Opcode.MESSAGE_INDEX, Opcode.CHUNK))
+CHECKSUM = struct.Struct("<I")  # behind the bytes of an attachment; 0: without it
+INDEX_HEAD = struct.Struct("<HI")  # channel, and bytes of the entries of 16 bytes each
+MAX_DESCRIPTIONS = 64 * 2**20  # bytes of schemas, channels and metadata in memory
+MAX_PROBLEMS = 20  # problems that are listed
+LOST_BEFORE = "lost before a repair: "
+
+
+class LogError(ValueError):
+    """A log that cannot be read or written; the text says why."""
+
+
+class DamageError(Exception):
+    """A record that contradicts itself."""
+
+
+# What reading a damaged record can raise: mcap and `struct` for one that is cut, a text that is not
+# UTF-8, a length beyond all of memory, and bytes that cannot be decompressed. Anything else is a
+# bug, and stays visible.
+DAMAGE = (
+    DamageError,
+    McapError,
+    struct.error,
+    UnicodeDecodeError,
+    OverflowError,
+    zstandard.ZstdError,
+)
+
+
+class FileRecord(NamedTuple):
+    """A record of the file, with its offset and that of its end."""
+
+    opcode: int
+    data: bytes  # empty for the kinds that are not held
+    start: int
+    end: int
+
+
+def list_problems(problems: Sequence[str]) -> list[str]:
+    """Return the first problems, each in one line, and the number of the others."""
+    more = len(problems) - MAX_PROBLEMS
+    rest = [f"{more} more problems"] if more > 0 else []
+    return [one_line(each) for each in problems[:MAX_PROBLEMS]] + rest
+
+
+@contextmanager
+def log_errors(act: str, path: Path) -> Iterator[None]:
+    """Turn an OSError into a LogError that says what cannot be done with a file."""
+    try:
+        yield
+    except OSError as error:
+        raise LogError(f"cannot {act} {path}: {error.strerror}") from None
+
+
+class McapFile(MessageSource):
+    """A log on disk."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        self.profile = ""  # "ros2" for logs of ROS 2
+        self._span: tuple[int, int] | None = None  # log times of the first and latest message
+        self._chunk_offsets: list[int] = []
+        self._described = 0  # bytes of all descriptions, about
+        with log_errors("open", path), path.open("rb") as file:
+            self.size = file.seek(0, 2)
+            file.seek(0)
+            if file.read(len(MAGIC)) != MAGIC:
+                raise LogError(f"cannot open {path}: {name_kind(path, 'not an MCAP file')}")
+            self._read_summary(file)
+
+    def attachments(self) -> Iterator[Attachment]:
+        """Yield the attachments that can be read, one at a time in memory."""
+        with log_errors("read", self.path), self.path.open("rb") as file:
+            for record in self._records_at(file, len(MAGIC), Opcode.ATTACHMENT):
+                with suppress(*DAMAGE):
+                    yield read_attachment(record.data)
+
+    def _read(self) -> Iterator[list[Message]]:
+        """Yield messages in the order of the file, those of a chunk together."""
+        with log_errors("read", self.path), self.path.open("rb") as file:
+            file.seek(len(MAGIC))
+            damaged: list[Chunk] = []
+            lost = 0
+            for record in self._records(file):
+                self.offset = record.end
+                if damaged and record.opcode == Opcode.MESSAGE_INDEX:
+                    lost += max(0, len(record.data) - INDEX_HEAD.size) // 16
+                    continue
+                self._report_damage(damaged, lost)
+                lost = 0
+                if problem := self._find_fault(record):
+                    self.report(problem)
+                    continue
+                try:
+                    descriptions, messages = _contents(record)
+                except DAMAGE:
+                    chunk = _chunk_of(record)
+                    damaged += chunk
+                    if not chunk:  # its times are not readable either
+                        self.report(f"the record before byte {record.end} is damaged")
+                    continue
+                self._describe(descriptions)
+                yield from self._runs(messages)
+            self._report_damage(damaged, lost)
+        self._report_ending()
+
+    def _find_fault(self, record: FileRecord) -> str:
+        """Return what is wrong in a record whose type a flipped bit may have changed."""
+        if record.opcode != Opcode.CHUNK and record.start in self._chunk_offsets:
+            # Readers would pass over it.
+            return f"the chunk before byte {record.end} is damaged"
+        is_between = record.opcode == Opcode.MESSAGE and self._chunk_offsets
+        if is_between and not self._is_message(record.data):
+            return "a record between chunks is damaged"
+        return ""
+
+    def _is_message(self, data: bytes) -> bool:
+        """Return False for a record between chunks that is no message for certain.
+
+        A flipped bit turns an index, or metadata, into a message. The checksum of all data decides;
+        without one the form of an index does.
+        """
+        if self._is_sound is None and len(data) >= INDEX_HEAD.size:
+            entries = len(data) - INDEX_HEAD.size
+            return bool(entries % 16) or INDEX_HEAD.unpack_from(data)[1] != entries
+        return self._is_sound is not False
+
+    @cached_property
+    def _is_sound(self) -> bool | None:
+        """True if the checksum of the data is that of its bytes; None without a checksum."""
+        with self.path.open("rb") as file:
+            for record in self._records_at(file, len(MAGIC), Opcode.DATA_END):
+                with suppress(*DAMAGE):
+                    checksum = DataEnd.read(open_stream(record.data)).data_section_crc
+                    return checksum in _checksums(file, record.start) if checksum else None
+        return None
+
+    def since_start(self, log_time: int) -> float:
+        """Return the seconds between the first message and a log time in ns."""
+        return (log_time - self._span[0]) * 1e-9 if self._span else 0.0
+
+    def _read_summary(self, file: BinaryIO) -> None:
+        """Read the header, and the index at the end if there is one."""
+        with suppress(*DAMAGE):
+            for header in islice(self._records_at(file, len(MAGIC), Opcode.HEADER), 1):
+                self.profile = Header.read(open_stream(header.data)).profile
+        with suppress(*DAMAGE):
+            place = max(len(MAGIC), self.size - FOOTER_SIZE)
+            for footer in islice(self._records_at(file, place, Opcode.FOOTER), 1):
+                self._read_index(file, Footer.read(open_stream(footer.data)).summary_start)
+        self._chunk_offsets.sort()
+
+    def _read_index(self, file: BinaryIO, start: int) -> None:
+        """Read descriptions and places of chunks from an offset on; 0: the file lacks them."""
+        metadata: list[int] = []
+        if 0 < start < self.size:
+            for record in self._records_at(file, start, *SUMMARY):
+                stream = open_stream(record.data)
+                if record.opcode == Opcode.CHUNK_INDEX:
+                    self._chunk_offsets.append(ChunkIndex.read(stream).chunk_start_offset)
+                elif record.opcode == Opcode.METADATA_INDEX:
+                    metadata.append(MetadataIndex.read(stream).offset)
+                else:
+                    self._describe(_contents(record)[0])
+        for offset in metadata:
+            for record in islice(self._records_at(file, offset, Opcode.METADATA), 1):
+                self._describe(_contents(record)[0])
+
+    def _records_at(self, file: BinaryIO, offset: int, *wanted: int) -> Iterator[FileRecord]:
+        """Yield the readable records with some opcodes from an offset on."""
+        place = min(offset, self.size)  # offsets in a damaged index may be any
+        while True:
+            file.seek(place)
+            head = file.read(RECORD_START.size)
+            if len(head) < RECORD_START.size:
+                return
+            opcode, length = RECORD_START.unpack(head)
+            if not self._fits(opcode, length, file.tell()):
+                return
+            start, place = place, file.tell() + length
+            if opcode in wanted:
+                yield FileRecord(opcode, file.read(length), start, place)
+
+    def _records(self, file: BinaryIO) -> Iterator[FileRecord]:
+        """Yield all records of the data; damaged bytes are skipped with the help of the index."""
+        while True:
+            start = file.tell()
+            head = file.read(RECORD_START.size)
+            opcode, length = RECORD_START.unpack(head) if len(head) == RECORD_START.size else (0, 0)
+            if opcode in (Opcode.DATA_END, Opcode.FOOTER):
+                return
+            if not opcode or not self._fits(opcode, length, file.tell()):
+                place = bisect_right(self._chunk_offsets, start)
+                following = self._chunk_offsets[place : place + 1]
+                self._report_gap(start, *following)
+                if not following:
+                    return
+                file.seek(following[0])
+            else:
+                end = file.tell() + length
+                data = file.read(length) if opcode in HELD else b""
+                file.seek(end)
+                yield FileRecord(opcode, data, start, end)
+
+    def _fits(self, opcode: int, length: int, begin: int) -> bool:
+        """Return True if a record of a length in bytes may begin at an offset with its content."""
+        if not fits(opcode, length, self.size - begin):
+            return False
+        # A damaged length of what is passed over would lead over chunks.
+        place = bisect_right(self._chunk_offsets, begin)
+        following = self._chunk_offsets[place : place + 1]
+        return opcode in HELD or not following or begin + length <= following[0]
+
+    def _describe(self, descriptions: Iterable[Description]) -> None:
+        """Keep descriptions, within a limit: a small chunk may decompress to a lot of them."""
+        for each in descriptions:
+            if isinstance(each, Metadata):
+                self.metadata[each.name] = each.metadata
+                self._described += _size(each)
+                continue
+            known: dict[int, Any] = self.schemas if isinstance(each, Schema) else self.channels
+            if known.get(each.id) != each:  # most are repeated in each chunk
+                known[each.id] = each
+                self._described += _size(each)
+        if self._described > MAX_DESCRIPTIONS:
+            raise LogError(
+                f"{self.path} must have at most {MAX_DESCRIPTIONS} bytes of schemas, channels and "
+                "metadata, got more: it is not a log"
+            )
+
+    def _runs(self, messages: Iterator[Message]) -> Iterator[list[Message]]:
+        while run := list(islice(messages, MAX_MESSAGES)):
+            self._span = self._span[0] if self._span else run[0].log_time, run[-1].log_time
+            yield run
+
+    def _report_damage(self, damaged: list[Chunk], lost: int) -> None:
+        """Report the time range of chunks that cannot be decompressed, and forget them."""
+        for chunk in damaged:
+            if self._span is None:
+                self._span = chunk.message_start_time, chunk.message_start_time
+            first, last = map(self.since_start, (chunk.message_start_time, chunk.message_end_time))
+            count = f"{lost} messages" if lost else "all messages"
+            self.report(f"a chunk is damaged: {count} of {first:.3f} .. {last:.3f} s are lost")
+        damaged.clear()
+
+    def _report_gap(self, start: int, onward: int | None = None) -> None:
+        latest = self.since_start(self._span[1]) if self._span else 0.0
+        where = (
+            f"the file ends or is unreadable at byte {start} of {self.size}"
+            if onward is None
+            else f"bytes {start} to {onward} are damaged"
+        )
+        self.report(f"{where}: messages after {latest:.3f} s are lost")
+
+    def _report_ending(self) -> None:
+        """Report what the recorder noted itself, if symtop_ros wrote the log, and what a repair."""
+        ending = self.metadata.get(ENDING, {})
+        dropped = ending.get("dropped", "0")
+        if dropped != "0":
+            self.report(f"{dropped} messages were dropped: the disk was too slow", is_place=False)
+        self.losses += _read_repair(self.metadata.get(REPAIR, {}))
+        if METADATA in self.metadata and not ending and not self.losses:
+            latest = self.since_start(self._span[1]) if self._span else 0.0
+            self.report(
+                f"the recording was not finished: messages after {latest:.3f} s are missing"
+            )
+
+
+def _read_repair(values: Mapping[str, str]) -> list[Loss]:
+    """Return what a repair has noted as lost; nothing that is no list of losses."""
+    with suppress(KeyError, ValueError, TypeError, RecursionError):
+        found = [Loss(**each) for each in json.loads(values[REPAIR_LOSSES])]
+        if all(type(each.text) is str and type(each.place) in (int, NoneType) for each in found):
+            return [Loss(f"{LOST_BEFORE}{each.text}", each.place) for each in found]
+    return []
+
+
+def _checksums(file: BinaryIO, end: int) -> tuple[int, int]:
+    """Return the checksums of the bytes before an offset, with and without the first of the file.
+
+    Writers differ in whether the first bytes of the file belong to the data.
+    """
+    file.seek(0)
+    head = file.read(len(MAGIC))
+    whole = zlib.crc32(head)
+    rest = 0
+    while part := file.read(min(PIECE, end - file.tell())):
+        whole, rest = zlib.crc32(part, whole), zlib.crc32(part, rest)
+    return whole, rest
+
+
+def open_stream(data: bytes) -> ReadDataStream:
+    """Return the content of a record, as the records of mcap read it."""
+    return ReadDataStream(BytesIO(data))
+
+
+def read_attachment(data: bytes) -> Attachment:
+    """Return the attachment of a record; DamageError if it has another checksum than its bytes."""
+    stream = BytesIO(data)
+    attachment: Attachment = Attachment.read(ReadDataStream(stream))
+    end = stream.tell() - CHECKSUM.size  # there may be further bytes behind it
+    (checksum,) = CHECKSUM.unpack_from(data, end)
+    if checksum and checksum != zlib.crc32(memoryview(data)[:end]):
+        raise DamageError("CRC")
+    return attachment
+
+
+def _size(description: Description) -> int:
+    """Return about how many bytes of memory a description takes."""
+    if isinstance(description, Schema):
+        return 500 + len(description.data)
+    return 500 + sum(len(key) + len(value) for key, value in description.metadata.items())
+
+
+def _chunk_of(record: FileRecord) -> list[Chunk]:
+    """Return the chunk in a list, for its times, or an empty list for another record."""
+    with suppress(*DAMAGE):
+        if record.opcode == Opcode.CHUNK:
+            return [Chunk.read(open_stream(record.data))]
+    return []
+
+
+def _contents(record: FileRecord) -> Contents:
+    """Return the contents of a record that is sound as a whole."""
+    if record.opcode != Opcode.CHUNK:
+        return _parse(record.data, [(record.opcode, 0, len(record.data))], PARSED)
+    data = unpack_chunk(Chunk.read(open_stream(record.data)))
+    return _parse(data, RecordPlaces(data), PARSED_IN_CHUNK)
+
+
+def unpack_chunk(chunk: Chunk) -> bytes:
+    """Return the records of a chunk; DamageError if they are not those that were written."""
+    data = _decompress(chunk)
+    if len(data) != chunk.uncompressed_size:
+        raise DamageError("the size differs from the announced one")
+    if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
+        raise DamageError("CRC")
+    return data
+
+
+@dataclass(frozen=True, slots=True)
+class RecordPlaces:
+    """The records of a chunk as opcode, begin and end, found anew in each iteration."""
+
+    data: bytes
+
+    def __iter__(self) -> Iterator[Span]:
+        """Iterate from the first record on."""
+        end = 0
+        while end < len(self.data):
+            opcode, length = RECORD_START.unpack_from(self.data, end)
+            begin, end = end + RECORD_START.size, end + RECORD_START.size + length
+            if not opcode or end > len(self.data):
+                raise DamageError("not a record")
+            yield opcode, begin, end
+
+
+def _parse(data: bytes, places: Iterable[Span], parsed: Mapping[int, Parse]) -> Contents:
+    """Parse the descriptions and check the messages; messages are then read lazily."""
+    descriptions = []
+    for opcode, begin, end in places:
+        if opcode in parsed:
+            descriptions.append(parsed[opcode](open_stream(data[begin:end])))
+        if opcode == Opcode.MESSAGE and end - begin < MESSAGE_START.size:
+            raise DamageError("not a message")
+    return descriptions, _messages(data, places)
+
+
+def fits(opcode: int, length: int, rest: int) -> bool:
+    """Return True if a record of a length may begin the rest of a file, both in bytes."""
+    return length <= (min(rest, MAX_RECORD) if opcode in HELD else rest)
+
+
+def _messages(data: bytes, places: Iterable[Span]) -> Iterator[Message]:
+    for opcode, begin, end in places:
+        if opcode == Opcode.MESSAGE:
+            channel, sequence, log_time, publish_time = MESSAGE_START.unpack_from(data, begin)
+            content = data[begin + MESSAGE_START.size : end]
+            yield Message(channel, log_time, content, publish_time, sequence)
+
+
+def _decompress(chunk: Chunk) -> bytes:
+    """Decompress at most the announced size: hostile data may contain far more."""
+    size = chunk.uncompressed_size
+    if size > MAX_RECORD:
+        raise DamageError(f"{size} bytes are more than {MAX_RECORD}")
+    if chunk.compression == "zstd":
+        return decompress(chunk.data, size)
+    if chunk.compression != "lz4":
+        return bytes(chunk.data)
+    try:
+        return bytes(lz4.frame.LZ4FrameDecompressor().decompress(chunk.data, max_length=size))
+    except RuntimeError as error:  # of lz4 for any damage
+        raise DamageError(str(error)) from None

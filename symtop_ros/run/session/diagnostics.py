@@ -1,0 +1,234 @@
+"""The motion in numbers and words, for `~/get_state`, and the statuses of `/diagnostics`."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import asdict
+from typing import Any
+
+from symtop_ros.physics import (
+    Motion,
+    State,
+    Top,
+    Verdict,
+    balance,
+    clamp_verdict,
+    find_period,
+    kernel_version,
+    perrys_rule,
+)
+from symtop_ros.run.log.recorder import Recorder
+from symtop_ros.run.simulation.block import GAP
+from symtop_ros.run.simulation.segment import Segment
+from symtop_ros.run.simulation.sensor.imu import find_body
+from symtop_ros.run.simulation.simulation import Simulation
+from symtop_ros.run.wire.diagnostics import ERROR, OK, WARN, Status, write_text
+
+MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very start
+
+
+def collect_statuses(simulation: Simulation, recorder: Recorder) -> list[Status]:
+    """Return the statuses of a simulation at its next stamp."""
+    return [
+        motion_status(simulation.segment, simulation.stamp, simulation.event_number),
+        pace_status(simulation),
+        log_status(recorder),
+        balance_status(simulation.segment, simulation.stamp),
+    ]
+
+
+def motion_status(segment: Segment, stamp: int, event: int) -> Status:
+    """Return the state of the motion in numbers and words, and the number of the latest event.
+
+    From a log in which messages are lost the number says whether an event is among them.
+    """
+    segment = segment.without_pushes(stamp)
+    motion = segment.motion
+    state = segment.state_at(stamp)
+    now = constants_of_motion(motion.top, state)
+    start = constants_of_motion(motion.top, motion.start)
+    verdict = perrys_rule(motion.top, state)
+    return make_status(
+        "motion",
+        OK,
+        _say(motion, verdict),
+        {
+            **now,
+            **{f"{name}.drift": value - start[name] for name, value in now.items()},
+            **summarize_motion(motion, state),
+            "regular_precession_rates": list(verdict.regular_rates),
+            "running": segment.running,
+            "event": event,
+        },
+    )
+
+
+def balance_status(segment: Segment, stamp: int) -> Status:
+    """Return how exactly energy and angular momentum change by what acts on the top."""
+    segment = segment.without_pushes(stamp)
+    motion = segment.motion
+    state = segment.state_at(stamp)
+    t = segment.time_at(stamp)
+    found = balance(motion, t, longest=max(abs(t), MIN_BALANCE))
+    added = motion.added_torque(state)
+    return make_status(
+        "balance",
+        OK,
+        _name_forces(motion),
+        {
+            **{f"friction.{name}": each for name, each in asdict(motion.friction).items()},
+            "applied_torque": list(motion.applied_torque),
+            "power": float((added * state.to_world(state.angular_velocity)).sum()),
+            "energy.balance": found.energy,
+            "angular_momentum.balance": found.angular_momentum.tolist(),
+        },
+    )
+
+
+def _say(motion: Motion, verdict: Verdict) -> str:
+    """Return what follows from the present state, or from the clamp that holds the motion."""
+    return str(clamp_verdict(motion.top, motion.start) if motion.clamped else verdict)
+
+
+def _name_forces(motion: Motion) -> str:
+    if motion.clamped:
+        return "a hand holds the precession: L_z' is not constant"
+    return "friction or an applied torque acts" if motion.is_driven else "only gravity acts"
+
+
+def pace_status(simulation: Simulation) -> Status:
+    """Return whether the samples come in time, and how fast the motion is."""
+    asked = simulation.settings.real_time_factor
+    kept = simulation.factor
+    ticker = simulation.ticker
+    level = WARN if kept < asked or ticker.missed >= GAP * ticker.rate else OK
+    message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"
+    if kept < asked:
+        message = (
+            f"the motion is too fast for the compute budget: real-time factor {kept:.3g} "
+            f"instead of {asked:.3g}"
+        )
+    return make_status(
+        "pace",
+        level,
+        message,
+        {
+            "late": ticker.late,
+            "missed": ticker.missed,
+            "real_time_factor": asked,
+            "real_time_factor.achieved": kept if simulation.segment.running else 0.0,
+            "kernel_version": kernel_version(),
+        },
+    )
+
+
+def log_status(recorder: Recorder) -> Status:
+    """Return whether the recording, if there is one, is complete."""
+    level, message = OK, "recording" if recorder.running else "not recording"
+    if recorder.failure:
+        level, message = ERROR, recorder.failure
+    elif recorder.dropped:
+        level, message = WARN, f"{recorder.dropped} messages dropped: the disk is too slow"
+    return make_status(
+        "log", level, message, {"file": recorder.path or "", "dropped": recorder.dropped}
+    )
+
+
+def make_status(name: str, level: int, message: str, facts: dict[str, Any]) -> Status:
+    """Return a status of which the facts are written as text."""
+    return Status(0, level, name, message, {key: write_text(value) for key, value in facts.items()})
+
+
+def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[str, Any]:
+    """Return the state at a stamp (ns), the constants of motion and the verdict, ready for JSON.
+
+    `since` names the event from which the time of the motion counts.
+    """
+    state = segment.state_at(stamp)
+    motion = segment.without_pushes(stamp).motion
+    top = motion.top
+    verdict = perrys_rule(top, state)
+    w, x, y, z = state.orientation.tolist()
+    return {
+        "stamp": stamp * 1e-9,
+        "time": segment.time_at(stamp),
+        "time_since": since,
+        "running": segment.running,
+        "top": asdict(top),
+        "orientation": {"x": x, "y": y, "z": z, "w": w},
+        "angular_velocity_body": state.angular_velocity.tolist(),
+        "angular_velocity": state.to_world(state.angular_velocity).tolist(),
+        "angular_momentum": top.angular_momentum(state).tolist(),
+        "torque": motion.total_torque(state).tolist(),
+        "euler_angles": state.euler_angles._asdict(),
+        "euler_rates": state.euler_rates._asdict(),
+        "constants": constants_of_motion(top, state),
+        **summarize_motion(motion, state),
+        "friction": asdict(motion.friction),
+        "applied_torque": list(motion.applied_torque),
+        "regular_precession_rates": list(verdict.regular_rates),
+        "regular_precession_periods": _keep(map(find_period, verdict.regular_rates)),
+        "seen_from_above": _name_way(float(state.euler_rates.phi)),
+        "critical_spin": _keep([float(top.critical_spin)])[0],
+        "pivot_force": _find_pivot_force(segment, motion, state),
+        "clamped": motion.clamped,
+        "verdict": _say(motion, verdict),
+        "why": "" if motion.is_driven or motion.clamped else str(verdict.cause),
+        "perrys_rule_holds": None if motion.clamped else verdict.rule_holds,
+    }
+
+
+def _name_way(phi_dot: float) -> str:
+    """Return the direction of the precession as seen from above; empty if there is none."""
+    if phi_dot == 0:
+        return ""
+    return "counterclockwise" if phi_dot > 0 else "clockwise"
+
+
+def _find_pivot_force(segment: Segment, motion: Motion, state: State) -> list[float] | None:
+    """Return the force of the pivot on the top (world, N); None if no body is such a top."""
+    body = find_body(motion.top, segment.rig.gravity)
+    force = body.pivot_force(motion, state).tolist() if body else [math.nan]
+    return force if all(map(math.isfinite, force)) else None
+
+
+def _keep(numbers: Iterable[float]) -> list[float | None]:
+    """Return numbers that JSON has: None if infinite or undefined."""
+    return [number if math.isfinite(number) else None for number in numbers]
+
+
+def constants_of_motion(top: Top, state: State) -> dict[str, float]:
+    """Return energy (J) and the angular momenta about the axis and the vertical (N m s)."""
+    return {
+        "energy": float(top.energy(state)),
+        "L_z": float(top.axial_momentum(state)),
+        "L_z'": float(top.vertical_momentum(state)),
+    }
+
+
+def summarize_motion(motion: Motion, state: State) -> dict[str, Any]:
+    """Return kind, turning angles, period and rates; None if infinite or undefined.
+
+    The rates of the fast top are the approximations of textbooks, next to the exact ones.
+
+    Under friction or an applied torque these change all the time. They are then given for the
+    motion that would follow from `state` under gravity alone.
+    """
+    free = Motion(motion.top, state) if motion.is_driven else motion
+    numbers = {
+        "nutation_period": free.nutation_period,
+        "mean_precession_rate": free.mean_precession_rate,
+        "precession_period": free.precession_period,
+        "rounding_shows_at": free.rounding_shows_at,
+        "mean_spin_rate": free.mean_spin_rate,
+        "precession_per_nutation": free.precession_per_nutation,
+        "nutation_rate": free.nutation_rate,
+        "fast_top_precession_rate": free.fast_top_precession_rate,
+        "fast_top_nutation_rate": free.fast_top_nutation_rate,
+    }
+    return {
+        "kind": free.kind,
+        "engine": motion.engine,
+        "turning_angles": list(free.turning_angles),
+        "spin_reverses": free.spin_reverses,
+        **{name: value if math.isfinite(value) else None for name, value in numbers.items()},
+    }

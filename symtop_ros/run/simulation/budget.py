@@ -1,0 +1,118 @@
+"""Budgets of work: only driven motions (friction, applied torque) need any, one step after another.
+
+A `StepBudget` limits the steps that are taken for one request or one log. A `ComputeBudget` limits
+the CPU time of a run, and says how fast the motion can be followed.
+"""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from symtop_ros.base.arrays import Stamps
+from symtop_ros.physics import Motion
+from symtop_ros.run.simulation.segment import Segment
+
+# Steps of the integration in one call, about 1 ms: requests wait no longer for the lock.
+STEPS_AT_ONCE = 100
+STEPS_OF_A_CHECK = 1500  # steps between two estimates of the steps that remain
+# For a log, which may be hostile: it could ask for a motion that takes years to integrate.
+FREE_STEPS = 1500  # for the samples of one event in a batch: about a tenth of a second
+STEPS_PER_SAMPLE = 60  # a node may have taken as many for each sample
+SPARE_STEPS = 3_000_000  # for what precedes the log
+# A motion that slows down is followed in longer steps, so an estimate of the remaining work may be
+# this many times too large.
+OPTIMISM = 10.0
+FREE_WORK = 0.02  # s of work that is allowed for any stretch
+SHARE = 0.25  # share of one core for a motion that cannot be followed in real time
+
+
+@dataclass
+class StepBudget:
+    """A number of spare steps, for all motions that are reached with it."""
+
+    spare: int = 0
+
+    def reach(self, motion: Motion, t: float, free: int) -> bool:
+        """Integrate a motion to a time in s; return False if that takes too many steps.
+
+        `free` steps are not counted. Work that would exceed the budget by far is not begun.
+        """
+        before = motion.reach(t, 0)
+        while free + self.spare > 0:
+            count = min(STEPS_OF_A_CHECK, free + self.spare)
+            reached = motion.reach(t, count)
+            if reached == t:
+                return True
+            self.spare -= max(0, count - max(0, free))
+            free -= count
+            left = max(0, free) + self.spare
+            if abs(t - reached) * count > OPTIMISM * left * abs(reached - before):
+                return False
+            before = reached
+        return before == t
+
+    def reach_stamps(self, segment: Segment, stamps: Stamps) -> bool:
+        """Integrate the motion of samples at stamps (ns) that a node has published."""
+        free = FREE_STEPS + STEPS_PER_SAMPLE * len(stamps)
+        ends = stamps.min(), stamps.max()
+        if ends[1] > segment.last_stamp:
+            return False
+        return all(self.reach(segment.motion, segment.time_at(int(end)), free) for end in ends)
+
+
+class Shortfall(NamedTuple):
+    """A motion that cannot be followed."""
+
+    reached: float  # time up to which it is integrated, s of the motion
+    factor: float  # real-time factor that can be kept with the CPU time of `SHARE`
+
+
+class ComputeBudget:
+    """Prepares a motion stretch by stretch and measures the time which that takes."""
+
+    def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
+        self._clock = clock
+        self.spent = 0.0  # work so far in s
+        # set by the last call if the motion has no further states: its last time in s
+        self.end: float | None = None
+        self.shortfall: Shortfall | None = None  # set if the last stretch took longer than it lasts
+        self._segment: Segment | None = None  # the last one
+        self._prepared = 0  # ns: end of its last stretch
+        self._stretch: tuple[Segment, int] | None = None
+        self._progress, self._spent_before = 0.0, 0.0  # s of the motion and of work, of the stretch
+
+    def prepare(self, segment: Segment, stamp: int, factor: float = 1.0) -> bool:
+        """Work for about 1 ms towards a stamp (ns); return True if its state is ready.
+
+        `factor` is the pace of the stamps: seconds of them per second of real time.
+        """
+        self.shortfall = self.end = None
+        if not segment.motion.is_driven:
+            if stamp > segment.last_stamp:
+                self.end = float(segment.time_at(int(segment.last_stamp)))
+            return self.end is None
+        if segment is not self._segment:
+            self._segment = segment
+            self._prepared = segment.stamp
+        end = segment.time_at(stamp)
+        if self._stretch != (segment, stamp):
+            self._stretch = segment, stamp
+            self._progress = 0.0
+            self._spent_before = self.spent
+        # The progress is counted call by call: a state that was asked for in between may have moved
+        # the integration back to an earlier point.
+        start = segment.motion.reach(end, 0)
+        before = self._clock()
+        reached = segment.motion.reach(end, STEPS_AT_ONCE)
+        self.spent += self._clock() - before
+        self._progress += reached - start
+        work = self.spent - self._spent_before
+        if reached == end:
+            self._prepared = stamp
+            self._stretch = None
+        elif reached == start:
+            self.end = reached
+        elif work > max(FREE_WORK, (stamp - self._prepared) * 1e-9 / factor):
+            self.shortfall = Shortfall(reached, SHARE * self._progress / work)
+        return bool(reached == end)

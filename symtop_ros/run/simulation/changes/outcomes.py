@@ -1,0 +1,223 @@
+"""Outcomes: what each event led to, as a record.
+
+`wording.write` makes a sentence of it, by the template of the event's name (`words/en.json`).
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from symtop_ros.base.arrays import Vector
+from symtop_ros.physics import (
+    ClampVerdict,
+    ExactTimes,
+    KickVerdict,
+    Kind,
+    Motion,
+    Pushes,
+    State,
+    Verdict,
+    clamp_verdict,
+    perrys_rule,
+    push_axle,
+)
+from symtop_ros.run.wire.layout import NANOSECONDS
+from symtop_ros.words import write
+
+MILLI = 1000
+ROUNDING = 1e-9  # of |Mgl|; a smaller change counts as none
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """A motion that begins: its kind and what follows from its start."""
+
+    motion: Kind
+    verdict: Verdict | None  # None of a motion whose precession is held
+    clamp: ClampVerdict | None = None  # of such a motion
+
+    @classmethod
+    def of(cls, motion: Motion) -> "Start":
+        """Return the outcome of the start of a motion."""
+        if motion.clamped:
+            return cls(motion.kind, None, clamp_verdict(motion.top, motion.start))
+        return cls(motion.kind, perrys_rule(motion.top, motion.start))
+
+
+@dataclass(frozen=True, slots=True)
+class Means:
+    """Mean phi' in rad/s without pushes and after them."""
+
+    before: float
+    after: float
+
+
+@dataclass(frozen=True, slots=True)
+class Gain:
+    """Gain or loss (mJ) of the potential energy halfway between the turning points."""
+
+    kind: Literal["gained", "lost", "kept"]
+    amount: float
+
+
+@dataclass(frozen=True, slots=True)
+class Pushed:
+    """Consequences of pushes on the axle, if nothing else happens until the last one.
+
+    Of a driven motion it is only said that there were pushes: friction and torques change the
+    energy and the turning angles, too.
+    """
+
+    number: int
+    duration: float | None  # s of the motion from the first to the last one; None of one push
+    driven: bool
+    turning_angles: tuple[float, float] | None = None  # rad, after the last one
+    former_angles: tuple[float, float] | None = None  # without them
+    means: Means | None = None  # also None if phi' is undefined at a time
+    work: float | None = None  # mJ
+    weight: Gain | None = None
+
+    @classmethod
+    def of(cls, motion: Motion, pushes: Pushes, before: State) -> "Pushed":
+        """Return the outcome of the pushes of a motion, with the state before the first one."""
+        duration = pushes.last_time / NANOSECONDS if pushes.number > 1 else None
+        given = pushes.number, duration, motion.is_driven
+        if motion.is_driven:
+            return cls(*given)
+        top = motion.top
+        former = Motion(motion.top, before)
+        last = motion.piece_at(ExactTimes(pushes.last_time)).motion
+        rates = former.mean_precession_rate, last.mean_precession_rate
+        return cls(
+            *given,
+            last.turning_angles,
+            former.turning_angles,
+            None if any(map(math.isnan, rates)) else Means(*rates),
+            MILLI * float(top.energy(last.start) - top.energy(before)),
+            _find_gain(top.Mgl, former.turning_angles, last.turning_angles),
+        )
+
+    @classmethod
+    def of_given(cls, motion: Motion, pushes: Pushes) -> "Pushed":
+        """Return the outcome of pushes that have ended, from the motion alone."""
+        return cls.of(motion, pushes, push_axle(motion.top, motion.start, -pushes.impulse))
+
+
+def _find_gain(Mgl: float, before: tuple[float, float], after: tuple[float, float]) -> Gain:
+    heights = [(math.cos(low) + math.cos(high)) / 2 for low, high in (before, after)]
+    change = MILLI * Mgl * (heights[1] - heights[0])
+    if abs(change) <= ROUNDING * MILLI * abs(Mgl):
+        return Gain("kept", abs(change))
+    return Gain("gained" if change > 0 else "lost", abs(change))
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """The motion stopped or continues at a time (s of the motion)."""
+
+    time: float
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A paused motion advanced to a time (s of the motion); None: by less than 1 ns."""
+
+    kind: Literal["stepped", "none"]
+    time: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ClockJump:
+    """The clock jumped between two stamps in ns."""
+
+    before: int
+    after: int
+
+
+@dataclass(frozen=True, slots=True)
+class Pace:
+    """The real-time factor changed; "slowed" if the motion is too fast to be computed."""
+
+    kind: Literal["slowed", "changed"]
+    before: float
+    after: float
+
+
+@dataclass(frozen=True, slots=True)
+class Torque:
+    """The applied torque (N m, world frame) changed, and why."""
+
+    kind: Literal["applied", "released", "steady"]
+    torque: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """A parameter and its new value as text."""
+
+    name: str
+    value: str
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """Parameters that changed."""
+
+    changes: tuple[Setting, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """A recording began, was ended, or stopped by itself; `path` is its file."""
+
+    kind: Literal["begun", "ended", "stopped"]
+    path: str = ""
+    failure: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """An unexpected exception in an action; the motion keeps running."""
+
+    action: str
+    error: str  # type of the exception
+    text: str
+
+    def __str__(self) -> str:
+        """Return the failure in words."""
+        return write("failure", self)
+
+
+Outcome = (
+    Start
+    | KickVerdict
+    | Pushed
+    | ClampVerdict
+    | Pause
+    | Step
+    | ClockJump
+    | Pace
+    | Torque
+    | Parameters
+    | Record
+    | Failure
+)
+# By the name of the event.
+OUTCOMES: dict[str, type[Outcome]] = {
+    "start": Start,
+    "reset": Start,
+    "kick": KickVerdict,
+    "push": Pushed,
+    "release": Pushed,
+    "clamp": ClampVerdict,
+    "unclamp": Start,
+    "pause": Pause,
+    "resume": Pause,
+    "step": Step,
+    "clock": ClockJump,
+    "pace": Pace,
+    "torque": Torque,
+    "parameters": Parameters,
+    "record": Record,
+    "failure": Failure,
+}

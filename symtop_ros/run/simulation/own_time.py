@@ -1,0 +1,195 @@
+"""A simulation in its own time (parameter publish_clock), as Gazebo's.
+
+Its stamps are the elapsed time of the run, which is published on /clock: it advances by the
+real-time factor, stands still in a pause and goes back only if a reset of the time is asked for, so
+that rates are derivatives by the stamps at every factor. The factor of its segments is 1.
+"""
+
+from symtop_ros.run.simulation.block import GAP
+from symtop_ros.run.simulation.host import Clock, Host, Sink
+from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.run.simulation.simulation import JUMP, Simulation
+from symtop_ros.run.wire.layout import NANOSECONDS
+
+CALLS = 20  # of 1 ms for a request; the lock is held meanwhile
+
+
+def simulate(settings: Settings, clock: Clock, sink: Sink, host: Host) -> Simulation:
+    """Return a simulation with the stamps of its host's clock, or in its own time."""
+    kind = OwnTimeSimulation if settings.publish_clock else Simulation
+    return kind(settings, clock, sink, host)
+
+
+class RunClock:
+    """Elapsed time of a run."""
+
+    is_simulated = False
+
+    def __init__(self, real: Clock, factor: float) -> None:
+        self._real = real
+        self.is_running = True
+        self._time = 0  # ns of the run
+        self._since = real.now  # the real time at which it was so
+        self.factor = factor  # seconds of the run per second of real time
+
+    @property
+    def now(self) -> int:
+        """Current time in ns."""
+        passed = self._real.now - self._since if self.is_running else 0
+        return self._time + int(passed * self.factor)
+
+    @property
+    def steady(self) -> int:
+        """The same time: no other program sets it."""
+        return self.now
+
+    def set_factor(self, factor: float) -> None:
+        """Continue at another pace."""
+        self.set(self.now)
+        self.factor = factor
+
+    def set(self, time: int) -> None:
+        """Continue from a time (ns); one that precedes the last stamp is a jump back."""
+        self._time = time
+        self._since = self._real.now
+
+    def stop(self, time: int) -> None:
+        """Stand still at a time (ns)."""
+        self.set(time)
+        self.is_running = False
+
+    def start(self) -> None:
+        """Continue from where it stands."""
+        self.set(self._time)
+        self.is_running = True
+
+
+class OwnTimeSimulation(Simulation):
+    """A top in the elapsed time of its run, which no other program sets."""
+
+    _clock: RunClock
+
+    def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
+        super().__init__(settings, RunClock(clock, settings.real_time_factor), sink, host)
+
+    @property
+    def factor(self) -> float:
+        """The real-time factor, which the clock has."""
+        return self._clock.factor
+
+    @property
+    def _catch_up(self) -> float:
+        """Return more than the time waits: no sample is dropped."""
+        return JUMP * self._clock.factor
+
+    def _wait_for(self, stamp: int) -> float | None:
+        """Return the seconds of real time until a stamp; None in a pause."""
+        wait = (stamp - self.now) / NANOSECONDS / self._clock.factor
+        return wait if self._clock.is_running else None
+
+    def publish(self) -> bool:
+        """Publish what is due; the time waits for a process that was stopped."""
+        late = self.now - self.stamp - round(GAP * self._clock.factor * NANOSECONDS)
+        if late > 0:
+            self._clock.set(self.now - late)
+        return super().publish()
+
+    def _follow_jump(self) -> None:
+        """Do nothing: this clock is not set."""
+
+    @property
+    def _pace(self) -> float:
+        return self._clock.factor
+
+    def _stop_at(self, reached: float) -> None:
+        """Bring a motion that cannot continue to its last time in s, and pause it there."""
+        before = self.stamp
+        self._bring_forward(reached)
+        if self.stamp == before:
+            self._stop()
+            super()._stop_at(reached)
+
+    def _stop(self) -> None:
+        """Let the time stand still: what is changed from now on acts 1 ns after the last sample."""
+        self._clock.stop(max(self.last, self.segment.stamp - 1))
+        self.restart_grid(self.now + 1)
+
+    def _integrate_to(self, stamp: int) -> bool:
+        """Work for some ms until the state at a stamp is ready; else a nearer stamp is the next."""
+        for _ in range(CALLS):
+            if self._prepare(stamp):
+                return True
+        self._check_pace(stamp)
+        segment = self.segment
+        self._bring_forward(segment.motion.reach(segment.time_at(stamp), 0))
+        while not self._prepare(self.stamp):  # 1 ns at most
+            pass
+        return False
+
+    def _check_pace(self, stamp: int) -> None:
+        """Slow the time down if the motion cannot be followed; a sample shows what was reached."""
+        if shortfall := self.budget.shortfall:
+            self._bring_forward(shortfall.reached)
+            # Less than 1 ns after the last sample, the next stamp is not reached, and may never be.
+            if self.segment.stamp_at(shortfall.reached) >= self.stamp:
+                self.host.warn(self._set_pace(shortfall.factor))
+
+    def _set_pace(self, factor: float) -> str:
+        verdict = super()._set_pace(factor)
+        self._clock.set_factor(factor)
+        return verdict
+
+    def _bring_forward(self, reached: float) -> None:
+        """Let the next stamp be that of a time (s of the motion) that is integrated."""
+        segment = self.segment
+        stamp = max(self.last + 1, segment.stamp, segment.stamp_at(reached))
+        if stamp < self.stamp:
+            self.restart_grid(stamp)
+            if self.now > stamp:
+                self._clock.set(stamp)
+
+    def pause(self, paused: bool) -> str:
+        """Stop the motion and its time, or continue both."""
+        if paused:
+            self._stop()
+        verdict = super().pause(paused)
+        if not paused:
+            self.restart_grid(self.now + round(NANOSECONDS / self.ticker.rate))
+            self._clock.start()
+        return verdict
+
+    def step(self, duration: float) -> str:
+        """Advance a paused motion and its time, with one sample at the end."""
+        now = self.now + round(duration * NANOSECONDS)
+        if now == self.now:
+            return self.do("step", {})
+        verdict = self.do("step", {"to": now})
+        self._clock.stop(now)
+        self.restart_grid(now)
+        self.settle()  # a torque may end meanwhile
+        self.publish()
+        self.pause(True)
+        return verdict
+
+    def reset_time(self, with_state: bool) -> None:
+        """Set the time back to 0, where the motion continues, or starts as the parameters say.
+
+        Call it in a turn. The sample at 0 is published, in a pause too.
+        """
+        stamp = self.stamp
+        self.last = -1
+        self._clock.set(0)
+        self.restart_grid(0)
+        self.apply(self.timeline.move(stamp, 0))
+        if with_state:
+            self.apply(self.timeline.restart(0, {}))
+        self.publish()
+        if not self._clock.is_running:
+            self._stop()
+
+    def apply_settings(self, settings: Settings) -> None:
+        """Continue with other settings, of which the clock has the factor."""
+        factor = self.settings.real_time_factor
+        super().apply_settings(settings)
+        if settings.real_time_factor != factor:
+            self._clock.set_factor(settings.real_time_factor)

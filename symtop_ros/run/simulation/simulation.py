@@ -1,0 +1,413 @@
+"""The simulation: a sample at every stamp of a grid, and an event for every change.
+
+A change takes effect at the next stamp that is not published yet: samples before it belong to the
+old motion, samples from it on to the new one. What a change is says the `timeline`; here is when it
+takes effect, and what is published.
+"""
+
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from typing import TypeVar
+
+from symtop_ros.base.refusals import attempt, one_line
+from symtop_ros.physics import State
+from symtop_ros.run.simulation.block import CATCH_UP, GAP, Block, Ticker
+from symtop_ros.run.simulation.budget import SHARE, ComputeBudget
+from symtop_ros.run.simulation.changes.follow import Act, Request
+from symtop_ros.run.simulation.changes.outcomes import Failure, Outcome
+from symtop_ros.run.simulation.changes.timeline import Change, Timeline
+from symtop_ros.run.simulation.events import Event
+from symtop_ros.run.simulation.host import Clock, Host, Sink
+from symtop_ros.run.simulation.segment import Segment
+from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.run.simulation.topics import DEPTH
+from symtop_ros.run.wire.layout import NANOSECONDS
+
+AHEAD = 0.05  # s of samples that are computed together; a kick makes them useless
+# Samples in a block at most. Requests wait while a block is computed, so blocks are short; those of
+# driven motions are shorter, because it takes a block to find that one is too fast.
+MAX_BLOCK, MAX_DRIVEN_BLOCK = 16, 4
+AT_ONCE = 0.0  # s until the next tick, if this one has left work to do
+GAP_PERIOD = 60 * NANOSECONDS  # between two warnings of missed samples
+JUMP = 1.0  # s; a larger step of the clock is a jump, which the motion follows
+WHY_IT_ENDS = "too fast for doubles, or 1e15 turns from its start"
+T = TypeVar("T")
+
+
+class Simulation:
+    """A top that moves with a clock.
+
+    All public methods may be called from any thread: each takes a lock.
+    """
+
+    def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
+        self._sink, self.host, self._clock = sink, host, clock
+        self._lock = threading.RLock()
+        self._waiting: deque[None] = deque()  # one for each turn that waits for the lock
+        self._failures: dict[str, Failure] = {}  # by the name of the turn
+        self.event_number = 0  # of the latest event
+        self._jumped_to: int | None = None  # ns
+        self.ticker = Ticker(settings.publish_rate, self.now)
+        self.last = self.now  # stamp of the last sample
+        self.timeline = Timeline.begin(settings, self.stamp)
+        self.budget = ComputeBudget()
+        self._spent = 0.0
+        # stamp of the last warning (ns), and samples that were missed since then
+        self._gap_reported: int | None = None
+        self._unreported = 0
+        self._published = clock.now, clock.steady  # both times (ns) when samples were last sent
+        self._block = Block(self.segment, [], sink.encode)
+        self._later: Block | None = None  # the next one, as far as it is computed
+        sink.send_description(self.stamp, settings)
+
+    @property
+    def now(self) -> int:
+        """Current time of the clock in ns."""
+        return self._clock.now
+
+    @property
+    def stamp(self) -> int:
+        """Next stamp in ns."""
+        return self.ticker.next_stamp
+
+    @property
+    def segment(self) -> Segment:
+        """The motion of the next stamp."""
+        return self.timeline.segment
+
+    @property
+    def settings(self) -> Settings:
+        """The current settings."""
+        return self.timeline.settings
+
+    @property
+    def factor(self) -> float:
+        """The real-time factor that is kept when the motion runs."""
+        return self.segment.factor
+
+    @property
+    def state(self) -> State:
+        """State at the next stamp."""
+        return self.segment.state_at(self.stamp)
+
+    # Turns. Ticks, requests and timers run in different threads; each takes a turn.
+
+    def take_turn(self, name: str, act: Callable[[], T]) -> T | Failure:
+        """Take the lock, bring the run up to date, and return what an action returns.
+
+        An unexpected exception becomes a failure, which is reported as an error and as an event,
+        once until the action `name` succeeds again; the motion keeps running. A request that may
+        be refused is an action of `attempt`.
+        """
+        with self._turn():
+            self._follow_jump()
+            self.settle()
+            stamp, before = self.stamp, self.timeline
+            try:
+                result = act()
+            except Exception as error:
+                if not self.host.is_open:
+                    raise
+                failure = Failure(name, type(error).__name__, one_line(error))
+                self._report_failure(failure, stamp, before)
+                return failure
+            self._failures.pop(name, None)
+            return result
+
+    @contextmanager
+    def _turn(self) -> Iterator[None]:
+        """Take the lock: who publishes late samples lets a turn in after each of them."""
+        self._waiting.append(None)
+        with self._lock:
+            self._waiting.pop()
+            yield
+
+    def _report_failure(self, failure: Failure, stamp: int, before: Timeline) -> None:
+        name = failure.action
+        if self._failures.get(name) != failure or self.segment is not before.segment:
+            self._failures[name] = failure
+            self.host.report_error(str(failure))
+            self.apply(self.timeline.fail(Act("failure", stamp, {}, told=failure), before.segment))
+
+    def answer(self, name: str, act: Callable[[], str]) -> tuple[bool, str]:
+        """Carry out a request in a turn; return success and the answer.
+
+        `act` returns the answer or raises RefusedError.
+        """
+        with self._turn():
+            found = self.take_turn(f"~/{name}", partial(attempt, act))
+            # The first sample of the new motion need not wait for the next tick.
+            self.publish()
+        return (False, str(found)) if isinstance(found, Failure) else found
+
+    def tick(self) -> float | None:
+        """Publish all samples that are due; return the seconds until the next call.
+
+        None: only a change of a simulated clock can make a sample due.
+        """
+        with self._lock:
+            self._follow_jump()
+            self._release_torque()
+            if not (self.publish() and self._work_on_block()):
+                return AT_ONCE
+            # What is left of the block is computed now, so that it is ready when it is due. Of the
+            # first sample after a change each topic is computed as it is sent.
+            self._block.finish()
+            self._work_ahead()
+            return self._wait_for(self.stamp)
+
+    def _wait_for(self, stamp: int) -> float | None:
+        """Return the seconds of real time until a stamp; None if a change must wake the run."""
+        wait = (stamp - self.now) / NANOSECONDS
+        return None if self._clock.is_simulated and wait > 0 else wait
+
+    # Samples
+
+    def publish(self) -> bool:
+        """Publish what is due, one sample if a turn waits; False if the motion is not so far."""
+        ready = self._work_on_block()
+        if ready:
+            missed = self.ticker.missed
+            is_real = not self._clock.is_simulated
+            for stamp in self.ticker.due(self.now, self._catch_up, self._block.last, is_real):
+                self._sink.send_sample(stamp, self._block)
+                self.last = stamp
+                if self._waiting:
+                    break
+            if self.ticker.missed > missed:
+                self._report_gap(self.ticker.missed - missed)
+            self._published = self.now, self._clock.steady
+        return ready
+
+    @property
+    def _catch_up(self) -> float:
+        """Seconds of samples that are sent late: no more than publishers keep."""
+        return JUMP if self._clock.is_simulated else min(CATCH_UP, DEPTH / self.ticker.rate)
+
+    def _work_on_block(self) -> bool:
+        """Work towards the states of the next stamps; return True when they are reached."""
+        segment, stamp = self.timeline.segment, self.ticker.next_stamp
+        if self._later and self._later.covers(segment, stamp):
+            self._block, self._later = self._later, None
+        if self._block.covers(segment, stamp):
+            return True
+        stamps = self._list_stamps(stamp)
+        if not stamps:  # the torque ends with the next turn
+            return False
+        ready = self._prepare(stamps[-1])
+        if ready:
+            self._block = self._begin_block(stamps)
+            self._later = None
+        else:
+            self._check_pace(stamps[0])
+        return ready
+
+    def _work_ahead(self) -> None:
+        """Compute a piece of the next block; the first sample of this one says what is due."""
+        # A block of a driven motion takes some steps of integration.
+        if self.segment.motion.is_driven or not self._block.requested:
+            return
+        if self._later:
+            self._later.work()
+        else:
+            _, first = self.ticker.grid(self._block.last, 2)
+            self._later = self._begin_block(self._list_stamps(first))
+
+    def _begin_block(self, stamps: Sequence[int]) -> Block:
+        """Return a block in which the topics are due that were requested from the present one."""
+        return Block(self.segment, stamps, self._sink.encode, self._block.requested)
+
+    def _list_stamps(self, first: int) -> list[int]:
+        """Return the stamps of a block; none if the held torque ends before the first."""
+        stamps = self.ticker.grid(first, self._next_block_length())
+        if any(self.timeline.held_torque):
+            stamps = [each for each in stamps if each < self.timeline.torque_end]
+        return stamps
+
+    def _next_block_length(self) -> int:
+        """Return 1 for the first block of a motion, so that its first sample comes soon."""
+        segment = self.segment
+        rate = self.ticker.rate
+        longest = MAX_DRIVEN_BLOCK if segment.motion.is_driven else MAX_BLOCK
+        grown = 4 * self._block.length if self._block.segment is segment else 1
+        return max(1, min(longest, grown, int(AHEAD * rate)))
+
+    def _report_gap(self, missed: int) -> None:
+        """Warn when the samples that were missed since the last warning amount to something."""
+        self._unreported += missed
+        seconds = self._unreported / self.ticker.rate
+        last = self._gap_reported
+        if seconds < GAP or (last is not None and abs(self.now - last) < GAP_PERIOD):
+            return
+        since = "" if last is None else " since the last warning of this kind"
+        self.host.warn(
+            f"no samples for {seconds:.3g} s ({self._unreported} missed){since}: "
+            f"{self._explain_gap()}; the motion follows the clock ({self.ticker.missed} missed in "
+            "all)"
+        )
+        self._gap_reported = self.now
+        self._unreported = 0
+
+    def _explain_gap(self) -> str:
+        """Return why samples are missing: the clock was set forward, or nobody sent them."""
+        before, steady = self._published
+        step = (self.now - before - (self._clock.steady - steady)) / NANOSECONDS
+        if step > GAP and not self._clock.is_simulated:
+            return f"the clock of the system was set forward by {step:.3g} s"
+        return "the process was stopped, has too little CPU time or waited for its middleware"
+
+    # The compute budget of driven motions
+
+    def settle(self) -> None:
+        """Bring the run up to date: the state at the next stamp is ready afterwards."""
+        self._release_torque()
+        self._integrate_to(self.stamp)
+
+    @property
+    def _pace(self) -> float:
+        """Seconds of the stamps per second of real time."""
+        return 1.0
+
+    def _prepare(self, stamp: int) -> bool:
+        """Work towards a stamp; return True if its state is ready."""
+        segment = self.segment
+        if not segment.motion.is_driven and stamp <= segment.last_stamp:
+            return True  # it takes no work
+        ready = self.budget.prepare(segment, stamp, self._pace)
+        if self.budget.end is not None:
+            self._stop_at(self.budget.end)
+        return ready
+
+    def _stop_at(self, reached: float) -> None:
+        """Pause a motion that cannot continue at the time (s) that it has reached."""
+        verdict = self.do("pause", {"reached": reached})
+        self.host.warn(f"the motion cannot be computed any further ({WHY_IT_ENDS}): {verdict}")
+
+    def _integrate_to(self, stamp: int) -> bool:
+        """Work until the state at a stamp is ready; False if a nearer stamp became the next."""
+        while not self._prepare(stamp):
+            self._check_pace(stamp)
+        return True
+
+    def _check_pace(self, stamp: int) -> None:
+        """Slow the motion down if it cannot be followed."""
+        if shortfall := self.budget.shortfall:
+            self.host.warn(self.apply(self.timeline.slow_down(stamp, shortfall)))
+
+    def speed_up(self) -> None:
+        """Return towards the real-time factor of the settings if the budget allows it."""
+        work, self._spent = self.budget.spent - self._spent, self.budget.spent
+        current = self.factor
+        factor = self.settings.real_time_factor
+        if current < factor and work < SHARE / 2 and self._prepare(self.stamp):
+            if self.segment.motion.is_driven:
+                factor = min(factor, 2 * current)
+            self._set_pace(factor)
+
+    def _set_pace(self, factor: float) -> str:
+        """Continue at another real-time factor; return the verdict."""
+        return self.apply(self.timeline.set_pace(self.stamp, self.factor, factor))
+
+    # Changes
+
+    def apply(self, change: Change) -> str:
+        """Continue with the timeline of a change and announce it; return the verdict."""
+        self.timeline = change.following
+        return self._announce(change.event(self.event_number + 1))
+
+    def apply_at_once(self, change: Change) -> str:
+        """Like `apply`, but publish samples that are due before and while the event is written.
+
+        In the log the event still precedes its samples.
+        """
+        self.timeline = change.following
+        with self._sink.put_events_first():
+            if self.publish():
+                self._prepare_sample()
+            event = change.event(self.event_number + 1, self.publish)
+            self.publish()
+            return self._announce(event)
+
+    def _prepare_sample(self) -> None:
+        """Compute the next sample before it is due, and publish it as soon as it is."""
+        block = self._block
+        while block.work():
+            self.publish()
+
+    def _announce(self, event: Event) -> str:
+        self.event_number += 1
+        self._sink.send_event(event)
+        return event.verdict
+
+    def do(self, name: str, request: Request, told: Outcome | None = None) -> str:
+        """Carry out an act at the next stamp; return the verdict."""
+        return self.apply(self.timeline.follow(Act(name, self.stamp, request, told=told)))
+
+    def pause(self, paused: bool) -> str:
+        """Stop the motion, or continue it; return the verdict."""
+        return self.do("pause" if paused else "resume", {})
+
+    def step(self, duration: float) -> str:
+        """Advance a paused motion by a duration in s; return the verdict."""
+        return self.do("step", {"duration": duration})
+
+    def begin_jump(self) -> None:
+        """Publish nothing from before the clock is set until `end_jump`, in the same thread.
+
+        A sample in between would belong to the time of before, with a stamp of after.
+        """
+        self._lock.acquire()
+
+    def end_jump(self, jumped: bool) -> None:
+        """Continue after the clock was set; if it jumped, the next tick follows it."""
+        if jumped:
+            self._jumped_to = self.now
+        self._lock.release()
+
+    def _follow_jump(self) -> None:
+        """Continue the motion from its current state at the time the clock jumped to."""
+        now, self._jumped_to = self._jumped_to, None
+        # The system clock can be set back without any notification.
+        if self.now < self.stamp - (JUMP + 1 / self.ticker.rate) * NANOSECONDS:
+            now = self.now
+        if now is not None:
+            stamp = self.stamp
+            self._integrate_to(stamp)
+            self.restart_grid(now)
+            self.apply(self.timeline.move(stamp, now))
+
+    def hold_torque(self, torque: Sequence[float], frame: str = "") -> None:
+        """Apply a torque (3,) in N m from the next stamp on until its time-out."""
+        self._apply_torque(self.timeline.hold_torque(self.stamp, torque, frame))
+
+    def _release_torque(self) -> None:
+        end = self.timeline.torque_end
+        held = any(self.timeline.held_torque) and self.stamp >= end
+        if held and self._integrate_to(end):
+            self._apply_torque(self.timeline.release_torque(end))
+
+    def _apply_torque(self, change: Change) -> None:
+        """Continue under a torque; it is announced if it differs from the one before."""
+        self.timeline = change.following
+        if change.is_new:
+            self.apply(change)
+
+    def apply_settings(self, settings: Settings) -> None:
+        """Continue from the current state with other settings."""
+        old, stamp = self.settings, self.stamp
+        for change in self.timeline.change_settings(settings, stamp):
+            self.apply(change)
+        if (settings.top, settings.publish_tf) != (old.top, old.publish_tf):
+            self._sink.send_description(stamp, settings)
+        if settings.publish_rate != old.publish_rate:
+            self.restart_grid(stamp)
+
+    def restart_grid(self, stamp: int) -> None:
+        """Continue with a grid of stamps that begins at a stamp."""
+        self.ticker.restart(self.settings.publish_rate, stamp)
+        # The stamps of the blocks belong to the old grid.
+        self._block = Block(self.segment, [], self._sink.encode)
+        self._later = None

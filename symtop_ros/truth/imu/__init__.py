@@ -1,0 +1,6 @@
+"""`top_imu`: records of an inertial sensor, exact or noisy, without ROS. Nothing imports it."""
+
+from symtop_ros.run.simulation.sensor.imu import CONSUMER, Imu, Magnetometer
+from symtop_ros.truth.imu.record import ImuRecord, record_imu
+
+__all__ = ["CONSUMER", "Imu", "ImuRecord", "Magnetometer", "record_imu"]

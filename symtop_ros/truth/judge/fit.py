@@ -1,0 +1,182 @@
+"""Least squares of estimates: rotations, a delay, drifts, the rate of a clock, a scale."""
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from symtop_ros.base.arrays import Mask, Real, compose, find_rotation_vectors, invert
+from symtop_ros.run.wire.layout import NANOSECONDS
+from symtop_ros.truth.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
+from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.judge.noise import Remainder, find_deviations
+from symtop_ros.truth.judge.truth import Truth
+
+SAMPLES = 500  # estimates that a search takes, spread over the run
+MOST_DELAY = 0.5  # s
+# Of Gauss and Newton, which converge quadratically, and the part of the mean square that is no
+# improvement.
+ITERATIONS, ENOUGH = 30, 1e-6
+STEPS = (1.0, 0.3, 0.1)  # parts of a step that are tried, until one is an improvement
+ROUNDING = 1e-28  # mean square of errors that are rounding
+# Columns of the derivatives: a rotation vector of the world and of the body, and these, which are
+# rates about the vertical of the world (drift) and about the axis of the body (spin).
+PARAMETERS = {"delay": 6, "drift": 7, "clock": 8, "spin": 9, "scale": 10}
+DELAY, DRIFT, CLOCK, SPIN, SCALE = PARAMETERS.values()
+COLUMNS = 11
+SPEED_STEP = 500  # ns, in which a fast top turns by 0.1 mrad
+RANK = 1e-7  # singular values below this part of the largest are zero
+
+
+@dataclass(eq=False)
+class Fit:
+    """Some estimates, and the ways to compare them with the exact motion."""
+
+    some: Estimates
+    truth: Truth
+    # the last motion and gyroscope, by delay, clock and scale
+    _exact: dict[tuple[float, ...], tuple[Real, Mask]] = field(default_factory=dict)
+    _scalings: dict[tuple[float, ...], Scaling] = field(default_factory=dict)
+
+    @cached_property
+    def start(self) -> Offset:
+        """No error, from the first estimate on."""
+        return replace(NONE, begin=int(self.some.stamps[0]))
+
+    def exact(self, offset: Offset) -> tuple[Real, Mask]:
+        """Return exact quaternions, as such a gyroscope shows them, and which are known."""
+        key = offset.delay, offset.clock, offset.scale
+        if key not in self._exact:
+            q, _, known = self.truth.states_at(offset.shift(self.some.stamps), self.some.of_sensor)
+            q = compose(self.scaling(offset).turn(offset.scale), q) if offset.scale else q
+            self._exact = {key: (q, known)}
+        return self._exact[key]
+
+    def scaling(self, offset: Offset) -> Scaling:
+        """Return the attitudes of gyroscopes whose scale is wrong."""
+        key = offset.delay, offset.clock
+        if key not in self._scalings:
+            self._scalings = {key: Scaling(self.truth, offset.shift(self.some.stamps))}
+        return self._scalings[key]
+
+    def residuals(self, offset: Offset) -> tuple[Real, Real]:
+        """Return the known estimates, and the model of them."""
+        exact, known = self.exact(offset)
+        turned = compose(offset.turn_world(self.some.stamps), exact)
+        model = compose(turned, offset.turn_body(self.some.stamps))
+        return self.some.orientations[known], model[known]
+
+    def find_left(self, offset: Offset) -> Real:
+        """Return the rotation vectors in the world that are left, (n, 3)."""
+        q, model = self.residuals(offset)
+        return find_rotation_vectors(compose(q, invert(model)))
+
+    def cost(self, offset: Offset) -> float:
+        """Return the mean square of the distances of quaternions."""
+        q, model = self.residuals(offset)
+        enough = len(q) >= min(len(self.some), max(2, len(self.some) // 2))
+        return float((subtract(q, model) ** 2).sum(axis=1).mean()) if enough else np.inf
+
+    @cached_property
+    def fastest(self) -> float:
+        """Largest angular velocity of the motion in rad/s."""
+        rates = self.truth.states_at(self.some.stamps, self.some.of_sensor)[1]
+        return float(np.linalg.norm(rates, axis=1).max(initial=0.0))
+
+    @property
+    def rounding(self) -> float:
+        """Mean square of errors that are rounding: of numbers, and of stamps to whole ns."""
+        return ROUNDING + (self.fastest / NANOSECONDS) ** 2
+
+    def refine(self, offset: Offset, free: list[int]) -> Offset:
+        """Return the least squares near an offset, in the columns that are free."""
+        best = offset
+        cost = self.cost(offset)
+        for _ in range(ITERATIONS if free else 0):
+            columns = self.derive(best, free)
+            step = np.zeros(COLUMNS)
+            sizes = np.linalg.norm(columns, axis=0) + np.finfo(float).tiny
+            left = self.find_left(best).ravel()
+            step[free] = np.linalg.lstsq(columns / sizes, left, rcond=RANK)[0] / sizes
+            tried = (_move(best, step * part) for part in STEPS)
+            found = ((each, new) for each in tried if (new := self.cost(each)) < cost)
+            before, (best, cost) = cost, next(found, (best, cost))
+            if not before - cost > ENOUGH * cost:
+                break
+        return best
+
+    def derive(self, offset: Offset, free: list[int]) -> Real:
+        """Return the derivatives of the model's rotation vectors in the world, (3 n, free)."""
+        exact, known = self.exact(offset)
+        world = offset.turn_world(self.some.stamps)[known]
+        turned = compose(world, exact[known])
+        seconds = (self.some.stamps[known] - offset.begin) / NANOSECONDS
+        columns = np.zeros((len(seconds), 3, COLUMNS))
+        model = compose(turned, offset.turn_body(self.some.stamps)[known])
+        columns[:, :, :3] = to_rotation(compose(world, invert(offset.world))).as_matrix()
+        columns[:, :, 3:6] = to_rotation(model).as_matrix()
+        if {DELAY, CLOCK} & {*free}:
+            columns[:, :, DELAY] = -to_rotation(world).apply(self._find_speeds(offset)[known])
+            columns[:, :, CLOCK] = columns[:, :, DELAY] * seconds[:, np.newaxis]
+        columns[:, 2, DRIFT] = seconds
+        columns[:, :, SPIN] = to_rotation(turned).as_matrix()[:, :, 2] * seconds[:, np.newaxis]
+        if SCALE in free:
+            turns = self.scaling(offset).derive(offset.scale)[known]
+            columns[:, :, SCALE] = to_rotation(world).apply(turns)
+        return np.asarray(columns.reshape(-1, COLUMNS)[:, free])
+
+    def derive_vectors(self, offset: Offset, free: list[int]) -> Real:
+        """Return the derivatives as vectors, (n, 3, free)."""
+        columns = self.derive(offset, free)
+        return columns.reshape(len(columns) // 3, 3, len(free))
+
+    def _find_speeds(self, offset: Offset) -> Real:
+        """Return the angular velocities in the world by the stamps, not by a run's slower time.
+
+        They are zero, which says nothing of a delay, at the ends of the run.
+        """
+        stamps = offset.shift(self.some.stamps)
+        of_sensor = self.some.of_sensor
+        (earlier, _, begun), (later, _, goes_on) = (
+            self.truth.states_at(stamps + step, of_sensor) for step in (-SPEED_STEP, SPEED_STEP)
+        )
+        moved = find_rotation_vectors(compose(later, invert(earlier)))
+        moved[~(begun & goes_on)] = 0.0
+        return moved * ((1 + offset.scale) * NANOSECONDS / (2 * SPEED_STEP))
+
+    def hides(self, offset: Offset, others: list[int], place: int) -> bool:
+        """Return whether a parameter near an offset changes nothing that others do not."""
+        columns = self.derive(offset, [*others, place])
+        sizes = np.linalg.norm(columns, axis=0) + np.finfo(float).tiny
+        ranks = [
+            np.linalg.matrix_rank(each, RANK * np.linalg.norm(each, 2)) if each.size else 0
+            for each in ((columns / sizes)[:, :-1], columns / sizes)
+        ]
+        return bool(ranks[0] == ranks[1])
+
+    def find_remainder(self, offset: Offset) -> Remainder:
+        """Return what an offset leaves of the known estimates."""
+        q, model = self.residuals(offset)
+        left = find_rotation_vectors(compose(q, invert(model)))
+        body = to_rotation(model).inv().apply(left) if len(left) else left
+        return Remainder((left, body), float(np.ptp(self.some.stamps)) / NANOSECONDS)
+
+    def find_deviations(self, offset: Offset, free: list[int], remainder: Remainder) -> Real:
+        """Return the standard deviations of the columns, (11,); 0 in columns that are not free."""
+        deviations = np.zeros(COLUMNS)
+        deviations[free] = find_deviations(self.derive_vectors(offset, free), remainder)
+        return deviations
+
+
+def _move(offset: Offset, step: Real) -> Offset:
+    """Return the offset changed by a step in its columns; a delay stays within its bound."""
+    moved = {name: getattr(offset, name) + float(step[k]) for name, k in PARAMETERS.items()}
+    moved["delay"] = min(max(moved["delay"], -MOST_DELAY), MOST_DELAY)
+    world, body = (Rotation.from_rotvec(each).as_quat() for each in (step[:3], step[3:6]))
+    return replace(
+        offset,
+        world=compose(world[[3, 0, 1, 2]], offset.world),
+        body=compose(offset.body, body[[3, 0, 1, 2]]),
+        **moved,
+    )

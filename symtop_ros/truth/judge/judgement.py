@@ -1,0 +1,303 @@
+"""A judgement of estimates, and its figures as text and for JSON."""
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import zip_longest
+from typing import Any
+
+import numpy as np
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.base.refusals import RefusedError
+from symtop_ros.run.wire.layout import NANOSECONDS
+from symtop_ros.truth.judge.causes import Cause, Finding, find_mistakes
+from symtop_ros.truth.judge.compare import NONE, PERCENTILES, Errors, compare
+from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.judge.search import align, explain, find_causes
+from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.words import write
+
+NOTHING = 1e-6  # rad; an error below this is not worth a sentence
+YEAR = 366 * 86_400 * NANOSECONDS
+QUANTITIES = {  # name -> label
+    "attitude": "attitude (rad)",
+    "tilt": "tilt (rad)",
+    "heading": "heading (rad)",
+    "angular_velocity": "ang. vel. (rad/s)",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """Errors of the estimates of one source."""
+
+    source: str  # topic or file
+    errors: Errors  # after what was removed
+    found: Finding | None  # None: nothing was looked for
+    aligned: str | None  # the model that was stated in place of it, and its least squares
+    fitted: Cause | None
+    removed: tuple[str, ...]  # "offset", "delay" and "drift", if they were taken away
+    left_out: int  # messages without a readable attitude
+    notes: tuple[str, ...]  # likely mistakes, and what is odd about the file
+
+    def facts(self) -> dict[str, Any]:
+        """Return all figures, for JSON."""
+        errors = self.errors
+        return {
+            "source": self.source,
+            "estimates": len(errors.total),
+            "unknown": errors.unknown,
+            "not_judged": errors.unjudged,
+            "before_the_run": errors.early,
+            "after_the_run": errors.late,
+            "left_out": self.left_out,
+            "seconds": float(errors.seconds[-1]),
+            "removed": list(self.removed),
+            **{name: summarize(values) for name, values in errors.quantities.items()},
+            "growth_rms": [None if np.isnan(x) else float(x) for x in errors.growth()],
+            "aligned": self.aligned,
+            "fitted": None if self.fitted is None else _describe_cause(self.fitted),
+            "found": None if self.found is None else _describe_finding(self.found),
+            "notes": list(self.notes),
+        }
+
+    def format(self) -> str:
+        """Return the figures as a table of text."""
+        facts = self.facts()
+        removed = f", {' and '.join(self.removed)} removed" if self.removed else ""
+        growth = [x for x in facts["growth_rms"] if x is not None]
+        lines = [
+            f"{self.source}: {facts['estimates']} estimates in {facts['seconds']:.6g} s{removed}",
+            _head(18),
+            *(_row(QUANTITIES[name], 18, facts[name]) for name in QUANTITIES if name in facts),
+            f"attitude, rms: {growth[0]:.2e} rad in the first tenth, {growth[-1]:.2e} in the last",
+            self._explain(),
+            *self._remarks(),
+        ]
+        return "\n".join(lines)
+
+    def _explain(self) -> str:
+        """Return what explains the errors, and what the motion hides, in sentences."""
+        if self.found is None:
+            parts = _list_parts(self.fitted) if self.fitted else []
+            record = {
+                "model": self.aligned,
+                "parts": {"several": parts} if parts else None,
+                "residual": summarize(self.errors.total)["rms"],
+                "fault": _write_fault(self.fitted),
+            }
+            return write("found.aligned", record)
+        found = self.found
+        best = self.found.best
+        key = _choose_key(found) if len(self.errors.total) > 1 else "single"
+        lines = [write(f"found.{key}", _write_whole(best))]
+        if found.candidate:
+            lines.append(write("candidate", _write_whole(found.candidate)))
+        if found.period is not None:
+            world, body = found.repeated.angles
+            lines.append(write("repeats", {"period": found.period, "world": world, "body": body}))
+        lines += [write("or", {"parts": _list_parts(each)}) for each in found.others]
+        return "\n".join([*lines, *(f"not identifiable: {HIDDEN[name]}" for name in found.hidden)])
+
+    def _remarks(self) -> list[str]:
+        counts = (
+            (self.errors.early, "before the run"),
+            (self.errors.unjudged, "where the log does not say which motion holds"),
+            (self.errors.unknown, "out of reach of the integration of the run"),
+            (self.errors.late, "after the last sample of the run"),
+            (self.left_out, "without a readable attitude"),
+        )
+        left_out = [f"left out: {number} estimates {what}" for number, what in counts if number]
+        return left_out + [f"note: {note}" for note in self.notes]
+
+
+HIDDEN = {
+    "delay": "the delay (in this steady motion it is the same as constant rotations)",
+    "rotations": "the rotations of world and body alone (only together)",
+}
+
+
+def judge(
+    estimates: Estimates,
+    truth: Truth,
+    source: str,
+    removed: tuple[str, ...] = (),
+    aligned: str | None = None,
+) -> Judgement:
+    """Compare estimates with the exact motion.
+
+    `removed` may name "offset", "delay", "drift"; with a stated model of `aligned` nothing else is
+    looked for.
+    """
+    if not len(compare(estimates, truth).total):
+        raise RefusedError(_describe_absence(estimates, truth, source))
+    if aligned is not None:
+        fitted = align(estimates, truth, aligned)
+        errors = compare(estimates, truth, fitted.offset)
+        own = estimates.left_out, estimates.notes
+        return Judgement(source, errors, None, aligned, fitted, (), *own)
+    found = find_causes(estimates, truth)
+    taken = explain(estimates, truth, removed).offset if removed else NONE
+    errors = compare(estimates, truth, taken)
+    mistakes = (f"likely mistake: {each}" for each in find_mistakes(estimates, truth, found))
+    own = estimates.left_out, (*mistakes, *estimates.notes)
+    return Judgement(source, errors, found, None, None, removed, *own)
+
+
+def _choose_key(found: Finding) -> str:
+    if found.still:
+        return "still"
+    if not found.explained:
+        return found.fault or "unexplained"
+    if found.best.weight:
+        return "explained"
+    return "exact" if found.best.residual < NOTHING else "nothing"
+
+
+UNITS = {"delay": 1e3, "clock": 1e6, "scale": 100.0}  # ms, ppm and %; others are in SI units
+
+
+def _list_parts(cause: Cause) -> list[dict[str, Any]]:
+    """Return the parts of an explanation as records for sentences."""
+    world, body = cause.offset.angles
+    change = [{"kind": "change"}] if cause.change else []
+    parameters = [
+        {
+            "kind": name,
+            "value": UNITS.get(name, 1.0) * float(getattr(cause.offset, name)),
+            **_write_deviation(deviation, UNITS.get(name, 1.0)),
+        }
+        for name, deviation in zip_longest(cause.parameters, cause.deviations)
+    ]
+    deviation = _write_deviation(cause.turn_deviation)
+    turns = {"kind": cause.level, "world": world, "body": body, **deviation}
+    return [*change, *parameters, *([turns] if cause.level != "none" else [])]
+
+
+def _write_whole(cause: Cause) -> dict[str, Any]:
+    """Return a cause with all that a sentence may say of it."""
+    correlation = vars(cause) if cause.correlation_time else None
+    parts = _list_parts(cause)
+    return {**vars(cause), "parts": parts, "residual": cause.residual, "correlation": correlation}
+
+
+def _write_fault(cause: Cause | None) -> dict[str, Any] | None:
+    """Return why a cause has no deviations, as a record for a sentence."""
+    return {**vars(cause), "kind": cause.fault} if cause and cause.fault else None
+
+
+def _write_deviation(deviation: float | None, unit: float = 1.0) -> dict[str, Any]:
+    return {"deviation": {"value": unit * deviation} if deviation else None}
+
+
+def _describe_cause(cause: Cause) -> dict[str, Any]:
+    """Return what was fitted, for JSON, with standard deviations."""
+    offset = cause.offset
+    world, body = cause.offset.angles
+    return {
+        "delay": offset.delay,
+        "drift": offset.drift,
+        "body_drift": offset.spin,
+        "clock_rate": offset.clock,
+        "gyroscope_scale": offset.scale,
+        "world_offset": {"angle": world, "w_x_y_z": offset.world.tolist()},
+        "body_offset": {"angle": body, "w_x_y_z": offset.body.tolist()},
+        "deviations": dict(zip(cause.parameters, cause.deviations, strict=False)),
+        "rotation_deviation": (cause.turn_deviation or None) if cause.level != "none" else None,
+        "independent_estimates": cause.independent,
+        "correlation_time": cause.correlation_time,
+        "no_deviations_as": cause.fault or None,
+    }
+
+
+def _describe_finding(found: Finding) -> dict[str, Any]:
+    """Return what was found, for JSON."""
+    best = found.best
+    is_hidden = "delay" in found.hidden and "delay" not in best.parameters
+    return {
+        "explained": found.explained,
+        "no_cause_as": found.fault or None,
+        "candidate": _describe_candidate(found.candidate),
+        "estimates_move": not found.still,
+        "mistake": best.change or None,
+        **_describe_cause(best),
+        **({"delay": None} if is_hidden else {}),
+        "parameter_deviation": best.deviations[0] if best.deviations else None,
+        "delay_period": found.period,
+        "not_identifiable": list(found.hidden),
+        "residual_rms": best.residual,
+    }
+
+
+def _describe_candidate(cause: Cause | None) -> dict[str, Any] | None:
+    """Return a cause that is not named, as it leaves no noise, for JSON."""
+    if cause is None:
+        return None
+    return {
+        "mistake": cause.change or None,
+        "residual_rms": cause.residual,
+        **_describe_cause(cause),
+    }
+
+
+def _describe_absence(estimates: Estimates, truth: Truth, source: str) -> str:
+    """Return why there is nothing to judge, with both spans of time."""
+    notes = "".join(f"; {note}" for note in estimates.notes)
+    if not len(estimates):
+        return f"{source} must have an attitude, got none of {estimates.left_out}{notes}"
+    if unjudged := int(truth.find_unjudged(estimates.stamps).sum()):
+        return (
+            f"{source} must have estimates where the log says which motion holds, got {unjudged} "
+            f"where it does not{notes}"
+        )
+    times = [estimates.stamps[0], estimates.stamps[-1], truth.begin or 0, truth.end]
+    first, last, begin, end = (
+        None if t is None else f"{int(t) / NANOSECONDS:.3f} s" for t in times
+    )
+    hint = "; times count from 0" if estimates.stamps[0] < YEAR <= (truth.begin or 0) else ""
+    return (
+        f"{source} must have stamps within the run, {begin} to {end or 'any later time'}, "
+        f"got {first} to {last}{hint}{notes}"
+    )
+
+
+def format_judgements(judgements: Sequence[Judgement]) -> str:
+    """Return the figures of one source, or one table of the attitude errors of several."""
+    if len(judgements) == 1:
+        return judgements[0].format()
+    width = max(len(each.source) for each in judgements)
+    rows = [_row(each.source, width, each.facts()["attitude"]) for each in judgements]
+    notes = [
+        f"{each.source}: {line}"
+        for each in judgements
+        for line in [*each._explain().splitlines(), *each._remarks()]
+    ]
+    return "\n".join([f"{'attitude (rad)':{width}}{_head(0)}", *rows, *notes])
+
+
+def tell_limit(error: float, limit: float | None, verb: str = "is") -> int:
+    """Return the status of an error of the attitude: 1, with a line, if it is above the limit."""
+    if not limit or error <= limit:
+        return 0
+    text = f"top_judge: the attitude {verb} off by {error:.3g} rad, limit {limit:g} rad"
+    print(text, file=sys.stderr)
+    return 1
+
+
+def _head(width: int) -> str:
+    return f"{'':{width}}{'rms':>10}{'mean':>10}" + "".join(f"{f'{p} %':>10}" for p in PERCENTILES)
+
+
+def _row(label: str, width: int, summary: dict[str, float]) -> str:
+    return f"{label:{width}}" + "".join(f"{x:10.2e}" for x in summary.values())
+
+
+def summarize(values: Real) -> dict[str, float]:
+    """Return root mean square, mean and percentiles."""
+    marks = np.percentile(values, PERCENTILES).tolist()
+    return {
+        "rms": float(np.sqrt((values**2).mean())),
+        "mean": float(values.mean()),
+        **{f"p{p}": x for p, x in zip(PERCENTILES, marks, strict=True)},
+    }

@@ -1,0 +1,192 @@
+"""Entry point of `top_judge`: estimates in logs, live topics, and the test set."""
+
+import argparse
+import json
+import sys
+from dataclasses import asdict
+from pathlib import Path
+
+from symtop_ros.base.command import new_parser, positive, tell_failures
+from symtop_ros.base.refusals import one_line
+from symtop_ros.truth.judge.clock import format_clocks, measure_clock
+from symtop_ros.truth.judge.judgement import Judgement, format_judgements, judge, tell_limit
+from symtop_ros.truth.judge.problems import run_testset
+from symtop_ros.truth.judge.runs import (
+    ATTITUDES,
+    Run,
+    Source,
+    read_run,
+    read_sources,
+    report_faults,
+)
+from symtop_ros.truth.judge.search import MODELS
+
+DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
+top at the estimates' own stamps. The run must be in the log with its ~/events, or be a scene that
+starts at the stamp 0."""
+
+
+def main(args: list[str] | None = None) -> int:
+    """Judge; return 0 (good), 1 (failed, or above --max-error) or 2 (usage)."""
+    parser = make_parser()
+    # The rest belongs to ROS (--ros-args ...), which only --live needs.
+    options, rest = parser.parse_known_args(args)
+    if fault := _find_fault(options, rest):
+        parser.error(fault)
+    return tell_failures("top_judge", lambda: _run(options, rest))
+
+
+def _find_fault(options: argparse.Namespace, rest: list[str]) -> str | None:
+    """Return what does not go together in a command line."""
+    estimates = options.topic or options.clock or (options.estimates and not options.live)
+    run = options.live or options.files or options.scene
+    faults = {
+        f"unrecognized arguments: {one_line(' '.join(rest))}": (
+            rest and not (options.live and rest[0] == "--ros-args")
+        ),
+        "--clock must have a recorded run, got --live": options.clock and options.live,
+        "LOG with --topic or --estimates, --scene with --estimates, --live with --topic, or "
+        "--testset is needed": options.testset is None and not (estimates and run),
+        "--live judges one --topic": options.live and len(options.topic) > 1,
+        "--aligned states what is removed: no --remove, no --live": (
+            options.aligned and (options.remove or options.live)
+        ),
+    }
+    return next((text for text, is_there in faults.items() if is_there), None)
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    parser = new_parser("top_judge", DESCRIPTION)
+    parser.add_argument(
+        "files",
+        type=Path,
+        nargs="*",
+        metavar="LOG",
+        help="logs, rosbag2 folders, or the JSON of top_imu: one run",
+    )
+    parser.add_argument(
+        "--topic",
+        action="append",
+        default=[],
+        help="full name of the topic with the estimates; repeat it for a table of several",
+    )
+    parser.add_argument("--frame", help="child frame of the estimates, for /tf")
+    parser.add_argument(
+        "--attitude-of",
+        choices=ATTITUDES,
+        help="what the estimates turn; default: the sensor for Imu messages, else the body",
+    )
+    parser.add_argument("--scene", help="a scene that starts at the stamp 0, in place of LOG")
+    parser.add_argument("--node", help="full name of the top if there are several")
+    parser.add_argument(
+        "--estimates",
+        type=Path,
+        metavar="FILE",
+        help="another log, or a table (.csv, .tum, .txt: columns with names, TUM, or EuRoC)",
+    )
+    parser.add_argument(
+        "--remove",
+        action="append",
+        choices=("offset", "delay", "drift"),
+        default=[],
+        help="subtract the constant rotations, the delay (up to 0.5 s), or the drift of the "
+        "heading that were found",
+    )
+    parser.add_argument(
+        "--aligned",
+        choices=MODELS,
+        metavar="MODEL",
+        help="align by a stated model without looking for other causes: none, heading, world or "
+        "world-and-body, and with +delay, +clock or +delay+clock the error of the stamps",
+    )
+    parser.add_argument(
+        "--clock",
+        metavar="TOPIC|FILE",
+        help="print how late the stamps of these estimates are, how fast that grows, and their "
+        "jitter; --aligned names the rotations that are fitted with it (default none)",
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON in place of text")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FOLDER", help="folder for JSON, plots and problems"
+    )
+    parser.add_argument(
+        "--max-error", type=positive, metavar="RAD", help="status 1 if the attitude error is larger"
+    )
+    parser.add_argument(
+        "--live", action="store_true", help="judge a running node: one line each second"
+    )
+    parser.add_argument("--seconds", type=positive, help="duration of --live")
+    parser.add_argument(
+        "--testset",
+        nargs="?",
+        const="",
+        metavar="PROBLEM",
+        help="list the problems, or with -o write the whole set; with a name: score LOG, a CSV "
+        "file (all: each PROBLEM/NAME.csv in the folder LOG), or copy it (all: each) to -o",
+    )
+    return parser
+
+
+def _run(options: argparse.Namespace, rest: list[str]) -> int:
+    if options.testset is not None:
+        return run_testset(options)
+    if options.live:
+        from symtop_ros.truth.judge.live import judge_live
+
+        return judge_live(options, ["top_judge", *rest])
+    if options.clock:
+        _read_clock(options)
+    run = read_run(options)
+    sources = read_sources(options, run)
+    status = report_faults(run, sources)
+    found = (_measure_clocks if options.clock else _judge)(options, run, sources)
+    return max(status, found)
+
+
+def _measure_clocks(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:
+    model = options.aligned or "none"
+    clocks = [measure_clock(each.estimates, run.truth, each.name, model) for each in sources]
+    facts = json.dumps([asdict(each) for each in clocks], indent=1)
+    print(facts if options.json else format_clocks(clocks))
+    return 0
+
+
+def _judge(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:
+    judgements = [
+        judge(each.estimates, run.truth, each.name, tuple(options.remove), options.aligned)
+        for each in sources
+    ]
+    print(_dump(judgements) if options.json else format_judgements(judgements))
+    if options.output:
+        _write(judgements, options.output)
+    largest = max(float(each.errors.total.max()) for each in judgements)
+    return tell_limit(largest, options.max_error)
+
+
+def _read_clock(options: argparse.Namespace) -> None:
+    """Take the estimates of --clock: a topic, or a file if there is one of this name."""
+    if Path(options.clock).exists() or not options.clock.startswith("/"):
+        options.estimates = Path(options.clock)
+    else:
+        options.topic = [options.clock]
+
+
+def _dump(judgements: list[Judgement]) -> str:
+    """Return an object for one judgement, a list for several."""
+    facts = [each.facts() for each in judgements]
+    return json.dumps(facts[0] if len(facts) == 1 else facts, indent=1)
+
+
+def _write(judgements: list[Judgement], folder: Path) -> None:
+    """Write judge.json, and the plot of one source if Matplotlib is installed."""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "judge.json").write_text(_dump(judgements) + "\n", encoding="utf-8")
+    if len(judgements) > 1:
+        return
+    try:
+        from symtop_ros.truth.judge.figures import draw_errors, write_figures
+    except ModuleNotFoundError as error:
+        print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
+    else:
+        write_figures({"judge": lambda: draw_errors(judgements[0].errors)}, folder)

@@ -1,0 +1,122 @@
+"""The input of `top_judge`: a run with its exact motion, and the estimates of some sources.
+
+Problems of the logs are printed first. The status is 1 if estimates may be missing, or if some
+cannot be judged.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from symtop_ros.base.refusals import RefusedError
+from symtop_ros.truth.judge.estimates import Estimates, read_topic
+from symtop_ros.truth.judge.tables import TABLES, read_table
+from symtop_ros.truth.judge.times import read_times
+from symtop_ros.truth.judge.truth import Truth, read_events, scene_truth
+
+if TYPE_CHECKING:  # logs need mcap
+    from symtop_ros.run.log.account import Account
+
+BODY, SENSOR = ATTITUDES = "body", "sensor"
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """A run, and the account of its log; None for one that is in no log."""
+
+    truth: Truth
+    account: Account | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """Estimates of a topic or a file, and the account of the log in which they are."""
+
+    name: str
+    estimates: Estimates
+    account: Account | None = None
+
+
+def read_run(options: argparse.Namespace) -> Run:
+    """Return the run that is asked for."""
+    if options.scene:
+        return Run(scene_truth(options.scene))
+    if [path.suffix for path in options.files] == [".json"]:  # as top_imu writes them
+        return Run(read_events(options.files[0]))
+    from symtop_ros.run.log.bags import open_run  # logs need mcap
+    from symtop_ros.run.log.top_log import TopLog
+
+    account = TopLog(open_run(options.files), options.node).account
+    print_problems(account)
+    if not account.events:
+        raise RefusedError(f"{account.path} must have the events of a top (~/events), got none")
+    return Run(Truth.of(account), account)
+
+
+def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
+    """Return the estimates that are asked for."""
+    other: Path | None = options.estimates
+    if other and other.suffix.lower() in TABLES:
+        of_sensor = options.attitude_of == SENSOR
+        return [Source(str(other), read_times(read_table(other), run.truth, str(other), of_sensor))]
+    if not options.topic:
+        raise RefusedError(f"--topic must name the estimates in {other}, got none")
+    from symtop_ros.run.log.account import read_account  # logs need mcap
+    from symtop_ros.run.log.bags import open_run
+    from symtop_ros.run.log.names import Names
+
+    file = open_run([other] if other else options.files)
+    account = read_account(file, Names(file)) if other else run.account
+    if account and other:
+        print_problems(account)
+    found = ((topic, read_topic(file, topic, options.frame)) for topic in options.topic)
+    return [Source(n, _choose_frame(each, options.attitude_of), account) for n, each in found]
+
+
+def _choose_frame(estimates: Estimates, attitude_of: str | None) -> Estimates:
+    return replace(estimates, of_sensor=attitude_of == SENSOR) if attitude_of else estimates
+
+
+def print_problems(account: Account) -> None:
+    """Print what is wrong with a log, before anything else."""
+    for line in account.problem_lines:
+        print(f"top_judge: {line}", file=sys.stderr)
+
+
+def report_faults(run: Run, sources: list[Source]) -> int:
+    """Print what is wrong with the estimates; return 1 if anything is, else 0."""
+    faults = [f"{each.name}: {text}" for each in sources for text in _list_faults(each, run)]
+    guessed = [run.account.guess] if run.account and run.account.guess else []
+    for line in [*faults, *guessed]:
+        print(f"top_judge: {line}", file=sys.stderr)
+    return 1 if faults else 0
+
+
+def _list_faults(source: Source, run: Run) -> Iterator[str]:
+    """Yield why estimates of a source are damaged, missing or cannot be judged."""
+    estimates, account = source.estimates, source.account
+    stamps = estimates.stamps
+    unjudged = run.truth.find_unjudged(stamps)
+    if unjudged.any():
+        yield f"{unjudged.sum()} estimates cannot be judged: the motion is not known there"
+    within = estimates.select(~unjudged)
+    inside = len(within) - sum(run.truth.count_outside(within.stamps))
+    if unreached := inside - len(run.truth.select(within)):
+        yield f"{unreached} estimates cannot be judged: the motion takes too long to integrate"
+    late = run.truth.count_outside(stamps)[1]
+    if late and run.account and run.account.losses:
+        yield f"{late} estimates cannot be judged: they are after the part of the log that is left"
+    if estimates.unreadable:
+        yield f"{estimates.unreadable} estimates cannot be read"
+    if account and account.losses:
+        yield "estimates may be missing: the log is damaged"
+    topic = account.find_topic(source.name) if account else None
+    if topic and topic.missing:
+        yield f"{topic.missing} estimates are missing"
+    if topic and topic.repeated:
+        yield f"{topic.repeated} estimates are repeated"

@@ -1,0 +1,206 @@
+"""Scores of many trajectories of the test set: a table, orders of convergence, and a ranking."""
+
+import json
+import math
+import re
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from symtop_ros.truth.testset.score import (
+    DESCRIPTIONS,
+    Problem,
+    Score,
+    find_problem,
+    score_trajectory,
+)
+from symtop_ros.truth.testset.tables import TABLES
+
+# rk4-0.001 and rk4-1e-3: the step of this entry. The first part is as short as it can be, so that
+# the sign of an exponent belongs to the step.
+STEP = re.compile(r"(.+?)-(\d+(?:\.\d*)?(?:e[-+]?\d+)?)")
+SOLVED = 0.01  # rad; an attitude that is never further off
+APART = 3.0  # errors in two descriptions of a body: an engine takes them for two bodies
+ENDINGS = ("", *(f".{each}" for each in DESCRIPTIONS))
+ROUNDING = 1e3  # limits; errors below this are rounding as well, and show no order
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """A trajectory and its score."""
+
+    name: str  # stem of its file
+    score: Score
+
+    @property
+    def problem(self) -> dict[str, Any]:
+        """The problem in problems.json."""
+        return self.score.problem.facts
+
+    @property
+    def described(self) -> tuple[str, str]:
+        """Names of the problem and of the description of its body, which is empty for its own."""
+        name, _, description = self.problem["name"].partition(".")
+        return name, description
+
+    @property
+    def limits(self) -> float:
+        """Largest error of the attitude in limits of double precision."""
+        return float(self.score.in_limits.max())
+
+    @property
+    def error(self) -> float:
+        """Largest error of the attitude in rad."""
+        return float(self.score.angles.max())
+
+    @property
+    def step(self) -> tuple[str, float] | None:
+        """Name of the method and its step, if the entry is called METHOD-STEP."""
+        found = STEP.fullmatch(self.name)
+        return (found[1], float(found[2])) if found and float(found[2]) else None
+
+    def facts(self) -> dict[str, Any]:
+        """Return the score as numbers for JSON; errors are those at the times of the problem."""
+        rates = self.score.rates
+        return {
+            "problem": self.problem["name"],
+            "level": self.problem["level"],
+            "entry": self.name,
+            "max_error": self.error,
+            "limits": self.limits,
+            "float32_limits": float(self.score.in_float32_limits.max()),
+            "times": self.problem["times"],
+            "errors": self.score.angles.tolist(),
+            "rate_errors": None if rates is None else rates.tolist(),
+            "start": self.score.start,
+        }
+
+
+def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
+    """Return the scores of all PROBLEM/NAME.csv in a folder; PROBLEM.turned is a description."""
+    entries = [
+        Entry(path.stem, score_trajectory(path, problem))
+        for problem in (find_problem(problems, name + end) for name in problems for end in ENDINGS)
+        for path in sorted((folder / problem.facts["name"]).glob("*.csv"))
+        if path.name not in TABLES  # the problem and its exact motion are no entries
+    ]
+    if not entries:
+        raise ValueError(f"{folder} must have trajectories PROBLEM/NAME.csv, got none")
+    return entries
+
+
+def find_orders(entries: Sequence[Entry]) -> dict[tuple[str, str], float]:
+    """Return the order of each method in each problem: the slope of its errors by their steps."""
+    points: dict[tuple[str, str], list[tuple[float, float]]] = defaultdict(list)
+    for each in entries:
+        if each.step and each.limits > ROUNDING and each.error < 1:
+            method, step = each.step
+            points[each.problem["name"], method].append((step, each.error))
+    return {
+        key: float(np.polyfit(steps, errors, 1)[0])
+        for key, own in sorted(points.items())
+        for steps, errors in [np.log(own).T]
+        if np.ptp(steps)
+    }
+
+
+def find_differences(entries: Sequence[Entry]) -> dict[tuple[str, str], dict[str, float]]:
+    """Return the errors (rad) by description where an entry's differ more than rounding does."""
+    found: dict[tuple[str, str], dict[str, Entry]] = {}
+    for each in entries:
+        name, description = each.described
+        found.setdefault((name, each.name), {})[description or "plain"] = each
+    return {
+        key: {description: each.error for description, each in own.items()}
+        for key, own in found.items()
+        if max(each.limits for each in own.values()) > ROUNDING
+        and max(each.error for each in own.values())
+        > APART * min(each.error for each in own.values())
+    }
+
+
+@dataclass(frozen=True)
+class Rank:
+    """Result of an entry in the problems of a level."""
+
+    entry: str
+    solved: int  # problems with an error of at most SOLVED
+    tried: int
+    of: int  # problems that the level has
+    median_limits: float  # of those solved; if none is, of those tried
+
+
+def rank(
+    entries: Sequence[Entry], problems: Mapping[str, Problem]
+) -> Iterator[tuple[int, list[Rank]]]:
+    """Yield each level with its entries, best first: those that solved most of its problems.
+
+    Other descriptions of a body are no further problems.
+
+    Of those that solved as many, the one with the smaller median of these comes first. If nothing
+    is solved, the median is that of all problems, and the worst for those that were not tried.
+    """
+    plain = [each for each in entries if each.problem["name"] in problems]
+    for level in sorted({each.problem["level"] for each in plain}):
+        count = sum(each.facts["level"] == level for each in problems.values())
+        ours = [each for each in plain if each.problem["level"] == level]
+        rows = []
+        for name in {each.name for each in ours}:
+            own = [each for each in ours if each.name == name]
+            good = [each.limits for each in own if each.error <= SOLVED]
+            tried = [each.limits for each in own]
+            whole = good or [*tried, *[math.inf] * (count - len(own))]
+            row = Rank(name, len(good), len(own), count, median(good or tried))
+            rows.append((-row.solved, median(whole), name, row))
+        yield level, [row for *_, row in sorted(rows)]
+
+
+def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> str:
+    """Return the table of all entries, the orders, and the ranking of each level."""
+    width = max(19, *(len(each.problem["name"]) + 1 for each in entries))
+    scores = [
+        f"{each.problem['name']:{width}}{each.problem['level']:>5}  {each.name:24}"
+        f"{each.error:>11.1e}{each.limits:>10.2g}"
+        for each in entries
+    ]
+    orders = [
+        f"order of {method} in {problem}: {order:.2f}"
+        for (problem, method), order in find_orders(entries).items()
+    ]
+    head = f"{'problem':{width}}{'level':>5}  {'entry':24}{'error, rad':>11}{'limits':>10}"
+    lines = [head, *scores, *orders]
+    for (problem, name), errors in find_differences(entries).items():
+        each = ", ".join(f"{description} {error:.2g}" for description, error in errors.items())
+        lines.append(f"descriptions of {problem} differ in {name}: {each} rad")
+    for level, rows in rank(entries, problems):
+        lines.append(f"level {level}, by problems solved (within {SOLVED:g} rad) and by limits:")
+        lines += [
+            f"  {place}. {row.entry}: solved {row.solved} of {row.of}, tried {row.tried}, "
+            f"median {row.median_limits:.2g} limits"
+            for place, row in enumerate(rows, start=1)
+        ]
+    return "\n".join(lines)
+
+
+def format_json(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> str:
+    """Return the same as JSON, with the errors at each time."""
+    facts = {
+        "scores": [each.facts() for each in entries],
+        "orders": [
+            {"problem": problem, "method": method, "order": order}
+            for (problem, method), order in find_orders(entries).items()
+        ],
+        "differences": [
+            {"problem": problem, "entry": name, "errors": errors}
+            for (problem, name), errors in find_differences(entries).items()
+        ],
+        "ranking": {
+            level: [asdict(row) for row in rows] for level, rows in rank(entries, problems)
+        },
+    }
+    return json.dumps(facts, indent=1)

@@ -1,0 +1,261 @@
+"""Estimates from tables of text: columns with names, TUM and EuRoC, and what is odd about them."""
+
+import csv
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal, InvalidOperation
+from itertools import chain
+from pathlib import Path
+
+import numpy as np
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.base.refusals import RefusedError, one_line, plain
+from symtop_ros.run.wire.layout import NANOSECONDS
+from symtop_ros.truth.judge.estimates import MAX_STAMP, Estimates
+
+TABLES = (".csv", ".tum", ".txt")  # endings of files that are no logs
+SEPARATORS = (",", ";", "\t")  # else any white space
+# A component of the quaternion is w, x, y, z alone or after one of these words: qw, q_RS_w []
+# (EuRoC), pose.orientation.w. A name of an angular velocity is wx, w_x or angular_velocity.x.
+QUATERNION = re.compile(
+    r"((?:.*[._/ ])?(?:q|quat|quaternion|orientation|rotation|attitude)(?:_\w+?)?[._/ ]?|)([wxyz])"
+)
+RATES = re.compile(r"(?:w_?|(?:.*[._/ ])?angular_velocity[._/ ])([xyz])")
+TIMES = re.compile(
+    r"(?:t|time|times|timestamp|time_?stamp|stamp|sec|secs|seconds)(?:_?(ns|us|ms|s))?"
+)
+UNIT = re.compile(r"\s*[\[(]\s*([^\])]*?)\s*[\])]\s*$")
+DIGITS_OF = {"s": 9, "ms": 6, "us": 3, "ns": 0}  # digits after the point that are whole ns
+# Columns without names: EuRoC has ns, position, w, x, y, z, and more; TUM has s, position, x, y, z,
+# w; KITTI has twelve numbers of a matrix, and no time.
+EUROC, TUM, KITTI = 8, 8, 12
+POSITIONAL = {
+    "ns": "no names of columns: read as EuRoC's, timestamp (ns), position, w, x, y, z",
+    "s": "no names of columns: read as TUM's, timestamp (s), position, x, y, z, w",
+}
+# Seconds since 1970 as a double are off by 1e-7 s, and have up to seven decimals.
+EPOCH = 10**18  # ns
+DIGITS = 9  # decimals of a time in whole ns
+Row = Sequence[str]
+
+
+@dataclass(frozen=True)
+class ColumnPlaces:
+    """Places of the time, the quaternion w, x, y, z, and the rates if given."""
+
+    time: int
+    numbers: tuple[int, ...]
+    unit: str  # of the time: "s", "ms", "us" or "ns"; "" if the numbers show it
+    note: str = ""  # what was assumed
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Rows of a table, with their times in ns if its unit is right; they may be beyond 64 bits."""
+
+    times: tuple[int, ...]
+    numbers: Real  # quaternions w, x, y, z, and angular velocities if there are any
+    notes: tuple[str, ...]
+
+    def read(self, part: int = 1, shift: int = 0) -> Estimates:
+        """Return the estimates, with times that are so many times shorter, and shifted by ns."""
+        stamps = [min(max(each // part + shift, -MAX_STAMP), MAX_STAMP) for each in self.times]
+        rates = self.numbers[:, 4:] if self.numbers.shape[1] > 4 else None
+        found = Estimates.of(stamps, self.numbers[:, :4], rates)
+        return replace(found, notes=(*found.notes, *self.notes))
+
+
+def read_table(path: Path) -> Table:
+    """Return the rows of a table: columns with names in any order, TUM, or EuRoC."""
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            return _read_lines(path, file)
+    except OSError as error:
+        raise RefusedError(f"cannot open {path}: {error.strerror}") from None
+    except RefusedError:
+        raise
+    except (csv.Error, ValueError) as error:
+        raise RefusedError(f"cannot read {path}: not a table ({one_line(error)})") from None
+
+
+def _read_lines(path: Path, lines: Iterable[str]) -> Table:
+    """Read names from a comment or from the first line, and then rows."""
+    numbered = ((number, line) for number, line in enumerate(lines, 1) if line.strip())
+    columns = None
+    first = (1, "")
+    for number, line in numbered:
+        found = _find_names(path, _split_names(line))
+        columns = found or columns
+        if not found and not line.startswith("#"):
+            first = number, line
+            break
+    separator = _find_separator(first[1])
+    columns = columns or _guess_columns(path, _split(first[1], separator), first[1])
+    rows = [first] if first[1] else []
+    rest = (each for each in numbered if not each[1].startswith("#"))
+    return _read_rows(path, columns, chain(rows, rest), separator)
+
+
+def _find_separator(line: str) -> str | None:
+    return next((each for each in SEPARATORS if each in line), None)
+
+
+def _split(line: str, separator: str | None) -> list[str]:
+    if separator is None:
+        return line.split()
+    (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
+    return [cell.strip() for cell in cells]
+
+
+def _split_names(line: str) -> list[str]:
+    """Return the names of columns; a comment sign is no name."""
+    line = line.strip().lstrip("#").strip()
+    return _split(line, _find_separator(line))
+
+
+def _find_names(path: Path, head: Row) -> ColumnPlaces | None:
+    """Return where the columns are, by their names; None if these are no names of columns."""
+    names = [UNIT.sub("", name.strip().strip('"')).lower() for name in head]
+    units = [found[1].lower() if (found := UNIT.search(name)) else "" for name in head]
+    times = [place for place, name in enumerate(names) if TIMES.fullmatch(name)]
+    groups = _group_components(path, names)
+    if not times or not groups:
+        return None
+    if len(groups) > 1:
+        kinds = " and ".join(one_line(names[places["w"]]) for places in groups.values())
+        raise RefusedError(f"{path} must have the columns of one quaternion, got {kinds}")
+    (quaternion,) = groups.values()
+    rates = {found[1]: k for k, name in enumerate(names) if (found := RATES.fullmatch(name))}
+    wanted = [quaternion[each] for each in "wxyz"]
+    wanted += [rates[each] for each in "xyz"] if len(rates) == 3 else []
+    time = _choose_time(path, names, times)
+    _refuse_twice(path, names, [time, *wanted])
+    return ColumnPlaces(time, tuple(wanted), _find_unit(names[time], units[time]))
+
+
+def _group_components(path: Path, names: Row) -> dict[str, dict[str, int]]:
+    """Return the places of complete quaternions by the words before their components.
+
+    If there is a bare w, x, y, z it is the only one.
+    """
+    groups: dict[str, dict[str, int]] = {}
+    for place, name in enumerate(names):
+        if found := QUATERNION.fullmatch(name):
+            groups.setdefault(found[1], {}).setdefault(found[2], place)
+    whole = {word: places for word, places in groups.items() if len(places) == 4}
+    return {"": whole[""]} if "" in whole else whole
+
+
+def _choose_time(path: Path, names: Row, times: Sequence[int]) -> int:
+    """Return the place of the time: a stamp, if there are seconds as well."""
+    stamps = [place for place in times if "stamp" in names[place]]
+    return (stamps or [*times])[0]
+
+
+def _refuse_twice(path: Path, names: Row, places: Sequence[int]) -> None:
+    for place in places:
+        if names.count(names[place]) > 1:
+            raise RefusedError(
+                f"{path} must have each column once, got {one_line(names[place])} twice"
+            )
+
+
+def _find_unit(name: str, unit: str) -> str:
+    """Return the unit of a time by what its name says; "" if the numbers have to show it."""
+    found = TIMES.fullmatch(name)
+    said = unit if unit in DIGITS_OF else found[1] if found else ""
+    if said:
+        return said
+    if name == "stamp":
+        return "ns"
+    return "" if "stamp" in name else "s"
+
+
+def _guess_columns(path: Path, head: Row, first: str) -> ColumnPlaces:
+    """Return where the columns of a table without names are."""
+    numbers = [_is_number(cell) for cell in head]
+    if len(head) >= EUROC and all(numbers) and head[0].isdecimal() and "," in first:
+        return ColumnPlaces(0, (4, 5, 6, 7), "ns", POSITIONAL["ns"])
+    if len(head) == TUM and all(numbers):
+        return ColumnPlaces(0, (7, 4, 5, 6), "s", POSITIONAL["s"])
+    if len(head) == KITTI and all(numbers):
+        raise RefusedError(f"{path} must have times, got poses of KITTI, which lack them")
+    raise RefusedError(
+        f"{path} must have the columns stamp (ns) or t (s), w, x, y, z, or be a file of TUM or "
+        f"EuRoC; got the header {one_line(first) or 'nothing'}"
+    )
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(plain(text))
+    except ValueError:
+        return False
+    return True
+
+
+def _read_rows(
+    path: Path, columns: ColumnPlaces, rows: Iterable[tuple[int, str]], separator: str | None
+) -> Table:
+    times, numbers, lines = [], [], []
+    for line, row in rows:
+        cells = _split(row, separator)
+        try:
+            times.append(plain(cells[columns.time]).strip())
+            Decimal(times[-1])
+            numbers.append([float(plain(cells[place])) for place in columns.numbers])
+            lines.append(line)
+        except (IndexError, ValueError, InvalidOperation) as error:
+            missing = isinstance(error, IndexError)
+            condition = "have all columns" if missing else "consist of numbers"
+            raise RefusedError(
+                f"line {line} of {path} must {condition}, got {one_line(row)}"
+            ) from None
+    table = np.array(numbers, dtype=float).reshape(-1, len(columns.numbers))
+    bad = np.flatnonzero(~np.isfinite(table).all(axis=1))
+    infinite = [
+        f"{len(bad)} rows have nan or infinity, the first in line {lines[place]}"
+        for place in bad[:1]
+    ]
+    unit = columns.unit or ("s" if any("." in time for time in times) else "ns")
+    stamps = [*_read_times(path, times, unit, lines)]
+    odd = [columns.note] if columns.note else []
+    odd += _describe_times(stamps, unit, times)
+    return Table(tuple(stamps), table, (*infinite, *odd))
+
+
+def _read_times(path: Path, times: Sequence[str], unit: str, lines: Sequence[int]) -> Iterator[int]:
+    """Yield times in ns, without the rounding of a double."""
+    for text, line in zip(times, lines, strict=True):
+        number = Decimal(text)
+        if unit == "ns" and number.is_finite() and number != number.to_integral_value():
+            raise RefusedError(
+                f"line {line} of {path} must have a stamp in whole ns (seconds go under t), got "
+                f"{text}"
+            )
+        try:
+            yield int(number.scaleb(DIGITS_OF[unit]).to_integral_value())
+        except (OverflowError, ValueError, InvalidOperation):
+            raise RefusedError(
+                f"line {line} of {path} must consist of numbers, got {text}"
+            ) from None
+
+
+def _describe_times(stamps: Sequence[int], unit: str, times: Row) -> Iterator[str]:
+    """Name times that repeat, and times that doubles have rounded."""
+    counts: dict[int, int] = {}
+    for stamp in stamps:
+        counts[stamp] = counts.get(stamp, 0) + 1
+    if repeated := len(stamps) - len(counts):
+        first = max(counts, key=lambda each: counts[each]) / NANOSECONDS
+        yield f"{repeated} rows repeat a time, among them {first:.9g} s"
+    decimals = max((len(time.partition(".")[2]) for time in times), default=0)
+    latest = max(stamps, default=0)
+    if unit == "s" and EPOCH < latest <= MAX_STAMP and decimals < DIGITS:
+        off = np.spacing(latest / NANOSECONDS) / 2
+        yield (
+            f"t has {decimals} decimals, as doubles of epoch seconds have: it is off by up to "
+            f"{max(off, 0.5 * 10.0**-decimals):.1g} s. Write the column stamp, in ns"
+        )

@@ -1,0 +1,154 @@
+"""The exact motion of a run, at any stamps, from the events of the run."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symtop_ros.base.arrays import Mask, Places, Real, Stamps, compose
+from symtop_ros.base.refusals import RefusedError
+from symtop_ros.run.simulation.budget import SPARE_STEPS, StepBudget
+from symtop_ros.run.simulation.changes.requests import start_motion
+from symtop_ros.run.simulation.events import Event, start_event
+from symtop_ros.run.simulation.segment import Segment
+from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.truth.judge.estimates import Estimates
+
+if TYPE_CHECKING:  # logs need mcap
+    from symtop_ros.run.log.account import Account
+
+
+class Truth:
+    """The exact states of a run.
+
+    Each stamp belongs to the last event up to it, so that kicks, pauses and changes of the
+    real-time factor are followed at their very instants. If the clock of the run jumped back, the
+    later run replaces what it repeats. Where events are lost no state is known.
+    """
+
+    def __init__(self, events: Sequence[Event] = (), end: int | None = None) -> None:
+        self.end = end  # stamp of the last sample in ns; None: the run has no known end
+        self._begins: list[int] = []  # stamps in ns from which on each of the following holds
+        # the motion after an event; None where it is not known
+        self._segments: list[Callable[[], Segment] | None] = []
+        self._budget = StepBudget(SPARE_STEPS)
+        for event in events:
+            self.add(event)
+
+    def add(self, event: Event) -> None:
+        """Add the next event of the run."""
+        self._add(event.stamp, cache(event.segment))
+
+    def _add(self, begin: int, segment: Callable[[], Segment] | None) -> None:
+        while self._begins and self._begins[-1] > begin:
+            self._begins.pop()
+            self._segments.pop()
+        self._begins.append(begin)
+        self._segments.append(segment)
+
+    @classmethod
+    def of(cls, account: Account) -> Truth:
+        """Return what the account of a log knows, up to its last sample."""
+        truth = cls(end=account.end)
+        for each in account.stretches:
+            truth._add(each.begin, cache(each.event.segment) if each.event else None)
+        return truth
+
+    @property
+    def begin(self) -> int | None:
+        """Stamp at which the run begins in ns, or None."""
+        return self._begins[0] if self._begins else None
+
+    @property
+    def _only(self) -> Segment | None:
+        """The segment of a run of one motion; None for several."""
+        first = self._segments[0] if len(self._segments) == 1 else None
+        return first() if first else None
+
+    @property
+    def is_driven(self) -> bool:
+        """True if friction or a torque acts at the start: no motion repeats."""
+        first = next(filter(None, self._segments), None)
+        return first is not None and first().motion.is_driven
+
+    @property
+    def kind(self) -> str:
+        """Kind of the motion of a run of one motion; empty for several."""
+        return self._only.motion.kind if self._only else ""
+
+    @property
+    def period(self) -> float | None:
+        """Nutation period under gravity of a run of one motion in s of its clock, or None."""
+        segment = self._only
+        if segment is None:
+            return None
+        period = segment.motion.nutation_period / segment.factor
+        return float(period) if np.isfinite(period) and period > 0 else None
+
+    def find_unjudged(self, stamps: Stamps) -> Mask:
+        """Return the mask of the stamps within the run at which the motion is not known."""
+        owners = self._find_owners(stamps)
+        unknown = np.array([each is None for each in self._segments], dtype=bool)
+        is_there = owners >= 0
+        is_there[is_there] = unknown[owners[is_there]]
+        return is_there
+
+    def _find_owners(self, stamps: Stamps) -> Places:
+        """Return the number of what holds at each stamp; -1: nothing, outside of the run."""
+        owners = np.searchsorted(self._begins, stamps, side="right") - 1
+        end = np.iinfo(np.int64).max if self.end is None else self.end
+        return np.where(stamps <= end, owners, -1)
+
+    def count_outside(self, stamps: Stamps) -> tuple[int, int]:
+        """Return how many stamps are before the run, and how many after its last sample."""
+        early = 0 if self.begin is None else int((stamps < self.begin).sum())
+        return early, 0 if self.end is None else int((stamps > self.end).sum())
+
+    def states_at(self, stamps: Stamps, of_sensor: bool = False) -> tuple[Real, Real, Mask]:
+        """Return quaternions (n, 4), rates (n, 3) and the mask of those known, at stamps.
+
+        They are those of the body and in its frame; with `of_sensor` those of the sensor that is
+        mounted on it.
+        """
+        orientations, rates = np.zeros((len(stamps), 4)), np.zeros((len(stamps), 3))
+        orientations[:, 0] = 1.0
+        known = np.zeros(len(stamps), dtype=bool)
+        owners = self._find_owners(stamps)
+        for number in np.unique(owners[owners >= 0]).tolist():
+            chosen = owners == number
+            find_segment = self._segments[number]
+            segment = find_segment() if find_segment else None
+            if segment and self._budget.reach_stamps(segment, stamps[chosen]):
+                q, omega = segment.state_at(stamps[chosen]).parts
+                if of_sensor and (imu := segment.rig.imu):
+                    q, omega = compose(q, imu.mount.orientation), imu.mount.to_body(omega)
+                orientations[chosen], rates[chosen] = q, omega
+                known[chosen] = True
+        return orientations, rates, known
+
+    def select(self, estimates: Estimates) -> Estimates:
+        """Return the estimates at stamps of which the exact motion is known."""
+        return estimates.select(self.states_at(estimates.stamps, estimates.of_sensor)[2])
+
+
+def scene_truth(name: str) -> Truth:
+    """Return the exact motion of a scene that starts at the stamp 0."""
+    return Truth([start_event(start_motion(Settings.from_scene(name)))])
+
+
+def read_events(path: Path) -> Truth:
+    """Return the exact motion of a run whose events are in a JSON file of `top_imu`."""
+    try:
+        facts = json.loads(path.read_text(encoding="utf-8"))
+        events = [Event(**each) for each in facts["events"]]
+        texts = [text for each in events for text in (each.name, *each.values.values())]
+        if not all(type(each.stamp) is int for each in events) or set(map(type, texts)) - {str}:
+            raise TypeError
+        return Truth(events, int(facts["end"]))
+    except (ValueError, TypeError, KeyError, AttributeError, OverflowError):
+        raise RefusedError(f"{path} must have the events of a run as top_imu writes them") from None

@@ -1,0 +1,287 @@
+"""A running node behind the page: its events and attitude, and the acts of the page's users."""
+
+import contextlib
+import re
+import threading
+from functools import partial
+
+import pytest
+import rclpy
+from page.web.opened import UNDRAWN
+from ros.node.listener import Listener
+from ros.node.running_top import RunningTop
+from serving import serving
+from waiting import until
+
+from symtop_ros.page.panel.bridge import KEPT, SILENCE, Bridge
+from symtop_ros.page.web.join import write_file
+from symtop_ros.physics import State
+from workshop.load.domains import claim_domain
+
+DOMAIN = claim_domain()
+
+
+@contextlib.contextmanager
+def bridge_to(name, context, **options):
+    user = rclpy.create_node("top_panel", context=context, start_parameter_services=False)
+    bridge = Bridge(user, name, **options)
+    yield bridge
+    bridge.close()
+    user.destroy_node()
+
+
+@pytest.fixture(name="node")
+def _node():
+    """A node in real time, which a thread spins as another process would, and the bridge to it."""
+    running = RunningTop(realtime=True, scene="cusps", real_time_factor=0.1)
+    ending = threading.Event()
+    thread = threading.Thread(target=running.spin_until, args=(ending.is_set, 1e9), daemon=True)
+    thread.start()
+    with bridge_to("/top", running.context) as bridge:
+        yield running, bridge
+    ending.set()
+    thread.join()
+    running.close()
+
+
+class Page:
+    """The news of one page, while the test waits for them."""
+
+    def __init__(self, bridge):
+        self._news = bridge.follow()
+        self.events = []
+        self.new = []
+        self.state = {}
+
+    def look(self):
+        message = next(self._news)
+        self.events += message.get("events", [])
+        self.new += [message["new"]] if "new" in message else []
+        self.state |= {k: v for k, v in message.items() if k not in ("events", "new")}
+
+    def until(self, condition):
+        until(condition, self.look)
+
+    def close(self):
+        self._news.close()
+
+
+@pytest.fixture(name="page")
+def _page(node):
+    page = Page(node[1])
+    page.until(lambda: page.events and "orientation" in page.state)
+    yield page
+    page.close()
+
+
+def ask(bridge, service, argument=None):
+    answer = bridge.answer({"service": service, "argument": argument})
+    return answer["granted"], answer["answer"]
+
+
+def test_a_page_is_sent_the_run_and_the_published_attitude(node, page):
+    running, _ = node
+    assert page.new == [True]
+    start = page.events[0]["record"]
+    assert (start["kind"], start["time"]) == ("start", 0.0)
+    segment = running.top.simulation.segment
+    published = segment.motion.at(page.state["time"] / 1e9).orientation
+    # the time of the run is rounded to whole ns, of a motion of some 200 rad/s
+    assert page.state["orientation"] == pytest.approx(published.tolist(), abs=2e-7)
+    assert page.events[0]["factor"] == 0.1
+    assert page.state["lost"] is None
+
+
+def test_integers_of_a_page_are_doubles_of_the_node(node, page):
+    _, bridge = node
+    values = {"theta": 1, "phi_dot": 0, "psi_dot": 200}  # as JSON writes 200.0
+    assert ask(bridge, "set_initial_conditions", values)[0]
+    page.until(lambda: page.events[-1].get("record", {}).get("kind") == "start" and page.events[1:])
+    w, x, y, z = page.events[-1]["record"]["orientation"]
+    assert State((w, x, y, z), (0, 0, 0)).euler_angles.theta == pytest.approx(1.0, abs=1e-15)
+    assert ask(bridge, "set_parameters_atomically", {"top.Mgl": 1, "steady_torque": [0, 0, 1]})[0]
+
+
+@pytest.mark.parametrize(
+    ("request_", "start"),
+    [
+        ({}, "service must be "),
+        ({"service": "set_parameters"}, "service must be "),
+        ({"service": "kick", "argument": "9"}, "argument must be "),
+        ({"service": "kick", "argument": {"precession_rate": {}}}, "argument must "),
+        ({"service": "kick", "argument": {"precession_rate": None}}, ""),
+        ({"torque": [0, 0]}, "torque must have 3 "),
+        ({"torque": [0, 0, "x"]}, "torque must be "),
+        ({"torque": [10**400, 0, 0]}, "torque must be "),
+        ({"service": "kick", "argument": {"precession_rate": 10**400}}, "precession_rate must "),
+    ],
+)
+def test_a_request_that_is_none_is_one_message(node, request_, start):
+    answer = node[1].answer(request_)
+    assert not answer["granted"]
+    assert answer["answer"].startswith(start)
+
+
+def test_pauses_leave_the_time_of_the_run_alone_and_a_step_moves_it(node, page):
+    _, bridge = node
+    assert ask(bridge, "pause", True)[0]
+    page.until(lambda: page.events[-1]["running"] is False)
+    assert "record" not in page.events[-1]
+    before = bridge._recorder.time_at(0)  # that of the pause, at every stamp
+    page.until(lambda: page.state["time"] == before)
+    assert ask(bridge, "step", {"duration": 0.01})[0]
+    page.until(lambda: page.state["time"] == before + 10_000_000)
+
+
+def test_a_torque_reaches_the_node_and_ends(node, page):
+    _, bridge = node
+
+    def torques():
+        return [e["record"]["torque"][2] for e in page.events if e["name"] == "torque"]
+
+    page.until(lambda: torques() or not bridge.answer({"torque": [0, 0, 5e-4]})["granted"])
+    page.until(lambda: torques()[-1] == 0.0)
+    assert torques()[0] == 5e-4
+
+
+def test_a_recording_is_known_to_the_page(node, page, tmp_path, monkeypatch):
+    pytest.importorskip("mcap")
+    _, bridge = node
+    monkeypatch.chdir(tmp_path)
+    granted, answer = ask(bridge, "record", True)
+    assert granted, answer
+    page.until(lambda: page.events[-1].get("recording"))
+    assert page.events[-1]["said"] == answer
+    assert ask(bridge, "record", False)[0]
+    page.until(lambda: page.events[-1].get("recording") is False)
+
+
+def test_a_node_without_pages_sends_events_only(node):
+    running, bridge = node
+
+    def count():
+        return running.top.count_subscribers("/top/orientation")
+
+    until(lambda: count() == 0)
+    page = Page(bridge)
+    page.until(lambda: "orientation" in page.state)
+    until(lambda: count() == 1)
+    page.close()
+    until(lambda: count() == 0)
+
+
+def test_silence_is_told_and_its_end(node, page):
+    running, bridge = node
+    running.top._pacer.stop()  # no samples: as after its end
+    bridge._heard -= SILENCE
+    page.until(lambda: page.state["lost"])
+    assert f"/top for {SILENCE:g} s" in page.state["lost"]
+
+    def is_back():
+        for _ in range(20):  # what is late is dropped by one tick, and published by the next one
+            running.top.simulation.tick()
+        return not page.state["lost"]
+
+    page.until(is_back)
+
+
+def test_a_node_that_begins_again_is_a_new_run(node, page):
+    _, bridge = node
+    first = bridge.last
+    assert ask(bridge, "reset")[0]
+    page.until(lambda: len(page.events) == 2)
+    with bridge._news:
+        bridge._follow_event(first)  # the event with the number 1, as of another process
+        bridge._news.notify_all()
+    page.until(lambda: page.new.count(True) == 2)
+    assert page.events[-1]["stamp"] == page.events[0]["stamp"]
+
+
+def test_of_a_long_run_the_last_events_are_kept(node, page):
+    _, bridge = node
+    event = bridge.last
+    later = type(event)(event.stamp, "reset", "", {**event.values, "number": "2"})
+    with bridge._news:
+        for _ in range(KEPT + 5):
+            bridge._follow_event(later)
+    other = Page(bridge)
+    other.until(lambda: other.events)
+    assert len(other.events) == KEPT
+    other.close()
+
+
+def test_a_missing_node_is_one_message():
+    with (
+        Listener(DOMAIN) as alone,
+        bridge_to("missing", alone.context, timeout=0.1) as bridge,
+    ):
+        assert bridge.name == "/missing"
+        granted, answer = ask(bridge, "kick", {"precession_rate": 1.0})
+    assert not granted
+    assert answer.startswith("no answer from /missing ")
+
+
+def start_of(running):
+    return running.top.simulation.timeline.start.euler_angles
+
+
+def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node, browser):
+    running, bridge = node
+    page = write_file(node=bridge.name)
+    tab = browser.new_page()
+    tab.add_init_script(UNDRAWN)
+    look = partial(tab.wait_for_timeout, 20)
+    problems = []
+    tab.on("pageerror", lambda error: problems.append(str(error)))
+    with serving(page, bridge) as server:
+        port = server.server_address[1]
+        tab.goto(server.url)
+        until(lambda: "cusps" in tab.text_content("#headline"), look)
+        assert tab.is_hidden("#timeline")
+        tab.click("#hurry")
+        until(lambda: "without the push" in tab.text_content("#headline"), look)
+        act = bridge._events[-1]["record"]["act"]
+        assert act == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
+        tab.click("#tab-start")
+        tab.fill("#field-top\\.Mgl", "0.05")
+        tab.press("#field-top\\.Mgl", "Enter")
+        until(lambda: running.top.simulation.settings.top.Mgl == 0.05, look)
+        dismissed = []
+        tab.once("dialog", lambda dialog: dismissed.append(dialog.dismiss()))
+        tab.goto(f"{server.url}#theta=1.5")  # a link of another page
+        until(lambda: dismissed, look)
+        assert start_of(running).theta == pytest.approx(0.5)
+        tab.once("dialog", lambda dialog: dialog.accept())
+        tab.goto(f"{server.url}#theta=1.25")
+        until(lambda: abs(start_of(running).theta - 1.25) < 1e-9, look)
+    until(lambda: "connection is lost" in tab.text_content("#lost"), look)
+    with serving(page, bridge, port):
+        until(lambda: tab.is_hidden("#lost"), look)
+        tab.click("#tab-history")
+        assert "again" not in tab.text_content("#refusal")
+        until(lambda: "71.62°" in tab.text_content("#entries"), look)
+    tab.close()
+    assert problems == []
+
+
+def test_a_held_button_pushes_the_node_until_it_is_released(node, browser):
+    running, bridge = node
+    with serving(write_file(node=bridge.name), bridge) as server:
+        tab = browser.new_page()
+        tab.add_init_script(UNDRAWN)
+        look = partial(tab.wait_for_timeout, 20)
+        tab.goto(server.url)
+        tab.click("#tab-push")
+        button = tab.locator("[data-hold=press]")
+        button.dispatch_event("pointerdown")
+        until(lambda: re.search(r"sideways \d+ times", tab.text_content("#headline")), look)
+        button.dispatch_event("pointerup")
+        until(lambda: bridge.last.name == "release", look)
+        given = int(bridge.last.values["before.pushes"])
+        assert running.top.simulation.segment.motion.pushes.number == given > 0
+        events = partial(tab.evaluate, "window.symtop.run().events")
+        until(lambda: events()[-1]["act"]["number"] == given, look)
+        assert (events()[-1]["kind"], events()[-1]["act"]["rate"]) == ("push", 20)
+        until(lambda: f"sideways {given} times" in tab.text_content("#headline"), look)
+        assert bridge.last.verdict.startswith(f"Pushed sideways {given} times in ")
+        tab.close()

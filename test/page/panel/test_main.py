@@ -1,0 +1,106 @@
+"""The program: a file, a server, or a node; one message for what cannot be done."""
+
+import contextlib
+import ipaddress
+import os
+import re
+import signal
+import urllib.request
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+from documents import ROOT
+from programs import command, running
+from waiting import TIMEOUT
+
+from symtop_ros.page.panel import main as module
+from symtop_ros.page.panel.server import LOCAL_HOST
+from symtop_ros.page.web.join import write_file
+
+pytestmark = pytest.mark.usefixtures("signals_as_before")
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@contextlib.contextmanager
+def running_panel(*words):
+    """top_panel on any free port, and the address that it prints; it has ended afterwards."""
+    words = command("top_panel", "--port", "0", "--no-browser", *words)
+    with running(words, 0, env={**os.environ, "PYTHONPATH": str(ROOT)}) as process:
+        line = process.stdout.readline()
+        found = re.fullmatch(r".+: open (http://\S+) in a browser; Ctrl-C ends it\n", line)
+        assert found, line
+        yield process, found[1]
+
+
+def load(url):
+    with urllib.request.urlopen(url, timeout=TIMEOUT) as answer:
+        return answer.read().decode()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_server_silently(number):
+    with running_panel() as (process, url):
+        assert load(url) == write_file()
+        process.send_signal(number)
+        output, errors = process.communicate(timeout=TIMEOUT)
+        assert (process.returncode, output, errors) == (0, "", "")
+
+
+def test_a_port_that_is_taken_is_one_message_and_status_1(capsys):
+    with contextlib.closing(module.PageServer(LOCAL_HOST, 0, "").socket) as taken:
+        port = taken.getsockname()[1]
+        assert module.main(["--port", str(port), "--no-browser"]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    # the one place of this refusal: the address that was tried, why it failed, and what to do
+    assert line.startswith("top_panel: port must be ")
+    assert f"got 127.0.0.1 port {port} (address already in use); use --port" in line
+
+
+def test_other_machines_are_told_an_address_and_nothing_is_to_be_guarded():
+    with running_panel("--host", "0.0.0.0") as (process, url):
+        process.terminate()
+        _, errors = process.communicate(timeout=TIMEOUT)
+    host = urlsplit(url).hostname
+    ipaddress.ip_address(host)  # other machines may not know the name of this one
+    assert host != "0.0.0.0"
+    assert errors == ""  # each page has its own top
+
+
+def test_without_options_the_file_is_written_here_and_opened(monkeypatch, capsys):
+    opened = []
+    monkeypatch.setattr(module.webbrowser, "open", lambda url: opened.append(url) or True)
+    monkeypatch.setenv("DISPLAY", ":0")
+    assert module.main([]) == 0
+    assert opened == [Path("top.html").absolute().as_uri()]
+    assert capsys.readouterr().out == "wrote top.html, and opened it in a browser\n"
+    assert Path("top.html").read_text() == write_file()
+
+
+def test_a_saved_run_of_the_same_name_is_kept():
+    Path("top.html").write_text("a run")
+    assert module.main(["--no-browser"]) == 0
+    assert module.main(["--no-browser"]) == 0  # the same page is the same file
+    assert Path("top.html").read_text() == "a run"
+    assert sorted(path.name for path in Path().iterdir()) == ["top.html", "top_2.html"]
+
+
+def test_the_lesson_is_opened_by_the_file_itself():
+    """Some systems drop the fragment of an address of a file."""
+    assert module.main(["--lesson", "--write", "lesson.html"]) == 0
+    assert '"opening": "lesson=1"' in Path("lesson.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("platform", "display", "expected"),
+    [("linux", "", False), ("linux", ":0", True), ("darwin", "", True), ("win32", "", True)],
+)
+def test_a_screen_is_found(platform, display, expected, monkeypatch):
+    monkeypatch.setattr(module.sys, "platform", platform)
+    monkeypatch.setenv("DISPLAY", display)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    assert module.has_screen() is expected

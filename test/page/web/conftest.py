@@ -1,0 +1,58 @@
+"""A browser for all tests of the page, and the page in it."""
+
+import pytest
+from page.web.modules import load_kernel, open_tab
+from page.web.opened import KNOWN, USUAL, Opened
+
+from symtop_ros.page.web.join import write_file
+from workshop import page_coverage
+
+
+@pytest.fixture(scope="module")
+def tab(browser):
+    """A tab in which each module can be imported, with a kernel."""
+    tab = open_tab(browser)
+    load_kernel(tab)
+    yield tab
+    tab.close()
+
+
+@pytest.fixture(scope="session")
+def path(tmp_path_factory):
+    path = tmp_path_factory.mktemp("file") / "top.html"
+    path.write_text(write_file(), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="session")
+def spare():
+    """Tabs that nobody uses, by whether their browsers know the page: a new one takes longer."""
+    return {KNOWN: [], "": []}
+
+
+@pytest.fixture
+def open_page(browser, path, spare, request):
+    """A function that opens the page, with a fragment, in a browser of some kind."""
+    used = []
+    failed = request.session.testsfailed
+
+    def open_one(fragment="", file=path, script=USUAL, known=KNOWN, locale="en-US", **look):
+        # lines are counted when a browser is closed
+        is_usual = (script, locale) == (USUAL, "en-US") and not page_coverage.FOLDER
+        free = spare[known] if is_usual else None
+        page = free.pop() if free else Opened(browser, script, known, locale)
+        used.append((page, free))
+        return page.open(file, fragment, **look)
+
+    yield open_one
+    for page, free in used:
+        if free is None or request.session.testsfailed > failed:  # a key may be pressed
+            page.close()
+        else:
+            page.leave()
+            free.append(page)
+
+
+@pytest.fixture
+def opened(open_page):
+    return open_page()

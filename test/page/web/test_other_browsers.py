@@ -1,0 +1,103 @@
+"""The page in Firefox and WebKit: the bits of Python's kernel, and one pass through the page."""
+
+import base64
+import io
+
+import numpy as np
+import pytest
+from other_browsers import running_firefox, running_webkit, until
+from page.web.opened import find_time, read_motion
+from page.web.page_words import write_as_page
+from physics.kernel.motions import NAMES, encode, expect, list_samples, normalize
+from physics.kernel.test_wasm import KERNEL, SCRIPT
+from PIL import Image
+
+from symtop_ros.physics import Motion, Top, hurry, kick_verdict
+from workshop.kernel_wasm import MODULE
+
+pytestmark = pytest.mark.long
+
+FONT, SIZE = 40, 100  # px
+# A symbol of the page, large and alone in the upper left corner.
+SHOW = f"""
+const symbol = document.querySelector(given[0]);
+symbol.style.fontSize = "{FONT}px";
+const box = document.createElement("div");
+Object.assign(box.style, {{ position: "fixed", left: 0, top: 0, width: "{SIZE}px", zIndex: 9,
+  height: "{SIZE}px", background: "white", color: "black", padding: "20px" }});
+box.append(symbol);
+document.body.append(box);
+"""
+BROWSERS = {"firefox": running_firefox, "webkit": running_webkit}
+
+
+@pytest.fixture(scope="module", params=[*BROWSERS])
+def driver(request):
+    with BROWSERS[request.param]() as running:
+        yield running
+
+
+def to_text(data):
+    return base64.b64encode(data).decode()
+
+
+def test_two_thousand_motions_have_the_bits_of_python(driver, tmp_path):
+    page = tmp_path / "kernel.html"
+    page.write_text(
+        f"<!doctype html><title>kernel</title><script type='module'>{KERNEL}\n"
+        f"</script><script>{SCRIPT}\nwindow.print_motions = print_motions;"
+        "window.decode = decode;</script>"
+    )
+    driver.open(page.as_uri())
+    until(driver, "window.binding")
+    samples = list_samples(range(210), range(34))
+    found = driver.run(
+        """const [names, module, samples] = given;
+        return await print_motions(binding, names, module, samples);""",
+        NAMES,
+        to_text(MODULE.read_bytes()),
+        to_text(encode(samples)),
+    )
+    assert normalize(np.frombuffer(base64.b64decode(found))) == expect(samples)
+
+
+def list_gaps(picture):
+    """Return the heights of the blank rows between parts of a symbol, from its highest part on."""
+    rows = np.asarray(Image.open(io.BytesIO(picture)).convert("L"))[:SIZE, :SIZE].min(axis=1) < 128
+    inked = np.flatnonzero(rows)
+    return (np.diff(inked)[np.diff(inked) > 1] - 1).tolist()
+
+
+@pytest.mark.parametrize("field", ["phi_dot", "psi_dot"])
+def test_the_dot_of_a_rate_stands_close_to_its_letter(driver, path, field):
+    driver.open(path.as_uri())
+    until(driver, "document.querySelector('#headline')?.textContent")
+    driver.run(SHOW, f"label[for=field-{field}] math")
+    gaps = list_gaps(driver.take_picture())
+    assert len(gaps) == 1  # the dot is seen
+    assert gaps[0] <= 0.15 * FONT
+
+
+def test_a_top_is_hurried_and_the_run_survives_a_reload(driver, path):
+    driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow")
+    until(driver, "document.querySelector('#headline')?.textContent")
+    until(driver, "Number(document.querySelector('#timeline').max) > 0.01")
+    why = driver.run(
+        """document.querySelector("#hurry").click();
+        return document.querySelector("#why").dataset.text;"""
+    )
+    run = driver.run("return window.symtop.run();")
+    *_, start, kick = run["events"]
+    before = read_motion(start).at(find_time(start, kick))
+    after = hurry(before, 1.4)
+    assert kick["orientation"] == after.given_orientation.tolist()
+    assert kick["angular_velocity"] == after.angular_velocity.tolist()
+    verdict = kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_rate")
+    assert why == write_as_page("kick", verdict, "degrees")  # the page's unit at first
+    picture = driver.run("return document.querySelector('canvas').toDataURL().length;")
+    assert picture > 5000
+    assert driver.run("return document.querySelectorAll('#charts svg path').length;") > 20
+    driver.reload()
+    until(driver, "document.querySelector('#headline')?.textContent")
+    assert driver.run("return window.symtop.run();")["events"] == run["events"]
+    assert driver.run("return document.querySelector('#refusal').textContent;") == ""

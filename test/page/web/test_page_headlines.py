@@ -1,0 +1,136 @@
+"""The headline says what is so, and agrees with the reason below it; so do sentences at buttons."""
+
+import math
+
+import numpy as np
+import pytest
+from page.web.opened import read_motion
+from trials import choose
+
+from symtop_ros.page.web.join import LANGUAGES, read_texts
+from symtop_ros.physics import Motion
+from symtop_ros.physics.kicks import push_axle
+
+
+def test_a_kick_under_friction_is_judged_apart_from_friction_and_said_to_be_past(opened):
+    opened.start_scene("friction")
+    opened.press("h")
+    headline = opened.say("headline")
+    assert headline.endswith(" (apart from friction).") or "(apart from friction):" in headline
+    assert "between" not in headline
+    assert opened.say("why").startswith("Just after the push: Precession ")
+
+
+def read_history(opened):
+    entries = opened.tab.locator("#entries button")
+    return entries.evaluate_all("all => all.map(e => e.dataset.text)")
+
+
+def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
+    opened.enter("theta", "0.6")
+    opened.tab.click("#hurry")
+    opened.enter("top.Mgl", "0.05")
+    opened.open_tab("history")
+    assert read_history(opened) == [
+        "Mgl changed to 0.05",
+        "hurried: phi' times 1.4",
+        "started: theta 0.6 rad, phi' 6.497, psi' 200 rad/s",
+        "Perry's rule holds",
+    ]
+    opened.open_tab("view")
+    opened.tab.select_option("#unit", "deg")
+    opened.open_tab("history")
+    assert "started: theta 34.38°, phi' 6.497, psi' 200 rad/s" in read_history(opened)
+    opened.tab.click("#entries button:text('started:')")
+    assert opened.read_last().euler_angles.theta == pytest.approx(0.6)
+
+
+@pytest.mark.parametrize("language", choose([*LANGUAGES], ("de", "tr")))
+def test_a_run_of_one_language_is_read_in_the_words_of_another(opened, open_page, language):
+    opened.start_scene("cusps")
+    opened.enter("top.Mgl", "0.05")
+    opened.press("ArrowUp")
+    opened.press("r")
+    run = opened.read_run()
+    assert "request" not in str(run)
+    other = open_page(f"#lang={language}")
+    texts = read_texts(language)
+    other.drop(run)
+    changed = texts["request.parameter"].replace("{name}", "Mgl")
+    expected = [
+        texts["request.reset"],
+        texts["request.up"],
+        changed.replace("{value:4g}", f"0{texts['point']}05"),
+        texts["scene.cusps.title"],
+    ]
+    other.until(lambda: read_history(other)[:4] == expected)
+    assert other.read_events() == run["events"]
+
+
+def test_words_that_a_run_of_before_has_are_shown_as_they_are_and_make_no_buttons(opened):
+    run = opened.read_run()
+    start = {name: value for name, value in run["events"][0].items() if name != "made_by"}
+    texts = ["[x|nothing]", "Perrys Regel gilt", "theta <b>"]
+    run["events"] = [{**start, "request": text} for text in texts]
+    run["events"].append({**start, "made_by": {"kind": "scene", "name": "of another version"}})
+    named = {"kind": "parameter", "name": "[y|theta]", "value": 1}
+    run["events"].append({**start, "kind": "change", "made_by": named})
+    opened.drop(run)
+    opened.until(lambda: len(opened.read_events()) == len(run["events"]))
+    changed, started, *given = read_history(opened)
+    assert given == texts[::-1]
+    assert started.startswith("started: ")
+    assert changed == "[y|theta] changed to 1"
+    assert opened.tab.locator("#entries button button").count() == 0
+    assert opened.read_events() == run["events"]
+
+
+@pytest.mark.wording
+def test_a_top_that_at_first_goes_the_other_way_is_said_to_do_both(opened):
+    opened.tab.click("text=Pause")
+    cases = ((3, "h", "falls at first, but rises"), (9, "d", "rises at first, but"))
+    for rate, key, words in cases:
+        opened.follow(f"theta=2&psi_dot=200&phi_dot={rate}")
+        opened.press(key)
+        assert words in opened.say("headline")
+
+
+# The article's top at both roots, at slow roots of a slower spin that sink and that rise, a disc, a
+# hanging top, and one that is let go.
+STEADY = [
+    f"theta=0.5&psi_dot={spin}&precession={root}"
+    for spin in (112, 120, 200)
+    for root in ("slow", "fast")
+]
+PRESSED = [*STEADY, "scene=perry_fails", "scene=hanging", "scene=cusps", "scene=conical_pendulum"]
+HEIGHTS = {1: "higher", -1: "lower", 0: "as high as before"}
+
+
+def push_for_a_second(motion):
+    way = math.copysign(1.0, motion.mean_precession_rate)
+    for k in range(20):
+        state = motion.at(0.05 if k else 0.0)
+        pushed = push_axle(motion.top, state, way * 0.015 * abs(motion.top.Mgl) / 20)
+        motion = Motion(motion.top, pushed)
+    return motion
+
+
+def turn_for_a_second(motion):
+    torque = (0.0, 0.0, 0.0075 * abs(motion.top.Mgl))
+    return Motion(motion.top, Motion(motion.top, motion.start, torque=torque).at(1.0))
+
+
+@pytest.mark.wording
+@pytest.mark.parametrize("fragment", choose(PRESSED, PRESSED[:2]))
+def test_what_a_button_that_is_held_would_do_is_computed(open_page, fragment):
+    page = open_page(f"#{fragment}")
+    motion = read_motion(page.read_events()[-1])
+    for name, act in (("press", push_for_a_second), ("torque", turn_for_a_second)):
+        after = act(motion)
+        said = page.say(f"outlook-{name}")
+        heights = [np.cos(each.turning_angles).sum() * motion.top.Mgl for each in (motion, after)]
+        assert f"the weight is {HEIGHTS[int(np.sign(heights[1] - heights[0]))]}" in said, said
+        rates = (
+            f"{after.mean_precession_rate:.2f} instead of {motion.mean_precession_rate:.2f} rad/s"
+        )
+        assert rates in said, said

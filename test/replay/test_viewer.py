@@ -1,0 +1,70 @@
+"""The Rerun viewer: it leaves the home of the user unchanged."""
+
+import re
+import sys
+from urllib.parse import urlsplit
+
+import pytest
+from log_files import ARTICLE
+from programs import execute
+from waiting import until
+
+from symtop_ros.physics import Motion, State, Top
+from symtop_ros.replay import viewer
+from symtop_ros.replay.view.plots import describe_motion
+from symtop_ros.run.simulation.segment import Segment
+
+
+def test_in_a_venv_its_settings_are_there_without_statistics(tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.setattr(sys, "prefix", str(tmp_path / "venv"))
+    for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    words = [viewer.PROGRAM, "analytics", "config"]
+    config = execute(words, env=viewer.settings(), check=True).stdout
+    assert '"analytics_enabled": false' in config
+    assert not (tmp_path / "home").exists()
+
+
+def facts(motion, equations=()):
+    text = describe_motion(Segment.begin(motion, 0, 1.0), motion.start, {}, dict(equations))
+    rows = [row.strip("| ").split(" | ") for row in text.splitlines()[2:]]
+    return {name: value.strip("*") for name, value in rows}
+
+
+def test_exact_rates_stand_next_to_those_of_the_fast_top():
+    found = facts(Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0)))
+    assert found["nutation"] == "0.15954 s, 39.382 rad/s (p_psi/Ix: 50.175)"
+    assert found["mean precession"] == "6.6381 rad/s (Mgl/p_psi: 5.9441)"
+    assert found["in a nutation"] == "0.16856 turns"
+
+
+@pytest.mark.parametrize("top", [ARTICLE, Top(1.0, 0.5, 0.0)])
+def test_what_is_undefined_for_a_sleeping_top_is_a_dash(top):
+    found = facts(Motion(top, State.from_euler(theta=0.0)))
+    assert found["mean precession"] == "- (Mgl/p_psi: -)"
+    assert found["in a nutation"] == "-"
+
+
+TIMEOUT = 120.0
+
+
+def test_the_page_asks_no_other_host(capsys, browser):
+    process = viewer.start(web=True)
+    asked = []
+    said = []
+    address = re.search(r"open (\S+) in", capsys.readouterr().out)[1]
+    try:
+        tab = browser.new_page()
+        tab.on("response", lambda response: asked.append(urlsplit(response.url).hostname))
+        tab.on("requestfinished", lambda request: asked.append(urlsplit(request.url).hostname))
+        tab.on("console", lambda line: said.append(line.text))
+        url = f"{address}&renderer=webgl"
+        until(lambda: tab.goto(url).status != 503, timeout=TIMEOUT)
+        assert {host for host in asked if host} == {"127.0.0.1"}
+        refused = [text for text in said if "Content Security Policy" in text]
+        assert any("fonts.googleapis.com" in text for text in refused)  # as it tries to
+        tab.close()
+    finally:
+        process.terminate()
+        process.wait(timeout=TIMEOUT)

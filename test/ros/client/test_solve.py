@@ -1,0 +1,107 @@
+"""What top_ctl solves: questions of textbooks as they are typed, and their published answers."""
+
+import json
+import subprocess
+
+import pytest
+from programs import PATIENT, running_node
+
+from symtop_ros.base.refusals import RefusedError
+from symtop_ros.ros.client.main import main
+from symtop_ros.ros.client.solve import make_body
+from workshop.load.domains import claim_domain
+
+DOMAIN = claim_domain()
+
+pytestmark = pytest.mark.usefixtures("signals_as_before")
+
+
+@pytest.fixture
+def ctl(capsys, monkeypatch):
+    """A function that runs a command of top_ctl in this process."""
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
+
+    def call(words):
+        given = words.split()
+        return subprocess.CompletedProcess(given, main([*PATIENT, *given]), *capsys.readouterr())
+
+    return call
+
+
+@pytest.fixture(scope="module", autouse=True)
+def node():
+    with running_node(DOMAIN, "scene:=cusps"):
+        yield
+
+
+def read(ctl):
+    return json.loads(ctl("state --json").stdout)
+
+
+# What is typed, and the time of one turn in s that follows, with the digits that are published.
+TURNS = [
+    ("body disc:170g,5.5cm,10.5cm", "start theta=90deg psi_dot=45rev/s precession=slow", 2.61),
+    ("body disc:170g,11cm,21cm", "start theta=90deg psi_dot=45rev/s precession=slow", 5.22),
+    ("body bicycle_wheel", "start theta=90deg psi_dot=418rpm precession=slow", 57.6),
+    ("body balanced_gyroscope", "start theta=90deg psi_dot=200rpm precession=slow", 15.3),
+    ("body balanced_gyroscope", "start theta=90deg psi_dot=320rpm precession=slow", 24.5),
+]
+
+
+@pytest.mark.parametrize(("body", "start", "turn"), TURNS)
+def test_a_class_asks_for_the_time_of_a_turn(ctl, body, start, turn):
+    assert ctl(body).returncode == 0
+    assert ctl(start).returncode == 0
+    assert read(ctl)["precession_period"] == pytest.approx(turn, rel=3e-3)
+
+
+def test_a_class_asks_for_the_spin(ctl):
+    answer = ctl("body point:165g,4cm Ix=4e-4 Iz=1.2e-4 gravity=9.80")
+    assert "weight 1.617 N\n" in answer.stdout
+    answer = ctl("start theta=90deg precession_period=2.20s")
+    assert "psi' = 188.726 rad/s (1802.2 rpm)" in answer.stdout
+    assert read(ctl)["seen_from_above"] == "counterclockwise"
+    assert ctl("start theta=90deg precession_period=2.20s solution=2").returncode == 0
+    assert read(ctl)["seen_from_above"] == "clockwise"
+
+
+def test_all_solutions_are_listed_and_one_is_started(ctl):
+    answer = ctl("start theta=90deg dip=0.1rad phi=1 solution=2")
+    assert [line[:3] for line in answer.stdout.splitlines()[:2]] == ["1: ", "2: "]
+    assert ctl("pause").returncode == 0
+    state = read(ctl)
+    assert state["constants"]["L_z"] < 0
+    low, high = state["turning_angles"]
+    assert high - low == pytest.approx(0.1, rel=1e-12)
+    assert ctl("resume").returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "refusal"),
+    [
+        ("start theta=90deg dip=0.1 solution=3", "solution must be one of 1, 2, got 3"),
+        ("start theta=90deg dip=3", "dip must be > 0 and at most 1.5708 rad with theta = 1.57"),
+        ("start dip=3", "known must be one of theta, precession_period / theta, psi_dot / "),
+        ("start theta=9rpm", "theta must be a number in rad, °, deg or degrees, got '9rpm'"),
+        ("body wheel", "part must be point:MASS,DISTANCE or rod, hoop, disc, ball:MASS,SIZE,"),
+        ("body disc:1kg,0,1m", "radius must be > 0 m, got 0"),
+        ("body point:1kg,1m", "Ix must be > 0 kg m^2, got 0"),
+        ("body hoop mass=3", "name must be one of gravity, Ix, Iz, got 'mass'"),
+    ],
+)
+def test_what_has_no_answer_is_refused_in_one_line_and_the_top_goes_on(ctl, words, refusal):
+    before = read(ctl)["top"]
+    result = ctl(words)
+    assert result.returncode == 1
+    assert result.stderr.startswith(f"top_ctl: {refusal}")
+    assert result.stderr.count("\n") == 1
+    assert read(ctl)["top"] == before
+
+
+def test_parts_are_added_and_measured_moments_replace_theirs():
+    both = make_body(["disc:1kg,20cm,0.5m", "point:500g,-1m"])
+    assert (both.mass, both.arm) == (1.5, 0.0)
+    assert both.top.Ix == pytest.approx(0.25 * 0.04 + 0.25 + 0.5, rel=1e-15)
+    assert make_body(["point:1kg,10cm", "Ix=3", "Iz=2", "gravity=10"]).top.moments == (3, 2, 1)
+    with pytest.raises(RefusedError, match="parts must be at least one, got none"):
+        make_body(["gravity=9.8"])

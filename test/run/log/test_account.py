@@ -1,0 +1,219 @@
+"""The account of logs of other writers, and of logs that are odd and sound."""
+
+import struct
+from dataclasses import replace
+
+import pytest
+from mcap.data_stream import RecordBuilder
+from mcap.opcode import Opcode
+from mcap.reader import make_reader
+from mcap.records import Attachment, Message, Metadata
+from mcap.writer import Writer
+from run.log.damaged import Log, Recorded, zero_chunk
+from run.log.variants import INPUTS, list_variants, write_variant
+
+from symtop_ros.run.log.account import read_account
+from symtop_ros.run.log.bags import open_run
+from symtop_ros.run.log.names import Names
+from symtop_ros.run.log.reader import LogError, McapFile
+from symtop_ros.run.log.repair import repair
+from symtop_ros.run.log.top_log import TopLog
+
+KEPT = Message, Attachment, Metadata
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    """A run with a kick: events 1 and 2."""
+    recorded = Recorded(tmp_path_factory.mktemp("run"))
+    recorded.run(1.2)
+    recorded.kick()
+    recorded.run(1.3)
+    (path,) = recorded.close()
+    return Log.read(path)
+
+
+def account_of(path):
+    file = McapFile(path)
+    return file, read_account(file, Names(file))
+
+
+def test_there_are_all_variants_of_the_conformance_tests():
+    assert len(list(list_variants())) == 416
+
+
+@pytest.mark.parametrize("name", INPUTS)
+def test_every_legal_variant_is_sound_and_repaired_with_all_that_it_has(name, tmp_path):
+    for number, (_, features) in enumerate(v for v in list_variants() if v[0] == name):
+        path = tmp_path / "odd.mcap"
+        target = tmp_path / f"{number}.mcap"
+        path.write_bytes(write_variant(name, features))
+        file, account = account_of(path)
+        assert (account.problems, account.notes) == ((), ()), features
+        found = repair(file, target, account)
+        counts = found.messages, found.attachments, found.metadata
+        own = INPUTS[name]
+        expected = (sum(isinstance(each, kind) for each in own) for kind in KEPT)
+        assert counts == tuple(expected), features
+        with target.open("rb") as stream:
+            reader = make_reader(stream)
+            assert len(list(reader.iter_messages(log_time_order=False))) == found.messages
+            assert len(list(reader.iter_attachments())) == found.attachments
+            assert len(list(reader.iter_metadata())) == found.metadata
+
+
+def test_a_repair_keeps_attachments_and_says_so(log, tmp_path):
+    notes = Attachment(0, 0, "notes.txt", "text/plain", b"a fine run")
+    path = replace(log, attachments=[notes]).write(tmp_path / "run.mcap")
+    file, account = account_of(path)
+    found = repair(file, tmp_path / "whole.mcap", account)
+    assert str(found) == f"{len(log.messages)} messages, 1 attachment"
+    assert list(McapFile(tmp_path / "whole.mcap").attachments()) == [notes]
+
+
+def test_a_damaged_attachment_is_told_and_not_copied(log, tmp_path):
+    notes = Attachment(0, 0, "notes.txt", "text/plain", b"a fine run")
+    path = replace(log, attachments=[notes]).write(tmp_path / "run.mcap")
+    path.write_bytes(path.read_bytes().replace(b"a fine run", b"a fine rum"))
+    file, account = account_of(path)
+    assert account.problems[0].startswith("the record before byte ")
+    assert repair(file, tmp_path / "whole.mcap", account).attachments == 0
+
+
+def write_large(path, log, size):
+    """The log with a sparse attachment before its end, without checksums of the data."""
+    whole = log.write(path.with_name("whole.mcap"), enable_crcs=False).read_bytes()
+    end = whole.rindex(struct.pack("<BQ", Opcode.DATA_END, 4))
+    head = bytes(16) + struct.pack("<I3sI3sQ", 3, b"big", 3, b"bin", size)
+    with path.open("wb") as stream:
+        stream.write(whole[:end] + struct.pack("<BQ", Opcode.ATTACHMENT, len(head) + size + 4))
+        stream.write(head)
+        stream.seek(size + 4, 1)
+        # without a summary, whose offsets would have to change
+        stream.write(struct.pack("<BQI", Opcode.DATA_END, 4, 0))
+        stream.write(struct.pack("<BQQQI", Opcode.FOOTER, 20, 0, 0, 0) + whole[:8])
+
+
+def test_an_attachment_of_any_size_is_passed_over(log, tmp_path):
+    path = tmp_path / "run.mcap"
+    write_large(path, log, 300 * 2**20)
+    _, account = account_of(path)
+    assert account.problems == ()
+    assert account.topics["orientation"].count == len(log.places("/orientation"))
+
+
+def test_messages_between_chunks_are_read(log, tmp_path):
+    """A writer may put a message anywhere; here each second one is behind its chunk."""
+    path = tmp_path / "run.mcap"
+    with path.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start("ros2")
+        numbers = {n: log._register(writer, each) for n, each in log.channels.items()}
+        writer.add_metadata("symtop_ros", log.metadata["symtop_ros"])
+        for k, each in enumerate(log.messages):
+            message = replace(each, channel_id=numbers[each.channel_id])
+            if k % 2:
+                writer.flush()
+                message.write(record := RecordBuilder())
+                stream.write(record.end())
+            else:
+                writer.add_message(message.channel_id, each.log_time, each.data, each.publish_time)
+        writer.add_metadata("symtop_ros.end", log.metadata["symtop_ros.end"])
+        writer.finish()
+    _, account = account_of(path)
+    assert account.problems == ()
+    assert account.topics["torque"].count == len(log.places("/torque"))
+
+
+@pytest.mark.parametrize("repeated", [1, 2, 3])
+def test_events_that_a_recorder_repeats_at_the_begin_of_each_file_are_none_too_many(
+    repeated, tmp_path
+):
+    """As `ros2 bag record --repeat-transient-local /top/events=2` with split files."""
+    recorded = Recorded(tmp_path / "run")
+    for _ in range(4):
+        recorded.run(0.5)
+        recorded.kick()
+    (path,) = recorded.close()
+    whole = Log.read(path)
+    half = len(whole.messages) // 2
+    before = [k for k in whole.places("/events") if k < half][-repeated:]
+    head = [replace(whole.messages[k], log_time=whole.messages[half].log_time) for k in before]
+    paths = [tmp_path / "a.mcap", tmp_path / "b.mcap"]
+    replace(whole, messages=whole.messages[:half]).write(paths[0])
+    replace(whole, messages=head + whole.messages[half:]).write(paths[1])
+    assert TopLog(open_run(paths)).account.problems == ()
+    twice = replace(whole, messages=whole.messages[:half] + head + whole.messages[half:])
+    problems = TopLog(open_run([twice.write(tmp_path / "c.mcap")])).account.problems
+    assert problems == (f"{len(head)} events are repeated",)
+
+
+def test_an_event_of_another_file_that_differs_is_told(log, tmp_path):
+    kick = log.places("/events")[1]
+    half = kick + 50
+    event = log.messages[kick]
+    other = replace(event, data=event.data.replace(b"closed form", b"closed farm"))
+    assert other != event
+    changed = replace(log, messages=[*log.messages[:half], other, *log.messages[half:]])
+    problems = TopLog(McapFile(changed.write(tmp_path / "run.mcap"))).account.problems
+    assert problems == ("event 2 at 1210000000 ns is there twice, and the two differ",)
+
+
+def test_a_node_that_was_started_again_has_two_runs_in_one_folder(tmp_path):
+    for name, start, weight in (("a", 0.0, 0.068), ("b", 50.0, 0.06)):
+        recorded = Recorded(tmp_path / name, top__Mgl=weight)
+        recorded.jump(start)
+        recorded.run(1.2)
+        recorded.kick()
+        recorded.run(0.5)
+        recorded.close()
+    paths = sorted(tmp_path.glob("*/*.mcap"))
+    account = TopLog(open_run(paths)).account
+    assert account.problems == ()
+    assert [event.number for event in account.events] == [1, 2, 3, 1, 2, 3]
+
+
+KINDS = [
+    (b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n", "a pointer of Git LFS and not"),
+    (b"#ROSBAG V2.0\n" + bytes(100), "a bag of ROS 1: rosbags-convert --src FILE --dst FOLDER"),
+]
+
+
+@pytest.mark.parametrize(("content", "kind"), KINDS)
+@pytest.mark.parametrize("suffix", ["mcap", "db3", "bag", "mcap.zstd"])
+def test_files_of_other_kinds_are_named(content, kind, suffix, tmp_path):
+    path = tmp_path / f"run.{suffix}"
+    path.write_bytes(content)
+    with pytest.raises(LogError, match=f"cannot open {path}: {kind}"):
+        open_run([path])
+
+
+def test_without_numbers_in_diagnostics_nothing_is_known_after_a_loss(log, tmp_path):
+    """A log of before says so; a later event with the next number proves that none was lost."""
+    old = log
+    for place in log.places("/diagnostics"):
+        old = old.change(
+            place, lambda data: data.replace(b"\x06\0\0\0event\0", b"\x06\0\0\0evens\0")
+        )
+    path = old.write(tmp_path / "run.mcap")
+    zero_chunk(path, 1_600_000_000)
+    _, account = account_of(path)
+    (line,) = (text for text in account.problems if "is not known" in text)
+    assert line.startswith("from 1490000001 ns on the motion is not known: nothing that follows")
+    assert line.endswith("the diagnostics of this log do not number the events")
+    (stretch,) = account.unknown
+    assert (stretch.begin, stretch.end) == (1_490_000_001, 2_500_000_001)
+    path = old.write(tmp_path / "early.mcap")
+    zero_chunk(path, 700_000_000)
+    assert account_of(path)[1].unknown == ()
+
+
+def test_diagnostics_after_a_loss_prove_that_no_event_was_lost(log, tmp_path):
+    path = log.write(tmp_path / "run.mcap")
+    zero_chunk(path, 1_600_000_000)
+    _, account = account_of(path)
+    assert account.unknown == ()
+    assert [each.event.number for each in account.stretches] == [1, 2]
+    assert account.stretches[-1].end == account.end + 1 == 2_500_000_001
+    assert 0 <= account.stretches[0].begin < account.stretches[0].end == 1_210_000_000
+    assert account.topics["orientation"].rate == 100.0

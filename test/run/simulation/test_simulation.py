@@ -1,0 +1,267 @@
+"""The simulation without ROS: samples, events, jumps of the clock, torques and failures."""
+
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
+
+import pytest
+from run.simulation.runs import SECOND, Run
+from waiting import until
+
+from symtop_ros.run.simulation import events
+from symtop_ros.run.simulation.budget import SHARE
+from symtop_ros.run.simulation.changes.outcomes import Failure
+from symtop_ros.run.simulation.simulation import MAX_BLOCK
+from symtop_ros.run.simulation.topics import STATE_TOPICS
+
+MS = SECOND // 1000
+
+
+def test_the_tick_after_the_last_sample_waits_for_a_change_of_the_clock():
+    run = Run()
+    run.tick()
+    assert run.simulation.tick() is None
+    run.clock.is_simulated = False
+    assert run.simulation.tick() == pytest.approx(0.005)  # the period, exact in ns
+
+
+def test_a_tick_computes_one_topic_of_the_samples_to_come_at_most():
+    run = Run(publish_rate=1000.0)
+    computed = []
+    run.sink.encode = lambda name, stamps, _: computed.append(name) or [b""] * len(stamps)
+    run.sink.send_sample = lambda stamp, block: [block.message(n, stamp) for n in STATE_TOPICS]
+    run.advance(0.1, step=0.001)
+    counts = []
+    for _ in range(10 * MAX_BLOCK):
+        computed.clear()
+        run.advance(0.001, step=0.001)
+        counts.append(len(computed))
+    assert max(counts) == 1
+    assert sum(counts) == 10 * len(STATE_TOPICS)
+
+
+def test_after_a_kick_the_next_sample_is_ready_when_it_is_due():
+    run = Run("hurry_slow", publish_rate=1000.0, seconds=0.02)
+    computed = []
+    run.sink.encode = lambda name, stamps, _: computed.append(name) or [b""] * len(stamps)
+    run.sink.send_sample = lambda stamp, block: [block.message(n, stamp) for n in STATE_TOPICS]
+    run.advance(0.003, step=0.001)
+    assert run.ask("hurry_precession")[0]
+    computed.clear()
+    run.clock.now += MS
+    assert run.simulation.publish()
+    assert computed == []
+
+
+def test_a_sample_that_is_due_does_not_wait_for_the_rest_of_an_event(monkeypatch):
+    run = Run("hurry_slow", publish_rate=1000.0, seconds=0.02)
+    write_fields = events.write_fields
+    write = events.write
+    sent = []
+
+    def take_a_period(*given):
+        run.clock.now += MS
+        return write_fields(*given)
+
+    def count(*given):
+        sent.append(len(run.sink.samples))
+        return write(*given)
+
+    monkeypatch.setattr(events, "write_fields", take_a_period)
+    monkeypatch.setattr(events, "write", count)
+    before = len(run.sink.samples)
+    assert run.ask("hurry_precession")[0]
+    assert sent == [before + 1]
+    run.assert_recomputed()
+    assert run.sink.order[-2:] == ["kick", "sample"]  # as a log has them
+
+
+def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
+    run = Run(seconds=0.5)
+    before = run.simulation.state
+    run.jump(90 * SECOND)
+    run.tick()
+    assert run.sink.events[-1].name == "clock"
+    stamp, numbers = run.sink.samples[-1]
+    w, x, y, z = before.orientation.tolist()
+    assert (stamp, numbers) == (90 * SECOND, [x, y, z, w])
+    run.clock.now = 10 * SECOND  # backwards, without a notification
+    run.tick()
+    assert [event.name for event in run.sink.events].count("clock") == 2
+    assert run.sink.samples[-1][0] == 10 * SECOND
+
+
+def test_a_request_between_a_jump_and_the_next_tick_belongs_to_the_time_after_the_jump():
+    run = Run("hurry_slow", seconds=0.5)
+    state = run.simulation.state
+    run.jump(90 * SECOND)
+    assert run.ask("hurry_precession")[0]
+    assert [event.name for event in run.sink.events] == ["start", "clock", "kick"]
+    kick = run.sink.events[-1]
+    assert kick.stamp == 90 * SECOND
+    before = kick.values["before.orientation"].split()
+    assert [float(each) for each in before] == state.orientation.tolist()
+    assert run.simulation.ticker.missed == 0
+    run.assert_recomputed()
+
+
+@pytest.mark.parametrize(("used", "factor"), [(0.45, 1.0), (0.55, 0.25)])
+def test_the_pace_returns_if_half_of_the_share_is_left(used, factor):
+    run = Run()
+    simulation = run.simulation
+    simulation.apply(simulation.timeline.set_pace(simulation.stamp, 1.0, 0.25))
+    simulation.budget.spent = 8.0
+    simulation.speed_up()  # later, it counts what was spent since then
+    simulation.budget.spent += used * SHARE
+    simulation.speed_up()
+    assert simulation.factor == factor
+
+
+def test_while_the_clock_jumps_no_sample_gets_a_stamp_of_the_new_time():
+    run = Run(seconds=0.5)
+    count = len(run.sink.samples)
+    run.simulation.begin_jump()
+    ticks = threading.Thread(target=run.tick)
+    ticks.start()
+    run.clock.now = 90 * SECOND
+    ticks.join(0.05)
+    assert ticks.is_alive()
+    assert len(run.sink.samples) == count
+    run.simulation.end_jump(True)
+    ticks.join()
+    assert run.sink.events[-1].name == "clock"
+    assert run.simulation.ticker.missed == 0
+    run.assert_recomputed()
+
+
+def test_a_request_waits_for_one_sample_however_many_are_late():
+    run = Run(publish_rate=1000.0, seconds=0.1)
+    sent = len(run.stamps)
+    send = run.sink.send_sample
+    asking = threading.Thread(target=run.ask, args=("pause", True))
+
+    def send_and_ask(stamp, block):
+        send(stamp, block)
+        if not asking.ident:
+            asking.start()
+            until(lambda: run.simulation._waiting)
+
+    run.sink.send_sample = send_and_ask
+    run.clock.now += 12 * SECOND // 1000  # they are in one block
+    run.simulation.tick()
+    asking.join()
+    assert run.stamps.index(run.sink.events[-1].stamp) == sent + 1
+    run.tick()
+    assert len(run.stamps) == sent + 12
+
+
+def test_late_ticks_are_dropped_and_reported_once_and_then_each_minute():
+    run = Run(publish_rate=1000.0)
+    run.clock.is_simulated = False
+    run.tick()
+    for _ in range(3):
+        run.clock.now += 300 * MS
+        run.tick()
+    assert run.simulation.ticker.missed == 3 * 199  # 100 samples of 300 are caught up
+    (first,) = run.sink.warnings
+    assert "0.199 s (199 missed)" in first
+    for _ in range(2 * 60):
+        run.clock.now += 1000 * MS
+        run.tick()
+    assert len(run.sink.warnings) == 3
+    missed = 2 * 199 + 60 * 899  # 100 samples of 1000 are caught up
+    assert f"{missed / 1000:.3g} s ({missed} missed)" in run.sink.warnings[1]
+
+
+@pytest.mark.parametrize(("rate", "caught_up"), [(1000.0, 100), (200.0, 100), (100.0, 50)])
+def test_as_many_samples_are_caught_up_as_are_kept_and_half_a_second_at_most(rate, caught_up):
+    run = Run(publish_rate=rate)
+    run.clock.is_simulated = False
+    run.tick()
+    run.clock.now += 1000 * MS
+    run.tick()
+    assert run.simulation.ticker.missed == rate - 1 - caught_up
+
+
+@pytest.mark.parametrize(
+    ("forward", "why"),
+    [(0, "the process was stopped, "), (700 * MS, "the clock of the system was ")],
+)
+def test_a_gap_is_explained_by_a_clock_that_was_set(forward, why):
+    run = Run(publish_rate=200.0)
+    run.clock.is_simulated = False
+    run.tick()
+    run.clock.now += 1000 * MS
+    run.clock.set_forward += forward
+    run.tick()
+    (text,) = run.sink.warnings
+    assert f": {why}" in text
+    assert ("set forward by 0.7 s; " in text) == bool(forward)
+
+
+def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_second():
+    run = Run(publish_rate=1000.0)
+    run.clock.is_simulated = False
+    run.tick()
+    for _ in range(99):
+        run.clock.now += 102 * MS
+        run.tick()
+    assert run.simulation.ticker.missed == 99
+    assert run.sink.warnings == []
+    run.clock.now += 102 * MS
+    run.tick()
+    assert "0.1 s (100 missed)" in run.sink.warnings[0]
+
+
+@pytest.mark.parametrize("times", [1, 8])
+def test_a_torque_acts_until_its_time_out_and_when_repeated_on_without_further_events(times):
+    run = Run(seconds=0.1)
+    for _ in range(times):
+        run.push((0.0, 0.0, 2e-4))
+        run.advance(0.05)
+    run.advance(0.2)
+    begin, end = [event for event in run.sink.events if event.name == "torque"]
+    torques = [event.values["applied_torque"] for event in (begin, end)]
+    assert torques == ["0.0 0.0 0.0002", "0.0 0.0 0.0"]
+    assert end.stamp - begin.stamp == ((times - 1) * 50 + 100) * MS
+    run.assert_recomputed()
+
+
+def fail():
+    raise ZeroDivisionError("by\na bug")
+
+
+def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running():
+    run = Run()
+    failure = Failure("a test", "ZeroDivisionError", "by a bug")
+    for _ in range(2):
+        assert run.simulation.take_turn("a test", fail) == failure
+    assert run.sink.errors == [str(failure)]
+    assert [event.name for event in run.sink.events] == ["start", "failure"]
+    assert run.simulation.take_turn("a test", lambda: 7) == 7
+    assert run.simulation.take_turn("a test", fail) == failure
+    assert len(run.sink.errors) == 2  # it had succeeded in between
+    run.advance(0.1)
+    run.assert_recomputed()
+
+
+def test_an_exception_during_shutdown_is_raised():
+    run = Run()
+    run.sink.is_open = False
+    with pytest.raises(ZeroDivisionError):
+        run.simulation.take_turn("a test", fail)
+
+
+def test_requests_of_many_threads_are_carried_out_one_at_a_time():
+    run = Run(seconds=0.1)
+
+    def kick(_):
+        return run.ask("kick", {"precession_rate_change": 0.01})[0]
+
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(kick, range(60)))
+    kicks = [event for event in run.sink.events if event.name == "kick"]
+    assert len(kicks) == 60
+    for before, after in pairwise(kicks):
+        assert after.values["before.orientation"] == before.values["after.orientation"]
+    run.assert_recomputed()

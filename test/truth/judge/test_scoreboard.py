@@ -1,0 +1,87 @@
+"""All trajectories of the test set scored together."""
+
+import json
+from unittest.mock import Mock
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from truth.testset.trajectories import NAMES, write
+
+from symtop_ros.truth.judge.main import main
+from symtop_ros.truth.judge.scoreboard import Entry
+from symtop_ros.truth.testset.score import find_problem, read_problems
+
+PROBLEMS = ("cusps", "plane_pendulum")
+
+
+def write_entry(folder, problem, name, error):
+    """Write the exact states, turned about the x axis of the body by an angle in rad."""
+    facts = find_problem(read_problems(), problem).facts
+    q = np.array(facts["orientations"], dtype=float)[:, [1, 2, 3, 0]]
+    turned = (Rotation.from_quat(q) * Rotation.from_rotvec([error, 0, 0])).as_quat()
+    table = np.column_stack((facts["times"], turned[:, [3, 0, 1, 2]]))
+    (folder / problem).mkdir(exist_ok=True)
+    (folder / problem / f"{name}.csv").write_text(write(table, NAMES[:5]))
+
+
+def test_an_entry_that_tries_more_and_solves_nothing_more_is_not_ranked_first(tmp_path, capsys):
+    # solved: 2 of 2 tried, 1 of 3 tried with the rest off by 2 rad, 1 of 1 tried
+    errors = {
+        "careful": {"cusps": 1e-3, "rising": 1e-3},
+        "bold": {"cusps": 1e-10, "rising": 2.0, "looping": 2.0},
+        "shy": {"cusps": 1e-9},
+    }
+    for name, of in errors.items():
+        for problem, error in of.items():
+            write_entry(tmp_path, problem, name, error)
+    assert main(["--testset", "all", str(tmp_path), "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["ranking"]["2"]
+    found = [(row["entry"], row["solved"], row["tried"], row["of"]) for row in rows]
+    assert found == [("careful", 2, 2, 10), ("bold", 1, 3, 10), ("shy", 1, 1, 10)]
+
+
+STEPS = {"rk4-1e-3": ("rk4", 0.001), "euler-2-1": ("euler-2", 1.0), "rk4": None, "rk4-0": None}
+
+
+@pytest.mark.parametrize(("name", "step"), STEPS.items())
+def test_the_step_of_an_entry_is_the_number_at_its_end(name, step):
+    assert Entry(name, Mock()).step == step
+
+
+def test_the_same_is_given_as_json(tmp_path, capsys):
+    for problem in PROBLEMS:
+        for step in ("0.1", "0.01", "1e-3"):
+            write_entry(tmp_path, problem, f"rk4-{step}", 0.5 * float(step) ** 4)
+    write_entry(tmp_path, "cusps", "euler-0.01", 3.0)
+    (tmp_path / "cusps" / "states.csv").write_text("no entry")
+    assert main(["--testset", "all", str(tmp_path), "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert len(facts["scores"]) == 7
+    scores = {(each["problem"], each["entry"]): each for each in facts["scores"]}
+    score = scores["plane_pendulum", "rk4-0.01"]
+    # 2e-15: the quaternions of the file are doubles
+    assert np.array(score["errors"]) == pytest.approx(5e-9, abs=2e-15)
+    assert [each["order"] for each in facts["orders"]] == pytest.approx([4.0, 4.0], abs=1e-3)
+    assert facts["ranking"]["1"][0]["entry"] == "rk4-1e-3"
+
+
+def test_descriptions_of_one_body_are_compared_and_are_no_further_problems(tmp_path, capsys):
+    for description, error in (("", 0.02), (".turned", 0.02), (".nested", 3.0)):
+        write_entry(tmp_path, f"cusps{description}", "engine", error)
+    write_entry(tmp_path, "cusps", "other", 1e-9)
+    write_entry(tmp_path, "cusps.offset", "other", 1.2e-9)
+    assert main(["--testset", "all", str(tmp_path)]) == 0
+    text = capsys.readouterr().out
+    assert "descriptions of cusps differ in engine: plain 0.02, turned 0.02, nested 3 rad" in text
+    assert "differ in other" not in text
+    assert "2. engine: solved 0 of 10, tried 1," in text
+    assert main(["--testset", "all", str(tmp_path), "--json"]) == 0
+    (difference,) = json.loads(capsys.readouterr().out)["differences"]
+    assert difference["errors"] == pytest.approx({"plain": 0.02, "turned": 0.02, "nested": 3.0})
+
+
+def test_a_folder_without_trajectories_is_refused_in_one_line(tmp_path, capsys):
+    assert main(["--testset", "all", str(tmp_path)]) == 1
+    reason = "must have trajectories PROBLEM/NAME.csv, got none"
+    assert capsys.readouterr().err == f"top_judge: {tmp_path} {reason}\n"
