@@ -13,8 +13,8 @@ DOMAIN = claim_domain()
 LONG = "x" * 100_000
 BYTES = "\udcff\udcfe"  # what Python makes of bytes that are no text
 TEXTS = {"CONTROL": CONTROL, "LONG": LONG, "BYTES": BYTES, "NUL": "\0", "NINES": "9" * 5000}
-FOLDERS = {"ctl": "client", "live": "live", "panel": "panel", "replay": "playback"}
-FOLDERS |= {"model": "models", "judge": "judge", "imu": "imu"}
+FOLDERS = {"ctl": "ros.client", "live": "ros.live", "panel": "page.panel", "replay": "replay"}
+FOLDERS |= {"model": "run.models", "judge": "truth.judge", "imu": "truth.imu"}
 MAINS = {
     f"top_{name}": import_module(f"symtop_ros.{folder}.main").main
     for name, folder in FOLDERS.items()

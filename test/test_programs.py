@@ -7,7 +7,8 @@ import pytest
 from documents import ROOT
 from programs import run_python, write_without
 
-from symtop_ros import __version__, missing, programs
+from symtop_ros import __version__, programs
+from symtop_ros.base import missing
 from symtop_ros.physics import kernel_version
 from symtop_ros.ros.node.host import VARIABLES
 

@@ -1,4 +1,4 @@
-"""Write problems.json.xz of symtop_ros/testset: seventy motions to 30 digits.
+"""Write problems.json.xz of truth/testset: seventy motions to 30 digits.
 
 Each state is computed by the closed form in 80 digits, and again by a Taylor series in as many
 that shares no formula with it; a difference in the 33rd digit ends the program. What follows from

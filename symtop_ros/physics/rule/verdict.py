@@ -68,8 +68,9 @@ class Verdict:
     >>> print(verdict)  # doctest: +NORMALIZE_WHITESPACE
     The top rises: theta will stay between 0.439 and 0.500 rad. Perry's rule holds: hurried from
     9.00 to 12.60 rad/s, theta'' would be -110 instead of -48 rad/s^2 (9.00 rad/s lies between
-    the regular rates 6.50 and 69.82 rad/s at this spin rate). On average phi' is 6.42 rad/s, 0.157
-    turns per nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s).
+    the regular rates 6.50 and 69.82 rad/s at this spin rate). On average phi' is 6.42 rad/s (one
+    turn in 0.979 s), 0.157 turns per nutation (slow precession of a fast top: Mgl/p_psi = 5.72
+    rad/s).
     """
 
     subject: Subject

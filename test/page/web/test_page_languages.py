@@ -14,7 +14,7 @@ PHONE = (360, 640)
 
 def test_every_language_is_complete_and_the_command_names_each_fault(capsys):
     assert check_languages(["it"]) == 1
-    missing = ["it: wording/it.json: is missing", "it: texts/it.json: is missing"]
+    missing = ["it: words/it.json: is missing", "it: texts/it.json: is missing"]
     assert capsys.readouterr().out.splitlines() == missing
     assert check_languages(LANGUAGES) == 0
     assert capsys.readouterr().out == "complete\n"
