@@ -76,7 +76,8 @@ class Exchange:
 
 
 def _list_shares(ledger: "Ledger") -> Iterator[Share]:
-    sizes, (*_, spin) = ledger.sizes, PARTS
+    sizes = ledger.sizes
+    *_, spin = PARTS
     least = ROUNDING * (sizes.weight + sizes.precession + sizes.nutation)
     for part in PARTS:
         gain = getattr(ledger.gained, part)

@@ -171,7 +171,8 @@ class Ledger:
         require(begin <= end, "end", f"at least begin = {begin:g} s", end)
         top, first, last = motion.top, motion.at(begin), motion.at(end)
         gained = _subtract_energies(top, first, last)
-        pieces, impulse = _list_pieces(motion, begin, end), getattr(motion.pushes, "impulse", 0.0)
+        pieces = _list_pieces(motion, begin, end)
+        impulse = getattr(motion.pushes, "impulse", 0.0)
         pushes = sum(starmap(partial(_push, impulse), pairwise(pieces)), NOTHING)
         clamp = _hold(top, first, last) if motion.clamped else NOTHING
         found = _integrate_pieces(pieces, begin, end) if motion.is_driven else _Integrals()
@@ -306,7 +307,8 @@ def _split_rates(state: State) -> tuple[float, float]:
 
 def _list_pieces(motion: Motion, begin: float, end: float) -> list[Piece]:
     """Return what moves in a stretch between its pushes, without which there is one piece."""
-    first, pieces = motion.piece_at(begin), [motion.piece_at(end)]
+    first = motion.piece_at(begin)
+    pieces = [motion.piece_at(end)]
     while pieces[-1].number > first.number:
         pieces.append(motion.piece_at(ExactTimes(pieces[-1].begin - 1)))
     return pieces[::-1]
@@ -314,7 +316,8 @@ def _list_pieces(motion: Motion, begin: float, end: float) -> list[Piece]:
 
 def _push(impulse: float, former: Piece, piece: Piece) -> Contribution:
     """Return what the push between two pieces gives: its work is J times the mean velocity."""
-    top, after = piece.motion.top, piece.motion.start
+    top = piece.motion.top
+    after = piece.motion.start
     before = former.motion.at(ExactTimes(piece.begin - former.begin))
     (along, _), (along_after, _) = map(_split_rates, (before, after))
     sine, cosine = _halve_tilt(after)
@@ -325,7 +328,8 @@ def _push(impulse: float, former: Piece, piece: Piece) -> Contribution:
 
 def _hold(top: Top, first: State, last: State) -> Contribution:
     """Return what a hand that holds phi gives: p_phi is p_psi cos(theta), and L turns with it."""
-    p_psi, axle = float(top.axial_momentum(first)), (0.0, 0.0, 1.0)
+    p_psi = float(top.axial_momentum(first))
+    axle = (0.0, 0.0, 1.0)
     turned = p_psi * (last.to_world(axle) - first.to_world(axle))
     return Contribution(0.0, p_psi * _subtract_heights(first, last), 0.0, turned)
 
@@ -341,7 +345,8 @@ class _Integrals:
     def add(self, motion: Motion, begin: float, end: float) -> "_Integrals":
         """Return these with those over a part of a motion."""
         half = (end - begin) / 2
-        states, scale = motion.at(begin + half * (1 + POINTS)), half * WEIGHTS
+        states = motion.at(begin + half * (1 + POINTS))
+        scale = half * WEIGHTS
         applied = np.broadcast_to(np.array(motion.applied_torque), (len(POINTS), 3))
         resisting = states.to_world(motion.friction.torque(states))
         return _Integrals(
@@ -373,7 +378,8 @@ def _integrate_pieces(pieces: list[Piece], begin: float, end: float) -> _Integra
 def _list_parts(motion: Motion, begin: float, end: float) -> Iterator[tuple[float, float]]:
     """Yield parts in which the integrands turn by PART radians."""
     while begin < end:
-        longest, left = PART / find_fastest_rate(motion, begin), end - begin
+        longest = PART / find_fastest_rate(motion, begin)
+        left = end - begin
         if left > MOST_PARTS * longest:
             wanted = f"at most {MOST_PARTS * longest:.3g} s after begin"
             raise refuse("end", wanted, Words(f"{left:g} s"))
@@ -390,7 +396,8 @@ def _find_turn(motion: Motion, t: float, half: float) -> float:
     quarter of a nutation before.
     """
     late = max(t, t - half / 2, key=lambda time: abs(_find_rise(motion, time)))
-    early, is_rising = late - half, _find_rise(motion, late) > 0
+    early = late - half
+    is_rising = _find_rise(motion, late) > 0
     for _ in range(HALVINGS):
         middle = (early + late) / 2
         if (_find_rise(motion, middle) > 0) == is_rising:

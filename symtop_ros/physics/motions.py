@@ -116,7 +116,8 @@ class Motions:
             return self._find_member(int(numbers))
         moments, q, omega, friction, torque, _ = np.split(self._starts[numbers], STARTS, axis=-1)
         start = State.of_given(np.array(q), np.array(omega))
-        top, drag = Top(*np.moveaxis(moments, -1, 0)), Friction(*np.moveaxis(friction, -1, 0))
+        top = Top(*np.moveaxis(moments, -1, 0))
+        drag = Friction(*np.moveaxis(friction, -1, 0))
         return Motions(top, start, drag, torque)
 
     def __iter__(self) -> Iterator["Motion | Motions"]:

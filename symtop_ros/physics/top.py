@@ -40,7 +40,8 @@ class _Numbers:
         """Return the same numbers in the shape of states at times of motions of a shape."""
         if not self.shape:
             return self
-        found, times = object.__new__(type(self)), (1,) * (len(states) - len(motions))
+        found = object.__new__(type(self))
+        times = (1,) * (len(states) - len(motions))
         for name, value in zip(self.__slots__, self._given, strict=True):
             column = np.broadcast_to(value, motions).reshape(*motions, *times)
             object.__setattr__(found, name, np.broadcast_to(column, states))

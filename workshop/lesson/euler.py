@@ -53,7 +53,8 @@ class Count:
 
 def fall(top: Top, start: Tilted, dt: float) -> tuple[int, float]:
     """Return the steps of dt in s until theta' is no longer positive, and theta there."""
-    steps, now = 1, start.step(top, dt)
+    steps = 1
+    now = start.step(top, dt)
     while now.theta_dot > 0:
         steps, now = steps + 1, now.step(top, dt)
     return steps, now.theta
@@ -66,7 +67,8 @@ def count_steps(top: Top, start: Tilted, depth: float, most: int) -> Iterator[Co
     a unit of it.
     """
     tried = _list_steps()
-    dt, (steps, theta) = 0.0, (0, math.inf)
+    dt = 0.0
+    steps, theta = 0, math.inf
     for digits in range(1, most + 1):
         while abs(theta - depth) >= 0.5 * 10.0**-digits:
             dt = next(tried)

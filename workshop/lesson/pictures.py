@@ -42,13 +42,15 @@ SPAN = 0.8  # s of the plots
 LOOKS = ((BLUE, "-"), (RED, "--"), (GOLD, "-."), (INK, ":"))
 NOT_KICKED = "not kicked"
 HELD = {"spin_rate": r"$\dot\psi$", "spin_momentum": r"$p_\psi$"}
-CHAIN, SHORTEST = (GREY, BLUE, RED, INK), 0.01  # colours as over phi'; of the largest torque
+CHAIN = (GREY, BLUE, RED, INK)  # colours as over phi'
+SHORTEST = 0.01  # of the largest torque
 Runs = dict[str, KickedMotion]
 
 
 def run_step(step: LessonStep) -> Runs:
     """Return the runs of a step by their labels."""
-    settings, runs = Settings.from_scene(step.scene), Runs()
+    settings = Settings.from_scene(step.scene)
+    runs = Runs()
     for act in step.acts:
         if act.start is None:
             _, run = runs.popitem()
@@ -78,7 +80,8 @@ def _kick(run: KickedMotion, act: LessonAct) -> KickedMotion:
         return run.clamp(KICK)
     if not act.push:
         return run.kick(KICK, partial(hurry, factor=act.hurry or 1.0, hold=act.hold))
-    top, impulse = run.pieces[0][1].top, act.push["axle_impulse"]
+    top = run.pieces[0][1].top
+    impulse = act.push["axle_impulse"]
     for place in range(int(act.push["number"])):
         time = KICK + place / act.push["rate"]
         run = run.kick(time, lambda state: push_axle(top, state, impulse))
@@ -202,7 +205,8 @@ def draw_momentum(axes: Axes, runs: Runs) -> None:
     """Draw the components of L in the world frame, and the one along the axis."""
     times = np.linspace(0.0, SPAN, 1601)
     (run,) = runs.values()
-    top, states = run.pieces[0][1].top, run.at(times)
+    top = run.pieces[0][1].top
+    states = run.at(times)
     L = 1e3 * top.angular_momentum(states)
     curves = {
         "$L_{x'}$": (L[:, 0], RED, "--"),
@@ -248,7 +252,8 @@ def draw_turning(axes: Axes, runs: Runs) -> None:
     """Draw L and the axis in their vertical plane, which the torque turns; theta'' in an inset."""
     (motion,) = _list_first(runs)
     L = 1e3 * motion.top.angular_momentum(motion.start)
-    flat, rate = float(np.hypot(L[0], L[1])), float(motion.start.euler_rates.phi)
+    flat = float(np.hypot(L[0], L[1]))
+    rate = float(motion.start.euler_rates.phi)
     torque = 1e3 * float(np.linalg.norm(motion.top.gravity_torque(motion.start)))
     reach = 20.0 * np.array([np.sin(THETA), np.cos(THETA)])
     axes.plot(*zip((0, 0), reach, strict=True), color=BLUE, ls="--", label="axis")

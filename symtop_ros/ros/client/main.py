@@ -182,7 +182,8 @@ def _push_tilt(change: float) -> Callable[[Connection], Response]:
 
     def push(top: Connection) -> Response:
         state = json.loads(top.request("get_state")[1])
-        phi, size = state["euler_angles"]["phi"], state["top"]["Ix"] * change
+        phi = state["euler_angles"]["phi"]
+        size = state["top"]["Ix"] * change
         return top.request(
             "kick", {"angular_impulse": [size * math.cos(phi), size * math.sin(phi), 0.0]}
         )

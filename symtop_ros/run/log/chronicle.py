@@ -37,7 +37,8 @@ def order_events(found: Sequence[Placed], begins: Sequence[int]) -> Ordered:
     runs: list[dict[object, Placed]] = []
     repeated: list[Placed] = []
     contradicting: list[Event] = []
-    doubled, newest = 0, -1  # the file in which the latest new event was found
+    doubled = 0
+    newest = -1  # the file in which the latest new event was found
     for place, event in found:
         file = bisect_right(begins, place)
         if not runs or _begins_run(event, runs[-1]):

@@ -153,7 +153,8 @@ def find_deviations(columns: Real, remainder: Remainder) -> Real:
     The parameters make what is left smaller than the errors, and the variance is itself uncertain:
     both are made good for, the latter as by Student's distribution.
     """
-    left, count = remainder.frames[0], columns.shape[2]
+    left = remainder.frames[0]
+    count = columns.shape[2]
     sizes = np.sqrt((columns**2).sum(axis=(0, 1))) + np.finfo(float).tiny
     columns = columns / sizes
     inverse = np.linalg.pinv(np.einsum("tij,tik->jk", columns, columns), hermitian=True)
