@@ -143,7 +143,7 @@ def main() -> int:
         share = 100 * (1 - missed / max(len(code), 1))
         print(f"{name + '.js':22} {len(code):4} lines {share:6.1f} %")
     share = 100 * total[0] / total[1]
-    print(f"{'all':22} {total[1]:4} lines {share:6.1f} %, at least {LEAST:g} % are asked")
+    print(f"{'all':22} {total[1]:4} lines {share:6.1f} %, {LEAST:g} % required")
     return int(share < LEAST)
 
 

@@ -59,7 +59,9 @@ def make_parser() -> argparse.ArgumentParser:
         metavar="OUT",
         help="write a Rerun recording (OUT.rrd) or a page for any browser (OUT.html)",
     )
-    ways.add_argument("--web", action="store_true", help="serve it to a browser on this machine")
+    ways.add_argument(
+        "--web", action="store_true", help="serve the replay to a browser on this machine"
+    )
     ways.add_argument(
         "--check", action="store_true", help="compute the run again from its events and compare"
     )

@@ -58,7 +58,8 @@ class Session:
         self._requests = Requests(self.simulation, self.recording.switch)
         if settings.record.enabled:
             self.recording.begin()
-        host.inform(f"scene {scene}: {verdict}")
+        kind, _, sentence = verdict.partition(": ")
+        host.inform(f"scene {scene} (motion: {kind}). {sentence}")
 
     def answer(self, service: str, read: Callable[[], Any]) -> Response:
         """Carry out a request; `read` returns its argument, or raises RefusedError."""

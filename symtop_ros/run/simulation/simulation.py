@@ -257,7 +257,7 @@ class Simulation:
         step = (self.now - before - (self._clock.steady - steady)) / NANOSECONDS
         if step > GAP and not self._clock.is_simulated:
             return f"the clock of the system was set forward by {step:.3g} s"
-        return "the process was stopped, has too little CPU time or waited for its middleware"
+        return "the process was stopped, lacked CPU time or waited for its middleware"
 
     # The compute budget of driven motions
 

@@ -17,7 +17,7 @@ from symtop_ros.truth.imu.files import write_folder, write_log, write_table
 from symtop_ros.truth.imu.record import ImuRecord, record_imu
 
 MAX_BYTES = 65_536  # of a file with noise
-DESCRIPTION = """Writes what an inertial sensor on the top measures, next to the exact truth: a log
+DESCRIPTION = """Write what an inertial sensor on the top measures, next to the exact truth: a log
 (FILE.mcap), a table (FILE.csv, with the event of the run in FILE.json), or a folder with the CSV
 files of EuRoC and poses as TUM has them. Stamps begin at 0."""
 
@@ -117,7 +117,8 @@ def make_parser() -> argparse.ArgumentParser:
         nargs=4,
         default=(),
         metavar=("X", "Y", "Z", "W"),
-        help="quaternion, sensor to body; default: along the body",
+        help="quaternion, sensor to body, W last (links of the page and tables have w first); "
+        "default: along the body",
     )
     parser.add_argument(
         "--magnetic-field",

@@ -75,7 +75,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--attitude-of",
         choices=ATTITUDES,
-        help="what the estimates turn; default: the sensor for Imu messages, else the body",
+        help="whose attitude the estimates describe; default: the sensor for Imu messages, else the body",
     )
     parser.add_argument("--scene", help="a scene that starts at the stamp 0, in place of LOG")
     parser.add_argument("--node", help="full name of the top if there are several")
@@ -97,13 +97,13 @@ def make_parser() -> argparse.ArgumentParser:
         "--aligned",
         choices=MODELS,
         metavar="MODEL",
-        help="align by a stated model without looking for other causes: none, heading, world or "
+        help="align with the given model without looking for other causes: none, heading, world or "
         "world-and-body, and with +delay, +clock or +delay+clock the error of the stamps",
     )
     parser.add_argument(
         "--clock",
         metavar="TOPIC|FILE",
-        help="print how late the stamps of these estimates are, how fast that grows, and their "
+        help="print how late the stamps of these estimates are, how fast the delay grows, and their "
         "jitter; --aligned names the rotations that are fitted with it (default none)",
     )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
