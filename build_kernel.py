@@ -1,4 +1,4 @@
-"""Builds the kernel as a plain shared library, and asks for a compiler where there is none.
+"""Builds the kernel as a plain shared library, and asks for a compiler if there is no compiler.
 
 `setup.py` compiles by this file, and pip reads it as the backend of the build (PEP 517): it adds
 Zig, a C++ compiler on PyPI, to what a wheel needs if no other was found. The library is reached by
@@ -111,7 +111,7 @@ class BuildKernel(build_ext):
         if not compiler:
             raise CompileError(NO_COMPILER)
         target.parent.mkdir(parents=True, exist_ok=True)
-        # Beside it: a library that is in use stays whole, and other results of a compiler go.
+        # Next to it: a library that is in use stays whole, and other results of a compiler go.
         with TemporaryDirectory(dir=target.parent) as folder:
             part = Path(folder, target.name)
             # From this folder, so that no path of this machine gets into the library.

@@ -110,7 +110,7 @@ LINT = [
     "colcon-bash>=0.5",
 ]
 
-# `colcon build --symlink-install` runs this file by a link: the other one is beside the real one.
+# `colcon build --symlink-install` runs this file by a link: the other one is next to the real one.
 sys.path.insert(0, str(README.parent))
 from build_kernel import BuildKernel  # noqa: E402
 

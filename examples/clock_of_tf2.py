@@ -1,4 +1,4 @@
-"""What `top_judge --clock` shows of look-ups in tf2, by the rate at which `/tf` is published.
+"""Print what `top_judge --clock` says of look-ups in tf2, by the rate at which `/tf` is published.
 
 A look-up between two transforms follows the rule of tf2::BufferCore: a slerp of the transform
 before the time and the one after it. That of the latest transform takes the one before.

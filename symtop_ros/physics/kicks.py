@@ -169,7 +169,7 @@ def _stack_moments(top: Top) -> Real:
 def _kick(tops: Real, state: State, kind: KickKind, hold: Hold, amounts: Any, name: str) -> State:
     """Return states after kicks of one kind; tops, states and amounts are broadcast together.
 
-    A kick leaves the attitude as it is, with the digits that were given.
+    A kick leaves the attitude unchanged, with the digits that were given.
     """
     given = np.asarray(amounts, np.float64)
     axes = given.ndim - (kind == "impulse")

@@ -1,4 +1,4 @@
-"""What a stretch of a motion exchanges: energy, p_phi, p_psi, angular momentum, and who gives it.
+"""The exchange in a stretch of a motion: energy, p_phi, p_psi, angular momentum, and who gives it.
 
 Changes are products. A height is the square of sin(theta/2) or cos(theta/2), and the change of a
 square is the difference times the sum: of two angles that are nearly equal, or next to the

@@ -267,7 +267,7 @@ class Motions:
         Parameters
         ----------
         states : State
-            What `at` or `at_each` returns.
+            States that `at` or `at_each` has returned.
 
         Examples
         --------

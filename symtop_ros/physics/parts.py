@@ -6,7 +6,7 @@ from symtop_ros.base.refusals import choice, flag, require
 from symtop_ros.physics.kernel.records import PART_KINDS, PartKind
 from symtop_ros.physics.values import validate_number, validate_positive
 
-# What the size of each kind is; a point has none.
+# Meaning of the size of each kind; a point has no size.
 SIZES = {"rod": "length", "hoop": "radius", "disc": "radius", "ball": "radius"}
 WITHOUT_SPIN = ("point", "rod")  # which have no moment about the axle
 

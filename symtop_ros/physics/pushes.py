@@ -79,7 +79,7 @@ class Pushes:
 
 
 class Piece(NamedTuple):
-    """What moves between two pushes."""
+    """The motion between two pushes."""
 
     motion: "Motion"  # from the state that the last push left
     begin: int  # ns of the whole motion at that push

@@ -78,7 +78,7 @@ def find_piece(motion: KernelMotion, t: ExactTimes) -> PieceRecord:
 
 
 def reach(motion: KernelMotion, t: float, steps: float) -> float:
-    """Integrate towards a time in a limited number of steps, or to where it cannot go on."""
+    """Integrate towards a time in a limited number of steps, or as far as it can."""
     while True:
         reached, status = motion.reach(t, min(steps, STEPS))
         if status not in (MORE_STEPS, TOO_FAST, *NOT_PUSHED):

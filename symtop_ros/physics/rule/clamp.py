@@ -1,4 +1,4 @@
-"""What follows if a hand holds the precession: Perry's clamped vertical axis."""
+"""Effects of a hand that holds the precession: Perry's clamped vertical axis."""
 
 import math
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from symtop_ros.words import write
 
 @dataclass(frozen=True, slots=True)
 class ClampVerdict:
-    """How the axis moves while its precession is held, and what it would do without.
+    """The motion of the axis while its precession is held, and without the clamp.
 
     `str` of it is the sentence.
 

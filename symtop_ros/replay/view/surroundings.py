@@ -1,4 +1,4 @@
-"""What is drawn around the top: sphere, stand, nodes, turning circles, trace, cones and angles.
+"""Drawings around the top: sphere, stand, nodes, turning circles, trace, cones and angles.
 
 The trace of the axis on the sphere is one short line per sample, visible for some time.
 

@@ -1,4 +1,4 @@
-"""What `top_ctl` computes before it asks the top: a start from what is seen, a body of parts.
+"""Compute what `top_ctl` asks of the top: a start from what is seen, a body of parts.
 
 The library is imported where it is needed, so that other commands start without it.
 """

@@ -19,6 +19,8 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--port", type=port, default=PORT, help=f"port of the viewer (default {PORT})"
     )
-    parser.add_argument("--web", action="store_true", help="serve the view to a browser on this machine")
+    parser.add_argument(
+        "--web", action="store_true", help="serve the view to a browser on this machine"
+    )
     add_view_options(parser)
     return parser

@@ -57,7 +57,7 @@ class NodeClock:
 
     @property
     def steady(self) -> int:
-        """Time in ns that nobody sets."""
+        """Time in ns of a clock that cannot be set."""
         return time.monotonic_ns()
 
 

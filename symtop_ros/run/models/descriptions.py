@@ -46,7 +46,7 @@ class Inertial(NamedTuple):
 
 @dataclass(frozen=True)
 class Description:
-    """How a body is described: by the frame of its link, and by the part in a fixed child.
+    """A description of a body: by the frame of its link, and by the part in a fixed child.
 
     The frame of the child is turned and moved as well.
     """

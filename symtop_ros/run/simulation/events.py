@@ -67,7 +67,7 @@ SEGMENT: dict[str, Callable[[Segment], Any]] = {
 
 
 def do_nothing() -> None:
-    """Let the work continue: nobody waits."""
+    """Let the work continue: nothing else is due."""
 
 
 @dataclass(frozen=True, slots=True)

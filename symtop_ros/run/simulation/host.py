@@ -22,7 +22,7 @@ class Clock(Protocol):
 
     @property
     def steady(self) -> int:
-        """Time in ns that nobody sets: it shows when this clock was set."""
+        """Time in ns of a clock that cannot be set: it shows when this clock was set."""
 
 
 class Host(Protocol):

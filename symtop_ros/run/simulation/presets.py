@@ -24,7 +24,7 @@ def config_folder() -> Path:
     source = Path(__file__).resolve().parents[3]
     folders = [
         *(Path(prefix, CONFIG) for prefix in prefixes if prefix),
-        # Next to an installed package such a folder is another one's.
+        # Next to an installed package such a folder belongs to another package.
         *([source / "config"] if (source / "package.xml").is_file() else []),
         Path(sys.prefix, CONFIG),
     ]

@@ -61,7 +61,7 @@ class Segment:
 
     @cached_property
     def last_stamp(self) -> float:
-        """The last stamp (ns) with a state; infinite if there is none."""
+        """The last stamp (ns) with a state; infinite if there is no last one."""
         farthest = self.motion.farthest_time
         if not self.running or math.isinf(farthest):
             return math.inf

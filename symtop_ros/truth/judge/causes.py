@@ -159,7 +159,7 @@ CHANGES: dict[str, tuple[float, tuple[str, ...], Undoing]] = {
 
 @dataclass(eq=False)
 class Tables:
-    """What follows from values of parameters; exact attitudes of whole ranges are kept."""
+    """Consequences of values of parameters; exact attitudes of whole ranges are kept."""
 
     truth: Truth
     fastest: float  # angular velocity of the motion in rad/s

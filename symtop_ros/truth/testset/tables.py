@@ -1,4 +1,4 @@
-"""What is made of the problems that the package keeps: the entries of problems.json, and tables.
+"""Files made from the problems that the package keeps: the entries of problems.json, and tables.
 
 The package keeps states, from which accelerations and forces follow. They have as many digits as
 thirty take in all that is computed from them: more where terms cancel. `workshop.testset.write`
