@@ -75,7 +75,8 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--attitude-of",
         choices=ATTITUDES,
-        help="whose attitude the estimates describe; default: the sensor for Imu messages, else the body",
+        help="whose attitude the estimates describe; default: the sensor for Imu messages, else "
+        "the body",
     )
     parser.add_argument("--scene", help="a scene that starts at the stamp 0, in place of LOG")
     parser.add_argument("--node", help="full name of the top if there are several")
@@ -103,8 +104,8 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--clock",
         metavar="TOPIC|FILE",
-        help="print how late the stamps of these estimates are, how fast the delay grows, and their "
-        "jitter; --aligned names the rotations that are fitted with it (default none)",
+        help="print how late the stamps of these estimates are, how fast the delay grows, and "
+        "their jitter; --aligned names the rotations that are fitted with it (default none)",
     )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(

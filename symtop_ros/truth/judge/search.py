@@ -254,7 +254,7 @@ def refine(
 
 
 def add_deviations(fit: Fit, cause: Cause) -> Cause:
-    """Return a cause with its standard deviations, or with the reason why there are no deviations."""
+    """Return a cause with its standard deviations, or with the reason why it lacks them."""
     if cause.cost <= ROUNDING:
         return replace(cause, independent=float(len(fit.some)))
     left = fit.find_remainder(cause.offset)
