@@ -11,6 +11,7 @@ from importlib import import_module, metadata
 from pathlib import Path
 
 import symtop_ros
+from symtop_ros.programs import BROKEN_PIPE, drop_output
 
 ABSENT = "not installed"
 # Variables by which programs of ROS find each other.
@@ -92,4 +93,10 @@ LINES: dict[str, Callable[[], str]] = {
 }
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        status = main()
+        sys.stdout.flush()
+    except BrokenPipeError:
+        drop_output()
+        status = BROKEN_PIPE
+    sys.exit(status)

@@ -56,7 +56,7 @@ def run(name: str, package: str, interruptible: bool = False) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:
-        _drop_output()
+        drop_output()
         return BROKEN_PIPE
     finally:
         _set_signals(signal.SIG_IGN)
@@ -70,12 +70,12 @@ def _write_out(name: str) -> int:
         raise
     except OSError as error:
         print(f"{name}: output: {error.strerror}", file=sys.stderr)
-        _drop_output()
+        drop_output()
         return 1
     return 0
 
 
-def _drop_output() -> None:
+def drop_output() -> None:
     """Let what is left of the output go nowhere; else Python would report it at the exit."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

@@ -133,3 +133,12 @@ def test_a_program_has_no_threads_of_linear_algebra():
     code = "import os; from symtop_ros import programs; programs._spare_the_user(); import numpy; "
     code += "print(len(os.listdir('/proc/self/task')))"
     assert run_python(code, **{programs.THREADS: ""}).stdout == "1\n"
+
+
+def test_a_report_that_nobody_reads_to_its_end_is_silent():
+    command = [sys.executable, "-m", "symtop_ros"]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True) as program:
+        program.stdout.close()
+        assert program.stderr.read() == ""
+    assert program.returncode == programs.BROKEN_PIPE

@@ -1,12 +1,10 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
-import warnings
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -112,31 +110,6 @@ class Motion:
     (3, 4)
     """
 
-    # Makes many motions; it goes with 0.5, and `__new__` with it.
-    make_many: ClassVar[Callable[..., Any]]
-
-    def __new__(
-        cls,
-        top: Top,
-        start: State,
-        friction: Friction = NO_FRICTION,
-        torque: ArrayLike = NO_TORQUE,
-        pushes: Pushes | None = None,
-        clamped: bool = False,
-    ) -> "Motion":
-        """Return the motion; for arrays warn, and return `Motions`."""
-        validate_types(top, start, friction)
-        shape = find_shape(top, start, friction, validate_torque(torque))
-        if not shape:
-            return object.__new__(cls)
-        if pushes or clamped:
-            what = "there are pushes" if pushes else "it is clamped"
-            raise refuse("top and start", f"those of one motion, if {what}", shape)
-        text = "Motion(...) of arrays is Motions(...) from 0.5 on: use that"
-        warnings.warn(text, DeprecationWarning, stacklevel=2)
-        many: Motion = cls.make_many(top, start, friction, torque)
-        return many
-
     def __init__(
         self,
         top: Top,
@@ -147,6 +120,8 @@ class Motion:
         clamped: bool = False,
     ) -> None:
         validate_types(top, start, friction)
+        shape = find_shape(top, start, friction, validate_torque(torque))
+        require(not shape, "top and start", "those of one motion (`Motions` takes many)", shape)
         require(pushes is None or isinstance(pushes, Pushes), "pushes", "Pushes", pushes)
         require(isinstance(clamped, bool), "clamped", "True or False", clamped)
         require(not (pushes and clamped), "pushes", "None for a clamped motion", pushes)

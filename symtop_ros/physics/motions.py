@@ -377,6 +377,3 @@ class Motions:
         """|p_psi|/Ix in rad/s."""
         Ix, Iz, omega_z = self._starts[:, [0, 1, 9]].T
         return np.asarray(np.abs(Iz * omega_z / Ix).reshape(self.shape))
-
-
-Motion.make_many = Motions  # this line and `Motion.__new__` go with 0.5

@@ -148,11 +148,10 @@ def test_a_table_at_exact_times_has_their_states_and_the_nearest_seconds():
         )
 
 
-def test_a_motion_of_arrays_warns_and_is_many():
-    with pytest.warns(DeprecationWarning, match=r"Motion\(\.\.\.\) of arrays is Motions"):
-        found = Motion(Top(1.0, 1.0, [1.0, 2.0]), CUSPS)
-    assert isinstance(found, Motions)
-    assert found.at(0.5) == Motions(Top(1.0, 1.0, [1.0, 2.0]), CUSPS).at(0.5)
+def test_a_motion_of_arrays_is_refused_and_told_of_motions():
+    refusal = r"^top and start must be those of one motion \(`Motions` takes many\), got \(2,\)$"
+    with pytest.raises(ValueError, match=refusal):
+        Motion(Top(1.0, 1.0, [1.0, 2.0]), CUSPS)
 
 
 def test_each_motion_of_many_has_its_own_engine_and_one_motion_alone_can_be_reached():
