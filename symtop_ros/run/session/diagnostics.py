@@ -169,7 +169,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "regular_precession_periods": _keep(map(find_period, verdict.regular_rates)),
         "seen_from_above": _name_way(float(state.euler_rates.phi)),
         "critical_spin": _keep([float(top.critical_spin)])[0],
-        "pivot_force": _find_pivot_force(segment, motion, state),
+        **_describe_pivot(segment, motion, state),
         "clamped": motion.clamped,
         "verdict": _say(motion, verdict),
         "why": "" if motion.is_driven or motion.clamped else str(verdict.cause),
@@ -184,11 +184,18 @@ def _name_way(phi_dot: float) -> str:
     return "counterclockwise" if phi_dot > 0 else "clockwise"
 
 
-def _find_pivot_force(segment: Segment, motion: Motion, state: State) -> list[float] | None:
-    """Return the force of the pivot on the top (world, N); None if no body is such a top."""
+def _describe_pivot(segment: Segment, motion: Motion, state: State) -> dict[str, Any]:
+    """Return the force of the pivot on the top (world, N), and the mass (kg) that it is for.
+
+    The mass is that of the body that is chosen for the top; None if no body is such a top.
+    """
     body = find_body(motion.top, segment.rig.gravity)
     force = body.pivot_force(motion, state).tolist() if body else [math.nan]
-    return force if all(map(math.isfinite, force)) else None
+    is_known = body is not None and all(map(math.isfinite, force))
+    return {
+        "pivot_force": force if is_known else None,
+        "pivot_force_of_mass": body.mass if body and is_known else None,
+    }
 
 
 def _keep(numbers: Iterable[float]) -> list[float | None]:

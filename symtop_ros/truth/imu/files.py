@@ -28,10 +28,11 @@ from symtop_ros.run.wire.messages import IMU, MAGNETIC_FIELD, ODOMETRY
 from symtop_ros.truth.imu.record import ImuRecord
 
 # The columns of the table, and those that there are with --average or a magnetometer.
-TABLE = ["stamp", *"wxyz", "px", "py", "pz", "vx", "vy", "vz", "wx", "wy", "wz", "fx", "fy", "fz"]
+INERTIAL = ["wx", "wy", "wz", "fx", "fy", "fz"]
+TABLE = ["stamp", *"wxyz", "px", "py", "pz", "vx", "vy", "vz", *INERTIAL]
 MORE = {
-    "means": [f"mean_{name}" for name in TABLE[-6:]],
-    "measured": [f"measured_{name}" for name in TABLE[-6:]],
+    "means": [f"mean_{name}" for name in INERTIAL],
+    "measured": [f"measured_{name}" for name in INERTIAL],
     "fields": ["mx", "my", "mz"],
     "measured_fields": ["measured_mx", "measured_my", "measured_mz"],
 }

@@ -2,7 +2,8 @@
 
 import csv
 import json
-from dataclasses import replace
+from dataclasses import fields, replace
+from itertools import chain
 
 import numpy as np
 import pytest
@@ -13,7 +14,8 @@ from physics.tops import ARTICLE, CUSPS, EPS, Case, cross, turn
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.replay.main import main as replay
-from symtop_ros.truth.imu import Imu, record_imu
+from symtop_ros.truth.imu import Imu, Magnetometer, record_imu
+from symtop_ros.truth.imu.files import write_table
 from symtop_ros.truth.imu.main import main
 from symtop_ros.truth.judge.main import main as judge
 
@@ -201,3 +203,32 @@ def test_a_log_that_cannot_be_written_is_named_as_it_was_given(tmp_path, capsys)
     path = tmp_path / "missing/x.mcap"
     assert main([*SHORT, "-o", str(path)]) == 1
     assert capsys.readouterr().err.startswith(f"top_imu: cannot write {path}: ")
+
+
+# The columns of each field that a table has; what another file has, or the event, is named below.
+INERTIAL = ("wx", "wy", "wz", "fx", "fy", "fz")
+COLUMNS = {
+    "orientations": ("w", "x", "y", "z"),
+    "positions": ("px", "py", "pz"),
+    "velocities": ("vx", "vy", "vz"),
+    "rates": INERTIAL[:3],
+    "forces": INERTIAL[3:],
+    "means": tuple(f"mean_{name}" for name in INERTIAL),
+    "measured": tuple(f"measured_{name}" for name in INERTIAL),
+    "fields": ("mx", "my", "mz"),
+    "measured_fields": ("measured_mx", "measured_my", "measured_mz"),
+}
+ELSEWHERE = {"imu", "stamps", "attitudes", "biases", "event"}
+
+
+def test_a_table_has_every_field_of_the_record_under_its_name(tmp_path):
+    sensor = replace(SENSOR, magnetometer=Magnetometer())
+    record = record_imu(MOTION, sensor, 0.1, average=True)
+    assert {field.name for field in fields(record)} == {*COLUMNS, *ELSEWHERE}
+    write_table(record, tmp_path / "run.csv")
+    head, rows = read(tmp_path / "run.csv")
+    table = {name: [row[k] for row in rows] for k, name in enumerate(head)}
+    assert set(table) == {"stamp", *chain(*COLUMNS.values())}
+    for field, names in COLUMNS.items():
+        written = np.array([table[name] for name in names], float).T
+        assert np.array_equal(written, getattr(record, field)), field
