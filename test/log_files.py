@@ -15,7 +15,7 @@ from symtop_ros.run.log.reader import McapFile
 from symtop_ros.run.log.top_log import TopLog
 from symtop_ros.run.log.writer import NODE_ENTRY, TOPICS_ENTRY, LogFile
 from symtop_ros.run.models.urdf import robot_description
-from symtop_ros.run.simulation.changes.outcomes import Start
+from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.changes.requests import plan_kick
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
@@ -56,8 +56,7 @@ class Run:
     def __post_init__(self) -> None:
         motion = Motion(self.top, self.start, self.friction, self.torque)
         segment = Segment.begin(motion, BEGIN, 1.0)
-        state = segment.state_at(BEGIN)
-        self._announce(Event.of(BEGIN, "start", Start.of(motion), {}, state, segment, self.frame))
+        self._announce(Event.of(Change.begin(segment), top_frame=self.frame))
         count = int(self.seconds * self.rate)
         stamps = [BEGIN + round(k * 1e9 / self.rate) for k in range(count)]
         half = count // 2 if self.hurried else count
@@ -69,8 +68,8 @@ class Run:
             kicked, hold = plan_kick(segment.motion, before, request)
             segment = segment.replace_motion(kicked, stamp)
             outcome = kick_verdict(kicked, before, hold)
-            kick = Event.of(stamp, "kick", outcome, request, before, segment, self.frame, number=2)
-            self._announce(kick)
+            kick = Change(Act("kick", stamp, request), before, segment, outcome)
+            self._announce(Event.of(kick, 2, self.frame))
             self._samples(segment, stamps[half:])
 
     def _announce(self, event: Event) -> None:

@@ -20,6 +20,7 @@ from symtop_ros.replay.view.surroundings import Trace, create_stand, turning_cir
 from symtop_ros.replay.view.view import View, ViewOptions
 from symtop_ros.replay.viewer import create_recording
 from symtop_ros.run.log.batch import Batch, Columns
+from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.changes.outcomes import Outcome, Start
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
@@ -242,4 +243,5 @@ def sample(name: str, outcome: Outcome, before: State, segment: Segment, stamps:
         topic: Columns(stamps, each.compute(samples), places)
         for topic, each in STATE_TOPICS.items()
     }
-    return Batch(columns, [(0, Event.of(int(stamps[0]), name, outcome, {}, before, segment))])
+    change = Change(Act(name, int(stamps[0]), {}), before, segment, outcome)
+    return Batch(columns, [(0, Event.of(change))])

@@ -26,7 +26,7 @@ from symtop_ros.run.models.urdf import robot_description
 from symtop_ros.run.session.diagnostics import balance_status, motion_status
 from symtop_ros.run.session.outputs import list_fixed_frames
 from symtop_ros.run.simulation.budget import FREE_STEPS, SPARE_STEPS, StepBudget
-from symtop_ros.run.simulation.changes.follow import RULES, Act, Following, follow
+from symtop_ros.run.simulation.changes.follow import RULES, Act, Change, follow
 from symtop_ros.run.simulation.changes.outcomes import Start
 from symtop_ros.run.simulation.changes.requests import read_kick
 from symtop_ros.run.simulation.events import KICKS, RESTARTS, Event
@@ -132,24 +132,14 @@ def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Even
     act = read_act(event)
     is_known = event.number == 1
     if previous and _is_near(previous, act, budget):
-        found = follow(previous, act)
+        change = follow(previous, act)
         is_known = True
     else:
         following = event.segment()
         before = following.state_at(event.stamp) if is_known else event.state_before()
         outcome = Start.of(following.motion) if event.name in RESTARTS else act.told
-        found = Following(before, following, outcome)
-    right = Event.of(
-        event.stamp,
-        event.name,
-        found.outcome,
-        act.request,
-        found.before,
-        found.segment,
-        event.values.get("top_frame", ""),
-        event.number,
-        found.pushes,
-    )
+        change = Change(act, before, following, outcome)
+    right = Event.of(change, event.number, event.values.get("top_frame", ""))
     given = {} if is_known else {n: event.values[n] for n in BEFORE if n in event.values}
     return replace(right, values={**right.values, **given})
 
@@ -173,11 +163,11 @@ def read_act(event: Event) -> Act:
         event.name,
         event.stamp,
         request,
-        given.motion.start,
-        given.factor,
-        event.outcome(),
-        given if event.name == "failure" else None,
-        given.motion.clamped,
+        start=given.motion.start,
+        factor=given.factor,
+        told=event.outcome(),
+        left=given if event.name == "failure" else None,
+        clamped=given.motion.clamped,
     )
 
 

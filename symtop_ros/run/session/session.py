@@ -51,8 +51,7 @@ class Session:
         self._outputs = Outputs(settings, host, self._recorder, name)
         self.simulation = simulate(settings, clock, self._outputs, host)
         self._recorder.count_missed = lambda: self.simulation.ticker.missed
-        first = self.simulation.timeline.announce(self.simulation.stamp, scene)
-        verdict = self.simulation.apply(first)
+        verdict = self.simulation.apply(self.simulation.timeline.announce(scene))
         about = {"node": name, "scene": scene, **environment}
         self.recording = Recording(self._recorder, self.simulation, about)
         self._requests = Requests(self.simulation, self.recording.switch)

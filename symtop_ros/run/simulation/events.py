@@ -13,7 +13,8 @@ from typing import Any, TypeVar
 from symtop_ros import __version__
 from symtop_ros.base.refusals import one_line
 from symtop_ros.physics import Friction, Motion, Pushes, State, Top, kernel_version
-from symtop_ros.run.simulation.changes.outcomes import OUTCOMES, Outcome, Start
+from symtop_ros.run.simulation.changes.follow import Change
+from symtop_ros.run.simulation.changes.outcomes import OUTCOMES, Outcome
 from symtop_ros.run.simulation.segment import NO_RIG, Segment
 from symtop_ros.run.simulation.sensor.imu import Rig
 from symtop_ros.run.wire.diagnostics import (
@@ -72,7 +73,7 @@ def do_nothing() -> None:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """A change of a run."""
+    """What a run reports of a change, and what a log has of it."""
 
     stamp: int  # stamp from which the new segment holds, in ns
     # start, kick, push, release, clamp, unclamp, reset, pause, resume, step, parameters, torque,
@@ -85,47 +86,46 @@ class Event:
     @classmethod
     def of(
         cls,
-        stamp: int,
-        name: str,
-        outcome: Outcome | None,
-        request: Mapping[str, Any],
-        before: State,
-        following: Segment,
-        top_frame: str = "top",
+        change: Change,
         number: int = 1,
-        pushes: int | None = None,
+        top_frame: str = "top",
         between: Callable[[], object] = do_nothing,
     ) -> "Event":
-        """Return the event after which the segment `following` holds.
+        """Return the event that reports a change.
 
-        `top_frame` is the child frame of the top on /tf, which is shared by many publishers.
-        `number` counts the events of a run from 1 on. `pushes` are those that the motion before the
-        event has got, if it was pushed. `between` is called when the fields are written, before the
-        sentence: each takes longer than a sample may wait.
+        `number` counts the events of a run from 1 on. `top_frame` is the child frame of the top on
+        /tf, which is shared by many publishers. `between` is called when the outcome is found, and
+        again when the fields are written, before the sentence: each takes longer than a sample may
+        wait.
         """
-        after = following.state_at(stamp)
-        motion = following.motion
+        outcome = change.outcome
+        between()
+        act = change.act
+        segment = change.segment
+        before = change.before
+        after = segment.state_at(act.stamp)
+        motion = segment.motion
         values = {
             "format": FORMAT,
             "number": str(number),
             "top_frame": top_frame,
-            **{f"request.{key}": write_text(value) for key, value in request.items()},
+            **{f"request.{key}": write_text(value) for key, value in act.request.items()},
             **(write_fields("outcome", outcome) if outcome else {}),
             **{name: write_text(read(motion)) for name, read in MOTION.items()},
-            **{name: write_text(read(following)) for name, read in SEGMENT.items()},
+            **{name: write_text(read(segment)) for name, read in SEGMENT.items()},
             "before.orientation": write_text(before.orientation.tolist()),
             "before.angular_velocity": write_text(before.angular_velocity.tolist()),
-            **({} if pushes is None else {"before.pushes": str(pushes)}),
+            **({} if change.pushes is None else {"before.pushes": str(change.pushes)}),
             "after.orientation": write_text(after.orientation.tolist()),
             "after.angular_velocity": write_text(after.angular_velocity.tolist()),
-            **following.rig.values,
+            **segment.rig.values,
             "kind": motion.kind,
             "engine": motion.engine,
             "kernel_version": kernel_version(),
             "version": __version__,
         }
         between()
-        return cls(stamp, name, write(name, outcome) if outcome else "", values)
+        return cls(act.stamp, act.name, write(act.name, outcome) if outcome else "", values)
 
     def encode(self, frame: str, node: str = "") -> bytes:
         """Encode the event of a node (full name) as a DiagnosticArray with one status."""
@@ -218,8 +218,7 @@ class Event:
 
 def start_event(motion: Motion, rig: Rig = NO_RIG) -> Event:
     """Return the event with which a run of a motion starts at the stamp 0."""
-    segment = Segment.begin(motion, 0, 1.0, rig)
-    return Event.of(0, "start", Start.of(motion), {}, segment.state_at(0), segment, number=1)
+    return Event.of(Change.begin(Segment.begin(motion, 0, 1.0, rig)))
 
 
 def decode_events(data: bytes) -> list[Event]:

@@ -18,8 +18,8 @@ from symtop_ros.run.simulation.block import CATCH_UP, GAP, Block, Ticker
 from symtop_ros.run.simulation.budget import SHARE, ComputeBudget
 from symtop_ros.run.simulation.changes.follow import Act, Request
 from symtop_ros.run.simulation.changes.outcomes import Failure, Outcome
-from symtop_ros.run.simulation.changes.timeline import Change, Timeline
-from symtop_ros.run.simulation.events import Event
+from symtop_ros.run.simulation.changes.timeline import Timeline
+from symtop_ros.run.simulation.events import Event, do_nothing
 from symtop_ros.run.simulation.host import Clock, Host, Sink
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import Settings
@@ -130,7 +130,7 @@ class Simulation:
         if self._failures.get(name) != failure or self.segment is not before.segment:
             self._failures[name] = failure
             self.host.report_error(str(failure))
-            self.apply(self.timeline.fail(Act("failure", stamp, {}, told=failure), before.segment))
+            self.apply(self.timeline.fail(stamp, failure, before.segment))
 
     def answer(self, name: str, act: Callable[[], str]) -> tuple[bool, str]:
         """Carry out a request in a turn; return success and the answer.
@@ -313,21 +313,25 @@ class Simulation:
 
     # Changes
 
-    def apply(self, change: Change) -> str:
-        """Continue with the timeline of a change and announce it; return the verdict."""
-        self.timeline = change.following
-        return self._announce(change.event(self.event_number + 1))
+    def apply(self, timeline: Timeline) -> str:
+        """Continue with a timeline and announce its change; return the verdict."""
+        self.timeline = timeline
+        return self._announce(self._write_event(timeline))
 
-    def apply_at_once(self, change: Change) -> str:
+    def _write_event(self, timeline: Timeline, between: Callable[[], object] = do_nothing) -> Event:
+        frame = timeline.settings.top_frame
+        return Event.of(timeline.change, self.event_number + 1, frame, between)
+
+    def apply_at_once(self, timeline: Timeline) -> str:
         """Like `apply`, but publish samples that are due before and while the event is written.
 
         In the log the event still precedes its samples.
         """
-        self.timeline = change.following
+        self.timeline = timeline
         with self._sink.put_events_first():
             if self.publish():
                 self._prepare_sample()
-            event = change.event(self.event_number + 1, self.publish)
+            event = self._write_event(timeline, self.publish)
             self.publish()
             return self._announce(event)
 
@@ -389,17 +393,18 @@ class Simulation:
         if held and self._integrate_to(end):
             self._apply_torque(self.timeline.release_torque(end))
 
-    def _apply_torque(self, change: Change) -> None:
+    def _apply_torque(self, timeline: Timeline) -> None:
         """Continue under a torque; it is announced if it differs from the one before."""
-        self.timeline = change.following
-        if change.is_new:
-            self.apply(change)
+        if timeline.segment is self.segment:
+            self.timeline = timeline
+        else:
+            self.apply(timeline)
 
     def apply_settings(self, settings: Settings) -> None:
         """Continue from the current state with other settings."""
         old, stamp = self.settings, self.stamp
-        for change in self.timeline.change_settings(settings, stamp):
-            self.apply(change)
+        for timeline in self.timeline.change_settings(settings, stamp):
+            self.apply(timeline)
         if (settings.top, settings.publish_tf) != (old.top, old.publish_tf):
             self._sink.send_description(stamp, settings)
         if settings.publish_rate != old.publish_rate:

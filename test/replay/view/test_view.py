@@ -10,6 +10,7 @@ from symtop_ros.replay.view import entities
 from symtop_ros.replay.view.view import View
 from symtop_ros.replay.viewer import replay
 from symtop_ros.run.log.batch import Batch, BatchReader, Columns
+from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.sensor.imu import Imu, Rig
@@ -128,7 +129,7 @@ def test_what_a_sensor_feels_is_an_arrow_in_the_world(tmp_path):
     numbers = {name: SAMPLE_TOPICS[name].compute(samples) for name in ("orientation", "imu")}
     counts = 1 + np.arange(50)
     columns = {name: Columns(stamps, each, counts) for name, each in numbers.items()}
-    event = Event.of(0, "start", None, {}, RUN.start, segment)
+    event = Event.of(Change(Act("start", 0, {}), RUN.start, segment))
     file = tmp_path / "sensor.rrd"
     with recording_to(file) as recording:
         View(recording).send(Batch(columns, [(0, event)]))

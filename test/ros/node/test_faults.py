@@ -12,7 +12,7 @@ from ros.node.running_top import events_named, facts, status_of
 from sensor_msgs.msg import JointState
 
 from symtop_ros.run.simulation.changes.outcomes import Failure
-from symtop_ros.run.simulation.changes.timeline import Change
+from symtop_ros.run.simulation.events import Event
 from symtop_ros.words import write
 from workshop.load.domains import claim_domain
 from workshop.load.endings import bound
@@ -126,12 +126,12 @@ def assert_keeps_running(run):
 def test_one_in_a_request_that_took_effect_leaves_the_log_exact(start_top, tmp_path, monkeypatch):
     run = start_top(publish_rate=500.0, record=tmp_path)
     events = run.collect_events()
-    event_of = Change.event
+    event_of = Event.of
 
     def break_kicks(change, *given):
         return fail() if change.act.name == "kick" else event_of(change, *given)
 
-    monkeypatch.setattr(Change, "event", break_kicks)
+    monkeypatch.setattr(Event, "of", break_kicks)
     before = run.top.simulation.segment
     report = write("failure", BUG)
     for _ in range(2):

@@ -17,6 +17,7 @@ from symtop_ros.run.log.chronicle import Ordered
 from symtop_ros.run.log.reader import LogError, McapFile
 from symtop_ros.run.log.stretches import Stretch
 from symtop_ros.run.log.top_log import TopLog
+from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.events import MAX_STAMP, Event, start_event
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS, Samples
@@ -135,7 +136,7 @@ def test_a_sample_that_agrees_with_two_events_belongs_to_the_exact_one():
     start = before.state_at(begin)
     after = Segment.begin(Motion(ARTICLE, start), begin, 1.0)
     request = {"from": str(end), "to": str(begin)}
-    back = Event.of(begin, "clock", None, request, start, after, number=2)
+    back = Event.of(Change(Act("clock", begin, request), start, after), 2)
     stamps = np.arange(begin, end, 5_000_000)
     topic = SAMPLE_TOPICS["orientation"]
     numbers = topic.compute(Samples.at(before, stamps))

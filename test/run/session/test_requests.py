@@ -16,6 +16,7 @@ from symtop_ros.physics import Motion, kick_verdict, perrys_rule
 from symtop_ros.run.session.diagnostics import summarize_state
 from symtop_ros.run.session.session import Answer
 from symtop_ros.run.simulation.changes import requests
+from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.changes.outcomes import Pause, Step
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment, to_nanoseconds
@@ -78,7 +79,7 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
                 numbers = numbers[topic.format.quantities["torque"]]  # the force is unknown
             assert np.isfinite(numbers).all()
         json.loads(json.dumps(summarize_state(segment, 0), allow_nan=False))
-        again = Event.of(0, "start", None, asked, start, segment).segment()
+        again = Event.of(Change(Act("start", 0, asked), start, segment)).segment()
         assert (again.motion.start, again.elapsed) == (motion.start, segment.elapsed)
         try:
             after, hold = requests.plan_kick(motion, state, kicked)

@@ -75,7 +75,7 @@ class Run:
         self.clock, self.sink = HandClock(), ListSink()
         settings = Settings.from_scene(scene, **changes)
         self.simulation = simulate(settings, self.clock, self.sink, self.sink)
-        self.simulation.apply(self.simulation.timeline.announce(self.simulation.stamp, "test"))
+        self.simulation.apply(self.simulation.timeline.announce("test"))
         self.requests = Requests(self.simulation, lambda on: "not recording")
         self.advance(seconds)
 

@@ -11,6 +11,7 @@ from run.simulation.runs import Run
 
 from symtop_ros.physics import Friction, Motion, Pushes, State, Top
 from symtop_ros.run.simulation.changes import outcomes
+from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.changes.outcomes import OUTCOMES, Setting
 from symtop_ros.run.simulation.events import Event, decode_events
 from symtop_ros.run.simulation.segment import Segment
@@ -18,7 +19,8 @@ from symtop_ros.run.simulation.sensor.imu import Imu, Magnetometer, Rig
 
 
 def event_of(segment, stamp=BEGIN):
-    return Event.of(stamp, "kick", None, {"hold": "spin_rate"}, segment.motion.start, segment)
+    act = Act("kick", stamp, {"hold": "spin_rate"})
+    return Event.of(Change(act, segment.motion.start, segment))
 
 
 VALUES = {  # of parameters that are no sizes of any kind

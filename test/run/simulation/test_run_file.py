@@ -18,6 +18,7 @@ from run.simulation.page_runs import (
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.simulation.changes.follow import Act
 from symtop_ros.run.simulation.changes.timeline import Timeline
+from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.run_file import TABLE, RunRecorder, read_run, record_run
 from symtop_ros.run.simulation.settings import Settings
 
@@ -67,14 +68,14 @@ class Told:
         settings = Settings.from_scene("cusps", **values)
         self.timeline = Timeline.begin(settings, SECOND)
         self.events = []
-        self.do(self.timeline.announce(SECOND, "cusps"))
+        self.do(self.timeline.announce("cusps"))
 
     def act(self, name, stamp, request=None):
         self.do(self.timeline.follow(Act(name, stamp, request or {})))
 
-    def do(self, change):
-        self.timeline = change.following
-        self.events.append(change.event(len(self.events) + 1))
+    def do(self, timeline):
+        self.timeline = timeline
+        self.events.append(Event.of(timeline.change, len(self.events) + 1))
 
 
 def test_impulses_and_rates_are_kept_as_they_were_asked_for():

@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import compose, invert
 from symtop_ros.physics import Motion, hurry
+from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.truth.judge.estimates import FORMATS, Estimates
@@ -21,7 +22,7 @@ KICK = 3_123_456_789  # ns
 def make_events():
     """A start, a kick, a pause, and a run in slow motion."""
     segment = Segment.begin(Motion(ARTICLE, CUSPS), 0, 1.0)
-    events = [Event.of(0, "start", None, {}, CUSPS, segment)]
+    events = [Event.of(Change(Act("start", 0, {}), CUSPS, segment))]
     for name, stamp, change in (
         ("kick", KICK, lambda s: s.change(KICK, hurry(s.state_at(KICK), 1.4))),
         ("pause", 5 * SECOND, lambda s: s.pause(5 * SECOND)),
@@ -30,7 +31,7 @@ def make_events():
     ):
         before = segment.state_at(stamp)
         segment = change(segment)
-        events.append(Event.of(stamp, name, None, {}, before, segment))
+        events.append(Event.of(Change(Act(name, stamp, {}), before, segment)))
     return events
 
 

@@ -14,6 +14,7 @@ from truth.judge.cases import SECOND, Made, make_estimates, make_events, truth_a
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import Motion
+from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.events import Event, start_event
 from symtop_ros.run.simulation.segment import Segment
@@ -122,7 +123,7 @@ INSTANTS = np.arange(0, SECOND, SECOND // 50)
 def test_the_mount_of_the_sensor_is_applied_to_its_messages():
     mounted = Imu(position=(0.0, 0.0, 0.02), orientation=(0.5, -0.5, 0.5, 0.5))
     segment = Segment.begin(Motion(ARTICLE, CUSPS), 0, 1.0, Rig(imu=mounted))
-    truth = Truth([Event.of(0, "start", None, {}, CUSPS, segment)])
+    truth = Truth([Event.of(Change(Act("start", 0, {}), CUSPS, segment))])
     numbers = SENSOR_TOPICS["imu"].compute(Samples.at(segment, INSTANTS))
     rates = numbers[:, IMU.quantities["angular_velocity"]]
     estimates = Estimates.of(INSTANTS, numbers[:, [3, 0, 1, 2]], rates)

@@ -1,13 +1,14 @@
 """The one rule by which an act changes a motion, in a run that continues and in one that is read.
 
-A running node follows what it is asked. A check follows what the events of a log say was asked, and
+An `Act` is what is done, and a `Change` what it led to; an event reports the change. A running node
+follows what it is asked. A check follows what the events of a log say was asked, and
 compares. Nothing here has a clock, a lock or a side effect.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import astuple, dataclass, replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 from symtop_ros.base.refusals import refuse
 from symtop_ros.physics import KickVerdict, State, clamp_verdict, kick_verdict
@@ -40,7 +41,7 @@ DAY = 86400.0  # s
 
 @dataclass(frozen=True, slots=True)
 class Act:
-    """A change of a run at a stamp: what was asked, and what the program decided itself."""
+    """What is done to a run at a stamp: what was asked, and what the program decided itself."""
 
     name: str  # of the event that reports it
     stamp: int  # ns, from which on it holds
@@ -52,13 +53,21 @@ class Act:
     clamped: bool = False  # of a restart: whether a hand holds its precession
 
 
-class Following(NamedTuple):
-    """The result of an act."""
+@dataclass(frozen=True, slots=True)
+class Change:
+    """An act and what it led to: all that its event reports of the motion."""
 
-    before: State  # right before it
-    segment: Segment
-    told: "Told"
-    pushes: int | None = None  # that the motion before it has got, if it was pushed
+    act: Act
+    before: State  # right before the act
+    segment: Segment  # that holds from the act on
+    told: "Told" = None
+    pushes: int | None = None  # that the motion before the act has got, if it was pushed
+
+    @classmethod
+    def begin(cls, segment: Segment, request: Request | None = None) -> "Change":
+        """Return the change with which a run begins, by the first segment of its motion."""
+        act = Act("start", segment.stamp, request or {})
+        return cls(act, segment.state_at(act.stamp), segment, Start.of(segment.motion))
 
     @property
     def outcome(self) -> Outcome | None:
@@ -66,8 +75,8 @@ class Following(NamedTuple):
         return self.told() if isinstance(self.told, partial) else self.told
 
 
-def follow(segment: Segment, act: Act) -> Following:
-    """Return what follows from an act on the motion of a segment.
+def follow(segment: Segment, act: Act) -> Change:
+    """Return the change by an act on the motion of a segment.
 
     Raises
     ------
@@ -76,7 +85,8 @@ def follow(segment: Segment, act: Act) -> Following:
     """
     before = state_before(segment, act)
     pushes = segment.count_pushes(_find_stamp(act))
-    return Following(before, *RULES[act.name](segment, act, before), pushes)
+    following, told = RULES[act.name](segment, act, before)
+    return Change(act, before, following, told, pushes)
 
 
 def state_before(segment: Segment, act: Act) -> State:
