@@ -26,8 +26,10 @@ import { Timeline } from "./controls/timeline.js";
 import { typesetSymbols } from "./words/typeset.js";
 import { phrase } from "./words/wording.js";
 
-/** @import { Facts, Now } from "./words/facts.js" */
-/** @import { LocalTop, Message } from "./run/local.js" */
+/** @import { Facts, MotionFacts, Now } from "./words/facts.js" */
+/** @import { Message } from "./run/acts.js" */
+/** @import { LocalTop } from "./run/local.js" */
+/** @import { Frame, Hello, News } from "./run/telling.js" */
 
 const showLedger = guard("ledger", drawLedger);
 const showKinds = guard("kinds", drawKinds);
@@ -80,7 +82,8 @@ export class Page {
       button.addEventListener("click", () => push(button.dataset.push ?? ""));
     for (const button of findAll("[data-hold]")) {
       const { hold, sign } = button.dataset;
-      actWhileHeld(button, () => this.send({ act: hold, sign: Number(sign) }));
+      const message = /** @type {Message} */ ({ act: hold, sign: Number(sign) });
+      actWhileHeld(button, () => this.send(message));
     }
     listenToKeys(act, push);
   }
@@ -107,25 +110,24 @@ export class Page {
     if (name === "projector") choose("size", find("size", HTMLSelectElement).value ? "" : name);
     else if (name === "hurry") this.send({ act: "kick", factor });
     else if (name === "delay") this.send({ act: "kick", factor: 1 / factor });
-    else this.send({ act: name });
+    else this.send(/** @type {Message} */ ({ act: name })); // an act of a button needs no more
   }
 
-  /** Show what the top tells. @param {Message} message */
-  receive(message) {
-    const { hello, facts, motion, now, samples, refused, granted, said, lost, solved } = message;
-    if (hello) this.greet(hello);
-    if (facts) this.showFacts(facts);
-    if (motion && this.facts) this.showMotion({ ...this.facts, ...motion }, false);
-    if (now) this.showNow(now);
-    if (samples) this.showFrame(message);
-    if (solved) this.seen.show(solved);
-    if (refused) refuse(this.fields.markRefused(refused), message.isOfData);
-    if (granted) this.fields.grant();
-    if (said) refuse(said);
-    if (lost !== undefined) showLoss(lost);
+  /** Show what the top tells. @param {News} news */
+  receive(news) {
+    if ("hello" in news) this.greet(news.hello);
+    else if ("facts" in news) this.showFacts(news.facts);
+    else if ("motion" in news) this.followMotion(news.motion);
+    else if ("now" in news) this.showNow(news.now);
+    else if ("samples" in news) this.showFrame(news);
+    else if ("solved" in news) this.seen.show(news.solved);
+    else if ("refused" in news) refuse(this.fields.markRefused(news.refused), news.isOfData);
+    else if ("granted" in news) this.fields.grant();
+    else if ("said" in news) refuse(news.said);
+    else showLoss(news.lost);
   }
 
-  /** @param {Message} hello scenes, layers, the steps of the lesson and bodies */
+  /** @param {Hello} hello */
   greet({ scenes, layers, lesson: steps, bodies }) {
     this.parts = new Parts(this.send.bind(this), bodies);
     if (this.facts) this.showParts(this.facts);
@@ -216,6 +218,11 @@ export class Page {
     this.charts.mass = this.parts.mass;
   }
 
+  /** What friction and torques have changed. @param {MotionFacts} motion */
+  followMotion(motion) {
+    if (this.facts) this.showMotion({ ...this.facts, ...motion }, false);
+  }
+
   /** Show what follows the motion. @param {Facts} facts @param {boolean} isAct that is announced */
   showMotion(facts, isAct) {
     this.facts = facts;
@@ -248,7 +255,7 @@ export class Page {
     );
   }
 
-  /** @param {Message} message of a frame: samples up to now, and the end of the run in s */
+  /** @param {Frame} frame */
   showFrame({ samples, stretches, isSlow, end }) {
     if (!this.facts) return;
     say("stretch-act", stretches.act);

@@ -13,7 +13,7 @@ import { drawOneSeries } from "./series_charts.js";
 import { drawWell } from "./well_chart.js";
 
 /** @import { Facts } from "../words/facts.js" */
-/** @import { Sample } from "../run/local.js" */
+/** @import { Sample } from "../run/telling.js" */
 /** @typedef {(facts: Facts, samples: Sample[], factor: number) => void} Draw */
 
 export class Charts {

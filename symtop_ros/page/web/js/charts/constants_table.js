@@ -28,7 +28,7 @@ let shown = ""; // a table that stays as it is can be read, and its text marked
 
 /**
  * The force of the pivot, where nothing but the weight of a body of known mass acts.
- * @param {import("../run/local.js").Sample} sample @param {number} mass in kg
+ * @param {import("../run/telling.js").Sample} sample @param {number} mass in kg
  */
 const listForce = ({ state, course: { top, clamped, isDriven } }, mass) => {
   if (!Number.isFinite(mass) || clamped || isDriven) return [];
@@ -39,7 +39,7 @@ const listForce = ({ state, course: { top, clamped, isDriven } }, mass) => {
 
 /**
  * @param {string[][]} rates names and texts
- * @param {import("../run/local.js").Sample} sample of now
+ * @param {import("../run/telling.js").Sample} sample of now
  * @param {number} mass in kg; NaN if no body is the top
  */
 export const showConstants = (rates, sample, mass) => {

@@ -8,7 +8,7 @@ import { draw, findSpan, Frame, WIDE } from "./plot.js";
 import { angleUnit, shorten, toUnit } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
-/** @import { Sample } from "../run/local.js" */
+/** @import { Sample } from "../run/telling.js" */
 /** @import { Quantity } from "./axes_list.js" */
 /** @import { Pair } from "./plot.js" */
 /** @typedef {"state" | "ghost" | "kept"} Whose */

@@ -6,7 +6,7 @@ import { angleUnit, toUnit } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { State } from "../physics/state.js" */
-/** @import { Sample } from "../run/local.js" */
+/** @import { Sample } from "../run/telling.js" */
 /** @import { Pair } from "./plot.js" */
 /** @typedef {{pick: (state: State) => number, color: string, least: number, isTilt: boolean}} Series */
 

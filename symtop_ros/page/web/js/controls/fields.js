@@ -203,7 +203,7 @@ class Entry {
 }
 
 export class Fields {
-  /** @param {(message: {[name: string]: any}) => void} send */
+  /** @param {(message: import("../run/acts.js").Message) => void} send */
   constructor(send) {
     this.send = send;
     /** @type {{[name: string]: number}} */

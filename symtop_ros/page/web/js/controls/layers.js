@@ -5,7 +5,7 @@ import { find, findAll, make } from "./document.js";
 import { typeset } from "../words/typeset.js";
 import { phrase } from "../words/wording.js";
 
-/** @typedef {(message: {[name: string]: any}) => void} Send */
+/** @typedef {(message: import("../run/acts.js").Message) => void} Send */
 
 /** A mark in the colour of a part of the scene. @param {keyof typeof COLORS} name */
 const createMark = (name) => make("i", { style: `background: ${COLORS[name]}` });

@@ -8,9 +8,11 @@ import { parseQuantity } from "../words/quantities.js";
 import { UNITS } from "../words/units.js";
 import { isKnown, phrase } from "../words/wording.js";
 
+/** @import { Hold } from "../physics/kernel.js" */
+/** @import { Message } from "../run/acts.js" */
 /**
- * A button of a step, as in lesson.yaml.
- * @typedef {{start: {[name: string]: any} | null, hurry: number | null, hold: string,
+ * A button of a step, as in lesson.yaml: one of a start, a hurry, a push and a clamp.
+ * @typedef {{start: {[name: string]: any} | null, hurry: number | null, hold: Hold,
  *   push: {[name: string]: number} | null, clamp: boolean | null}} Act
  */
 /** A number that is predicted, in rad, and how near the prediction is to be. @typedef {{value: number, within: number}} Ask */
@@ -19,7 +21,7 @@ import { isKnown, phrase } from "../words/wording.js";
  * @typedef {{name: string, acts: Act[], scene: string, charts: string[], layers: string[],
  *   ask: Ask | null, table: Table | null}} Step
  */
-/** @typedef {(message: {[name: string]: any}) => void} Send */
+/** @typedef {(message: Message) => void} Send */
 
 const PREDICTIONS = "predictions"; // as the browser keeps them
 
@@ -49,11 +51,12 @@ export const writePredictions = (steps, answer) => {
   return `${lines.join("\n") || phrase("predictions", { kind: "none" })}\n`;
 };
 
-/** What a button asks for. @param {Act} act @param {string} scene */
+/** What a button asks for. @param {Act} act @param {string} scene @returns {Message} */
 export const nameAct = ({ start, push, clamp, hurry: factor, hold }, scene) => {
   if (clamp) return { act: "clamp" };
   if (start) return { act: "link", link: { scene, ...start } };
-  return push ? { act: "pushes", ...push } : { act: "kick", factor, hold };
+  if (push) return { act: "pushes", ...push };
+  return { act: "kick", factor: /** @type {number} */ (factor), hold };
 };
 
 /** The numbers that a step explains. @param {Step} step @returns {HTMLElement[]} */

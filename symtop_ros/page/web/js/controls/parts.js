@@ -73,7 +73,7 @@ class Row {
 
 export class Parts {
   /**
-   * @param {(message: {[name: string]: any}) => void} send
+   * @param {(message: import("../run/acts.js").Message) => void} send
    * @param {Bodies} bodies
    */
   constructor(send, bodies) {
@@ -131,8 +131,8 @@ export class Parts {
   use() {
     refuse("");
     const parts = this.rows.map((row) => row.read());
-    if (parts.some((part) => part === null)) return;
-    this.used = /** @type {Part[]} */ (parts);
+    if (!parts.every((part) => part !== null)) return;
+    this.used = parts;
     this.isTyped = false;
     this.send({ act: "body", parts });
   }

@@ -7,7 +7,7 @@ import { phrase } from "../words/wording.js";
 /** @import { Now } from "../words/facts.js" */
 
 export class Roots {
-  /** @param {(message: {[name: string]: any}) => void} send */
+  /** @param {(message: import("../run/acts.js").Message) => void} send */
   constructor(send) {
     /** What is shown. @type {Now | null} */
     this.now = null;

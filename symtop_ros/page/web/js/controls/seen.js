@@ -22,7 +22,7 @@ const describe = (start) => {
 };
 
 export class Seen {
-  /** @param {(message: {[name: string]: any}) => void} send */
+  /** @param {(message: import("../run/acts.js").Message) => void} send */
   constructor(send) {
     this.send = send;
     this.list = find("questions", HTMLSelectElement);
@@ -66,7 +66,8 @@ export class Seen {
     refuse("");
     this.clear();
     const known = this.names.map((name, k) => readTyped(this.inputs[k], QUANTITIES[name]));
-    if (!known.includes(null)) this.send({ act: "solve", question: this.list.value, known });
+    if (known.every((each) => each !== null))
+      this.send({ act: "solve", question: this.list.value, known });
   }
 
   /** Show all starts as buttons, or say what a number would have to be. @param {Found} found */

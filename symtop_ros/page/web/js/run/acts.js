@@ -7,18 +7,72 @@ import { readPushes } from "./run.js";
 import { phrase } from "../words/wording.js";
 import { createStart, describeStart, findScene, readLink, readScene } from "./links.js";
 
-/** @import { LocalTop, Message } from "./local.js" */
+/** @import { LocalTop } from "./local.js" */
 /** @import { State } from "../physics/state.js" */
-/** @import { Vector, Top } from "../physics/kernel.js" */
+/** @import { Hold, Part, Vector } from "../physics/kernel.js" */
 /** @import { Beginning } from "./links.js" */
-/** @typedef {(top: LocalTop, message: Message) => void} Act */
+/**
+ * A start by angles in rad and rates in rad/s; phi' may be that of a regular precession.
+ * @typedef {{theta: number, psi_dot: number, theta_dot?: number, phi_dot?: number,
+ *   precession?: string}} AskedStart
+ */
+/** @typedef {{axle_impulse?: number, rate?: number, number?: number}} AskedPushes */
+/**
+ * Acts that make an event, each with what it needs: rates and angles in rad, a torque by its sign, the
+ * end of a pull in scene units, the place of an event in the run, fields of a link as texts.
+ * @typedef {{
+ *   body: {parts: Part[]},
+ *   clamp: {},
+ *   grasp: {},
+ *   kick: {factor: number, hold?: Hold},
+ *   link: {link: {[field: string]: string}},
+ *   press: {},
+ *   pull: {end: Vector},
+ *   push: {way: string},
+ *   pushes: AskedPushes,
+ *   reset: {},
+ *   restart: {entry: number},
+ *   scene: {name: string},
+ *   set: {name: string, value: number},
+ *   start: AskedStart,
+ *   tilt: {theta: number, phi: number},
+ *   torque: {sign: number},
+ * }} EventActs
+ */
+/**
+ * Acts that only change what is shown: times in s of the run, a run as run.json has it.
+ * @typedef {{
+ *   keep: {kept: boolean},
+ *   load: {run: unknown},
+ *   pause: {},
+ *   record: {},
+ *   rest: {},
+ *   run: {},
+ *   seek: {time: number},
+ *   show: {layer: string, shown: boolean},
+ *   solve: {question: string, known: number[]},
+ *   speed: {factor: number},
+ *   step: {},
+ * }} ViewActs
+ */
+/** @typedef {EventActs & ViewActs} Acts */
+/**
+ * What a page asks for: an act by its name, with what it needs.
+ * @template {keyof Acts} [K=keyof Acts]
+ * @typedef {{[Name in K]: {act: Name} & Acts[Name]}[K]} Message
+ */
+/**
+ * What does each of some acts.
+ * @template T
+ * @typedef {{[Name in keyof T]: (top: LocalTop, asked: T[Name]) => void}} Table
+ */
 
 const PUSH = 1; // rad/s by which a push changes a rate
 const PULL = 0.5; // of sqrt(|Mgl|/Ix): change of the rates by a pull of one scene unit
 const TORQUE_SHARE = 0.0075; // of |Mgl|: the torque of the buttons
 const PUSH_TORQUE = 2; // of that torque: the mean one of pushes along
 export const PUSH_RATE = 20; // pushes per s of the motion
-const TORQUE_LASTS = 150; // ms after the last message of a button that is held
+const MOST_PUSHES = 1000; // of one press, as many as the kernel takes: its release ends them
 const STEPS = 24; // of a nutation
 const LONGEST_STEP = 0.05; // s of the motion
 /** @type {{[way: string]: number}} */
@@ -27,7 +81,7 @@ const SIGNS = { up: -1, down: 1, along: 1, back: -1 };
 /** @param {LocalTop} top @param {State} after @param {import("./run.js").Asked} asked */
 const addKick = (top, after, asked) => top.add("kick", top.course.continue(after), asked);
 
-/** @param {LocalTop} top @param {Message} message */
+/** @param {LocalTop} top @param {EventActs["kick"]} asked */
 const kick = (top, { factor, hold = "spin_rate" }) => {
   const after = top.state.kick(top.course.top, "factor", [factor], hold);
   addKick(top, after, { act: { precession_rate_factor: factor, hold }, hold });
@@ -43,7 +97,7 @@ const addImpulse = (top, impulse, kind) => {
   addKick(top, after, { act: { angular_impulse: impulse }, hold: null, made_by: { kind } });
 };
 
-/** @param {LocalTop} top @param {Message} message */
+/** @param {LocalTop} top @param {EventActs["push"]} asked */
 const push = (top, { way }) => {
   const change = SIGNS[way] * PUSH;
   if (way === "along" || way === "back") {
@@ -63,8 +117,8 @@ export const findPush = (course, rate = PUSH_RATE) => {
   return (way * PUSH_TORQUE * findTorque(course)) / rate;
 };
 
-/** Push along the precession: at once, and then again and again. @type {Act} */
-const pushAlong = (top, { axle_impulse, rate = PUSH_RATE, number = top.pushes }) => {
+/** Push along the precession: at once, and then again and again. @param {LocalTop} top @param {AskedPushes} asked */
+const pushAlong = (top, { axle_impulse, rate = PUSH_RATE, number = MOST_PUSHES }) => {
   const { course } = top;
   const impulse = axle_impulse ?? findPush(course, rate);
   const after = top.state.kick(course.top, "axle", [impulse]);
@@ -72,11 +126,14 @@ const pushAlong = (top, { axle_impulse, rate = PUSH_RATE, number = top.pushes })
   top.add("push", course.continue(after, { pushes: readPushes(act) }), { act });
 };
 
-/** Push along while a button is held; another act ends those pushes, and the hand begins again. @type {Act} */
+/**
+ * Push along while a button is held; another act ends those pushes, and the hand begins again.
+ * @param {LocalTop} top
+ */
 const press = (top) => {
-  const isPushed = top.pushUntil && top.run.findEvent(top.time).kind === "push";
+  const isPushed = top.holds.push.isHeld && top.run.findEvent(top.time).kind === "push";
   if (!isPushed) pushAlong(top, {});
-  top.pushUntil = performance.now() + TORQUE_LASTS;
+  top.holds.push.renew();
 };
 
 /**
@@ -100,10 +157,11 @@ export const holdTorque = (top, sign) => {
   const [x, y, z] = top.steady;
   /** @type {Vector} */
   const torque = [x, y, z + sign * findTorque(top.course)];
-  top.torqueUntil = sign ? performance.now() + TORQUE_LASTS : 0;
+  if (sign) top.holds.torque.renew();
+  else top.holds.torque.end();
   if (top.course.torque[2] === torque[2]) return;
   top.add("torque", top.course.continue(top.state, { torque }));
-  top.tellFacts();
+  top.telling.tellFacts();
 };
 
 /** Hold the precession by hand, or let it go. @param {LocalTop} top */
@@ -112,10 +170,10 @@ const clamp = (top) => {
   top.add(clamped ? "unclamp" : "clamp", top.course.continue(top.state, { clamped: !clamped }));
 };
 
-/** Hold it while a button is held. @type {Act} */
+/** Hold it while a button is held. @param {LocalTop} top */
 const grasp = (top) => {
   if (!top.course.clamped) clamp(top);
-  top.graspUntil = performance.now() + TORQUE_LASTS;
+  top.holds.grasp.renew();
 };
 
 /** The present motion, without the torque of a button. @param {LocalTop} top @returns {Beginning} */
@@ -133,14 +191,14 @@ const begin = (top, { top: own, friction, torque, start, clamped = false }, aske
   top.initial = { start, clamped };
 };
 
-/** @param {LocalTop} top @param {Message} message */
+/** @param {LocalTop} top @param {AskedStart} asked */
 const startWith = (top, { theta, theta_dot = 0, phi_dot = 0, psi_dot, precession }) => {
   const numbers = { theta: Number(theta), theta_dot, phi_dot, psi_dot };
   const start = createStart(top.kernel, top.course.top, numbers, precession);
   begin(top, { ...present(top), start });
 };
 
-/** A start with the rates of now, in another direction of the axis. @type {Act} */
+/** A start with the rates of now, in another direction of the axis. @param {LocalTop} top @param {EventActs["tilt"]} asked */
 const tilt = (top, { theta, phi }) => {
   const { psi_dot, phi_dot } = describeStart(top.state);
   const { psi } = top.state.angles;
@@ -148,13 +206,13 @@ const tilt = (top, { theta, phi }) => {
   begin(top, { ...present(top), start });
 };
 
-/** @param {LocalTop} top @param {Message} message */
+/** @param {LocalTop} top @param {EventActs["scene"]} asked */
 const chooseScene = (top, { name }) => {
   const scene = findScene(top.content.scenes, name);
   begin(top, readScene(top.kernel, scene), { made_by: { kind: "scene", name } });
 };
 
-/** @param {LocalTop} top @param {Message} message */
+/** @param {LocalTop} top @param {EventActs["link"]} asked */
 const followLink = (top, { link: { scene: name, ...texts } }) => {
   const scene = name === undefined ? null : findScene(top.content.scenes, name);
   const { event } = top.content.run_fields;
@@ -169,13 +227,16 @@ const reset = (top) => {
   begin(top, { ...present(top), ...top.initial }, { made_by: { kind: "reset" } });
 };
 
-/** A start with the motion of an event: after a kick its own words would be false. @type {Act} */
+/**
+ * A start with the motion of an event: after a kick its own words would be false.
+ * @param {LocalTop} top @param {EventActs["restart"]} asked
+ */
 const restart = (top, { entry }) => {
   const { kind, course, asked, time } = top.run.moments[entry];
   begin(top, { ...course, torque: top.run.findSteady(time) }, kind === "start" ? asked : {});
 };
 
-/** @param {LocalTop} top @param {Message} message */
+/** @param {LocalTop} top @param {EventActs["set"]} asked */
 const setParameter = (top, { name, value }) => {
   const [group, key] = name.split(".");
   const friction = [...top.course.friction];
@@ -187,13 +248,13 @@ const setParameter = (top, { name, value }) => {
   top.add("change", top.course.continue(top.state, { top: own, friction, clamped }), { made_by });
 };
 
-/** Another top: that of a body of parts. @type {Act} */
+/** Another top: that of a body of parts. @param {LocalTop} top @param {EventActs["body"]} asked */
 const takeBody = (top, { parts }) => {
   const own = top.kernel.findBody(parts).top;
   top.add("change", top.course.continue(top.state, { top: own, clamped: top.course.clamped }));
 };
 
-/** What starts have what is known of them. @type {Act} */
+/** What starts have what is known of them. @param {LocalTop} top @param {ViewActs["solve"]} asked */
 const solve = (top, { question, known }) => {
   top.tell({ solved: top.kernel.solveStart(top.course.top, question, known) });
 };
@@ -204,7 +265,7 @@ const step = (top) => {
   top.step(Math.round(length * NANO));
 };
 
-/** What makes an event: what came later is no longer part of the run. @type {{[act: string]: Act}} */
+/** What makes an event: what came later is no longer part of the run. @type {Table<EventActs>} */
 const EVENTS = {
   body: takeBody,
   clamp,
@@ -212,8 +273,8 @@ const EVENTS = {
   kick,
   press,
   push,
-  pushes: (top, message) => {
-    pushAlong(top, message);
+  pushes: (top, asked) => {
+    pushAlong(top, asked);
     top.demandPushes();
   },
   restart,
@@ -230,13 +291,14 @@ const EVENTS = {
 /** What would act on a precession that a hand holds. */
 const TOUCHES = ["kick", "press", "push", "pushes", "pull", "torque"];
 
-/** What only changes what is shown. @type {{[act: string]: Act}} */
+/** What only changes what is shown. @type {Table<ViewActs>} */
 const VIEWS = {
   solve,
   step,
   keep: (top, { kept }) => top.keep(kept),
   load: (top, { run }) => top.load(run),
   pause: (top) => top.setRunning(!top.isRunning),
+  record: (top) => top.record(),
   rest: (top) => top.setRunning(false),
   run: (top) => top.setRunning(true),
   seek: (top, { time }) => top.seek(Math.round(time * NANO)),
@@ -246,13 +308,18 @@ const VIEWS = {
   speed: (top, { factor }) => top.setSpeed(factor),
 };
 
-/** Do what a page asks for; a refusal is thrown. @type {Act} */
+/** @type {Table<Acts>} */
+const ACTS = { ...EVENTS, ...VIEWS };
+
+/**
+ * Do what a page asks for; a refusal is thrown.
+ * @template {keyof Acts} K
+ * @param {LocalTop} top
+ * @param {Message<K>} message
+ */
 export const perform = (top, message) => {
-  const event = EVENTS[message.act];
   if (TOUCHES.includes(message.act) && top.course.clamped)
     throw new RangeError(phrase("refused.held"));
-  if (event) {
-    event(top, message);
-    top.end = top.time;
-  } else VIEWS[message.act](top, message);
+  ACTS[message.act](top, message);
+  if (message.act in EVENTS) top.end = top.time;
 };

@@ -8,16 +8,30 @@ import { LocalTop } from "./local.js";
 import { State } from "../physics/state.js";
 import { phrase } from "../words/wording.js";
 
-/** @import { Message } from "./local.js" */
+/** @import { Message } from "./acts.js" */
 /** @import { Course } from "../physics/course.js" */
+/** @import { EventRecord } from "./run.js" */
+/** @import { Quaternion } from "../physics/kernel.js" */
 /** @typedef {{service: string, argument?: any} | {torque: number[]}} Request */
+/**
+ * An event of the node, as the bridge sends it: its stamp in ns, and of one that changes the motion its
+ * record. A release is the number of the pushes that were given.
+ * @typedef {{name: string, stamp: string, said: string, running: boolean, factor: number,
+ *   recording?: boolean, record?: EventRecord | {kind: "release", time: number}}} NodeEvent
+ */
+/**
+ * What is new: events, all of them if the run is; the newest attitude with its time in ns; and a
+ * sentence if the node is lost.
+ * @typedef {{events?: NodeEvent[], new?: boolean, time?: number, orientation?: Quaternion,
+ *   lost?: string | null}} NodeNews
+ */
 
 const RELEASE = "release"; // service, and event: pushes have ended
 const CLAMP = "clamp"; // service
 const TOLD = ["record", "failure"]; // events of which the page says what the node said
 
 export class NodeTop extends LocalTop {
-  /** @type {import("../physics/kernel.js").Quaternion | null} */
+  /** @type {Quaternion | null} */
   orientation = null; // that the node has published last
   isGreeted = false;
   latest = 0; // ns of the run, of the last event
@@ -32,13 +46,13 @@ export class NodeTop extends LocalTop {
     news.onerror = () => this.tell({ lost: phrase("page.disconnected") });
   }
 
-  /** @param {Message} message of the server */
+  /** @param {NodeNews} news */
   follow({ events = [], new: isNew = false, time, orientation, lost }) {
     if (isNew) this.beginRun(events);
     for (const event of events) this.followEvent(event);
     if (lost !== undefined) this.tell({ lost });
     if (!this.run.moments.length) return;
-    if (time !== undefined) {
+    if (time !== undefined && orientation) {
       const { course } = this;
       this.time = this.end = Math.max(time, this.latest);
       if (this.isGreeted) this.cross(course);
@@ -49,13 +63,13 @@ export class NodeTop extends LocalTop {
       this.present();
     }
     if (!events.length) return;
-    this.stir();
-    this.tellFacts();
+    this.frames.stir();
+    this.telling.tellFacts();
   }
 
   /**
    * The page sees a node for the first time, the server was started again, or the node was.
-   * @param {Message[]} events of the run
+   * @param {NodeEvent[]} events of the run
    */
   beginRun(events) {
     const isKnown = events.some(({ stamp }) => stamp === this.stamp);
@@ -63,7 +77,7 @@ export class NodeTop extends LocalTop {
     this.run.moments = [];
   }
 
-  /** @param {Message} event */
+  /** @param {NodeEvent} event */
   followEvent({ record, running, factor, recording, said, name, stamp }) {
     this.stamp = stamp;
     if (record?.kind === RELEASE) this.run.release(Math.round(record.time * NANO));
@@ -94,8 +108,8 @@ export class NodeTop extends LocalTop {
 
   /** Show what has come: the node has the time. @param {number} _ ms @param {number} now ms */
   advance(_, now) {
-    if (this.pushUntil && now > this.pushUntil) this.release();
-    if (this.graspUntil && now > this.graspUntil) this.letGo();
+    if (this.holds.push.isOver(now)) this.release();
+    if (this.holds.grasp.isOver(now)) this.letGo();
     this.show(now);
   }
 
@@ -104,7 +118,6 @@ export class NodeTop extends LocalTop {
     this.requests = [];
     try {
       if (message.act === "reset") this.ask("reset");
-      else if (message.act === "record") this.ask("record", !this.isRecording);
       else if (message.act === "torque")
         this.requests.push({ torque: [0, 0, message.sign * findTorque(this.course)] });
       else perform(this, message);
@@ -116,16 +129,20 @@ export class NodeTop extends LocalTop {
     return true;
   }
 
+  record() {
+    this.ask("record", !this.isRecording);
+  }
+
   /** End the pushes: those that the node has not given yet. */
   release() {
-    this.pushUntil = 0;
+    this.holds.push.end();
     const { number = 0 } = this.run.find(this.time);
     const { pushes } = this.run.findEvent(this.time).course;
     if (pushes && number < pushes.number) this.send([{ service: RELEASE }]);
   }
 
   letGo() {
-    this.graspUntil = 0;
+    this.holds.grasp.end();
     this.send([{ service: CLAMP, argument: false }]);
   }
 

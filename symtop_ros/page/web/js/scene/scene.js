@@ -171,7 +171,7 @@ export class Scene {
     try {
       this.top = top;
       this.begin();
-      this.draw(top.state, top.findStates(top.listTimes()));
+      this.draw(top.state, top.trace.findStates(top.trace.listTimes()));
       return work();
     } finally {
       this.top = own;
@@ -207,7 +207,8 @@ export class Scene {
       this.drawArrow("ball", arrow, begin, "");
       this.labels.put("push", COLORS.ball, begin, push.tip, phrase("scene.push"));
     }
-    const past = states.slice(-Math.ceil(((time - push.begin) / (top.window * NANO)) * top.points));
+    const { window, points } = top.trace;
+    const past = states.slice(-Math.ceil(((time - push.begin) / (window * NANO)) * points));
     const lift = findReached(push, time, past);
     if (!lift) return;
     const { phi } = state.angles;
@@ -263,7 +264,8 @@ export class Scene {
   /** @param {State} state @param {State[]} states */
   drawLines(state, states) {
     const { painter, top } = this;
-    const { free, layers } = top;
+    const { layers } = top;
+    const { free } = top.telling;
     if (layers.sphere) painter.drawLines(this.models.sphere, paint("sphere"), 1, STILL, 0.55);
     if (free !== this.circled)
       painter.loadLines(free.motion.turning_angles.flatMap(listParallel), this.models.circles);

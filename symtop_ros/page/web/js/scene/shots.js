@@ -6,13 +6,14 @@ import { drawSmall } from "./picture.js";
 
 /** @import { Kernel } from "../physics/kernel.js" */
 /** @import { Scene } from "./scene.js" */
-/** @typedef {{messages: {[name: string]: any}[], layers: string[]}} Shot what is asked for, and shown */
+/** @import { Message } from "../run/acts.js" */
+/** @typedef {{messages: Message[], layers: string[]}} Shot what is asked for, and shown */
 
 const LONGEST = 1; // s after an act
 
 /** Go on until much of what follows is seen. @param {LocalTop} top */
 const watch = (top) => {
-  const half = top.free.motion.nutation_period / 2;
+  const half = top.telling.free.motion.nutation_period / 2;
   top.step(Math.round(Math.min(half || LONGEST, LONGEST) * NANO));
 };
 
