@@ -68,30 +68,37 @@ class Shortfall(NamedTuple):
     factor: float  # real-time factor that can be kept with the CPU time of `SHARE`
 
 
+class Progress(NamedTuple):
+    """What one call has reached of a motion."""
+
+    ready: bool  # the state that was asked for can be computed
+    end: float | None = None  # s of the motion: its last time, if it has no further states
+    shortfall: Shortfall | None = None  # if the stretch has taken longer than it lasts
+
+
+READY = Progress(True)
+
+
 class ComputeBudget:
     """Prepares a motion stretch by stretch and measures the time which that takes."""
 
     def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
         self._clock = clock
         self.spent = 0.0  # work so far in s
-        # set by the last call if the motion has no further states: its last time in s
-        self.end: float | None = None
-        self.shortfall: Shortfall | None = None  # set if the last stretch took longer than it lasts
         self._segment: Segment | None = None  # the last one
         self._prepared = 0  # ns: end of its last stretch
         self._stretch: tuple[Segment, int] | None = None
         self._progress, self._spent_before = 0.0, 0.0  # s of the motion and of work, of the stretch
 
-    def prepare(self, segment: Segment, stamp: int, factor: float = 1.0) -> bool:
-        """Work for about 1 ms towards a stamp (ns); return True if its state is ready.
+    def prepare(self, segment: Segment, stamp: int, factor: float = 1.0) -> Progress:
+        """Work for about 1 ms towards the state at a stamp (ns).
 
         `factor` is the pace of the stamps: seconds of them per second of real time.
         """
-        self.shortfall = self.end = None
         if not segment.motion.is_driven:
-            if stamp > segment.last_stamp:
-                self.end = float(segment.time_at(int(segment.last_stamp)))
-            return self.end is None
+            if stamp <= segment.last_stamp:
+                return READY
+            return Progress(False, end=float(segment.time_at(int(segment.last_stamp))))
         if segment is not self._segment:
             self._segment = segment
             self._prepared = segment.stamp
@@ -111,8 +118,9 @@ class ComputeBudget:
         if reached == end:
             self._prepared = stamp
             self._stretch = None
-        elif reached == start:
-            self.end = reached
-        elif work > max(FREE_WORK, (stamp - self._prepared) * 1e-9 / factor):
-            self.shortfall = Shortfall(reached, SHARE * self._progress / work)
-        return bool(reached == end)
+            return READY
+        if reached == start:
+            return Progress(False, end=reached)
+        if work > max(FREE_WORK, (stamp - self._prepared) * 1e-9 / factor):
+            return Progress(False, shortfall=Shortfall(reached, SHARE * self._progress / work))
+        return Progress(False)

@@ -6,6 +6,7 @@ that rates are derivatives by the stamps at every factor. The factor of its segm
 """
 
 from symtop_ros.run.simulation.block import GAP
+from symtop_ros.run.simulation.budget import Shortfall
 from symtop_ros.run.simulation.host import Clock, Host, Sink
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.run.simulation.simulation import JUMP, Simulation
@@ -117,22 +118,23 @@ class OwnTimeSimulation(Simulation):
     def _integrate_to(self, stamp: int) -> bool:
         """Work for some ms until the state at a stamp is ready; else a nearer stamp is the next."""
         for _ in range(CALLS):
-            if self._prepare(stamp):
+            progress = self._prepare(stamp)
+            if progress.ready:
                 return True
-        self._check_pace(stamp)
+        if progress.shortfall:
+            self._slow_down(stamp, progress.shortfall)
         segment = self.segment
         self._bring_forward(segment.motion.reach(segment.time_at(stamp), 0))
-        while not self._prepare(self.stamp):  # 1 ns at most
+        while not self._prepare(self.stamp).ready:  # 1 ns at most
             pass
         return False
 
-    def _check_pace(self, stamp: int) -> None:
-        """Slow the time down if the motion cannot be followed; a sample shows what was reached."""
-        if shortfall := self.budget.shortfall:
-            self._bring_forward(shortfall.reached)
-            # Less than 1 ns after the last sample, the next stamp is not reached, and may never be.
-            if self.segment.stamp_at(shortfall.reached) >= self.stamp:
-                self.host.warn(self._set_pace(shortfall.factor))
+    def _slow_down(self, stamp: int, shortfall: Shortfall) -> None:
+        """Slow the time down; a sample shows what was reached."""
+        self._bring_forward(shortfall.reached)
+        # Less than 1 ns after the last sample, the next stamp is not reached, and may never be.
+        if self.segment.stamp_at(shortfall.reached) >= self.stamp:
+            self.host.warn(self._set_pace(shortfall.factor))
 
     def _set_pace(self, factor: float) -> str:
         verdict = super()._set_pace(factor)

@@ -15,7 +15,7 @@ from typing import TypeVar
 from symtop_ros.base.refusals import attempt, one_line
 from symtop_ros.physics import State
 from symtop_ros.run.simulation.block import CATCH_UP, GAP, Block, Ticker
-from symtop_ros.run.simulation.budget import SHARE, ComputeBudget
+from symtop_ros.run.simulation.budget import SHARE, ComputeBudget, Progress, Shortfall
 from symtop_ros.run.simulation.changes.follow import Act, Request
 from symtop_ros.run.simulation.changes.outcomes import Failure, Outcome
 from symtop_ros.run.simulation.changes.timeline import Timeline
@@ -197,13 +197,13 @@ class Simulation:
         stamps = self._list_stamps(stamp)
         if not stamps:  # the torque ends with the next turn
             return False
-        ready = self._prepare(stamps[-1])
-        if ready:
+        progress = self._prepare(stamps[-1])
+        if progress.ready:
             self._block = self._begin_block(stamps)
             self._later = None
-        else:
-            self._check_pace(stamps[0])
-        return ready
+        elif progress.shortfall:
+            self._slow_down(stamps[0], progress.shortfall)
+        return progress.ready
 
     def _work_ahead(self) -> None:
         """Compute a piece of the next block; the first sample of this one says what is due."""
@@ -271,15 +271,12 @@ class Simulation:
         """Seconds of the stamps per second of real time."""
         return 1.0
 
-    def _prepare(self, stamp: int) -> bool:
-        """Work towards a stamp; return True if its state is ready."""
-        segment = self.segment
-        if not segment.motion.is_driven and stamp <= segment.last_stamp:
-            return True  # it takes no work
-        ready = self.budget.prepare(segment, stamp, self._pace)
-        if self.budget.end is not None:
-            self._stop_at(self.budget.end)
-        return ready
+    def _prepare(self, stamp: int) -> Progress:
+        """Work towards the state at a stamp; a motion that cannot continue is paused."""
+        progress = self.budget.prepare(self.segment, stamp, self._pace)
+        if progress.end is not None:
+            self._stop_at(progress.end)
+        return progress
 
     def _stop_at(self, reached: float) -> None:
         """Pause a motion that cannot continue at the time (s) that it has reached."""
@@ -288,21 +285,21 @@ class Simulation:
 
     def _integrate_to(self, stamp: int) -> bool:
         """Work until the state at a stamp is ready; False if a nearer stamp became the next."""
-        while not self._prepare(stamp):
-            self._check_pace(stamp)
+        while not (progress := self._prepare(stamp)).ready:
+            if progress.shortfall:
+                self._slow_down(stamp, progress.shortfall)
         return True
 
-    def _check_pace(self, stamp: int) -> None:
-        """Slow the motion down if it cannot be followed."""
-        if shortfall := self.budget.shortfall:
-            self.host.warn(self.apply(self.timeline.slow_down(stamp, shortfall)))
+    def _slow_down(self, stamp: int, shortfall: Shortfall) -> None:
+        """Slow down a motion that cannot be followed."""
+        self.host.warn(self.apply(self.timeline.slow_down(stamp, shortfall)))
 
     def speed_up(self) -> None:
         """Return towards the real-time factor of the settings if the budget allows it."""
         work, self._spent = self.budget.spent - self._spent, self.budget.spent
         current = self.factor
         factor = self.settings.real_time_factor
-        if current < factor and work < SHARE / 2 and self._prepare(self.stamp):
+        if current < factor and work < SHARE / 2 and self._prepare(self.stamp).ready:
             if self.segment.motion.is_driven:
                 factor = min(factor, 2 * current)
             self._set_pace(factor)

@@ -10,7 +10,13 @@ from run.simulation.runs import SECOND
 
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.run.simulation.block import CATCH_UP, Block, Ticker
-from symtop_ros.run.simulation.budget import STEPS_AT_ONCE, ComputeBudget, StepBudget
+from symtop_ros.run.simulation.budget import (
+    READY,
+    STEPS_AT_ONCE,
+    ComputeBudget,
+    Progress,
+    StepBudget,
+)
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.sensor.imu import Imu, Magnetometer, Rig
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
@@ -166,12 +172,12 @@ class Clock:
         return self.time
 
 
-def count_turns(budget, segment, stamp):
-    """Return the number of calls until the state is ready or a shortfall is found."""
+def prepare(budget, segment, stamp):
+    """Return the number of calls until the state is ready or a shortfall is found, and which."""
     turns = 1
-    while not budget.prepare(segment, stamp) and not budget.shortfall:
+    while not (progress := budget.prepare(segment, stamp)).ready and not progress.shortfall:
         turns += 1
-    return turns
+    return turns, progress
 
 
 @pytest.mark.parametrize(
@@ -181,24 +187,23 @@ def count_turns(budget, segment, stamp):
 )
 def test_what_needs_no_integration_takes_one_call_for_any_time(segment):
     budget = ComputeBudget(Clock(0.001))
-    assert count_turns(budget, segment, 10**6 * SECOND) == 1
-    assert budget.shortfall is None
+    assert prepare(budget, segment, 10**6 * SECOND) == (1, READY)
 
 
 def test_a_stretch_that_lasts_longer_than_its_work_is_prepared_in_many_calls():
     budget = ComputeBudget(Clock(0.001))
-    turns = count_turns(budget, Segment.begin(fast(), 0, 1.0), SECOND)
+    turns, progress = prepare(budget, Segment.begin(fast(), 0, 1.0), SECOND)
     assert turns > 10
-    assert budget.shortfall is None
+    assert progress == READY
     assert budget.spent == pytest.approx(0.001 * turns)
 
 
 def test_a_stretch_that_takes_longer_than_it_lasts_gives_a_factor_that_can_be_kept():
     each = 0.1  # s for a turn
     budget = ComputeBudget(Clock(each))
-    turns = count_turns(budget, Segment.begin(fast(), 0, 1.0), SECOND)
+    turns, progress = prepare(budget, Segment.begin(fast(), 0, 1.0), SECOND)
     assert turns == 11  # the first with which it takes more than the second
-    reached, factor = budget.shortfall
+    reached, factor = progress.shortfall
     assert reached == fast().reach(1.0, turns * STEPS_AT_ONCE)
     # a quarter of one core
     assert factor == pytest.approx(0.25 * (reached - fast().reach(1.0, 0)) / (turns * each))
@@ -207,27 +212,26 @@ def test_a_stretch_that_takes_longer_than_it_lasts_gives_a_factor_that_can_be_ke
 def test_the_factor_of_a_shortfall_can_be_kept():
     budget = ComputeBudget(Clock(0.1))
     segment = Segment.begin(fast(), 0, 1.0)
-    count_turns(budget, segment, SECOND)
-    slower = segment.slow_down(*budget.shortfall, SECOND)
-    count_turns(budget, slower, 2 * SECOND)
-    assert budget.shortfall is None
+    _, progress = prepare(budget, segment, SECOND)
+    slower = segment.slow_down(*progress.shortfall, SECOND)
+    assert prepare(budget, slower, 2 * SECOND)[1] == READY
 
 
 def test_after_a_long_stop_the_missed_stretch_may_take_as_long_as_it_lasts():
     budget = ComputeBudget(Clock(0.002))  # a tenth of the work that any stretch may take
     segment = Segment.begin(fast(), 0, 1.0)
-    count_turns(budget, segment, SECOND // 100)
-    count_turns(budget, segment, 5 * SECOND)
-    assert budget.shortfall is None
+    prepare(budget, segment, SECOND // 100)
+    assert prepare(budget, segment, 5 * SECOND)[1] == READY
 
 
 def test_a_state_that_is_asked_for_in_between_does_not_make_the_factor_negative():
     budget = ComputeBudget(Clock(0.1))
     motion = fast()
     segment = Segment.begin(motion, 0, 1.0)
-    while not budget.prepare(segment, SECOND) and not budget.shortfall:
+    while not (progress := budget.prepare(segment, SECOND)).shortfall:
+        assert not progress.ready
         motion.at(0.0)  # moves the integration back to its start
-    assert budget.shortfall.factor > 0
+    assert progress.shortfall.factor > 0
 
 
 @pytest.mark.parametrize(("count", "is_reached"), [(10, False), (100, True)])
@@ -242,7 +246,6 @@ def test_a_motion_that_comes_to_its_last_state_is_stopped_there():
     budget = ComputeBudget()
     last = int(segment.last_stamp)
     assert 0 < last * 1e-9 < motion.farthest_time
-    assert budget.prepare(segment, last)
-    assert not budget.prepare(segment, last + SECOND)
+    assert budget.prepare(segment, last) == READY
+    assert budget.prepare(segment, last + SECOND) == Progress(False, end=segment.time_at(last))
     assert segment.state_at(last) == motion.at(segment.times_at(last))
-    assert budget.end == segment.time_at(last)
