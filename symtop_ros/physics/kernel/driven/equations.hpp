@@ -3,12 +3,22 @@
 // The spin about the axis is split off. It is counted as an angle, and the rest is integrated in a
 // frame that turns about the axis at about Iz/Ix omega_z instead of omega_z. There friction and weight
 // have the same form as in the body, and the angular velocity of a free top is constant. Steps have to
-// resolve the nutation only, however fast a slender body spins. In this frame every derivative is a
-// polynomial of degree 2:
+// resolve the nutation only, however fast a slender body spins.
 //
-// - of the quaternion: q' = q omega/2,
-// - of the angular velocity, by Euler's equations: the directions of the torques are quadratic in q,
-//   and friction is linear in omega.
+// Let omega be the angular velocity of the body in the axes of this frame, whose own one is
+// Omega = (omega_x, omega_y, s omega_z), and S the angle of spin, with S' = omega_z. The body is turned
+// in the frame by (1 - s) S about the axis. The axis is one of symmetry: L = (Ix omega_x, Ix omega_y,
+// Iz omega_z) in the frame, too. Every derivative is then a polynomial of degree 2:
+//
+// - of the quaternion q of the frame: q' = q (0, Omega)/2,
+// - of omega, by Euler's equations in the turning frame, L' + Omega x L = N:
+//     omega_x' = (s - Iz/Ix) omega_y omega_z + N_x/Ix
+//     omega_y' = -(s - Iz/Ix) omega_z omega_x + N_y/Ix
+//     omega_z' = N_z/Iz
+//   The directions in N are quadratic in q, and friction is linear in omega.
+//
+// With s = Iz/Ix the first two of a free top would vanish. s is Iz/Ix with 26 binary places, so that s/2
+// and (1 - s)/2 are doubles without rounding; the rest, s - Iz/Ix, is a term with 32 digits.
 //
 // An error of the angular velocity grows with time, therefore rounding must not accumulate in it. The
 // state between two steps, the largest terms of the series and the constants have 32 digits, as sums
@@ -88,9 +98,16 @@ inline double find_length(double x, double y, double z) {
 enum { W, X, Y, Z, OMEGA_X, OMEGA_Y, OMEGA_Z, ONE, SPIN, VARIABLES };
 const int FACTORS = 8;
 
-const int MOST_PAIRS = 28;  // 27 are possible; a multiple of 4
+// Products are found once and used by several terms. There are 12 of a component of q with one of
+// omega, omega_z omega_x and omega_z omega_y, 4 of two components of q for the weight (X Z, W Y, Y Z,
+// W X), the other 6 for a torque in any direction, and 3 of omega with 1 for friction: 27 in all.
+const int MOST_PAIRS = 28;  // a multiple of 4
+// 12 of q', 2 of Euler's equations, 3 of friction, and in each of 3 rows 8 of the torques: 41 in all.
 const int MOST_TERMS = 64;
-const int PARTS = 3;  // of the free top, of friction, and of the torques
+// Coefficients of the free top, of friction and of the torques, by their powers of a unit of time u.
+// In this unit the variables are q and u omega: d(u omega) = u^2 omega' for d(t/u), in which a product
+// of two rates has the factor 1, friction u and a torque u^2; q' has the factor 1.
+const int PARTS = 3;
 
 struct DrivenArguments {
   double Ix, Iz, Mgl, axial, transverse, torque[3], orientation[4], omega[3];
@@ -125,7 +142,15 @@ struct DrivenEquations {
     parts[part][place] = parts[part][place] + size;
   }
 
-  // A torque along component `component` of axis `axis`, a quadratic form of the quaternion.
+  // A torque along the axis `axis` of the world: its component `component` in the frame. This is the
+  // entry of the matrix of q in row `axis` and column `component`, of which q v q* gives
+  //
+  //   w^2 + x^2 - y^2 - z^2   2 (x y - w z)           2 (x z + w y)
+  //   2 (x y + w z)           w^2 + y^2 - x^2 - z^2   2 (y z - w x)
+  //   2 (x z - w y)           2 (y z + w x)           w^2 + z^2 - x^2 - y^2
+  //
+  // A row has the components of a world axis in the frame. Of each entry: the two factors of a
+  // product, and its coefficient; 0 where there are less than four.
   void add_torque(int row, int axis, int component, Double2 size) {
     static const int AXES[3][3][4][3] = {
         {{{W, W, 1}, {X, X, 1}, {Y, Y, -1}, {Z, Z, -1}}, {{X, Y, 2}, {W, Z, -2}},
@@ -143,20 +168,29 @@ struct DrivenEquations {
     const Double2 exact_ratio = Iz / Ix;
     ratio = exact_ratio.high;
     const double share = round_to_integer(ratio * 0x1p26) / 0x1p26;
-    half_rest = (1 - share) / 2;
+    half_rest = (1 - share) / 2;  // of S: half the angle of the body in the frame
+    // The product q (0, Omega)/2. Of each term: its row, its two factors, and its sign; with omega_z
+    // there is the factor s.
+    //
+    //   2 w' = -x Omega_x - y Omega_y - z Omega_z
+    //   2 x' =  w Omega_x + y Omega_z - z Omega_y
+    //   2 y' =  w Omega_y + z Omega_x - x Omega_z
+    //   2 z' =  w Omega_z + x Omega_y - y Omega_x
     static const int TURNING[12][4] = {
         {W, X, OMEGA_X, -1}, {W, Y, OMEGA_Y, -1}, {W, Z, OMEGA_Z, -1}, {X, W, OMEGA_X, 1},
         {X, Y, OMEGA_Z, 1},  {X, Z, OMEGA_Y, -1}, {Y, W, OMEGA_Y, 1},  {Y, Z, OMEGA_X, 1},
         {Y, X, OMEGA_Z, -1}, {Z, W, OMEGA_Z, 1},  {Z, X, OMEGA_Y, 1},  {Z, Y, OMEGA_X, -1}};
     for (const auto& t : TURNING)
       add_term(0, t[0], t[1], t[2], {t[3] * (t[2] == OMEGA_Z ? share : 1.0) / 2, 0.0});
-    const Double2 remaining = Double2{share, 0.0} - exact_ratio;
+    const Double2 remaining = Double2{share, 0.0} - exact_ratio;  // Omega x L
     add_term(0, OMEGA_X, OMEGA_Z, OMEGA_Y, remaining);
     add_term(0, OMEGA_Y, OMEGA_Z, OMEGA_X, -remaining);
     const Double2 across = Double2{top.transverse, 0.0} / Ix, along = Double2{top.axial, 0.0} / Iz;
     add_term(1, OMEGA_X, ONE, OMEGA_X, -across);
     add_term(1, OMEGA_Y, ONE, OMEGA_Y, -across);
     add_term(1, OMEGA_Z, ONE, OMEGA_Z, -along);
+    // The weight acts at l on the axis e: -Mgl e x Z = Mgl (Z_y, -Z_x, 0), with the vertical Z in the
+    // frame. Its component along the axis is zero.
     add_torque(OMEGA_X, 2, 1, Mgl / Ix);
     add_torque(OMEGA_Y, 2, 0, -(Mgl / Ix));
     for (int axis = 0; axis < 3; axis++) {
@@ -172,6 +206,7 @@ struct DrivenEquations {
     sort_terms();
   }
 
+  // Products of two variables first, then those with 1; the terms keep their products.
   void sort_pairs() {
     int places[MOST_PAIRS], sorted[2][MOST_PAIRS];
     for (int linear = 0, count = 0; linear < 2; linear++) {
@@ -187,6 +222,7 @@ struct DrivenEquations {
     for (int n = 0; n < term_count; n++) pairs[n] = places[pairs[n]];
   }
 
+  // Terms by rows: those of a row are from first_terms[row] to before first_terms[row + 1].
   void sort_terms() {
     for (int a = 0; a < term_count; a++)
       for (int b = a; b > 0 && rows[b - 1] > rows[b]; b--) {

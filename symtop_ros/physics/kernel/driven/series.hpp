@@ -1,7 +1,13 @@
 // The top with friction and an applied torque: Taylor series in time, step after step.
 //
 // The derivatives are polynomials of degree 2 of the variables (equations.hpp), so coefficient k + 1
-// of all variables follows from the products of coefficients 0 to k with those from k to 0. The length
+// of all variables follows from the products of coefficients 0 to k with those from k to 0: with
+// x = sum x_k t^k and x' = c a b, Cauchy's product gives
+//
+//   (k + 1) x_(k+1) = c (a_0 b_k + a_1 b_(k-1) + ... + a_k b_0),
+//
+// and with x' = c a it is (k + 1) x_(k+1) = c a_k. The spin is no factor of any product: S' = omega_z
+// gives (k + 1) S_(k+1) = omega_z,k. The length
 // of a step follows from the last two coefficients (A. Jorba and M. Zou, A software package for the
 // numerical integration of ODEs, Experimental Mathematics 14 (2005) 99).
 #pragma once
@@ -28,7 +34,7 @@ const double LARGEST_ANGULAR_VELOCITY = 1e100;
 const int LENGTH_BITS = 10;  // a length has so few bits that the sum of lengths, the time, is exact
 const double LARGEST_SPIN = 1e15;  // rad of half the spin angle; far beyond, no digit of it is left
 
-// 1/n
+// 1/n: its double, and the rest that this leaves, rounded.
 const Double2 INVERSES[EXTENDED_TERMS + 1] = {
     {0.0, 0.0}, {1.0, 0.0}, {1.0 / 2, 0.0}, {1.0 / 3, 0x1.5555555555555p-56}, {1.0 / 4, 0.0},
     {1.0 / 5, -0x1.999999999999ap-57}, {1.0 / 6, 0x1.5555555555555p-57},
@@ -246,6 +252,8 @@ class Stepper {
     double length = LARGEST_TURN / std::fmax(turn, LARGEST_TURN / LONGEST);
     const double axial = std::fmax(1.0, std::fabs(q[OMEGA_Z]));
     const double upper = q[W] * q[W] + q[Z] * q[Z], lower = q[X] * q[X] + q[Y] * q[Y];
+    // cos^2 and sin^2 of half the tilt. Near the vertical the axis is given by what is small of q:
+    // x and y above, where tan(theta/2)^2 = lower/upper, and w and z below; and by omega across.
     const bool swings = CLOSER * CLOSER * std::fmin(upper, lower) < 1;
     const int swing[] = {OMEGA_X, OMEGA_Y, upper > lower ? X : W, upper > lower ? Y : Z};
     const double size = swings ? measure_swing(swing) : 1.0;
