@@ -178,13 +178,15 @@ class OwnTimeSimulation(Simulation):
 
         Call it in a turn. The sample at 0 is published, in a pause too.
         """
-        stamp = self.stamp
+        moved = self.timeline.move(self.stamp, 0)
+        # A start that is refused leaves all as it is.
+        again = moved.restart(0, {}) if with_state else None
         self.last = -1
         self._clock.set(0)
         self.restart_grid(0)
-        self.apply(self.timeline.move(stamp, 0))
-        if with_state:
-            self.apply(self.timeline.restart(0, {}))
+        self.apply(moved)
+        if again:
+            self.apply(again)
         self.publish()
         if not self._clock.is_running:
             self._stop()

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from run.simulation.runs import SECOND, Run
 
+from symtop_ros.base.refusals import attempt
 from symtop_ros.run.check.events import find_mismatches
 
 MS = SECOND // 1000
@@ -168,3 +169,22 @@ def test_a_reset_of_the_time_goes_back_to_0_with_a_sample_there(paused, with_sta
     assert simulation.last == again[-1] == simulation.now
     assert_recomputed_in_order(run)
     assert list(find_mismatches(run.sink.events)) == []
+
+
+def test_a_reset_to_a_start_that_is_refused_leaves_time_and_motion_as_they_are():
+    regular = {"initial.precession": "slow", "initial.theta": 0.5, "initial.psi_dot": 200.0}
+    run = start(seconds=0.3, **regular)
+    run.change({"top.Mgl": 1.0})  # no regular precession any more
+    simulation = run.simulation
+    events = len(run.sink.events)
+    now = simulation.now
+    done, refusal = simulation.take_turn("reset", lambda: attempt(lambda: reset(simulation)))
+    assert (done, refusal.startswith("precession must be")) == (False, True)
+    assert (simulation.now, len(run.sink.events)) == (now, events)
+    run.advance(0.1)
+    assert run.stamps == sorted(set(run.stamps))
+    assert simulation.now > now
+
+
+def reset(simulation):
+    simulation.reset_time(with_state=True)
