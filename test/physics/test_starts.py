@@ -105,6 +105,12 @@ def test_regular_precession_has_what_was_seen_and_no_start_is_missing(seed):
             assert all(start.psi_dot == spin for start in (*by_spin, *by_both))
 
 
+def test_a_double_root_is_one_start():
+    # (Ix - Iz) cos(theta) Mgl = 0 = Iz psi': only the rate 0 is left.
+    (start,) = solve_start(Top(1.0, 0.5, 0.0), theta=1.0, psi_dot=0.0)
+    assert (start.phi_dot, start.psi_dot) == (0.0, 0.0)
+
+
 def draw_dip(one):
     """A dip, and the most that there can be."""
     most = PI - one.theta if one.top.Mgl > 0 else one.theta
@@ -156,7 +162,8 @@ def find_slope(top, theta, psi_dot):
 def count_spins(top, theta, period):
     """How often the period of spins from none to many passes through the one that was seen."""
     critical = 2 * math.sqrt(abs(top.Mgl) * top.Ix) / top.Iz
-    spins = np.concatenate([[0.0], critical * 2.0 ** np.linspace(-30, 30, 4001)])
+    shares = np.ldexp(1 + np.arange(64) / 64, np.arange(-30, 30)[:, None]).reshape(-1)
+    spins = np.concatenate([[0.0], critical * shares])
     start = State.from_euler(theta=theta, psi_dot=spins)
     above = Motions(top, start).nutation_period > period
     return int(np.count_nonzero(above[1:] != above[:-1]))

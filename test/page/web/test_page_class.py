@@ -81,6 +81,7 @@ def test_a_part_that_is_refused_loses_nothing(opened):
         fill_part(opened, 0, "disc", *texts)
         opened.tab.click("#use-body")
         assert opened.say("refusal") == refusal
+        assert opened.tab.locator("#parts input[aria-invalid=true]").count() >= 1
     assert opened.read_events() == events
 
 

@@ -175,7 +175,8 @@ def test_a_part_has_a_kind_a_mass_and_a_size():
 
 def test_gravity_is_finite():
     found = TopRecord()
-    assert DOOR.find_body_top(pack(1.0, 0.1, 0.1, 0.1), NAN, found) == PART
+    assert DOOR.find_body_top(pack(1.0, 0.1, 0.1, 0.1), NAN, found) == DISC
+    assert DOOR.find_body_top(pack(1.0, NAN, 0.1, 0.1), 9.81, found) == PART
     assert DOOR.find_disc(pack(*TOP_ROW), INF, (c_double * 3)()) == DISC
 
 

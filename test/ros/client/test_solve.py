@@ -7,8 +7,9 @@ import pytest
 from programs import PATIENT, running_node
 
 from symtop_ros.base.refusals import RefusedError
+from symtop_ros.physics.kernel.records import QUESTIONS
 from symtop_ros.ros.client.main import main
-from symtop_ros.ros.client.solve import make_body
+from symtop_ros.ros.client.solve import KNOWN, make_body
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
@@ -96,6 +97,10 @@ def test_what_has_no_answer_is_refused_in_one_line_and_the_top_goes_on(ctl, word
     assert result.stderr.startswith(f"top_ctl: {refusal}")
     assert result.stderr.count("\n") == 1
     assert read(ctl)["top"] == before
+
+
+def test_each_number_that_a_question_has_is_one_that_top_ctl_solves_for():
+    assert {name for row in QUESTIONS for name in row.split()} == KNOWN
 
 
 def test_parts_are_added_and_measured_moments_replace_theirs():

@@ -32,8 +32,9 @@ symtop_status symtop_find_body(const symtop_part_kind* kinds, const symtop_part_
 symtop_status symtop_find_body_top(const symtop_body* body, double gravity, symtop_top* top) {
   symtop_status status = symtop::admit({body, top});
   if (status != SYMTOP_OK) return status;
-  const double numbers[] = {body->mass, body->arm, body->Ix, body->Iz, gravity};
-  if (!symtop::are_finite(numbers, 5)) return SYMTOP_BAD_PART;
+  if (!symtop::are_finite(&gravity, 1)) return SYMTOP_BAD_DISC;
+  const double numbers[] = {body->mass, body->arm, body->Ix, body->Iz};
+  if (!symtop::are_finite(numbers, 4)) return SYMTOP_BAD_PART;
   const double lever = body->mass * body->arm;  // the square of a long arm could overflow
   const symtop_top found = {body->Ix + lever * body->arm, body->Iz, lever * gravity};
   status = symtop::accept(found);

@@ -8,8 +8,6 @@
 
 namespace symtop {
 
-const int SOLUTIONS = sizeof(symtop_solutions::each) / sizeof(symtop_solution);
-
 inline void refuse(symtop_solutions& found, symtop_demand demand, double which = 0.0,
                    double least = NAN, double most = NAN) {
   found.demand = demand, found.which = which, found.least = least, found.most = most;
@@ -43,8 +41,8 @@ inline void solve_tilt_and_spin(const symtop_top& top, double theta, double psi_
   double rates[2];
   find_regular_rates(top, theta, psi_dot, SYMTOP_SPIN_RATE, rates);
   for (const bool is_positive : {true, false})
-    for (const double rate : rates)
-      if ((rate > 0) == is_positive) keep(found, {theta, 0.0, rate, psi_dot});
+    for (int k = 0; k < (rates[0] == rates[1] ? 1 : 2); k++)  // a double root is one start
+      if ((rates[k] > 0) == is_positive) keep(found, {theta, 0.0, rates[k], psi_dot});
   if (found.number > 0) return;
   const Long product = (Long(top.Ix) - Long(top.Iz)) * find_long_cosine(theta) * Long(top.Mgl);
   const double least = product.sign > 0 ? (root(product).scale(1) / Long(top.Iz)).to_double() : 0.0;

@@ -84,7 +84,7 @@ export class Parts {
     /** Of the body that the top is, in kg; NaN if there is none. @type {number} */
     this.mass = NaN;
     this.place = find("parts");
-    /** The list that was used last, and what it asked for. @type {Part[] | null} */
+    /** The list that was used last. @type {Part[] | null} */
     this.used = null;
     this.offer(bodies);
     find("add-part").addEventListener("click", () => {

@@ -18,7 +18,7 @@ export const readTyped = (input, unit, isPositive = false) => {
   const value = parseQuantity(typed, UNITS[unit] ?? {});
   const kind = readings ? "clear" : Number.isFinite(value) ? null : "number";
   const refusal = kind ?? (isPositive && !(value > 0) ? "positive" : null);
-  input.toggleAttribute("aria-invalid", Boolean(refusal));
+  input.setAttribute("aria-invalid", String(Boolean(refusal))); // empty it would mean false
   if (!refusal) return value;
   const got = typed || phrase("nothing");
   refuse(phrase("refused", { kind: refusal, name: input.ariaLabel, ...readings, got }));
