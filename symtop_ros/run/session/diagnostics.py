@@ -5,7 +5,9 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from typing import Any
 
+from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import (
+    Ledger,
     Motion,
     State,
     Top,
@@ -171,6 +173,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "critical_spin": _keep([float(top.critical_spin)])[0],
         **_describe_pivot(segment, motion, state),
         "clamped": motion.clamped,
+        "exchange": _say_exchange(segment, stamp),
         "verdict": _say(motion, verdict),
         "why": "" if motion.is_driven or motion.clamped else str(verdict.cause),
         "perrys_rule_holds": None if motion.clamped else verdict.rule_holds,
@@ -182,6 +185,18 @@ def _name_way(phi_dot: float) -> str:
     if phi_dot == 0:
         return ""
     return "counterclockwise" if phi_dot > 0 else "clockwise"
+
+
+def _say_exchange(segment: Segment, stamp: int) -> str:
+    """Return what gave energy and momentum since the motion began; empty under a drive."""
+    motion = segment.motion
+    is_integrated = bool(motion.friction) or any(motion.applied_torque)
+    if is_integrated:
+        return ""
+    try:
+        return str(Ledger.of(motion, 0.0, segment.time_at(stamp)))
+    except RefusedError:  # the other facts of the state are answered without it
+        return ""
 
 
 def _describe_pivot(segment: Segment, motion: Motion, state: State) -> dict[str, Any]:

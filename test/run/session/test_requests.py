@@ -12,7 +12,7 @@ from run.simulation.runs import Run
 from trials import trials
 
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.physics import Motion, kick_verdict, perrys_rule
+from symtop_ros.physics import Ledger, Motion, kick_verdict, perrys_rule
 from symtop_ros.run.session.diagnostics import summarize_state
 from symtop_ros.run.session.session import Answer
 from symtop_ros.run.simulation.changes import requests
@@ -261,6 +261,20 @@ def test_the_state_has_the_time_of_a_turn_and_the_force_of_the_pivot():
     assert math.hypot(x, y) == pytest.approx(turning)
     assert z == pytest.approx(body.mass * segment.rig.gravity)
     assert found["critical_spin"] == segment.motion.top.critical_spin
+
+
+@pytest.mark.parametrize("changes", [{}, {"top.Mgl": 0.0}, {"initial.clamped": True}])
+def test_the_state_says_what_gave_energy_and_momentum_since_the_last_event(changes):
+    run = Run("cusps", **changes)
+    run.advance(0.08)
+    segment, stamp = run.simulation.segment, run.simulation.stamp
+    ledger = Ledger.of(segment.motion, 0.0, segment.time_at(stamp))
+    assert summarize_state(segment, stamp)["exchange"] == str(ledger)
+
+
+def test_under_friction_nobody_integrates_what_was_exchanged():
+    rubbed = Run("friction").simulation
+    assert summarize_state(rubbed.segment, rubbed.stamp)["exchange"] == ""
 
 
 def test_what_is_undefined_of_a_state_is_null():
