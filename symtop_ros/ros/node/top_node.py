@@ -30,8 +30,9 @@ from symtop_ros.ros.node.parameters import (
 from symtop_ros.run.session.services import SERVICES
 from symtop_ros.run.session.session import Session
 from symtop_ros.run.simulation.changes.outcomes import Failure
+from symtop_ros.run.simulation.clocks import JUMP
 from symtop_ros.run.simulation.settings import PARAMETERS, Settings
-from symtop_ros.run.simulation.simulation import JUMP, Simulation
+from symtop_ros.run.simulation.simulation import Simulation
 from symtop_ros.run.simulation.topics import APPLIED_TORQUE, DEFAULT_NAME
 from symtop_ros.run.wire.layout import NANOSECONDS
 

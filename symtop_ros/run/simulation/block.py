@@ -18,6 +18,10 @@ Encode = Callable[[str, Stamps, Real], list[bytes]]
 # s; ticks that are later are dropped, so that a stopped process sends no long burst. Fast DDS may
 # hold a publisher for 0.33 s when a subscriber comes (docs/ros.md, Discovery).
 CATCH_UP = 0.5
+AHEAD = 0.05  # s of samples that are computed together; a kick makes them useless
+# Samples in a block at most. Requests wait while a block is computed, so blocks are short; those of
+# driven motions are shorter, because it takes a block to find that one is too fast.
+MAX_BLOCK, MAX_DRIVEN_BLOCK = 16, 4
 GAP = 0.1  # s without samples that are reported; in a longer gap the own time of a run waits
 
 
@@ -88,6 +92,46 @@ class Block:
         stamps = self._stamps if self.length > 1 else self.last
         self._samples = Samples.at(self.segment, stamps)
         return self._samples
+
+
+class Blocks:
+    """The block of the next stamps, and the one that follows, as far as it is computed."""
+
+    def __init__(self, segment: Segment, encode: Encode) -> None:
+        self._encode = encode
+        self.restart(segment)
+
+    def restart(self, segment: Segment) -> None:
+        """Begin with an empty block."""
+        self.current = Block(segment, [], self._encode)
+        self._later: Block | None = None
+
+    def cover(self, segment: Segment, stamp: int) -> bool:
+        """Go to the block with the sample of a segment at a stamp; return False if none has it."""
+        if self._later and self._later.covers(segment, stamp):
+            self.current, self._later = self._later, None
+        return self.current.covers(segment, stamp)
+
+    def begin(self, segment: Segment, stamps: Sequence[int]) -> None:
+        """Go to a new block; of it those topics are due that were asked for in the last one."""
+        self.current = Block(segment, stamps, self._encode, self.current.requested)
+        self._later = None
+
+    def begin_later(self, segment: Segment, stamps: Sequence[int]) -> None:
+        """Begin the block that follows."""
+        self._later = Block(segment, stamps, self._encode, self.current.requested)
+
+    def work_on_later(self) -> bool:
+        """Compute a piece of the block that follows; return False if there is none."""
+        if self._later is not None:
+            self._later.work()
+        return self._later is not None
+
+    def find_next_length(self, segment: Segment, rate: float) -> int:
+        """Return 1 for the first block of a motion, so that its first sample comes soon."""
+        longest = MAX_DRIVEN_BLOCK if segment.motion.is_driven else MAX_BLOCK
+        grown = 4 * self.current.length if self.current.segment is segment else 1
+        return max(1, min(longest, grown, int(AHEAD * rate)))
 
 
 class Ticker:

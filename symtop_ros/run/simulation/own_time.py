@@ -5,11 +5,11 @@ real-time factor, stands still in a pause and goes back only if a reset of the t
 that rates are derivatives by the stamps at every factor. The factor of its segments is 1.
 """
 
-from symtop_ros.run.simulation.block import GAP
 from symtop_ros.run.simulation.budget import Shortfall
+from symtop_ros.run.simulation.clocks import HostClock, RunClock
 from symtop_ros.run.simulation.host import Clock, Host, Sink
 from symtop_ros.run.simulation.settings import Settings
-from symtop_ros.run.simulation.simulation import JUMP, Simulation
+from symtop_ros.run.simulation.simulation import Simulation
 from symtop_ros.run.wire.layout import NANOSECONDS
 
 CALLS = 20  # of 1 ms for a request; the lock is held meanwhile
@@ -17,90 +17,19 @@ CALLS = 20  # of 1 ms for a request; the lock is held meanwhile
 
 def simulate(settings: Settings, clock: Clock, sink: Sink, host: Host) -> Simulation:
     """Return a simulation with the stamps of its host's clock, or in its own time."""
-    kind = OwnTimeSimulation if settings.publish_clock else Simulation
-    return kind(settings, clock, sink, host)
-
-
-class RunClock:
-    """Elapsed time of a run."""
-
-    is_simulated = False
-
-    def __init__(self, real: Clock, factor: float) -> None:
-        self._real = real
-        self.is_running = True
-        self._time = 0  # ns of the run
-        self._since = real.now  # the real time at which it was so
-        self.factor = factor  # seconds of the run per second of real time
-
-    @property
-    def now(self) -> int:
-        """Current time in ns."""
-        passed = self._real.now - self._since if self.is_running else 0
-        return self._time + int(passed * self.factor)
-
-    @property
-    def steady(self) -> int:
-        """The same time: no other program sets it."""
-        return self.now
-
-    def set_factor(self, factor: float) -> None:
-        """Continue at another pace."""
-        self.set(self.now)
-        self.factor = factor
-
-    def set(self, time: int) -> None:
-        """Continue from a time (ns); one that precedes the last stamp is a jump back."""
-        self._time = time
-        self._since = self._real.now
-
-    def stop(self, time: int) -> None:
-        """Stand still at a time (ns)."""
-        self.set(time)
-        self.is_running = False
-
-    def start(self) -> None:
-        """Continue from where it stands."""
-        self.set(self._time)
-        self.is_running = True
+    if settings.publish_clock:
+        own = RunClock(clock, settings.real_time_factor)
+        return OwnTimeSimulation(settings, own, sink, host)
+    return Simulation(settings, HostClock(clock), sink, host)
 
 
 class OwnTimeSimulation(Simulation):
-    """A top in the elapsed time of its run, which no other program sets."""
+    """A top in the elapsed time of its run, which no other program sets.
+
+    Where a motion cannot be followed, or is paused, its time waits.
+    """
 
     _clock: RunClock
-
-    def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
-        super().__init__(settings, RunClock(clock, settings.real_time_factor), sink, host)
-
-    @property
-    def factor(self) -> float:
-        """The real-time factor, which the clock has."""
-        return self._clock.factor
-
-    @property
-    def _catch_up(self) -> float:
-        """Return more than the time waits: no sample is dropped."""
-        return JUMP * self._clock.factor
-
-    def _wait_for(self, stamp: int) -> float | None:
-        """Return the seconds of real time until a stamp; None in a pause."""
-        wait = (stamp - self.now) / NANOSECONDS / self._clock.factor
-        return wait if self._clock.is_running else None
-
-    def publish(self) -> bool:
-        """Publish what is due; the time waits for a process that was stopped."""
-        late = self.now - self.stamp - round(GAP * self._clock.factor * NANOSECONDS)
-        if late > 0:
-            self._clock.set(self.now - late)
-        return super().publish()
-
-    def _follow_jump(self) -> None:
-        """Do nothing: this clock is not set."""
-
-    @property
-    def _pace(self) -> float:
-        return self._clock.factor
 
     def _stop_at(self, reached: float) -> None:
         """Bring a motion that cannot continue to its last time in s, and pause it there."""
@@ -135,11 +64,6 @@ class OwnTimeSimulation(Simulation):
         # Less than 1 ns after the last sample, the next stamp is not reached, and may never be.
         if self.segment.stamp_at(shortfall.reached) >= self.stamp:
             self.host.warn(self._set_pace(shortfall.factor))
-
-    def _set_pace(self, factor: float) -> str:
-        verdict = super()._set_pace(factor)
-        self._clock.set_factor(factor)
-        return verdict
 
     def _bring_forward(self, reached: float) -> None:
         """Let the next stamp be that of a time (s of the motion) that is integrated."""
@@ -190,10 +114,3 @@ class OwnTimeSimulation(Simulation):
         self.publish()
         if not self._clock.is_running:
             self._stop()
-
-    def apply_settings(self, settings: Settings) -> None:
-        """Continue with other settings, of which the clock has the factor."""
-        factor = self.settings.real_time_factor
-        super().apply_settings(settings)
-        if settings.real_time_factor != factor:
-            self._clock.set_factor(settings.real_time_factor)

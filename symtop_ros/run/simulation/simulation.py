@@ -14,25 +14,19 @@ from typing import TypeVar
 
 from symtop_ros.base.refusals import attempt, one_line
 from symtop_ros.physics import State
-from symtop_ros.run.simulation.block import CATCH_UP, GAP, Block, Ticker
+from symtop_ros.run.simulation.block import Blocks, Ticker
 from symtop_ros.run.simulation.budget import SHARE, ComputeBudget, Progress, Shortfall
 from symtop_ros.run.simulation.changes.follow import Act, Request
 from symtop_ros.run.simulation.changes.outcomes import Failure, Outcome
 from symtop_ros.run.simulation.changes.timeline import Timeline
+from symtop_ros.run.simulation.clocks import HostClock, RunClock
 from symtop_ros.run.simulation.events import Event, do_nothing
-from symtop_ros.run.simulation.host import Clock, Host, Sink
+from symtop_ros.run.simulation.gaps import Gaps
+from symtop_ros.run.simulation.host import Host, Sink
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import Settings
-from symtop_ros.run.simulation.topics import DEPTH
-from symtop_ros.run.wire.layout import NANOSECONDS
 
-AHEAD = 0.05  # s of samples that are computed together; a kick makes them useless
-# Samples in a block at most. Requests wait while a block is computed, so blocks are short; those of
-# driven motions are shorter, because it takes a block to find that one is too fast.
-MAX_BLOCK, MAX_DRIVEN_BLOCK = 16, 4
 AT_ONCE = 0.0  # s until the next tick, if this one has left work to do
-GAP_PERIOD = 60 * NANOSECONDS  # between two warnings of missed samples
-JUMP = 1.0  # s; a larger step of the clock is a jump, which the motion follows
 WHY_IT_ENDS = "too fast for doubles, or 1e15 turns from its start"
 T = TypeVar("T")
 
@@ -43,24 +37,21 @@ class Simulation:
     All public methods may be called from any thread: each takes a lock.
     """
 
-    def __init__(self, settings: Settings, clock: Clock, sink: Sink, host: Host) -> None:
+    def __init__(
+        self, settings: Settings, clock: HostClock | RunClock, sink: Sink, host: Host
+    ) -> None:
         self._sink, self.host, self._clock = sink, host, clock
         self._lock = threading.RLock()
         self._waiting: deque[None] = deque()  # one for each turn that waits for the lock
         self._failures: dict[str, Failure] = {}  # by the name of the turn
         self.event_number = 0  # of the latest event
-        self._jumped_to: int | None = None  # ns
         self.ticker = Ticker(settings.publish_rate, self.now)
         self.last = self.now  # stamp of the last sample
         self.timeline = Timeline.begin(settings, self.stamp)
         self.budget = ComputeBudget()
         self._spent = 0.0
-        # stamp of the last warning (ns), and samples that were missed since then
-        self._gap_reported: int | None = None
-        self._unreported = 0
-        self._published = clock.now, clock.steady  # both times (ns) when samples were last sent
-        self._block = Block(self.segment, [], sink.encode)
-        self._later: Block | None = None  # the next one, as far as it is computed
+        self._gaps = Gaps(clock)
+        self._blocks = Blocks(self.segment, sink.encode)
         sink.send_description(self.stamp, settings)
 
     @property
@@ -86,7 +77,7 @@ class Simulation:
     @property
     def factor(self) -> float:
         """The real-time factor that is kept when the motion runs."""
-        return self.segment.factor
+        return self.segment.factor * self._clock.pace
 
     @property
     def state(self) -> State:
@@ -155,109 +146,68 @@ class Simulation:
                 return AT_ONCE
             # What is left of the block is computed now, so that it is ready when it is due. Of the
             # first sample after a change each topic is computed as it is sent.
-            self._block.finish()
+            self._blocks.current.finish()
             self._work_ahead()
-            return self._wait_for(self.stamp)
-
-    def _wait_for(self, stamp: int) -> float | None:
-        """Return the seconds of real time until a stamp; None if a change must wake the run."""
-        wait = (stamp - self.now) / NANOSECONDS
-        return None if self._clock.is_simulated and wait > 0 else wait
+            return self._clock.wait_for(self.stamp)
 
     # Samples
 
     def publish(self) -> bool:
         """Publish what is due, one sample if a turn waits; False if the motion is not so far."""
+        self._clock.hold_back(self.stamp)
         ready = self._work_on_block()
         if ready:
-            missed = self.ticker.missed
-            is_real = not self._clock.is_simulated
-            for stamp in self.ticker.due(self.now, self._catch_up, self._block.last, is_real):
-                self._sink.send_sample(stamp, self._block)
-                self.last = stamp
-                if self._waiting:
-                    break
-            if self.ticker.missed > missed:
-                self._report_gap(self.ticker.missed - missed)
-            self._published = self.now, self._clock.steady
+            self._send_due()
         return ready
 
-    @property
-    def _catch_up(self) -> float:
-        """Seconds of samples that are sent late: no more than publishers keep."""
-        return JUMP if self._clock.is_simulated else min(CATCH_UP, DEPTH / self.ticker.rate)
+    def _send_due(self) -> None:
+        ticker, clock = self.ticker, self._clock
+        missed = ticker.missed
+        catch_up = clock.catch_up(ticker.rate)
+        until = self._blocks.current.last
+        for stamp in ticker.due(self.now, catch_up, until, not clock.is_simulated):
+            self._sink.send_sample(stamp, self._blocks.current)
+            self.last = stamp
+            if self._waiting:
+                break
+        if ticker.missed > missed:
+            self._gaps.add(ticker.missed - missed)
+            if warning := self._gaps.explain(ticker):
+                self.host.warn(warning)
+        self._gaps.note_sent()
 
     def _work_on_block(self) -> bool:
         """Work towards the states of the next stamps; return True when they are reached."""
         segment, stamp = self.timeline.segment, self.ticker.next_stamp
-        if self._later and self._later.covers(segment, stamp):
-            self._block, self._later = self._later, None
-        if self._block.covers(segment, stamp):
+        if self._blocks.cover(segment, stamp):
             return True
         stamps = self._list_stamps(stamp)
         if not stamps:  # the torque ends with the next turn
             return False
         progress = self._prepare(stamps[-1])
         if progress.ready:
-            self._block = self._begin_block(stamps)
-            self._later = None
+            self._blocks.begin(segment, stamps)
         elif progress.shortfall:
             self._slow_down(stamps[0], progress.shortfall)
         return progress.ready
 
     def _work_ahead(self) -> None:
         """Compute a piece of the next block; the first sample of this one says what is due."""
+        blocks = self._blocks
         # A block of a driven motion takes some steps of integration.
-        if self.segment.motion.is_driven or not self._block.requested:
+        if self.segment.motion.is_driven or not blocks.current.requested:
             return
-        if self._later:
-            self._later.work()
-        else:
-            _, first = self.ticker.grid(self._block.last, 2)
-            self._later = self._begin_block(self._list_stamps(first))
-
-    def _begin_block(self, stamps: Sequence[int]) -> Block:
-        """Return a block in which the topics are due that were requested from the present one."""
-        return Block(self.segment, stamps, self._sink.encode, self._block.requested)
+        if not blocks.work_on_later():
+            _, first = self.ticker.grid(blocks.current.last, 2)
+            blocks.begin_later(self.segment, self._list_stamps(first))
 
     def _list_stamps(self, first: int) -> list[int]:
         """Return the stamps of a block; none if the held torque ends before the first."""
-        stamps = self.ticker.grid(first, self._next_block_length())
+        count = self._blocks.find_next_length(self.segment, self.ticker.rate)
+        stamps = self.ticker.grid(first, count)
         if any(self.timeline.held_torque):
             stamps = [each for each in stamps if each < self.timeline.torque_end]
         return stamps
-
-    def _next_block_length(self) -> int:
-        """Return 1 for the first block of a motion, so that its first sample comes soon."""
-        segment = self.segment
-        rate = self.ticker.rate
-        longest = MAX_DRIVEN_BLOCK if segment.motion.is_driven else MAX_BLOCK
-        grown = 4 * self._block.length if self._block.segment is segment else 1
-        return max(1, min(longest, grown, int(AHEAD * rate)))
-
-    def _report_gap(self, missed: int) -> None:
-        """Warn when the samples that were missed since the last warning amount to something."""
-        self._unreported += missed
-        seconds = self._unreported / self.ticker.rate
-        last = self._gap_reported
-        if seconds < GAP or (last is not None and abs(self.now - last) < GAP_PERIOD):
-            return
-        since = "" if last is None else " since the last warning of this kind"
-        self.host.warn(
-            f"no samples for {seconds:.3g} s ({self._unreported} missed){since}: "
-            f"{self._explain_gap()}; the motion follows the clock ({self.ticker.missed} missed in "
-            "all)"
-        )
-        self._gap_reported = self.now
-        self._unreported = 0
-
-    def _explain_gap(self) -> str:
-        """Return why samples are missing: the clock was set forward, or nobody sent them."""
-        before, steady = self._published
-        step = (self.now - before - (self._clock.steady - steady)) / NANOSECONDS
-        if step > GAP and not self._clock.is_simulated:
-            return f"the clock of the system was set forward by {step:.3g} s"
-        return "the process was stopped, lacked CPU time or waited for its middleware"
 
     # The compute budget of driven motions
 
@@ -266,14 +216,9 @@ class Simulation:
         self._release_torque()
         self._integrate_to(self.stamp)
 
-    @property
-    def _pace(self) -> float:
-        """Seconds of the stamps per second of real time."""
-        return 1.0
-
     def _prepare(self, stamp: int) -> Progress:
         """Work towards the state at a stamp; a motion that cannot continue is paused."""
-        progress = self.budget.prepare(self.segment, stamp, self._pace)
+        progress = self.budget.prepare(self.segment, stamp, self._clock.pace)
         if progress.end is not None:
             self._stop_at(progress.end)
         return progress
@@ -306,7 +251,9 @@ class Simulation:
 
     def _set_pace(self, factor: float) -> str:
         """Continue at another real-time factor; return the verdict."""
-        return self.apply(self.timeline.set_pace(self.stamp, self.factor, factor))
+        verdict = self.apply(self.timeline.set_pace(self.stamp, self.factor, factor))
+        self._clock.set_factor(factor)
+        return verdict
 
     # Changes
 
@@ -334,7 +281,7 @@ class Simulation:
 
     def _prepare_sample(self) -> None:
         """Compute the next sample before it is due, and publish it as soon as it is."""
-        block = self._block
+        block = self._blocks.current
         while block.work():
             self.publish()
 
@@ -365,15 +312,12 @@ class Simulation:
     def end_jump(self, jumped: bool) -> None:
         """Continue after the clock was set; if it jumped, the next tick follows it."""
         if jumped:
-            self._jumped_to = self.now
+            self._clock.note_jump()
         self._lock.release()
 
     def _follow_jump(self) -> None:
         """Continue the motion from its current state at the time the clock jumped to."""
-        now, self._jumped_to = self._jumped_to, None
-        # The system clock can be set back without any notification.
-        if self.now < self.stamp - (JUMP + 1 / self.ticker.rate) * NANOSECONDS:
-            now = self.now
+        now = self._clock.take_jump(self.stamp, self.ticker.rate)
         if now is not None:
             stamp = self.stamp
             self._integrate_to(stamp)
@@ -406,10 +350,10 @@ class Simulation:
             self._sink.send_description(stamp, settings)
         if settings.publish_rate != old.publish_rate:
             self.restart_grid(stamp)
+        if settings.real_time_factor != old.real_time_factor:
+            self._clock.set_factor(settings.real_time_factor)
 
     def restart_grid(self, stamp: int) -> None:
         """Continue with a grid of stamps that begins at a stamp."""
         self.ticker.restart(self.settings.publish_rate, stamp)
-        # The stamps of the blocks belong to the old grid.
-        self._block = Block(self.segment, [], self._sink.encode)
-        self._later = None
+        self._blocks.restart(self.segment)  # the stamps of the blocks belong to the old grid

@@ -71,8 +71,14 @@ class ListSink:
 class Run:
     """A simulation of a scene with its requests, after some seconds."""
 
-    def __init__(self, scene: str = "cusps", seconds: float = 0.0, **changes: Any) -> None:
-        self.clock, self.sink = HandClock(), ListSink()
+    def __init__(
+        self,
+        scene: str = "cusps",
+        seconds: float = 0.0,
+        sink: ListSink | None = None,
+        **changes: Any,
+    ) -> None:
+        self.clock, self.sink = HandClock(), sink or ListSink()
         settings = Settings.from_scene(scene, **changes)
         self.simulation = simulate(settings, self.clock, self.sink, self.sink)
         self.simulation.apply(self.simulation.timeline.announce("test"))

@@ -121,8 +121,7 @@ def _euler_errors(q, omega, numbers):
 
 
 def start(scene, **changes):
-    run = Run(scene, **changes)
-    run.sink = run.simulation._sink = ByteSink()
+    run = Run(scene, sink=ByteSink(), **changes)
     run.simulation.do("reset", {})
     return run
 

@@ -5,13 +5,13 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
 import pytest
-from run.simulation.runs import SECOND, Run
+from run.simulation.runs import SECOND, ListSink, Run
 from waiting import until
 
 from symtop_ros.run.simulation import events
+from symtop_ros.run.simulation.block import MAX_BLOCK
 from symtop_ros.run.simulation.budget import SHARE
 from symtop_ros.run.simulation.changes.outcomes import Failure
-from symtop_ros.run.simulation.simulation import MAX_BLOCK
 from symtop_ros.run.simulation.topics import STATE_TOPICS
 
 MS = SECOND // 1000
@@ -25,32 +25,45 @@ def test_the_tick_after_the_last_sample_waits_for_a_change_of_the_clock():
     assert run.simulation.tick() == pytest.approx(0.005)  # the period, exact in ns
 
 
+class CountingSink(ListSink):
+    """Needs the topics of the state, and has the names of those that were computed for it."""
+
+    def __init__(self):
+        super().__init__()
+        self.computed = []
+
+    def encode(self, topic, stamps, numbers):
+        self.computed.append(topic)
+        return super().encode(topic, stamps, numbers)
+
+    def send_sample(self, stamp, block):
+        for name in STATE_TOPICS:
+            block.message(name, stamp)
+
+
 def test_a_tick_computes_one_topic_of_the_samples_to_come_at_most():
-    run = Run(publish_rate=1000.0)
-    computed = []
-    run.sink.encode = lambda name, stamps, _: computed.append(name) or [b""] * len(stamps)
-    run.sink.send_sample = lambda stamp, block: [block.message(n, stamp) for n in STATE_TOPICS]
+    sink = CountingSink()
+    run = Run(sink=sink, publish_rate=1000.0)
     run.advance(0.1, step=0.001)
     counts = []
     for _ in range(10 * MAX_BLOCK):
-        computed.clear()
+        sink.computed.clear()
         run.advance(0.001, step=0.001)
-        counts.append(len(computed))
+        counts.append(len(sink.computed))
     assert max(counts) == 1
     assert sum(counts) == 10 * len(STATE_TOPICS)
 
 
 def test_after_a_kick_the_next_sample_is_ready_when_it_is_due():
-    run = Run("hurry_slow", publish_rate=1000.0, seconds=0.02)
-    computed = []
-    run.sink.encode = lambda name, stamps, _: computed.append(name) or [b""] * len(stamps)
-    run.sink.send_sample = lambda stamp, block: [block.message(n, stamp) for n in STATE_TOPICS]
+    sink = CountingSink()
+    run = Run("hurry_slow", seconds=0.02, sink=sink, publish_rate=1000.0)
     run.advance(0.003, step=0.001)
     assert run.ask("hurry_precession")[0]
-    computed.clear()
+    assert sink.computed
+    sink.computed.clear()
     run.clock.now += MS
     assert run.simulation.publish()
-    assert computed == []
+    assert sink.computed == []
 
 
 def test_a_sample_that_is_due_does_not_wait_for_the_rest_of_an_event(monkeypatch):
