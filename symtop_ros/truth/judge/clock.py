@@ -17,8 +17,8 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.judge.compare import Offset, to_rotation
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.noise import sum_lags
-from symtop_ros.truth.judge.search import align
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.judge.wanted import align
 from symtop_ros.words import write
 
 FEWEST = 10  # estimates

@@ -11,11 +11,13 @@ import numpy as np
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
-from symtop_ros.truth.judge.causes import Cause, Finding, find_mistakes
+from symtop_ros.truth.judge.causes import Cause, Finding
 from symtop_ros.truth.judge.compare import NONE, PERCENTILES, Errors, compare
 from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.search import align, explain, find_causes
+from symtop_ros.truth.judge.mistakes import find_mistakes
+from symtop_ros.truth.judge.search import find_causes
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.judge.wanted import align, explain
 from symtop_ros.words import write
 
 NOTHING = 1e-6  # rad; an error below this is not worth a sentence

@@ -19,7 +19,7 @@ from symtop_ros.truth.judge.runs import (
     read_sources,
     report_faults,
 )
-from symtop_ros.truth.judge.search import MODELS
+from symtop_ros.truth.judge.wanted import MODELS
 
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
 top at the estimates' own stamps. The run must be in the log with its ~/events, or be a scene that

@@ -11,9 +11,9 @@ import numpy as np
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
-from symtop_ros.truth.judge.causes import HOPELESS, Tables, fit_rotations
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.fit import SAMPLES, Fit
+from symtop_ros.truth.judge.grid import HOPELESS, Tables, fit_rotations
 from symtop_ros.truth.judge.tables import Table
 from symtop_ros.truth.judge.truth import Truth
 

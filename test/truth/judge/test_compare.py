@@ -25,8 +25,8 @@ from symtop_ros.run.wire.messages import IMU
 from symtop_ros.truth.judge.compare import compare
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.judgement import judge
-from symtop_ros.truth.judge.search import explain
 from symtop_ros.truth.judge.truth import Truth, read_events, scene_truth
+from symtop_ros.truth.judge.wanted import explain
 from workshop.load.domains import claim_domain
 
 

@@ -12,8 +12,9 @@ from symtop_ros.truth.judge.clock import measure_clock
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.judgement import judge
 from symtop_ros.truth.judge.noise import Remainder
-from symtop_ros.truth.judge.search import align, find_causes
+from symtop_ros.truth.judge.search import find_causes
 from symtop_ros.truth.judge.truth import scene_truth
+from symtop_ros.truth.judge.wanted import align
 
 TRUTH = scene_truth("cusps")
 SIZE = 0.01  # rad

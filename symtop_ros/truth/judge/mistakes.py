@@ -1,0 +1,72 @@
+"""Likely mistakes as sentences: that of the attitude, and that of the angular velocities."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.truth.judge.causes import CHANGES, Finding
+from symtop_ros.truth.judge.compare import NONE, Errors, Offset, compare
+from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.judge.fit import SAMPLES
+from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.testset.score import turn_to_body
+from symtop_ros.words import write
+
+# Undoing each, by its sentence.
+VELOCITIES: dict[str, Callable[[Real, Real], Real]] = {
+    "the angular velocities are in deg/s": lambda q, omega: np.radians(omega),
+    "the angular velocities are in the world frame": turn_to_body,
+    "the angular velocities are in deg/s, in the world frame": lambda q, omega: turn_to_body(
+        q, np.radians(omega)
+    ),
+}
+MUCH = 10.0  # a change explains an error that it makes this many times smaller
+SMALL = 0.05  # part of the rates; smaller errors are no mistakes of convention
+
+
+def find_mistakes(estimates: Estimates, truth: Truth, found: Finding) -> list[str]:
+    """Return the likely mistakes as sentences: that of the attitude, then that of the rates."""
+    some = estimates.thin(SAMPLES)
+    change = found.best.change
+    mended = CHANGES[change][2](some)
+    # Rates are in the frame of the body, which a half turn of the attitude has not turned.
+    offset = NONE if change else found.best.offset
+    rates = [] if estimates.angular_velocities is None else [*_find_rates(mended, truth, offset)]
+    return [*_name_changes(found, some.of_sensor), *rates]
+
+
+def _name_changes(found: Finding, of_sensor: bool) -> list[str]:
+    """Return the mistake of the attitude, with others that would explain as much."""
+    several = {each.change: each for each in (found.best, *found.others)}
+    if list(several) == [""]:
+        return []
+    names = {"": "none", "frame": "body" if of_sensor else "sensor"}
+    return [", or ".join(write(f"change.{names.get(name, name)}", {}) for name in several)]
+
+
+def _find_rates(some: Estimates, truth: Truth, offset: Offset) -> Iterator[str]:
+    """Yield the mistake of the angular velocities, if there is one.
+
+    Rates of an engine that diverges become smaller by any division, too: what is left must be small
+    against the exact rates.
+    """
+    now = _rate(compare(some, truth, offset))
+    q = some.orientations
+    omega = np.asarray(some.angular_velocities)
+    exact = truth.states_at(some.stamps, some.of_sensor)[1]
+    size = float(np.sqrt((exact**2).sum(axis=1).mean()))
+    if now > SMALL * size:
+        errors = {
+            text: _rate(compare(replace(some, angular_velocities=mend(q, omega)), truth, offset))
+            for text, mend in VELOCITIES.items()
+        }
+        best = min(errors, key=lambda name: errors[name])
+        if errors[best] < min(now, size) / MUCH:
+            yield best
+
+
+def _rate(errors: Errors) -> float:
+    rate = np.zeros(1) if errors.rate is None or not len(errors.rate) else errors.rate
+    return float(np.sqrt((rate**2).mean()))

@@ -1,0 +1,87 @@
+"""Causes that are wanted: what is to be removed, and a stated model of the alignment."""
+
+from collections.abc import Collection
+from dataclasses import replace
+
+from symtop_ros.base.refusals import RefusedError
+from symtop_ros.truth.judge.causes import LEVELS, Cause
+from symtop_ros.truth.judge.choice import select
+from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.judge.fit import PARAMETERS, Fit
+from symtop_ros.truth.judge.grid import fit_rotations
+from symtop_ros.truth.judge.refine import refine
+from symtop_ros.truth.judge.search import MOST_SAMPLES, Search
+from symtop_ros.truth.judge.truth import Truth
+
+LEVELS_OF = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
+# Rotations, and what the stamps may be off by.
+MODELS = [
+    f"{rotations}{times}"
+    for rotations in LEVELS_OF
+    for times in ("", "+delay", "+clock", "+delay+clock")
+]
+
+
+def explain(
+    estimates: Estimates, truth: Truth, removed: Collection[str] = ("offset", "delay", "drift")
+) -> Cause:
+    """Return the least squares of constant rotations (offset), a delay up to 0.5 s, and a drift.
+
+    All delays and drifts are tried, and then a delay next to the best drift. Of those that leave as
+    little, the one with the fewest numbers and the smallest delay is taken.
+    """
+    run = truth.select(estimates)
+    if len(run) < 2:
+        raise RefusedError(
+            f"--remove must have at least 2 estimates within the run, got {len(run)}"
+        )
+    search = Search(run, truth)
+    turned = "offset" in removed
+    level = "none" if not turned else "world" if "rotations" in search.hidden else "both"
+    names = [name for name in ("delay", "drift") if name in removed]
+    found = [each for name in ("", *names) for each in search.search("", name)]
+    if len(names) == 2:
+        found += [
+            replace(each, parameters=("delay", "drift"))
+            for first in found
+            if first.parameters == ("drift",)
+            for each in search.search("", "delay", first.offset)
+        ]
+    found += search.shift_periods(found)
+    causes = [
+        search.refine(("", level, each.parameters), each.offset)
+        for each in found
+        if turned or each.level == "none"
+    ]
+    return min(
+        select(causes, search.fits, search.fit.rounding),
+        key=lambda each: (len(each.parameters), abs(each.offset.delay)),
+    )
+
+
+def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = None) -> Cause:
+    """Return the least squares of a stated model, one of MODELS, without any search.
+
+    A delay that grows is that at the stamp `begin`, by default at the first one.
+
+    Refused is a model with a delay or a clock that changes nothing but its other parameters: in a
+    sleeping top a delay is a heading.
+    """
+    rotations, *names = model.split("+")
+    fit = Fit(truth.select(estimates).thin(MOST_SAMPLES), truth)
+    level = LEVELS_OF[rotations]
+    exact, known = fit.exact(fit.start)
+    models = fit.some.orientations[None], exact[None], known[None].astype(float)
+    _, world, body = fit_rotations(models, level)
+    start = replace(
+        fit.start,
+        world=world[0],
+        body=body[0],
+        begin=fit.start.begin if begin is None else begin,
+    )
+    found = refine(fit, ("", level, tuple(names)), start, is_sure=True)
+    for name in names:
+        others = [*LEVELS[level][0], *(PARAMETERS[each] for each in names if each != name)]
+        if fit.hides(found.offset, others, PARAMETERS[name]):
+            raise RefusedError(f"--aligned must be a model that this motion can show, got {model}")
+    return found
