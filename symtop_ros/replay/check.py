@@ -3,7 +3,7 @@
 import sys
 
 from symtop_ros.base.refusals import one_line
-from symtop_ros.run.check.events import Mismatch
+from symtop_ros.run.check.mismatch import Mismatch
 from symtop_ros.run.check.run import Findings, check_run
 from symtop_ros.run.check.samples import Deviation
 from symtop_ros.run.log.account import Account

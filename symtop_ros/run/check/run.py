@@ -4,14 +4,10 @@ from collections import Counter
 from dataclasses import dataclass
 
 from symtop_ros.base.refusals import one_line
-from symtop_ros.run.check.events import (
-    Mismatch,
-    TextCheck,
-    find_mismatches,
-    is_of_this_version,
-    list_other_versions,
-)
+from symtop_ros.run.check.events import find_mismatches
+from symtop_ros.run.check.mismatch import Mismatch, is_of_this_version, list_other_versions
 from symtop_ros.run.check.samples import Deviation, LogCheck
+from symtop_ros.run.check.texts import TextCheck
 from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.batch import BatchReader
 from symtop_ros.run.log.contents import DECODED

@@ -7,12 +7,8 @@ import pytest
 from trials import seeds
 
 from symtop_ros import __version__
-from symtop_ros.run.check.events import (
-    NOTHING,
-    Mismatch,
-    find_mismatches,
-    is_of_this_version,
-)
+from symtop_ros.run.check.events import find_mismatches
+from symtop_ros.run.check.mismatch import NOTHING, Mismatch, is_of_this_version
 from symtop_ros.run.check.run import check_messages
 from symtop_ros.run.log.reader import McapFile
 from symtop_ros.run.log.top_log import TopLog
