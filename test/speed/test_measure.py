@@ -32,7 +32,7 @@ def written(tmp_path_factory):
         patch.setitem(figures.SETTINGS, "figure.constrained_layout.use", False)
         docs = tmp_path_factory.mktemp("root") / "docs"
         docs.mkdir()
-        for name in ("../README.md", "accuracy.md", "accuracy_tables.md"):
+        for name in ("../README.md", "accuracy.md", "accuracy_tables.md", "many.md"):
             (docs / name).write_text((DOCS / name).read_text())
         assert measure(folder, benchmarks.SMALL, "make -C workshop report", docs) == 0
         yield folder, docs
@@ -88,7 +88,7 @@ def test_the_documents_have_the_tables_and_plots_of_the_report(written):
     assert find_section(page, "chapters") == text
     summary = find_section((docs / "accuracy.md").read_text(), "summary")
     assert f"| {CLOSED_FORM} |" in summary
-    for name in ("../README.md", "accuracy.md", "accuracy_tables.md"):
+    for name in ("../README.md", "accuracy.md", "accuracy_tables.md", "many.md"):
         before, after = (SECTION.sub("", (each / name).read_text()) for each in (DOCS, docs))
         assert before == after  # what is written by hand is not changed
     assert {path.stem for path in docs.glob("*.png")} == {*DRAWINGS}

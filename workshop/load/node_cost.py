@@ -18,7 +18,7 @@ import numpy as np
 from workshop.load.bare import TOPICS
 from workshop.load.listener import Listener, Traffic
 from workshop.load.processes import DOCS, domain, run_program, running, script, top_node
-from workshop.speed.measure import find_machine
+from workshop.speed.conditions import describe_conditions
 from workshop.speed.publish import format_tables, publish, write_chapter
 
 COST_RATES = (200.0, 1000.0)  # Hz
@@ -162,7 +162,7 @@ def _runs(text: str) -> int:
 
 
 def _run(options: argparse.Namespace) -> bool:
-    facts = {"machine": find_machine(), "count": options.runs}
+    facts = {"conditions": describe_conditions("rclpy"), "count": options.runs}
     sections = format_sections({**facts, "runs": compare(options.seconds, options.runs)})
     print(sections[NAME])
     if options.docs:

@@ -35,7 +35,7 @@ from workshop.load.processes import (
     running,
     top_node,
 )
-from workshop.speed.measure import find_machine
+from workshop.speed.conditions import describe_conditions
 from workshop.speed.publish import format_list, format_table, publish, write_chapter
 
 FAST = 1000.0  # Hz
@@ -87,7 +87,7 @@ HEAD = f"{'':42}{'Hz':>7}{'lost':>6}{'missed':>8}{'unanswered':>12}{'CPU':>7}{'M
 ROW = "{load:42}{rate:7.1f}{lost:6}{missed:8}{unanswered:12}{cpu:7.0%}{growth:9.2f}   {figures}"
 
 
-def format_section(outcomes: Sequence[Outcome], seconds: float, machine: str) -> str:
+def format_section(outcomes: Sequence[Outcome], seconds: float, conditions: str) -> str:
     """Return the conditions, the table and the further figures of some outcomes."""
     head = ["load", "Hz", "lost", "missed", "unanswered", "CPU", "MB more"]
     rows = [
@@ -103,7 +103,7 @@ def format_section(outcomes: Sequence[Outcome], seconds: float, machine: str) ->
         for each in outcomes
     ]
     figures = format_list(f"{each.load}: {each.figures}." for each in outcomes if each.figures)
-    values = {"seconds": seconds, "machine": machine, "figures": figures}
+    values = {"seconds": seconds, "conditions": conditions, "figures": figures}
     return write_chapter(NAME, **values, table=format_table(head, rows))
 
 
@@ -212,7 +212,7 @@ def _run(options: argparse.Namespace) -> bool:
         print(ROW.format(**asdict(outcome)), flush=True)
         outcomes.append(outcome)
     if options.docs:
-        section = format_section(outcomes, options.seconds, find_machine())
+        section = format_section(outcomes, options.seconds, describe_conditions("rclpy"))
         publish({NAME: section}, options.docs)
     return all(outcome.good for outcome in outcomes)
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion, State, Top
+from workshop.speed.conditions import describe_conditions
 from workshop.speed.publish import format_table, group, write_results
 
 FILE = Path(__file__).with_name("derivatives.json")
@@ -115,7 +116,7 @@ def compare_derivatives(folder: Path, docs: Path | None = None) -> None:
             seconds = float(np.median(repeat(partial(derive, t), number=1, repeat=RUNS)))
             error = find_error(derive(t), exact)
             entries.append({"program": name, "t": t, "error": error, "seconds": seconds})
-    facts = {"entries": entries}
+    facts = {"conditions": describe_conditions("heyoka"), "entries": entries}
     write_results(NAME, facts, format_entries(facts), folder, docs)
     print(f"{folder / 'derivatives.md'} and derivatives.json")
 
@@ -128,7 +129,8 @@ def format_entries(facts: dict[str, Any]) -> str:
         [name, *(f"{each['error']:.0e}, {_round(1e3 * each['seconds']):g} ms" for each in own)]
         for name, own in group(entries, lambda each: each["program"]).items()
     ]
-    return format_table(["error, time", *(f"{t:g} s" for t in times)], rows)
+    table = format_table(["error, time", *(f"{t:g} s" for t in times)], rows)
+    return f"{table}\n\n{facts['conditions']}."
 
 
 def _round(value: float) -> float:

@@ -40,6 +40,7 @@ class Environment:
 
     command: str  # to measure again
     machine: str  # processor and system
+    date: str
     versions: dict[str, str]  # versions of Python and of every package that was measured
     missing: list[str]  # peers that are not installed
     limit: float  # seconds that one run of a peer could take
@@ -85,6 +86,7 @@ def _format_environment(environment: Environment) -> str:
         "conditions",
         command=environment.command,
         machine=environment.machine,
+        date=environment.date,
         versions=", ".join(named),
         missing=f"Not installed: {missing}." if missing else "",
     )

@@ -32,6 +32,7 @@ from symtop_ros.truth.judge.figures import (
 )
 from symtop_ros.truth.judge.truth import Truth
 from workshop.pictures.pack import pack
+from workshop.speed.conditions import describe_conditions
 from workshop.speed.publish import format_table, group, track, write_results
 
 RATE, SPAN = 1000, 20  # Hz, s
@@ -39,7 +40,7 @@ SCENES = ("conical_pendulum", "hanging", "regular_precession", "cusps", "looping
 MOUNTS = {  # m, in the body frame
     "in the pivot": (0.0, 0.0, 0.0),
     "1 cm along the axis": (0.0, 0.0, 0.01),
-    "1 cm beside the axis": (0.01, 0.0, 0.0),
+    "1 cm off the axis": (0.01, 0.0, 0.0),
 }
 FILTERS = ("AngularRate", "Complementary", "Madgwick", "Mahony", "AQUA", "EKF", "UKF")
 SHOWN = ("Madgwick", "Mahony", "EKF", "AngularRate")  # in the plot
@@ -112,7 +113,8 @@ def judge_filters(folder: Path, docs: Path | None = None) -> None:
             trials.append(Trial(name, scene, mount, *(math.sqrt((x**2).mean()) for x in parts)))
             if (scene, mount) == PLOTTED and name in SHOWN:
                 curves[name] = errors
-    facts = {"trials": [asdict(trial) for trial in trials]}
+    conditions = describe_conditions("ahrs")
+    facts = {"conditions": conditions, "trials": [asdict(trial) for trial in trials]}
     write_results(NAME, facts, format_trials(facts), folder, docs)
     write_figures({NAME: lambda: draw_tilt_errors(curves)}, folder)
     if docs:
@@ -131,7 +133,7 @@ def format_trials(facts: dict[str, Any]) -> str:
         ]
         head = ["tilt / attitude, rad", *dict.fromkeys(trial.scene for trial in own)]
         parts.append(f"Sensor {mount}:\n\n{format_table(head, table)}")
-    return "\n\n".join(parts)
+    return "\n\n".join([*parts, f"{facts['conditions']}."])
 
 
 def draw_tilt_errors(curves: dict[str, Errors]) -> Figure:

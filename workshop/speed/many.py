@@ -18,6 +18,7 @@ from workshop.speed.peers import CLOSED_FORM
 from workshop.speed.publish import format_table, write_chapter
 from workshop.speed.reference import integrate, split_orientations
 
+NAME = "many motions"  # of the section in the documentation
 SEED = 1
 COMPARED = 32  # motions of which the errors are taken; the exact ones take 2 s each
 RUNS = 5  # of which the median counts
@@ -89,6 +90,10 @@ def format_many(costs: list[ManyCost], t: float) -> str:
     """Return the chapter of the report, on states at a time in s."""
     if not costs:
         return ""
+    return write_chapter("many", first=costs[0], t=t, table=tabulate(costs))
+
+
+def tabulate(costs: list[ManyCost]) -> str:
+    """Return the table of the chapter, which docs/many.md has as well."""
     rows = [[each.peer, f"{each.error:.0e}", f"{each.seconds * 1e6:.3g}"] for each in costs]
-    table = format_table(["", "largest error", "us a motion"], rows)
-    return write_chapter("many", first=costs[0], t=t, table=table)
+    return format_table(["", "largest error", "us a motion"], rows)

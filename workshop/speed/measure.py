@@ -3,12 +3,15 @@
 import platform
 import sys
 from dataclasses import asdict, replace
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from symtop_ros import __version__
 from workshop.pictures.pack import pack
 from workshop.speed.benchmarks import FULL, QUICK, Results, Scope, list_steps
+from workshop.speed.conditions import find_date, find_machine, find_versions
 from workshop.speed.document import Environment, format_chapters, format_document, format_summary
+from workshop.speed.many import NAME as MANY
+from workshop.speed.many import tabulate
 from workshop.speed.peers import find_peers
 from workshop.speed.plots import DRAWINGS, write_plots
 from workshop.speed.publish import publish, track, write_results
@@ -25,7 +28,6 @@ PACKAGES = (
     "exudyn",
     "diffrax",
     "jax",
-    "symtop_ros",
 )
 
 
@@ -42,7 +44,12 @@ def measure_speed(folder: Path, docs: Path | None, full: bool, limit: float | No
 def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) -> int:
     """Write report.md, report.json and the plots; return the exit status."""
     peers, missing = find_peers()
-    environment = Environment(command, find_machine(), _find_versions(), missing, scope.limit)
+    versions = {
+        "Python": platform.python_version(),
+        "symtop_ros": __version__,
+        **find_versions(PACKAGES),
+    }
+    environment = Environment(command, find_machine(), find_date(), versions, missing, scope.limit)
     results = Results()
     for _, work in track(list(list_steps(scope, peers, results)), lambda step: step[0]):
         work()
@@ -69,26 +76,7 @@ def _write(folder: Path, results: Results, environment: Environment, docs: Path 
     write_plots(results, motion, folder)
     if docs:
         chapters = format_chapters(results, motion, environment)
-        publish({"chapters": chapters, "summary": format_summary(results, motion)}, docs)
+        summary = format_summary(results, motion)
+        publish({"chapters": chapters, "summary": summary, MANY: tabulate(results.many)}, docs)
         for name in DRAWINGS:
             (docs / f"{name}.png").write_bytes(pack(folder / f"{name}.png"))
-
-
-def find_machine() -> str:
-    """Return the name of the processor, and the system."""
-    names = [platform.processor(), platform.machine()]
-    cpuinfo = Path("/proc/cpuinfo")
-    if cpuinfo.is_file():
-        lines = cpuinfo.read_text(encoding="utf-8").splitlines()
-        names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return f"{next(filter(None, names), 'an unnamed processor')}, {platform.system()}"
-
-
-def _find_versions() -> dict[str, str]:
-    versions = {"Python": platform.python_version()}
-    for package in PACKAGES:
-        try:
-            versions[package] = version(package)
-        except PackageNotFoundError:
-            continue
-    return versions

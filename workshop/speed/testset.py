@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.truth.testset.score import FILE, read_problems
+from workshop.speed.conditions import describe_conditions
 from workshop.speed.peers import CLOSED_FORM, find_peers
 from workshop.speed.peers.peer import Peer
 from workshop.speed.publish import format_table, group, replace_section, track, write_results
@@ -29,6 +30,7 @@ PROGRAMS = (
     "Pinocchio, RK4 in Python",
     "EXUDYN RK67",
 )
+PACKAGES = ("heyoka", "scipy", "mujoco", "drake", "pin", "exudyn")
 PROBE = 1.0  # s of the motion
 LEVELS = (0, 1, 2, 3, 4, 5)
 NAME = "testset"  # of the files, and of the section in the documentation
@@ -58,7 +60,7 @@ def score_testset(folder: Path, docs: Path | None = None) -> None:
         for peer, motion in track(work, lambda each: f"{each[0].name}: {each[1].name}")
         for entry in find_best_run(peer, motion)
     ]
-    facts = {"limit": LIMIT, "entries": entries}
+    facts = {"conditions": describe_conditions(*PACKAGES), "limit": LIMIT, "entries": entries}
     table = format_scores(facts)
     write_results(NAME, facts, table, folder, docs)
     if docs:
@@ -111,7 +113,7 @@ def format_scores(facts: dict[str, Any]) -> str:
         cells = [_summarize([e.angle for e in own if e.level == level]) for level in LEVELS]
         rows.append([peer, *cells, f"{len(own)} of {count}"])
     head = ["median, worst (rad)", *(f"level {level}" for level in LEVELS), "in time"]
-    return format_table(head, rows)
+    return f"{format_table(head, rows)}\n\n{facts['conditions']}."
 
 
 def _summarize(angles: list[float]) -> str:
