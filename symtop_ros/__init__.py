@@ -2,6 +2,6 @@
 
 from symtop_ros.base.moved import accept_old_names
 
-__version__ = "0.5.0.dev0"
+__version__ = "0.5.0"
 
 accept_old_names()
