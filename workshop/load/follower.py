@@ -51,7 +51,12 @@ class Subscriber:
         self.connection = Connection(self.node, name, timeout=TIMEOUT)
 
     def close(self) -> None:
-        """Leave the domain."""
+        """Leave the domain.
+
+        A node that is not destroyed keeps its participant, whose subscriptions receive the samples
+        of every node that is measured later.
+        """
+        self.node.destroy_node()
         rclpy.shutdown(context=self.node.context)
 
     def spin(self, seconds: float) -> None:
