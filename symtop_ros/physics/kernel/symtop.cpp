@@ -5,6 +5,7 @@
 #include "symtop.h"
 
 #include "functions/body.hpp"
+#include "functions/exchange.hpp"
 #include "functions/library.hpp"
 #include "functions/many.hpp"
 #include "functions/motion.hpp"
