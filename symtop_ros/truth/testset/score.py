@@ -132,7 +132,7 @@ class Score:
     rates : ndarray (20,) or None
         |omega - omega_exact| in rad/s.
     start : str
-        The fault of a row at t = 0 that is not the start; empty without such a row.
+        What a row at t = 0 has in place of the start; empty if it is the start, or there is none.
     """
 
     problem: Problem
