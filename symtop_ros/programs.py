@@ -100,7 +100,7 @@ def _spare_the_user() -> None:
     """Let no deprecation and no terminal without Unicode end a program, and no threads slow it.
 
     With PYTHONWARNINGS=error the former are exceptions. What a terminal has no letter for is
-    escaped. The programs' matrices are small: beside three busy programs on two processors least
+    escaped. The programs' matrices are small: next to three busy programs on two processors least
     squares of `top_judge` took 30 times as long with threads, which wait for each other.
     """
     os.environ[THREADS] = os.environ.get(THREADS) or "1"  # read when NumPy is imported

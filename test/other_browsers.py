@@ -158,7 +158,7 @@ def running_webkit() -> Iterator[Any]:
 
 
 def silent(variables: dict[str, str]) -> dict[str, Any]:
-    """Options of a program whose output nobody reads."""
+    """Options of a program whose output is not read."""
     nothing = subprocess.DEVNULL
     return {"env": {**os.environ, **variables}, "stdout": nothing, "stderr": nothing}
 

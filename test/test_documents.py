@@ -36,7 +36,7 @@ ROS_PAGE = ROOT / "docs/ros.md"
 LAUNCH_FILE = ROOT / "launch/top.launch.py"
 QUOTED = {"fit_imu_record": "truth", "particle_filter": "many"}
 WITH_PYTHON = [page for page in PAGES if blocks(page, "python")]
-PARSED = ("top_panel", "top_live")  # their options are; tests of their own run them
+PARSED = ("top_panel", "top_live")  # their options are; separate tests run them
 # These need a network, a shell, or a ROS 2 with security.
 NOT_RUN = (
     ["git", "clone"],

@@ -8,7 +8,7 @@ import pytest
 from documents import ROOT
 
 PACKAGE = ROOT / "symtop_ros"
-# Files beside the rooms, and what every folder may use of the ground floor.
+# Files next to the rooms, and what every folder may use of the ground floor.
 TOP = {"__init__", "__main__", "programs"}
 GROUND = {"base/arrays", "base/refusals", "base/units"}
 # Rooms of several folders.

@@ -290,7 +290,7 @@ def test_the_numbers_that_are_asked_for_are_those_of_the_motions():
 
 
 def test_two_rounds_by_hand_find_the_bottom_of_the_valley():
-    """As step 13 says: the sine at the start, then halfway, and phi' as it was."""
+    """As step 13 says: the sine at the start, then halfway, and phi' unchanged."""
     p_psi, p_phi = TOP.axial_momentum(SLOW_STATE), TOP.vertical_momentum(SLOW_STATE)
     middle, found = THETA, []
     for _ in range(2):

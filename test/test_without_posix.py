@@ -1,4 +1,4 @@
-"""What needs no ROS runs without it, without POSIX, and names the encoding of every text."""
+"""Programs that need no ROS run without it, without POSIX, and names the encoding of every text."""
 
 import sys
 

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
+TIMEOUT = 300.0  # s; ends a test that hangs, with many busy programs, too
 
 
 Act = Callable[[], Any]

@@ -1,4 +1,4 @@
-"""Import paths of 0.4 that were documented: they go on through 0.5, with a DeprecationWarning."""
+"""Import paths of 0.4 that were documented: they work through 0.5, with a DeprecationWarning."""
 
 import importlib
 import sys

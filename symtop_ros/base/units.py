@@ -45,7 +45,7 @@ TYPED = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*?)\s*
 
 
 def parse_quantity(name: str, text: str, unit: str) -> float:
-    """Return a number in a unit of SI, as it is typed: with one of its units, or without.
+    """Return the SI value of a number that was typed with one of its units, or without.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def _list(units: dict[str, float]) -> str:
 
 
 def read_value(name: str, text: str) -> float | str:
-    """Return the number of a quantity that has a known name; any other text stays as it is."""
+    """Return the number of a quantity that has a known name; any other text is returned unchanged."""
     unit = QUANTITIES.get(name)
     try:
         return float(plain(text)) if unit is None else parse_quantity(name, text, unit)

@@ -163,7 +163,7 @@ class Body:
         gravity : float
             Acceleration of gravity in m/s^2, > 0.
         Ix, Iz : float, optional
-            Moments of inertia about the pivot in kg m^2 as they were measured, instead of those of
+            Measured moments of inertia about the pivot in kg m^2, instead of those of
             the parts: then one point may stand for a body.
 
         Raises

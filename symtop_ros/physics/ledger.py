@@ -1,8 +1,7 @@
 """The exchange in a stretch of a motion: energy, p_phi, p_psi, angular momentum, and who gives it.
 
-Changes are products. A height is the square of sin(theta/2) or cos(theta/2), and the change of a
-square is the difference times the sum: of two angles that are nearly equal, or next to the
-vertical, nothing is lost in large numbers that cancel.
+The kernel forms changes between two states as products (`rule/exchange.hpp`), so that nothing is
+lost in large numbers that cancel.
 """
 
 import math
@@ -18,6 +17,8 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import Words, refuse, require
 from symtop_ros.physics.dynamics import find_fastest_rate
 from symtop_ros.physics.exchange import Exchange
+from symtop_ros.physics.kernel.door import find_exchange
+from symtop_ros.physics.kernel.records import EnergiesRecord, ExchangeRecord
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.pushes import Piece
 from symtop_ros.physics.state import State
@@ -170,11 +171,12 @@ class Ledger:
         begin, end = validate_number("begin", begin, "s"), validate_number("end", end, "s")
         require(begin <= end, "end", f"at least begin = {begin:g} s", end)
         top, first, last = motion.top, motion.at(begin), motion.at(end)
-        gained = _subtract_energies(top, first, last)
+        exchange = _exchange(top, first, last)
+        gained = _read_energies(exchange.gained)
         pieces = _list_pieces(motion, begin, end)
         impulse = getattr(motion.pushes, "impulse", 0.0)
         pushes = sum(starmap(partial(_push, impulse), pairwise(pieces)), NOTHING)
-        clamp = _hold(top, first, last) if motion.clamped else NOTHING
+        clamp = _hold(top, first, last, exchange.height) if motion.clamped else NOTHING
         found = _integrate_pieces(pieces, begin, end) if motion.is_driven else _Integrals()
         pulled = found.gravity
         if not motion.is_driven:  # all that the others did not give
@@ -182,7 +184,8 @@ class Ledger:
             pulled = change - pushes.angular_impulse - clamp.angular_impulse
         gravity = Contribution(-gained.weight, 0.0, 0.0, pulled)
         causes = gravity, pushes, clamp, found.friction, found.torque
-        return cls(begin, end, gained, *causes, *_measure(top, first, last))
+        sizes = _read_energies(exchange.sizes)
+        return cls(begin, end, gained, *causes, sizes, exchange.momentum_size)
 
     @classmethod
     def between_turns(cls, motion: Motion, t: float) -> "Ledger":
@@ -249,60 +252,17 @@ class Ledger:
         return self.pushes, self.clamp, self.friction, self.torque
 
 
-def _subtract_energies(top: Top, first: State, last: State) -> Energies:
-    """Return what the parts of the energy have gained from one state to another."""
-    (along, across), (along_last, across_last) = map(_split_rates, (first, last))
-    axial, axial_last = first.angular_velocity[2], last.angular_velocity[2]
-    return Energies(
-        top.Mgl * _subtract_heights(first, last),
-        top.Ix / 2 * _subtract_squares(along, along_last),
-        top.Ix / 2 * _subtract_squares(across, across_last),
-        top.Iz / 2 * float(_subtract_squares(axial, axial_last)),
+def _exchange(top: Top, first: State, last: State) -> ExchangeRecord:
+    """Return what the kernel finds for two states."""
+    states = first, last
+    orientations = np.stack([each.orientation for each in states])
+    return find_exchange(
+        top.moments, orientations, np.stack([each.angular_velocity for each in states])
     )
 
 
-def _measure(top: Top, *states: State) -> tuple[Energies, float]:
-    """Return the sizes of the energies and of the momenta of states."""
-    across = [_split_rates(state) for state in states]
-    along, tilting = (max(map(abs, rates)) for rates in zip(*across, strict=True))
-    axial = max(abs(float(state.angular_velocity[2])) for state in states)
-    kinetic = (top.Ix * along**2 / 2, top.Ix * tilting**2 / 2, top.Iz * axial**2 / 2)
-    return Energies(abs(top.Mgl), *kinetic), top.Ix * (along + tilting) + top.Iz * axial
-
-
-def _subtract_squares(first: float, last: float) -> float:
-    return (last - first) * (last + first)
-
-
-def _subtract_heights(first: State, last: State) -> float:
-    """Return the change of cos(theta), from that of the half angles.
-
-    It is 1 - 2 sin^2(theta/2) = 2 cos^2(theta/2) - 1: of both the smaller square has more digits.
-    """
-    (sine, cosine), (sine_last, cosine_last) = map(_halve_tilt, (first, last))
-    if sine + sine_last < cosine + cosine_last:
-        return -2 * _subtract_squares(sine, sine_last)
-    return 2 * _subtract_squares(cosine, cosine_last)
-
-
-def _halve_tilt(state: State) -> tuple[float, float]:
-    """Return the sine and the cosine of theta/2."""
-    w, x, y, z = state.orientation.tolist()
-    return math.hypot(x, y), math.hypot(w, z)
-
-
-def _split_rates(state: State) -> tuple[float, float]:
-    """Return phi' sin(theta) and theta' in rad/s.
-
-    An axis that passes the vertical has no precession there: phi' sin(theta) goes to zero.
-    """
-    x, y, _ = state.angular_velocity.tolist()
-    up_x, up_y, _ = state.vertical.tolist()
-    sine = math.hypot(up_x, up_y)
-    if sine == 0:
-        return 0.0, math.hypot(x, y)
-    up_x, up_y = up_x / sine, up_y / sine
-    return x * up_x + y * up_y, x * up_y - y * up_x
+def _read_energies(record: EnergiesRecord) -> Energies:
+    return Energies(record.weight, record.precession, record.nutation, record.spin)
 
 
 def _list_pieces(motion: Motion, begin: float, end: float) -> list[Piece]:
@@ -319,19 +279,17 @@ def _push(impulse: float, former: Piece, piece: Piece) -> Contribution:
     top = piece.motion.top
     after = piece.motion.start
     before = former.motion.at(ExactTimes(piece.begin - former.begin))
-    (along, _), (along_after, _) = map(_split_rates, (before, after))
-    sine, cosine = _halve_tilt(after)
+    found = _exchange(top, before, after)
     change = top.angular_momentum(after) - top.angular_momentum(before)
-    work = impulse * (along + along_after) / 2
-    return Contribution(work, impulse * 2 * sine * cosine, 0.0, change)
+    return Contribution(impulse * found.mean_along, impulse * found.last_sine, 0.0, change)
 
 
-def _hold(top: Top, first: State, last: State) -> Contribution:
+def _hold(top: Top, first: State, last: State, height: float) -> Contribution:
     """Return what a hand that holds phi gives: p_phi is p_psi cos(theta), and L turns with it."""
     p_psi = float(top.axial_momentum(first))
     axle = (0.0, 0.0, 1.0)
     turned = p_psi * (last.to_world(axle) - first.to_world(axle))
-    return Contribution(0.0, p_psi * _subtract_heights(first, last), 0.0, turned)
+    return Contribution(0.0, p_psi * height, 0.0, turned)
 
 
 @dataclass(frozen=True, slots=True)

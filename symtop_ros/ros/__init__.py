@@ -1,4 +1,4 @@
-"""The top among ROS programs: the node, its client, and Rerun beside it.
+"""The top among ROS programs: the node, its client, and a running node in Rerun.
 
 `node/` is the host of a session of `run/`; `client/` is `top_ctl`; `live/` draws a running node.
 

@@ -1,4 +1,4 @@
-"""What a run is, without ROS: a motion in time, its events and its log.
+"""A run, without ROS: a motion in time, its events and its log.
 
 `simulation/` turns a motion into samples and events, by what follows from each act; `session/` adds
 requests, outputs and a recording; `log/` writes and reads MCAP, and knows all that can be known of

@@ -38,8 +38,11 @@ def test_a_filter_of_imu_tools_holds_yaw_and_tilt_of_a_slow_top(name):
         b = each.magnetic_field
         assert np.hypot(np.hypot(b.x, b.y), b.z) == pytest.approx(4.924e-5, rel=1e-4)  # T, rounded
     exact = {str(each.header.stamp): each for each in given}
-    truth = read_attitudes([exact[str(each.header.stamp)] for each in found])
-    w, x, y, z = compose(read_attitudes(found), invert(truth)).T
+    # Each subscription is found at another moment: the filter may have got samples before the test.
+    judged = [each for each in found if str(each.header.stamp) in exact]
+    assert len(judged) > COUNT / 2
+    truth = read_attitudes([exact[str(each.header.stamp)] for each in judged])
+    w, x, y, z = compose(read_attitudes(judged), invert(truth)).T
     yaw = 2 * np.arctan(z / w)
     tilt = 2 * np.arcsin(np.hypot(x, y))
     assert np.sqrt(np.mean(yaw**2)) < PROMISE

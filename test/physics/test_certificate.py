@@ -65,7 +65,7 @@ def test_exact_times_are_taken_exactly() -> None:
     times = ExactTimes(np.array([year, year + 1]), factor=0.1)
     assert (motion.certify(times).attitude < 20 * EPS).all()
     assert isinstance(motion.certify(ExactTimes(year)).attitude, float)
-    # a double of seconds is up to 2 ns off: the state at that time is another one, and as right
+    # a double of seconds is up to 2 ns off: the state at that time differs, and is as right
     assert motion.certify(times.seconds).attitude.max() < 20 * EPS
     assert motion.at(times[0:1]) != motion.at(times.seconds[0:1] + 1e-9)
 

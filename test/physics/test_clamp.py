@@ -1,4 +1,4 @@
-"""A top whose precession is held: exact states, the hand's torque, what goes on when it lets go."""
+"""A top whose precession is held: exact states, the hand's torque, the motion when it lets go."""
 
 import copy
 import math

@@ -1,4 +1,4 @@
-"""Derivatives of the state by top and start, compared with exact ones, also where they grow."""
+"""Derivatives of the state by top and start, compared with exact ones, including those that grow."""
 
 import math
 from typing import NamedTuple
@@ -78,7 +78,7 @@ def _pass_by(rng: Numbers, ratio: float) -> tuple[Motion, float]:
 def find_error(case: Case, exact: Motion | None = None) -> float | None:
     """The largest error of the derivatives, as a part of what is promised; None if refused.
 
-    `exact` is the motion with which they are compared, if another one.
+    `exact` is the motion with which they are compared, if it differs.
     """
     try:
         found = case.motion.jacobian([case.t])
@@ -213,7 +213,7 @@ def test_what_doubles_do_not_resolve_is_right_or_refused(tilt):
         assert error is None or error < 1, part
 
 
-# So weak a friction leaves the derivatives as they are, and is integrated nevertheless.
+# So weak a friction does not change the derivatives, and is integrated nevertheless.
 WEAK = Friction(axial=1e-28)
 
 

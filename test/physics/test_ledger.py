@@ -30,7 +30,7 @@ ATTITUDE, RATE, ROUNDINGS = 20 * EPS, 10 * EPS, 4 * EPS
 
 
 def limit_kinetic(motion):
-    """What Ix omega_xy^2 in J cannot exceed in a motion under gravity, and clamped."""
+    """Return a bound of Ix omega_xy^2 in J for a motion under gravity, or clamped."""
     x, y, _ = motion.start.angular_velocity.tolist()
     return motion.top.Ix * (x * x + y * y) + 4 * abs(motion.top.Mgl)
 

@@ -1,4 +1,4 @@
-"""Starts from what is seen: each has it by a criterion of its own, and none is missing.
+"""Starts from what is seen: each has it by an independent criterion, and no start is missing.
 
 Regular precession is judged by its quadratic, and a dip by the constants, with 40 digits; nutation
 periods and turning angles by the motions of the starts.
@@ -77,7 +77,7 @@ def count_regular(top, psi_dot, period):
 
 
 def count_rates(top, theta, psi_dot):
-    """How many roots the quadratic has."""
+    """Return the number of roots of the quadratic."""
     Ix, Iz, Mgl = map(mpf, top.moments)
     a, b = (Ix - Iz) * cosine(theta), Iz * mpf(psi_dot)
     if a == 0:
@@ -160,7 +160,7 @@ def find_slope(top, theta, psi_dot):
 
 
 def count_spins(top, theta, period):
-    """How often the period of spins from none to many passes through the one that was seen."""
+    """Return how often the period passes through the one that was seen, as the spin grows from 0."""
     critical = 2 * math.sqrt(abs(top.Mgl) * top.Ix) / top.Iz
     shares = np.ldexp(1 + np.arange(64) / 64, np.arange(-30, 30)[:, None]).reshape(-1)
     spins = np.concatenate([[0.0], critical * shares])

@@ -155,7 +155,7 @@ BEGINNING, NOTHING = "the beginning is missing: ", ""
 
 @dataclass(frozen=True)
 class Case:
-    """How a log is made, and what readers say first; the status of those that judge samples."""
+    """A log, the first lines of its readers, and the status of those that judge samples."""
 
     make: Callable[[Log, Path], None]
     says: tuple[str, ...] = ()  # the begin of each problem, or a part of it

@@ -37,7 +37,7 @@ SECONDS, ATTEMPTS = 1.0, 2
 
 
 def _wait_for_imports(process):
-    """Wait until a program imports NumPy, which it does after the first line of its own."""
+    """Wait until a program imports NumPy, which it does after its first line."""
     maps = Path(f"/proc/{process.pid}/maps")
     until(lambda: process.poll() is not None or "numpy" in maps.read_text(), lambda: None)
 

@@ -226,7 +226,7 @@ def draw_parabola_downward() -> Figure:
 def draw_pivot_force() -> Figure:
     """Draw the force of the pivot on cusps, and hurried from the fast root."""
     figure = new_figure(3.4)
-    titles = {"cusps": 0.0, "fast root, hurried by 1.4": 1.4 * FAST}
+    titles = {"cusps": 0.0, "fast root, hurried 1.4 times": 1.4 * FAST}
     for axes, (title, phi_dot) in zip(columns(figure, 2), titles.items(), strict=True):
         motion = Motion(TOP, start(phi_dot))
         times = np.linspace(0.0, 3 * motion.nutation_period, 1200)

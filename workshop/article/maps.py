@@ -103,7 +103,7 @@ def draw_map(perry_map: PerryMap, target: Path | BinaryIO) -> None:
     left.set_ylabel("precession rate phi' before (rad/s)")
     _draw_outcome(end, perry_map)
     figure.colorbar(image, ax=[left, right], label="raised by (rad)", extend="both")
-    figure.suptitle(f"The precession hurried by {FACTOR:g}, {perry_map.title}")
+    figure.suptitle(f"The precession hurried by a factor of {FACTOR:g}, {perry_map.title}")
     left.legend(loc="lower left", fontsize="small")
     figure.savefig(target, dpi=100)
 

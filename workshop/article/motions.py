@@ -136,7 +136,7 @@ Maker = Callable[[Top], Motion]  # `cusps` or `regular`
 
 
 def draw_top(random: np.random.Generator, top: Top) -> Top:
-    """Return a random top with the Ix of another one, and a weight of either sign."""
+    """Return a random top with the Ix of a given one, and a weight of either sign."""
     Iz = random.uniform(0.1, 1.9)
     weight = random.uniform(20.0, 200.0) * random.choice([-1, 1])
     return Top(top.Ix, Iz * top.Ix, weight * top.Ix)

@@ -109,7 +109,7 @@ class KleinStart(NamedTuple):
 
 
 class Nutation:
-    """How the axis rises and falls [2]: u - u0 = s1 + s21 sn^2(v0 + rate t)."""
+    """The height of the axis [2]: u - u0 = s1 + s21 sn^2(v0 + rate t)."""
 
     def __init__(self, inputs: Inputs) -> None:
         Ix, Iz, Mgl, (w, x, y, z), (wx, wy, wz) = inputs

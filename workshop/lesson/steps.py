@@ -50,7 +50,7 @@ class LessonTable:
 
     @property
     def cells(self) -> list[list[str]]:
-        """The rows as they are written."""
+        """The rows, written out."""
         return [list(map(write_number, row, self.forms)) for row in self.rows]
 
 

@@ -1,6 +1,6 @@
 """Subscribers to a node in a separate process, and the clients of the stress test.
 
-One of the subscribers counts the samples that are lost. Each client runs in a process of its own.
+One of the subscribers counts the samples that are lost. Each client runs in a separate process.
 """
 
 import struct

@@ -22,7 +22,7 @@ from symtop_ros.replay.viewer import HOST
 from workshop.load.endings import bound
 
 DRIVER = Path(sys.prefix, "vulkan")  # where `make test` unpacks one
-TIMEOUT = 300.0  # s; ends a test that hangs, also beside many busy programs
+TIMEOUT = 300.0  # s; ends a test that hangs, with many busy programs, too
 SIZE = "1600x900"
 Found = TypeVar("Found")
 

@@ -1,4 +1,4 @@
-"""Where and when figures were measured, and with which versions."""
+"""The machine, the day and the versions of a measurement."""
 
 import platform
 from collections.abc import Iterable

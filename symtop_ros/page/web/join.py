@@ -54,7 +54,7 @@ def write_file(
     """Return the page as one document.
 
     It may hold a run (run.json), open what a fragment of its address would (`lesson=1`), belong to
-    a running node, given by its name, and have a language of its own instead of the browser's.
+    a running node, given by its name, and have a fixed language instead of the browser's.
     """
     page, style = (
         (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")

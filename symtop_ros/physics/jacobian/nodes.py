@@ -34,7 +34,7 @@ def weigh(nodes: Real, count: int) -> Real:
 def weigh_difference(nodes: Real) -> Real:
     """Return weights of the tenth difference, in which all that is smooth cancels, (c, 10).
 
-    What is left is rounding, as large as that of a value.
+    The rest is rounding, as large as that of a value.
     """
     distances = nodes[:, :, None] - nodes[:, None]
     distances[:, range(ORDER), range(ORDER)] = nodes

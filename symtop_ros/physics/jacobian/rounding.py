@@ -51,8 +51,8 @@ class Rounding:
 def _find_bounds(motion: "Motion", states: State, of_states: Real) -> tuple[Real, Real]:
     """Return the least and the largest sizes of what is rounded, (n, 2, 3, 1).
 
-    Next to the vertical what is across the axis is small, and has digits of its own, at the time or
-    at least where it is largest. A driven motion may amplify the rounding of its steps.
+    Next to the vertical the components across the axis are small, and have the relative precision
+    of their own size, at the time or at least where they are largest. A driven motion may amplify the rounding of its steps.
     """
     least = np.repeat(of_states[:, :, None], 3, axis=2)
     w, x, y, z = np.moveaxis(states.orientation, -1, 0)

@@ -37,6 +37,7 @@ from symtop_ros.physics.kernel.records import (
     ClockRecord,
     ConstantsRecord,
     Engine,
+    ExchangeRecord,
     HeldRecord,
     Kind,
     PieceRecord,
@@ -465,6 +466,14 @@ def find_doubt(start: bytes) -> float:
     shows_at = c_double()
     demand(open_door().find_doubt(start, shows_at))
     return shows_at.value
+
+
+def find_exchange(top: Sequence[float], orientations: Real, omegas: Real) -> ExchangeRecord:
+    """Return what a top gains between two states, (2, 4) and (2, 3)."""
+    found = ExchangeRecord()
+    states = read_from(orientations), read_from(omegas)
+    demand(open_door().find_exchange(bytes(TopRecord(*top)), *states, found))
+    return found
 
 
 def compare_hurried(

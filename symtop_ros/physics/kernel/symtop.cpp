@@ -5,6 +5,7 @@
 #include "symtop.h"
 
 #include "functions/body.hpp"
+#include "functions/exchange.hpp"
 #include "functions/library.hpp"
 #include "functions/many.hpp"
 #include "functions/motion.hpp"
@@ -29,7 +30,7 @@ const char* symtop_describe_status(symtop_status status) {
     case SYMTOP_TOO_FAST: return "times must be before the motion becomes too fast for doubles";
     case SYMTOP_TOO_STIFF: return "times must be within 1e5 decay times of what has been reached";
     case SYMTOP_TOO_LONG: return "times must be within 1e7 steps of what has been reached";
-    case SYMTOP_MORE_STEPS: return "most_steps must suffice for the way: call again to go on";
+    case SYMTOP_MORE_STEPS: return "most_steps must suffice for the way: call again to continue";
     case SYMTOP_BAD_ARITHMETIC:
       return "arithmetic must be that of IEEE 754: sums in the order of the source, rounded to the "
              "nearest, subnormal numbers kept (no option such as -fassociative-math, no library that "

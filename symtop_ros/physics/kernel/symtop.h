@@ -585,6 +585,33 @@ SYMTOP_API symtop_status symtop_judge_clamp(const symtop_start* start, symtop_he
  * turns the axis by 0.01 rad later on. *shows_at is the time of that in s; infinite without a doubt. */
 SYMTOP_API symtop_status symtop_find_doubt(const symtop_start* start, double* shows_at);
 
+/* ---- Exchange ---- */
+
+/* Parts of the energy of a top in J, or what they have gained. */
+typedef struct {
+  double weight;     /* Mgl cos(theta) */
+  double precession; /* Ix phi'^2 sin^2(theta)/2; zero on the vertical */
+  double nutation;   /* Ix theta'^2/2 */
+  double spin;       /* Iz omega_z^2/2 */
+} symtop_energies;
+
+/* Two states of a top, and what it has gained from the first to the last. */
+typedef struct {
+  symtop_energies gained; /* products, which keep their digits where the energies hardly differ */
+  symtop_energies first, last;
+  symtop_energies sizes; /* of each part the larger one of both; for the weight |Mgl| */
+  double momentum_size;  /* a bound of the momenta in both states, in N m s */
+  double height;         /* gained by cos(theta) */
+  double mean_along;     /* the mean of both phi' sin(theta) in rad/s: of a push of J at the axle,
+                            J times it is the work */
+  double last_sine;      /* sin(theta) at the end: J times it is what the push gives to p_phi */
+} symtop_exchange;
+
+/* The states are given by two orientations and two angular velocities. */
+SYMTOP_API symtop_status symtop_find_exchange(const symtop_top* top, const double* orientations,
+                                              const double* angular_velocities,
+                                              symtop_exchange* exchange);
+
 #ifdef __cplusplus
 }
 #endif

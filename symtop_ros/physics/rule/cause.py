@@ -43,7 +43,7 @@ class Cause:
         phi' compared with the rate at which gravity's torque would turn L, if the axis leaves its
         tilt with theta' = 0: the weight rises if phi' is faster, and falls in the other cases.
     pace : {"speeds", "slows"} or None
-        What |phi'| does all the way to the next turning angle, in these cases.
+        Change of |phi'| on the whole way to the next turning angle, in these cases.
     torque_share : float or None
         The share of gravity's torque that it takes to turn L as fast as the axle goes round now.
     rate_about_momentum : float or None

@@ -56,7 +56,7 @@ def clamp_verdict(top: Top, before: State) -> ClampVerdict:
     top : Top
         One top, without friction and applied torque.
     before : State
-        One state, as it is before the hand takes phi'.
+        One state, before the hand takes phi'.
 
     Returns
     -------

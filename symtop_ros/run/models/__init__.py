@@ -5,7 +5,7 @@ descriptions. Friction and applied torques are left out: no format has friction 
 and across the axis.
 
 A top without weight turns about its centre of mass, and the pivot does nothing. Engines have code
-of their own for free bodies, which a ball joint does not reach: such a body has models that nothing
+for free bodies, which a ball joint does not reach: such a body has models that nothing
 holds, too.
 """
 

@@ -167,7 +167,7 @@ class _Again:
     def _compare(self, event: RunEvent, name: str) -> None:
         """Refuse an event whose motion is not the one that follows.
 
-        What was changed and changed back while the motion stood still is no change here.
+        A change that was undone while the motion stood still is no change here.
         """
         right = self._simulation.segment.state_at(event.time)
         given = event.motion.at(0.0)

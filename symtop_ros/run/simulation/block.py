@@ -95,7 +95,7 @@ class Block:
 
 
 class Blocks:
-    """The block of the next stamps, and the one that follows, as far as it is computed."""
+    """The block of the next stamps, and the computed part of the one that follows."""
 
     def __init__(self, segment: Segment, encode: Encode) -> None:
         self._encode = encode

@@ -69,7 +69,7 @@ class Shortfall(NamedTuple):
 
 
 class Progress(NamedTuple):
-    """What one call has reached of a motion."""
+    """The result of one call: how far a motion was integrated."""
 
     ready: bool  # the state that was asked for can be computed
     end: float | None = None  # s of the motion: its last time, if it has no further states

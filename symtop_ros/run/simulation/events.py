@@ -73,7 +73,7 @@ def do_nothing() -> None:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """What a run reports of a change, and what a log has of it."""
+    """The report of a change, as it is published and logged."""
 
     stamp: int  # stamp from which the new segment holds, in ns
     # start, kick, push, release, clamp, unclamp, reset, pause, resume, step, parameters, torque,

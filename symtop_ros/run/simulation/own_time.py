@@ -26,7 +26,7 @@ def simulate(settings: Settings, clock: Clock, sink: Sink, host: Host) -> Simula
 class OwnTimeSimulation(Simulation):
     """A top in the elapsed time of its run, which no other program sets.
 
-    Where a motion cannot be followed, or is paused, its time waits.
+    The time waits for a motion that is paused or cannot be followed.
     """
 
     _clock: RunClock
@@ -103,7 +103,7 @@ class OwnTimeSimulation(Simulation):
         Call it in a turn. The sample at 0 is published, in a pause too.
         """
         moved = self.timeline.move(self.stamp, 0)
-        # A start that is refused leaves all as it is.
+        # A start that is refused changes nothing.
         again = moved.restart(0, {}) if with_state else None
         self.last = -1
         self._clock.set(0)

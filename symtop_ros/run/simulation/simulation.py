@@ -145,7 +145,7 @@ class Simulation:
             if not (self.publish() and self._work_on_block()):
                 return AT_ONCE
             # What is left of the block is computed now, so that it is ready when it is due. Of the
-            # first sample after a change each topic is computed as it is sent.
+            # first sample after a change each topic is computed when it is sent.
             self._blocks.current.finish()
             self._work_ahead()
             return self._clock.wait_for(self.stamp)
@@ -280,7 +280,7 @@ class Simulation:
             return self._announce(event)
 
     def _prepare_sample(self) -> None:
-        """Compute the next sample before it is due, and publish it as soon as it is."""
+        """Compute the next sample before it is due, and publish it on time."""
         block = self._blocks.current
         while block.work():
             self.publish()

@@ -1,4 +1,4 @@
-"""Which of the causes that were found is chosen, and whether it is named.
+"""The decision between the causes that were found: which is the best, and is it named?
 
 Each line is a step with its thresholds; causes that do not pass it go where its arrow points::
 

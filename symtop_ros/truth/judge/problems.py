@@ -43,7 +43,7 @@ LINK_OUT = re.compile(r"\[([^]]*)\]\(\.\.[^)]*\)")  # of the README, to files th
 FREE = """
 
 The body has no weight. `{name}.free.mjcf`, `.free.sdf`, `.free.urdf` and `.free.usda` hold it by
-nothing: engines have code of their own for free bodies, which a ball joint does not reach."""
+nothing: engines have separate code for free bodies, which a ball joint does not reach."""
 OF_THE_SET = ("Files", "An example: MuJoCo")  # sections that name files that a copy has not
 
 

@@ -26,7 +26,7 @@ def path(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def spare():
-    """Tabs that nobody uses, by whether their browsers know the page: a new one takes longer."""
+    """Unused tabs, by whether their browsers know the page: a new one takes longer."""
     return {KNOWN: [], "": []}
 
 

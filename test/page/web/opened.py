@@ -82,7 +82,7 @@ class Opened:
         self.context.new_cdp_session(self.tab).send("Storage.clearDataForOrigin", stored)
 
     def _note(self, message):
-        """Note what is written to the console, but for what a driver says of its own speed."""
+        """Note what is written to the console, except a driver's remark on its speed."""
         if "GL Driver Message (OpenGL, Performance" not in message.text:
             self.problems.append(message.text)
 
@@ -105,7 +105,7 @@ class Opened:
     def is_stored(self, name, value, tab=None):
         """Return True if a tab, one's own or another of the browser, finds a value in the store.
 
-        Another tab may have a process of its own, which hears of changes somewhat later.
+        Another tab may have a separate process, which hears of changes somewhat later.
         """
         read = "(name) => localStorage.getItem(`symtop.${name}`)"
         return value in ((tab or self.tab).evaluate(read, name) or "")

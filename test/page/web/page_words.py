@@ -1,4 +1,4 @@
-"""Sentences of the page: in English it has words of its own where programs say kick."""
+"""Sentences of the page: in English it has other words than programs for a kick."""
 
 from unittest.mock import patch
 

@@ -83,7 +83,7 @@ def judge_in_python(case):
 
 
 def draw_in_python(top, state):
-    """Return what the page draws in doubles of its own, each with the size of its largest term."""
+    """Return what the page draws in its doubles, each with the size of its largest term."""
     theta = state.euler_angles.theta
     phi, _, psi = state.euler_rates
     torques = physics.precessing_frame_torques(top, theta, phi, psi)
@@ -217,7 +217,7 @@ def test_headline_and_reason_of_every_kind_agree_with_the_motion(tab, Mgl):
         direction = find_direction(start)
         verb = {1: "falls", -1: "rises", 0: "keeps its tilt"}[direction]
         assert re.search(rf": The (top|axis) {verb}\b", why), (start, why)
-        words = re.findall("falls|rises", headline)  # of no direction of its own
+        words = re.findall("falls|rises", headline)  # without a direction
         assert words in ([], [verb]), (start, headline, why)
         is_steady = "precesses steadily" in headline
         assert is_steady == (kind == "regular" and start["phi_dot"] != 0), (start, headline)

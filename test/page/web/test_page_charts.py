@@ -231,7 +231,7 @@ def is_right(page, seconds):
 
 
 def read_well(page):
-    """What the well shows: the energy of the state but for its spin, and the turning angles."""
+    """The chart of the well: the energy of the state but for its spin, and the turning angles."""
     *heights, names, curve = page.tab.evaluate("looks.readWell")
     shown = Shown(page)
     first, lowest, scale = read_axis(page, "well")

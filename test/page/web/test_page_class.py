@@ -1,4 +1,4 @@
-"""What a class asks of the page: a body of parts, a start from what is seen, and the pivot."""
+"""Questions of a class, asked on the page: a body of parts, a start from what is seen, and the pivot."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The first minute: a question, a push that is seen, and the answer beside what happened."""
+"""The first minute: a question, a push that is seen, and the answer next to what happened."""
 
 import re
 

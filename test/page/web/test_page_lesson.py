@@ -189,7 +189,7 @@ def test_back_is_the_step_before_and_predictions_are_saved_as_a_text(open_page, 
     assert page.save("My predictions", tmp_path).read_text() == text
 
 
-NO_PRINTER = "window.print = () => {};"  # a window of its own waits for its user
+NO_PRINTER = "window.print = () => {};"  # a separate window waits for its user
 MOST_PAGES = 7
 
 
@@ -223,5 +223,5 @@ def test_the_sheets_are_those_of_the_page_and_only_the_teacher_has_answers(open_
         page.tab.evaluate("dispatchEvent(new Event('afterprint'))")
         assert read_sheets(page) == []
     assert page.read_events() == run["events"]
-    page.tab.click("#hurry")  # the page goes on
+    page.tab.click("#hurry")  # the page keeps running
     assert len(page.read_events()) == len(run["events"]) + 1

@@ -28,7 +28,7 @@ Definitions = dict[int, set[int]]  # of each register, where it may have been wr
 
 @dataclass
 class Instruction:
-    """What an instruction does to uniform registers, and where it leads."""
+    """Effect of an instruction on uniform registers, and the instructions that may follow."""
 
     text: str
     name: str
@@ -74,7 +74,7 @@ def read_functions(sass: str) -> dict[str, dict[int, Instruction]]:
 
 
 class Flow:
-    """Which definitions of uniform registers reach each instruction of a function."""
+    """Return the definitions of uniform registers that reach each instruction of a function."""
 
     def __init__(self, code: dict[int, Instruction]) -> None:
         places = {address: k for k, address in enumerate(code)}

@@ -1,6 +1,6 @@
-"""What NVIDIA's compilers make of the device's source: no product is fused, no register is spoiled.
+"""The device's source in NVIDIA's compilers: no product is fused, no register is spoiled.
 
-They come from PyPI, into an environment of their own: `make set-up-gpu`. No GPU is needed.
+They come from PyPI, into a separate environment: `make set-up-gpu`. No GPU is needed.
 """
 
 import os

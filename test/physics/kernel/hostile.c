@@ -338,6 +338,19 @@ static void try_discs(void) {
   ROOM_OR_NAN(status, disc, 3);
 }
 
+static void try_exchange(void) {
+  int good = 1;
+  prepare();
+  symtop_top* top = take_tops(1, &good);
+  double* q = take_orientations(2, &good);
+  double* omega = take_omegas(2, &good);
+  double* room = take_room(sizeof(symtop_exchange) / sizeof(double));
+  symtop_exchange* exchange = (symtop_exchange*)(void*)room;
+  symtop_status status = symtop_find_exchange(top, q, omega, exchange);
+  CHECK(status, good && !has_null);
+  ROOM(status, room, sizeof *exchange / sizeof(double));
+}
+
 static int is_part(int kind, const double* part) {
   return kind >= SYMTOP_POINT && kind <= SYMTOP_BALL && part[0] > 0 && isfinite(part[0]) &&
          isfinite(part[2]) && (kind == SYMTOP_POINT || (part[1] > 0 && isfinite(part[1])));
@@ -680,7 +693,8 @@ int run(unsigned first, unsigned number) {
   static void (*const TRIALS[])(void) = {try_angles, try_orientations, try_regular_rates, try_tilts,
                                          try_discs,  try_bodies,       try_starts,
                                          try_kicks,  try_verdicts,     try_map,
-                                         try_many,   try_motion,       try_pushed,        try_clamped};
+                                         try_many,   try_motion,       try_pushed,        try_clamped,
+                                         try_exchange};
   hash = 14695981039346656037u, calls = answered = 0, fault = 0;
   for (unsigned seed = first; seed < first + number && !fault; seed++) {
     oddness = seed % 2 ? 6 : 60;

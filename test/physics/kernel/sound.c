@@ -85,6 +85,11 @@ int main(int count, char** words) {
   show(symtop_find_body_top(&body, 9.81, &made), q, 0);
   show(symtop_solve_start(&top, SYMTOP_TILT_AND_SPIN, angles, &solutions), q, 0);
   show(symtop_find_doubt(&start, few), q, 0);
+  double two[8], turning[6];
+  for (int k = 0; k < 8; k++) two[k] = start.orientation[k % 4];
+  for (int k = 0; k < 6; k++) turning[k] = rates[k % 3];
+  symtop_exchange exchange;
+  show(symtop_find_exchange(&top, two, turning, &exchange), q, 0);
   show(symtop_find_tilt_torques(&top, angles + 1, rates, rates + 2, 1, few), q, 0);
   show(symtop_compare_hurried(&top, angles + 1, rates, rates + 2, 1, 1.5, SYMTOP_SPIN_RATE, few,
                               &rule),

@@ -1,4 +1,4 @@
-"""What the functions of symtop.h refuse, and what they normalise, whoever calls them."""
+"""Arguments that the functions of symtop.h refuse or normalise, for every caller."""
 
 import math
 from ctypes import byref, c_double, c_int, c_size_t, c_void_p

@@ -79,7 +79,7 @@ def kick(rng, top, state):
 
 
 class Seen:
-    """A motion over a nutation (or a time of its own, if it has none), as vectors of the world."""
+    """A motion over a nutation (or a time of its size, if it has none), as vectors of the world."""
 
     def __init__(self, top, start):
         self.top = top
@@ -239,7 +239,7 @@ def demand_pace(seen, pace):
 
 
 def demand_numbers(seen, cause):
-    """The angles, as they are seen: the extremes between samples are missed by their squares."""
+    """The angles in samples: the extremes between samples are missed by their squares."""
     vertical = np.array([[0.0, 0.0, 1.0]])
     found = {
         "momentum_from_axle": from_line(seen.L, seen.axle),

@@ -1,4 +1,4 @@
-"""What is said of a clamp, compared with the motions that it is about, of tops of all families."""
+"""Verdicts on a clamp, compared with the motions, for tops of all families."""
 
 import math
 from collections import Counter
@@ -35,7 +35,7 @@ def draw_start(seed):
 
 
 def find_depth(top, state):
-    """How far the weight is from its lowest place, as an angle in rad."""
+    """Return the angle in rad between the weight and its lowest place."""
     theta = state.euler_angles.theta
     return math.pi - theta if top.Mgl > 0 else theta
 

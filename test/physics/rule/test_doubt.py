@@ -1,4 +1,4 @@
-"""Where rounding decides the kind of a motion: found next to the separatrix, and nowhere else."""
+"""Rounding that decides the kind of a motion: found next to the separatrix, and nowhere else."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What top_ctl solves: questions of textbooks as they are typed, and their published answers."""
+"""Questions of textbooks that top_ctl solves, typed, and their published answers."""
 
 import json
 import subprocess

@@ -147,7 +147,7 @@ class RunningTop(Listener):
         return self.connection.request(service, values)
 
     def send(self, service: str, parameters: list[Any]) -> list[tuple[bool, str]]:
-        """Send parameters as they are to a service of named values; return its answers."""
+        """Send unchanged parameters to a service of named values; return its answers."""
         each = service == "set_parameters"
         kind = SetParameters if each else SetParametersAtomically
         answer = self.connection.call(kind, service, kind.Request(parameters=parameters))

@@ -240,7 +240,7 @@ def test_a_filter_that_no_backtracking_ends_is_answered(client):
 
 
 def test_messages_without_flags_set_pose_and_twist():
-    """Those before 2.1, which Humble, Jazzy and Kilted have; in a process of their own."""
+    """Those before 2.1, which Humble, Jazzy and Kilted have; in a separate process."""
     find_messages(WITHOUT_FLAGS)
     tests = Path(__file__).with_name("simulator_without_flags.py")
     words = [sys.executable, "-m", "pytest", "-q", tests]
@@ -360,7 +360,7 @@ def test_goals_that_come_together_are_carried_out_one_after_the_other(client):
     run.spin_until(lambda: cancelled.done() and len(ends) == 3)
     assert [number for number, _ in ends] == [0, 1, 2]
     assert [each.result().status for each in results] == [4, 5, 4]  # succeeded, canceled
-    # An end is told when the next goal has made some steps, at most those of this one.
+    # An end is reported when the next goal has made some steps, at most those of this one.
     assert 300 <= float(ends[0][1]) / PERIOD < 320
     assert 20 < float(ends[2][1] - ends[1][1]) / PERIOD < 60
 

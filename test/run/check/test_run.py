@@ -33,7 +33,7 @@ def without_events(memory, *numbers):
 
 
 def judge(memory):
-    """What a check finds in a log in which all that is there agrees."""
+    """The findings of a check in a log without a contradiction."""
     log = TopLog(memory)
     findings = check_run(log)
     assert findings.samples_agree

@@ -29,7 +29,7 @@ def test_the_text_defines_the_type_and_all_its_dependencies(name):
 
 
 def installed(name):
-    """What the installed ROS 2 says of a type."""
+    """Return the definition of a type in the installed ROS 2."""
     package, _, short = name.split("/")
     return json.loads(Path(sys.prefix, "share", package, "msg", f"{short}.json").read_text())
 

@@ -1,4 +1,4 @@
-"""Where the motion is known: what events, losses and the numbers in diagnostics prove together."""
+"""Stretches in which the motion is known: what events, losses and the numbers in diagnostics prove together."""
 
 import numpy as np
 import pytest

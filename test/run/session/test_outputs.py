@@ -109,7 +109,7 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
     assert [each.ns for each in arrows] == list(ARROWS)
     assert (len(trace.points), trace.type, trace.header.frame_id) == (31, trace.LINE_STRIP, "world")
     assert {each.type for each in arrows} == {trace.ARROW}
-    for arrow in arrows:  # thin beside the top
+    for arrow in arrows:  # thin compared with the top
         assert 0 < trace.scale.x < arrow.scale.x < arrow.scale.y < LENGTH / 16
     assert {each.scale.z for each in last.markers} == {trace.scale.y} == {0.0}
     for each in last.markers:  # points in the world frame itself
@@ -136,7 +136,7 @@ def test_markers_are_logged_thirty_times_a_second_and_rosbags_reads_them(tmp_pat
 
 
 def test_the_largest_vector_so_far_is_an_arrow_of_its_own_length(tmp_path):
-    """About the length of the top, and each of another one: they do not hide each other."""
+    """About the length of the top, and each of a different length: they do not hide each other."""
     logged = read_messages(record_with_markers(tmp_path))
     types = get_typestore(Stores.ROS2_JAZZY)
     longest = dict.fromkeys(ARROWS, 0.0)

@@ -1,4 +1,4 @@
-"""What docs/filters.md says of the conventions of filters, each line of it: a sensor at rest."""
+"""The conventions of filters in docs/filters.md, line by line: a sensor at rest."""
 
 import importlib
 import re

@@ -1,4 +1,4 @@
-"""What nutation is, after Butikov: a point on a circle that moves along.
+"""Nutation, after Butikov: a point on a circle that moves along.
 
 E. I. Butikov, "Precession and nutation of a gyroscope", European Journal of Physics 27 (2006) 1071:
 nutation is the free precession of a top without torque, on top of the precession that the torque

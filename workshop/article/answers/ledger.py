@@ -103,7 +103,7 @@ def hurry_ledger(top: Top, case: HurryCase, hold: Hold) -> KickLedger:
     return KickLedger.of(before.top, before.start, hurry(before.start, FACTOR, hold))
 
 
-# At the slow root, hurried by 1.4, in mJ: what the weight gains, the push puts into E', and the
+# At the slow root, hurried by a factor of 1.4, in mJ: what the weight gains, the push puts into E', and the
 # precession had; and what the push puts into the spin.
 PRINTED: dict[Hold, tuple[str, str, str, str]] = {
     "spin_rate": ("1.93", "1.06", "0.87", "27.0"),

@@ -68,7 +68,7 @@ class Solution(NamedTuple):
         advance: Callable[[int], object],
         read: Callable[[], Real],
     ) -> "Solution":
-        """Return a solution from a model with a state of its own, in steps of one size (s).
+        """Return a solution from a model that holds its state, in steps of one size (s).
 
         `begin` sets it to the start, `advance` makes a number of steps, and `read` returns a copy
         of the orientation.

@@ -41,7 +41,7 @@ DAY = 86400.0  # s
 
 @dataclass(frozen=True, slots=True)
 class Act:
-    """What is done to a run at a stamp: what was asked, and what the program decided itself."""
+    """A change of a run at a stamp: the request, and what the program decided itself."""
 
     name: str  # of the event that reports it
     stamp: int  # ns, from which on it holds

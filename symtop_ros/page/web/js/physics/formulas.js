@@ -64,84 +64,17 @@ export const findPivotForce = ({ Ix, Iz, Mgl }, state, mass) => {
   return { size: Math.hypot(...force), upward };
 };
 
-/** @param {Top} top @param {State} state @returns {Energies} */
-export const findEnergies = ({ Ix, Iz, Mgl }, state) => {
-  const z = state.omega[2];
-  const gz = state.vertical[2];
-  const [along, across] = splitRates(state);
-  return {
-    spin: (Iz * z * z) / 2,
-    weight: Mgl * gz,
-    precession: (Ix * along * along) / 2,
-    nutation: (Ix * across * across) / 2,
-  };
-};
-
 /**
- * phi' sin(theta) and theta': the parts of omega across the axis, at right angles to the line of nodes and
- * about it. An axis that passes the vertical has no precession there.
- * @param {State} state @returns {[number, number]}
+ * Energies of two states, what was gained from the first to the last, and the sizes of it.
+ * @param {Top} top @param {State} first @param {State} last
+ * @returns {{gained: Energies, first: Energies, last: Energies, sizes: Energies, momentum_size: number,
+ *   height: number, mean_along: number, last_sine: number}}
  */
-const splitRates = (state) => {
-  const [x, y] = state.omega;
-  const [gx, gy] = state.vertical;
-  const sine = Math.hypot(gx, gy);
-  if (!sine) return [0, Math.hypot(x, y)];
-  return [(x * gx + y * gy) / sine, (x * gy - y * gx) / sine];
-};
+export const findExchange = (top, first, last) =>
+  /** @type {any} */ (first.kernel.findExchange(top, first, last));
 
-/** @param {number} first @param {number} last */
-const subtractSquares = (first, last) => (last - first) * (last + first);
-
-/** sin and cos of theta/2. @param {State} state @returns {[number, number]} */
-const halveTilt = ({ orientation: [w, x, y, z] }) => [Math.hypot(x, y), Math.hypot(w, z)];
-
-/** The change of cos(theta), of the smaller squares of half the angles. @param {State} first @param {State} last */
-export const subtractHeights = (first, last) => {
-  const [[sine, cosine], [sineLast, cosineLast]] = [first, last].map(halveTilt);
-  if (sine + sineLast < cosine + cosineLast) return -2 * subtractSquares(sine, sineLast);
-  return 2 * subtractSquares(cosine, cosineLast);
-};
-
-/**
- * What the parts of the energy have gained from one state to another, as products: twin of Python's
- * `Ledger`.
- * @param {Top} top @param {State} first @param {State} last @returns {Energies}
- */
-export const findGains = ({ Ix, Iz, Mgl }, first, last) => {
-  const [[along, across], [alongLast, acrossLast]] = [first, last].map(splitRates);
-  return {
-    spin: (Iz / 2) * subtractSquares(first.omega[2], last.omega[2]),
-    weight: Mgl * subtractHeights(first, last),
-    precession: (Ix / 2) * subtractSquares(along, alongLast),
-    nutation: (Ix / 2) * subtractSquares(across, acrossLast),
-  };
-};
-
-/**
- * The larger energies of both ends, in size, and a bound of their momenta.
- * @param {Top} top @param {State[]} states
- */
-export const measureEnds = ({ Ix, Iz, Mgl }, states) => {
-  const rates = states.map((each) => [...splitRates(each), each.omega[2]]);
-  const largest = [0, 1, 2].map((k) => Math.max(...rates.map((each) => Math.abs(each[k]))));
-  const [along, across, axial] = largest;
-  return {
-    rest: Math.abs(Mgl) + (Ix * along * along) / 2 + (Ix * across * across) / 2,
-    spin: (Iz * axial * axial) / 2,
-    momentum: Ix * (along + across) + Iz * axial,
-  };
-};
-
-/**
- * What a push on the axle gives: work in J, and p_phi in N m s.
- * @param {number} impulse N m s @param {State} before @param {State} after
- */
-export const findPushGiven = (impulse, before, after) => {
-  const [[along], [alongAfter]] = [before, after].map(splitRates);
-  const [sine, cosine] = halveTilt(after);
-  return { work: (impulse * (along + alongAfter)) / 2, vertical: 2 * impulse * sine * cosine };
-};
+/** @param {Top} top @param {State} state */
+export const findEnergies = (top, state) => findExchange(top, state, state).first;
 
 /** @param {Energies} energies */
 export const findRest = ({ weight, precession, nutation }) => weight + precession + nutation;

@@ -245,6 +245,19 @@ export class Kernel {
     return this.call("judge", ...given, room("verdict"), room(1))[0];
   }
 
+  /**
+   * Two states of a top, and what it has gained from the first to the last, as in symtop_exchange.
+   * @param {Top} top
+   * @param {{orientation: Quaternion, omega: Vector}} first
+   * @param {{orientation: Quaternion, omega: Vector}} last
+   * @returns {Found}
+   */
+  findExchange({ Ix, Iz, Mgl }, first, last) {
+    const orientations = [...first.orientation, ...last.orientation];
+    const given = [[Ix, Iz, Mgl], orientations, [...first.omega, ...last.omega]];
+    return this.call("find_exchange", ...given, room("exchange"))[0];
+  }
+
   /** What follows if the precession of a start is held. @param {number[]} start @returns {Found} */
   judgeClamp(start) {
     return this.call("judge_clamp", start, room("held"))[0];

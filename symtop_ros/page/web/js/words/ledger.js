@@ -1,6 +1,6 @@
 // What a kick puts into the parts of the energy of a top.
 
-import { findEnergies, findRest } from "../physics/formulas.js";
+import { findExchange, findRest } from "../physics/formulas.js";
 import { findForces } from "./headline.js";
 
 /** @import { Energies } from "../physics/formulas.js" */
@@ -28,14 +28,15 @@ const subtractEnergies = (now, before) => ({
 export const findLedger = ({ kind, course, before }) => {
   if (kind !== "kick" || !before) return null;
   const { top, start, free } = course;
-  const [first, after] = [findEnergies(top, before), findEnergies(top, start)];
+  const { gained, first, last: after } = findExchange(top, before, start);
   const [highest, lowest] = free.motion.turning_angles;
   const { theta } = start.angles;
   const isHighest = theta - highest > lowest - theta;
   const weight = top.Mgl * Math.cos(isHighest ? highest : lowest);
   const far = { ...after, weight, nutation: 0, precession: findRest(after) - weight };
+  const none = { spin: 0, weight: 0, precession: 0, nutation: 0 };
   return {
-    kick: subtractEnergies(after, first),
+    kick: subtractEnergies(gained, none),
     far: subtractEnergies(far, first),
     point: isHighest ? "highest" : "lowest",
   };

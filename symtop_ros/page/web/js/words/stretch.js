@@ -1,12 +1,7 @@
-// Who gave energy and momentum in a stretch of a run, and who has it: twin of physics/exchange.py.
+// Who gave energy and momentum in a stretch of a run, and who has it. The numbers are the kernel's; the
+// record of their names is that of physics/exchange.py.
 
-import {
-  findConstants,
-  findGains,
-  findPushGiven,
-  measureEnds,
-  subtractHeights,
-} from "../physics/formulas.js";
+import { findConstants, findExchange, findRest } from "../physics/formulas.js";
 import { NANO } from "../physics/course.js";
 import { MILLI } from "./ledger.js";
 import { phrase } from "./wording.js";
@@ -16,7 +11,7 @@ import { phrase } from "./wording.js";
 /** @import { State } from "../physics/state.js" */
 /** @import { Run, Moment } from "../run/run.js" */
 /** What a cause gave: work in J, and to p_phi and p_psi in N m s. @typedef {{who: string, work: number, vertical: number, axial: number}} Given */
-/** What became of a stretch. @typedef {{duration: number, gained: Energies, given: Given[], sizes: ReturnType<typeof measureEnds>}} Stretch */
+/** What became of a stretch. @typedef {{duration: number, gained: Energies, given: Given[], sizes: Energies, momentum: number}} Stretch */
 
 const ROUNDING = 1e-12; // of the sizes at both ends; less is none
 const HALVINGS = 60; // of half a nutation, in which a turning point is found
@@ -49,9 +44,9 @@ const countPushes = ({ course, before }, passed) => {
   let { work, vertical } = known;
   for (let left = number; left > known.number; left--) {
     const former = left > 1 ? course.findStateBefore(piece) : before;
-    const given = findPushGiven(impulse, former, piece.course.start);
-    work += given.work;
-    vertical += given.vertical;
+    const found = findExchange(course.top, former, piece.course.start);
+    work += impulse * found.mean_along;
+    vertical += impulse * found.last_sine;
     if (left > 1) piece = course.pieceAt(piece.begin - 1);
   }
   const all = { ...NO_PUSHES, work, vertical, number };
@@ -68,12 +63,11 @@ const countPushes = ({ course, before }, passed) => {
  */
 export const findStretch = (course, first, last, duration, pushed = NO_PUSHES) => {
   const { top, clamped, isDriven } = course;
-  const gained = findGains(top, first, last);
+  const { gained, sizes, height, momentum_size: momentum } = findExchange(top, first, last);
   const given = [pushed];
   const [before, after] = [first, last].map((each) => findConstants(top, each));
   if (clamped) {
-    const vertical = before.L_z * subtractHeights(first, last);
-    given.push({ who: "clamp", work: 0, vertical, axial: 0 });
+    given.push({ who: "clamp", work: 0, vertical: before.L_z * height, axial: 0 });
   }
   if (isDriven) {
     given.push({
@@ -83,33 +77,34 @@ export const findStretch = (course, first, last, duration, pushed = NO_PUSHES) =
       axial: after.L_z - before.L_z,
     });
   }
-  return { duration, gained, given, sizes: measureEnds(top, [first, last]) };
+  return { duration, gained, given, sizes, momentum };
 };
 
 /** @param {Stretch} stretch */
 const listShares = ({ gained, given, sizes }) => {
+  const rest = findRest(sizes);
   const shares = PARTS.filter(
-    (part) => Math.abs(gained[part]) > ROUNDING * (part === "spin" ? sizes.spin : sizes.rest),
+    (part) => Math.abs(gained[part]) > ROUNDING * (part === "spin" ? sizes.spin : rest),
   ).map((who) => ({
     kind: gained[who] > 0 ? "got" : "gave",
     who: /** @type {string} */ (who),
     amount: MILLI * Math.abs(gained[who]),
   }));
   for (const { who, work } of given)
-    if (Math.abs(work) > ROUNDING * sizes.rest)
+    if (Math.abs(work) > ROUNDING * rest)
       shares.push({ kind: work > 0 ? "gave" : "took", who, amount: MILLI * Math.abs(work) });
   const isGiver = (/** @type {{kind: string}} */ { kind }) => kind === "gave";
   return [...shares.filter(isGiver), ...shares.filter((each) => !isGiver(each))];
 };
 
 /** @param {Stretch} stretch */
-const listGifts = ({ given, sizes }) =>
+const listGifts = ({ given, momentum }) =>
   given.flatMap(({ who, vertical, axial }) =>
     /** @type {[string, number][]} */ ([
       ["p_phi", vertical],
       ["p_psi", axial],
     ])
-      .filter(([, amount]) => Math.abs(amount) > ROUNDING * sizes.momentum)
+      .filter(([, amount]) => Math.abs(amount) > ROUNDING * momentum)
       .map(([name, amount]) => ({
         kind: amount > 0 ? "gave" : "took",
         who,
