@@ -80,7 +80,7 @@ def _list(units: dict[str, float]) -> str:
 
 
 def read_value(name: str, text: str) -> float | str:
-    """Return the number of a quantity that has a known name; any other text is returned unchanged."""
+    """Return the number of a quantity that has a known name; other texts are returned unchanged."""
     unit = QUANTITIES.get(name)
     try:
         return float(plain(text)) if unit is None else parse_quantity(name, text, unit)

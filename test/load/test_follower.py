@@ -1,6 +1,9 @@
+import os
+
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import QuaternionStamped
 from rclpy.serialization import serialize_message
+from waiting import until
 
 from workshop.load.follower import Follower
 
@@ -39,3 +42,16 @@ def test_samples_that_the_node_reports_as_missed_are_not_lost():
     follower.read_diagnostics(make_report(missed=5, tick=21))
     assert follower.lost == 13
     follower.close()
+
+
+def count_threads():
+    return len(os.listdir("/proc/self/task"))
+
+
+def test_a_follower_that_has_left_receives_nothing_of_later_nodes():
+    """Its participant would take part in every measurement that follows in the same process."""
+    Follower(RATE).close()
+    before = count_threads()  # some threads belong to the process
+    for _ in range(3):
+        Follower(RATE).close()
+    until(lambda: count_threads() <= before)

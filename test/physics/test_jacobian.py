@@ -1,4 +1,4 @@
-"""Derivatives of the state by top and start, compared with exact ones, including those that grow."""
+"""Derivatives of the state by top and start, compared with exact ones that may grow."""
 
 import math
 from typing import NamedTuple

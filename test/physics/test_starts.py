@@ -160,7 +160,7 @@ def find_slope(top, theta, psi_dot):
 
 
 def count_spins(top, theta, period):
-    """Return how often the period passes through the one that was seen, as the spin grows from 0."""
+    """Return how often the period passes through the one seen as the spin grows from 0."""
     critical = 2 * math.sqrt(abs(top.Mgl) * top.Ix) / top.Iz
     shares = np.ldexp(1 + np.arange(64) / 64, np.arange(-30, 30)[:, None]).reshape(-1)
     spins = np.concatenate([[0.0], critical * shares])

@@ -52,7 +52,8 @@ def _find_bounds(motion: "Motion", states: State, of_states: Real) -> tuple[Real
     """Return the least and the largest sizes of what is rounded, (n, 2, 3, 1).
 
     Next to the vertical the components across the axis are small, and have the relative precision
-    of their own size, at the time or at least where they are largest. A driven motion may amplify the rounding of its steps.
+    of their size, at the time or at least where they are largest. A driven motion may amplify the
+    rounding of its steps.
     """
     least = np.repeat(of_states[:, :, None], 3, axis=2)
     w, x, y, z = np.moveaxis(states.orientation, -1, 0)

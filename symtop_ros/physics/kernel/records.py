@@ -355,6 +355,32 @@ class HeldRecord(Structure):
     ]
 
 
+class EnergiesRecord(Structure):
+    """`symtop_energies`."""
+
+    _fields_: ClassVar = [
+        ("weight", c_double),
+        ("precession", c_double),
+        ("nutation", c_double),
+        ("spin", c_double),
+    ]
+
+
+class ExchangeRecord(Structure):
+    """`symtop_exchange`."""
+
+    _fields_: ClassVar = [
+        ("gained", EnergiesRecord),
+        ("first", EnergiesRecord),
+        ("last", EnergiesRecord),
+        ("sizes", EnergiesRecord),
+        ("momentum_size", c_double),
+        ("height", c_double),
+        ("mean_along", c_double),
+        ("last_sine", c_double),
+    ]
+
+
 RECORDS: tuple[type[Structure], ...] = (
     StartRecord,
     PushesRecord,
@@ -374,6 +400,8 @@ RECORDS: tuple[type[Structure], ...] = (
     LiftRecord,
     VerdictRecord,
     HeldRecord,
+    EnergiesRecord,
+    ExchangeRecord,
 )
 
 # The result and the arguments of each; an array that is read is given as bytes.
@@ -487,6 +515,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "judge_kick": (c_int, (c_char_p, c_char_p, c_int, POINTER(VerdictRecord))),
     "judge_clamp": (c_int, (c_char_p, POINTER(HeldRecord))),
     "find_doubt": (c_int, (c_char_p, POINTER(c_double))),
+    "find_exchange": (c_int, (c_char_p, c_char_p, c_char_p, POINTER(ExchangeRecord))),
     "make": (c_void_p, (c_char_p,)),
     "read": (c_int, (c_void_p, POINTER(c_double))),
     "check_arithmetic": (c_int, ()),

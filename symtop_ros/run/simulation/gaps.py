@@ -39,7 +39,7 @@ class Gaps:
         return text
 
     def _find_reason(self) -> str:
-        """Return why samples are missing: the clock was set forward, or the process did not send them."""
+        """Return why samples are missing: the clock was set forward, or the process is late."""
         before, steady = self._sent
         step = (self._clock.now - before - (self._clock.steady - steady)) / NANOSECONDS
         if step > GAP and not self._clock.is_simulated:

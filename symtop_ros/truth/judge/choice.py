@@ -1,4 +1,4 @@
-"""The decision between the causes that were found: which is the best, and is it named?
+"""The decision between the causes that were found: the best one, and whether it is named.
 
 Each line is a step with its thresholds; causes that do not pass it go where its arrow points::
 

@@ -42,7 +42,7 @@ class Trial:
         return Opened(self.browser, "patches.countFrames();" + UNDRAWN).open(path)
 
     def act(self, names):
-        """Do one of some acts; return its name. The page keeps running, and Python reads its run."""
+        """Do one of some acts; return its name. The page runs on, and Python reads its run."""
         name = self.rng.choice(names)
         self.acts[name] += 1
         getattr(self, f"do_{name}")()

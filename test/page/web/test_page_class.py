@@ -1,4 +1,4 @@
-"""Questions of a class, asked on the page: a body of parts, a start from what is seen, and the pivot."""
+"""Questions of a class on the page: a body of parts, a start from what is seen, the pivot."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""The ledger of energy and momentum on the page: the record and the words of the library's ledger."""
+"""The ledger of energy and momentum on the page: record and words of the library's ledger."""
 
 import math
 

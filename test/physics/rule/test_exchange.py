@@ -15,16 +15,20 @@ FIELDS = "orientation", "angular_velocity"
 PARTS = "weight", "precession", "nutation", "spin"
 # The norm of a state is 1 to 4.5 EPS, and heights are its squares.
 NORM = 9
-# A half angle is rounded three times, and so is a rate, of which the vertical has four roundings; the
-# difference, the sum and the products add one each.
+# A half angle is rounded three times, and so is a rate, of which the vertical has four roundings;
+# the difference, the sum and the products add one each.
 HEIGHT, RATES, AXIAL = 2 * (3 + NORM) + 4, 2 * (3 + 4) + 4, 4
 
 
 def draw_pair(number):
-    """A top of either sign and any shape, and two states: alike, or not, next to the vertical, or not."""
+    """A top of any shape and sign of Mgl, and two states, some alike, some near the vertical."""
     rng = Numbers(f"pair {number}")
     Ix = rng.power(-5, 2)
-    top = Ix, Ix * rng.choice([0.01, 0.25, 1.0, 1.5, 2.0]), rng.choice([-1, 0, 1]) * rng.power(-3, 2)
+    top = (
+        Ix,
+        Ix * rng.choice([0.01, 0.25, 1.0, 1.5, 2.0]),
+        rng.choice([-1, 0, 1]) * rng.power(-3, 2),
+    )
     apart = rng.choice([0.0, rng.power(-12, -3), 1.0])
     small = rng.choice([1.0, 1.0, rng.power(-9, -2)])
     first = np.array([rng.gauss() for _ in range(7)])

@@ -20,7 +20,7 @@ def jump(rng, recorded):
 
 
 def set_back(rng, recorded):
-    """Set the clock of the system: no program is notified, and a step forward is time that was missed."""
+    """Set the clock of the system: no notice is given; a step forward is time that was missed."""
     recorded.clock.now += round(rng.choice((-60.0, -5.0, -1.5, 3.0)) * SECOND)
     recorded.clock.now = max(0, recorded.clock.now)
 

@@ -1,4 +1,4 @@
-"""Stretches in which the motion is known: what events, losses and the numbers in diagnostics prove together."""
+"""Stretches in which the motion is known, by events, losses and the numbers in diagnostics."""
 
 import numpy as np
 import pytest

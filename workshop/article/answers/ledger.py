@@ -103,8 +103,8 @@ def hurry_ledger(top: Top, case: HurryCase, hold: Hold) -> KickLedger:
     return KickLedger.of(before.top, before.start, hurry(before.start, FACTOR, hold))
 
 
-# At the slow root, hurried by a factor of 1.4, in mJ: what the weight gains, the push puts into E', and the
-# precession had; and what the push puts into the spin.
+# At the slow root, hurried by a factor of 1.4, in mJ: what the weight gains, the push puts into
+# E', and the precession had; and what the push puts into the spin.
 PRINTED: dict[Hold, tuple[str, str, str, str]] = {
     "spin_rate": ("1.93", "1.06", "0.87", "27.0"),
     "spin_momentum": ("1.90", "1.06", "0.84", "0.0"),

@@ -231,4 +231,20 @@ export const RECORDS = {
     ["double", "lowest_in"],
     ["double 2", "angles_without"],
   ],
+  energies: [
+    ["double", "weight"],
+    ["double", "precession"],
+    ["double", "nutation"],
+    ["double", "spin"],
+  ],
+  exchange: [
+    ["energies", "gained"],
+    ["energies", "first"],
+    ["energies", "last"],
+    ["energies", "sizes"],
+    ["double", "momentum_size"],
+    ["double", "height"],
+    ["double", "mean_along"],
+    ["double", "last_sine"],
+  ],
 };
