@@ -50,8 +50,10 @@ def count_threads():
 
 def test_a_follower_that_has_left_receives_nothing_of_later_nodes():
     """Its participant would take part in every measurement that follows in the same process."""
-    Follower(RATE).close()
+    left = [Follower(RATE)]
+    left[0].close()
     before = count_threads()  # some threads belong to the process
     for _ in range(3):
-        Follower(RATE).close()
-    until(lambda: count_threads() <= before)
+        left.append(Follower(RATE))
+        left[-1].close()
+    until(lambda: count_threads() <= before, timeout=10.0)
