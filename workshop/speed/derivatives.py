@@ -23,7 +23,7 @@ FILE = Path(__file__).with_name("derivatives.json")
 NAME = "derivatives"  # of the files, and of the section in the documentation
 ROWS = (slice(0, 3), slice(3, 6))  # attitude, angular velocity
 COLUMNS = (slice(0, 1), slice(1, 2), slice(2, 3), slice(3, 6), slice(6, 9))
-RUNS = 5  # of which the median counts
+RUNS = 15  # of which the median counts
 TOLERANCE = 2.0**-52
 
 
