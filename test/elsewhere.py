@@ -22,8 +22,10 @@ import groups
 from processors import list_processors
 
 ROOT = groups.ROOT
-ROOMS = tuple(f"test/{room}" for room in ("physics", "simulation", "session", "log", "check"))
-ROOMS = (*ROOMS, "test/truth/judge")
+ROOMS = tuple(
+    f"test/{room}"
+    for room in ("physics", "run/simulation", "run/session", "run/log", "run/check", "truth/judge")
+)
 # Decimal commas, a dotless i, and times at which it is another day.
 COUNTRIES = {"tr_TR": "Pacific/Kiritimati", "de_DE": "Pacific/Pago_Pago"}
 NOT_COPIED = (".git", ".venv", ".hypothesis", "__pycache__", "report", "site", "build")
