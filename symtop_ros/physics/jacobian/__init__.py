@@ -15,26 +15,27 @@ Both are estimated for each element, and the steps are changed until their sums 
 - `steps`: the steps, longer or shorter by the larger of the two;
 - `estimates`: means of what several steps have given;
 - `settling`: the rounds, until all derivatives are right or none helps;
-- `scales`: units of all this.
+- `scales`: units of all this;
+- `differentiable`: what a motion must have.
 
 Here are the motions that need more: driven ones, and flat discs.
 """
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from symtop_ros.base.arrays import Real, compose, invert
 from symtop_ros.base.refusals import refuse
 from symtop_ros.physics.arguments import read_start
+from symtop_ros.physics.jacobian.differentiable import Differentiable
 from symtop_ros.physics.jacobian.nodes import TINY
 from symtop_ros.physics.jacobian.scales import find_rates
 from symtop_ros.physics.jacobian.settling import Settling, refuse_time
+from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
-
-if TYPE_CHECKING:
-    from symtop_ros.physics.motion import Motion
+from symtop_ros.physics.top import Top
 
 FLAT = 1.6  # Iz/Ix, from which on steps of the moments would lead beyond the flat disc
 # Part of omega by which friction and torque may change it and be left out. Derivatives change by it
@@ -43,7 +44,7 @@ WEAKEST = 2.0**-80
 MOST_NUTATION = 2.0**14  # rad, for which a driven motion takes half a second
 
 
-def differentiate(motion: "Motion", times: Real | ExactTimes) -> Real:
+def differentiate(motion: Differentiable, times: Real | ExactTimes) -> Real:
     """Return the derivatives at times (n,), in s or exact, (n, 6, 9).
 
     Raises
@@ -54,7 +55,7 @@ def differentiate(motion: "Motion", times: Real | ExactTimes) -> Real:
     seconds = to_rough_seconds(times)
     if motion.is_driven and _changes_nothing(motion, seconds):
         # Without its steps: their errors grow where the axis comes back to an unstable vertical.
-        return differentiate(type(motion)(motion.top, motion.start), times)
+        return differentiate(_restart(motion, motion.top, motion.start), times)
     if motion.is_driven:
         _limit(motion, seconds)
     elif motion.top.Iz > FLAT * motion.top.Ix:
@@ -71,7 +72,14 @@ def differentiate(motion: "Motion", times: Real | ExactTimes) -> Real:
     return found
 
 
-def _changes_nothing(motion: "Motion", times: Real) -> bool:
+def _restart(motion: Differentiable, top: Top, start: State) -> Differentiable:
+    """Return a motion of the same class, under gravity alone."""
+    make: Any = type(motion)
+    found: Differentiable = make(top, start)
+    return found
+
+
+def _changes_nothing(motion: Differentiable, times: Real) -> bool:
     """Return whether friction and torque are far too weak to be seen in derivatives by then."""
     fastest = find_rates(motion)[1]
     longest = float(np.abs(times).max(initial=0))
@@ -81,7 +89,7 @@ def _changes_nothing(motion: "Motion", times: Real) -> bool:
     return bool(change * (1 + fastest * longest) < WEAKEST)
 
 
-def _limit(motion: "Motion", times: Real) -> None:
+def _limit(motion: Differentiable, times: Real) -> None:
     """Refuse times that some ninety driven motions take too long to reach."""
     longest = MOST_NUTATION / max(find_rates(motion)[0], TINY)
     for t in times[np.abs(times) > longest].tolist():
@@ -89,7 +97,7 @@ def _limit(motion: "Motion", times: Real) -> None:
         raise refuse("t", f"{within} for derivatives with friction or a torque", t)
 
 
-def _differentiate_disc(motion: "Motion", times: Real | ExactTimes) -> Real:
+def _differentiate_disc(motion: Differentiable, times: Real | ExactTimes) -> Real:
     """Return the derivatives for a body next to the flat disc, which has no larger Iz.
 
     A body with half of Iz and twice the spin has the same Iz omega_z, so that its axis moves in the
@@ -98,7 +106,7 @@ def _differentiate_disc(motion: "Motion", times: Real | ExactTimes) -> Real:
     row = np.frombuffer(motion.packed_start).copy()
     row[1], row[9] = row[1] / 2, 2 * row[9]
     top, start, *_ = read_start(row)
-    other = type(motion)(top, start)
+    other = _restart(motion, top, start)
     found = differentiate(other, times)
     state = motion.at(times)
     w, _, _, z = compose(invert(state.orientation), other.at(times).orientation).T[..., None]

@@ -1,19 +1,16 @@
 """Starts next to that of a motion, and the states to which they lead."""
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from symtop_ros.base.arrays import Places, Real, compose, find_rotation_vectors, invert
 from symtop_ros.physics.arguments import STARTS, fill_states
+from symtop_ros.physics.jacobian.differentiable import Differentiable
 from symtop_ros.physics.jacobian.nodes import CENTRAL, FARTHEST_OF_PAIRS, FORWARD
 from symtop_ros.physics.kernel import door, states
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
-
-if TYPE_CHECKING:
-    from symtop_ros.physics.motion import Motion
 
 LARGEST_STEP = 0.03  # in units of the size of a parameter: 1/Ix curves over Ix
 NORM_ERROR = 0.999e-3  # of a given quaternion, nearly
@@ -22,7 +19,7 @@ NORM_ERROR = 0.999e-3  # of a given quaternion, nearly
 class Neighbours:
     """Starts that differ from a motion's in one parameter (column), and their states at times."""
 
-    def __init__(self, motion: "Motion", times: Real | ExactTimes, at_times: State) -> None:
+    def __init__(self, motion: Differentiable, times: Real | ExactTimes, at_times: State) -> None:
         """Begin with the states of the motion itself at times (n,)."""
         self._times, self._at_times = times, at_times
         self._start = np.frombuffer(motion.packed_start)

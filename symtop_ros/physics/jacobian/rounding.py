@@ -1,16 +1,12 @@
 """The rounding of a motion's states, as their differences show it."""
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from symtop_ros.base.arrays import Places, Real
+from symtop_ros.physics.jacobian.differentiable import Differentiable
 from symtop_ros.physics.jacobian.scales import find_widths
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import EPS
-
-if TYPE_CHECKING:
-    from symtop_ros.physics.motion import Motion
 
 # Rounding of a state in a difference. Its standard deviation is 0.5 to 0.8 EPS.
 STATE_ERROR = 3 * EPS
@@ -26,7 +22,7 @@ ACROSS = np.array((1, 1, 0))[:, None]  # components across the axis, (3, 1)
 class Rounding:
     """Estimates of the rounding of states (n,) in their attitude and omega."""
 
-    def __init__(self, motion: "Motion", states: State, of_states: Real) -> None:
+    def __init__(self, motion: Differentiable, states: State, of_states: Real) -> None:
         """Begin with the sizes of states, (n, 2, 1)."""
         self._least, self._most = _find_bounds(motion, states, of_states)
         self._remainders = DRIVEN_REMAINDERS if motion.is_driven else REMAINDERS
@@ -48,7 +44,7 @@ class Rounding:
         return np.asarray(np.clip(self._remainders * smooth, *bounds))
 
 
-def _find_bounds(motion: "Motion", states: State, of_states: Real) -> tuple[Real, Real]:
+def _find_bounds(motion: Differentiable, states: State, of_states: Real) -> tuple[Real, Real]:
     """Return the least and the largest sizes of what is rounded, (n, 2, 3, 1).
 
     Next to the vertical the components across the axis are small, and have the relative precision

@@ -1,16 +1,13 @@
 """Sizes in which a motion, its steps and the errors of its derivatives are measured."""
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.physics.jacobian.differentiable import Differentiable
 from symtop_ros.physics.jacobian.nodes import TINY
 from symtop_ros.physics.state import State
-
-if TYPE_CHECKING:
-    from symtop_ros.physics.motion import Motion
 
 PROMISED = 1e-8  # error of a derivative, in units of the largest of its block
 # Smaller effects are measured by this one, in rad or in units of the spin, of a change by all of a
@@ -23,7 +20,7 @@ FIRSTS, COUNTS = (0, 1, 2, 3, 6), (1, 1, 1, 3, 3)
 class Scales:
     """Sizes of the parameters (columns) of a motion, and of its states at times."""
 
-    def __init__(self, motion: "Motion", states: State, longest: float) -> None:
+    def __init__(self, motion: Differentiable, states: State, longest: float) -> None:
         """Measure a motion and its states (n,) up to the longest time in s."""
         nutation, fastest = find_rates(motion)
         rate = fastest or (1 / longest if longest else 1.0)
@@ -48,7 +45,7 @@ class Scales:
         return np.asarray(PROMISED * np.maximum(largest, least)[:, :, None] + TINY)
 
 
-def find_rates(motion: "Motion") -> tuple[float, float]:
+def find_rates(motion: Differentiable) -> tuple[float, float]:
     """Return rates in rad/s that the axis and the body hardly exceed; 0 for a body at rest."""
     Ix, Iz, Mgl = motion.top.moments
     wx, wy, wz = motion.start.angular_velocity.tolist()
@@ -57,7 +54,7 @@ def find_rates(motion: "Motion") -> tuple[float, float]:
     return nutation, math.hypot(nutation, wz)
 
 
-def find_widths(motion: "Motion") -> tuple[float, float]:
+def find_widths(motion: Differentiable) -> tuple[float, float]:
     """Return the largest sine of the tilt and the largest omega across the axis, without a drive.
 
     Near the vertical they are small, and have the relative precision of all numbers.

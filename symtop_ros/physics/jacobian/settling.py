@@ -1,22 +1,19 @@
 """Rounds of steps, until all derivatives at some times are right or no step helps."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from symtop_ros.base.arrays import Places, Real
 from symtop_ros.base.refusals import RefusedError, refuse
 from symtop_ros.physics.jacobian.differences import Difference, Differences
+from symtop_ros.physics.jacobian.differentiable import Differentiable
 from symtop_ros.physics.jacobian.estimates import Estimates
 from symtop_ros.physics.jacobian.neighbours import Neighbours
 from symtop_ros.physics.jacobian.rounding import Rounding
 from symtop_ros.physics.jacobian.scales import Scales
 from symtop_ros.physics.jacobian.steps import MOST_ROUNDS, Steps
 from symtop_ros.physics.times import ExactTimes, to_rough_seconds
-
-if TYPE_CHECKING:
-    from symtop_ros.physics.motion import Motion
 
 UNRESOLVED = (
     "a time at which double precision resolves the derivatives (the start is too near the vertical "
@@ -31,7 +28,7 @@ WILD = 1e7  # promised errors; steps that leave so much in a row turn phases by 
 class Settling:
     """Derivatives at times that share their steps."""
 
-    def __init__(self, motion: "Motion", times: Real | ExactTimes) -> None:
+    def __init__(self, motion: Differentiable, times: Real | ExactTimes) -> None:
         """Begin with steps that suit the longest of the times (n,)."""
         self._seconds = to_rough_seconds(times)
         longest = float(np.abs(self._seconds).max())
