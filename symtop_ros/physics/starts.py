@@ -13,7 +13,12 @@ from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import DEMANDS, QUESTIONS, SolutionsRecord
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import LARGEST_MOMENT, validate_number, validate_one
+from symtop_ros.physics.values import (
+    LARGEST_ANGULAR_VELOCITY,
+    LARGEST_MOMENT,
+    validate_number,
+    validate_one,
+)
 
 # The names of each question, in the order of the kernel, by what a caller gives in any order.
 ROWS = {frozenset(each.split()): tuple(each.split()) for each in QUESTIONS}
@@ -138,6 +143,7 @@ def _refuse(
         "least": f"at least {found.least!r} {unit} with {others}",
         "size": f"at least {found.least:.6g} {unit} in size with {others}",
         "regular": f"such that the top can precess regularly with {others}",
+        "rates": f"such that no rate exceeds {LARGEST_ANGULAR_VELOCITY:g} rad/s with {others}",
     }
     condition = conditions[str(demand)]
     if demand == "positive" and math.isfinite(found.most):

@@ -316,3 +316,12 @@ def test_a_pendulum_is_let_go_without_spin():
     longest = find_period(ARTICLE, PI / 2, 0.0)
     for start in solve_start(ARTICLE, theta=PI / 2, nutation_period=longest):
         assert abs(start.psi_dot) < 1e-5
+
+
+@pytest.mark.parametrize(
+    "known", [{"theta": 2.0, "dip": 1e-9}, {"theta": 1.0, "precession_period": 1.0}]
+)
+def test_starts_with_rates_that_no_motion_may_have_are_refused_for_their_rates(known):
+    thin = Top(0.5, 1e-100, -20.0)  # the spin is a momentum of ordinary size, divided by Iz
+    with pytest.raises(ValueError, match=r"no rate exceeds 1e\+100 rad/s with theta"):
+        solve_start(thin, **known)

@@ -83,7 +83,17 @@ Question = Literal[
 ]
 QUESTIONS: tuple[Question, ...] = get_args(Question)
 
-Demand = Literal["finite", "between", "positive", "least", "size", "regular", "unequal", "weight"]
+Demand = Literal[
+    "finite",
+    "between",
+    "positive",
+    "least",
+    "size",
+    "regular",
+    "unequal",
+    "weight",
+    "rates",
+]
 DEMANDS: tuple[Demand | None, ...] = (
     None,
     "finite",
@@ -94,6 +104,7 @@ DEMANDS: tuple[Demand | None, ...] = (
     "regular",
     "unequal",
     "weight",
+    "rates",
 )
 
 KickKind = Literal["rate", "change", "factor", "impulse", "axle"]

@@ -352,7 +352,8 @@ typedef enum {
   SYMTOP_DEMANDS_SIZE,     /* "size": at least `least` in size */
   SYMTOP_DEMANDS_REGULAR,  /* "regular": such that a tilt is constant; of an interval or two */
   SYMTOP_DEMANDS_UNEQUAL,  /* "unequal": the top must have Ix and Iz that differ */
-  SYMTOP_DEMANDS_WEIGHT    /* "weight": the top must have Mgl other than 0 */
+  SYMTOP_DEMANDS_WEIGHT,   /* "weight": the top must have Mgl other than 0 */
+  SYMTOP_DEMANDS_RATES     /* "rates": such that no rate of a start exceeds 1e100 rad/s */
 } symtop_demand;
 
 typedef struct {

@@ -209,7 +209,7 @@ class Stretches {
 
   symtop_status push(symtop_start& s) const {
     const symtop_top top = {s.Ix, s.Iz, s.Mgl};
-    double pushed[3];
+    double pushed[3] = {0, 0, 0};  // GCC does not see that it is written, with -ffinite-math-only
     size_t done;
     const symtop_status status =
         symtop_kick(&top, s.orientation, s.angular_velocity, SYMTOP_AXLE_IMPULSE,

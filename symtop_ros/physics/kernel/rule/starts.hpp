@@ -15,10 +15,18 @@ inline void refuse(symtop_solutions& found, symtop_demand demand, double which =
 
 inline bool is_in_range(double x) { return std::fabs(x) <= LARGEST; }
 
+// A start whose rates are too large for a motion is no solution; if there is no other, they are why.
 inline void keep(symtop_solutions& found, const symtop_solution& start) {
   const bool is_kept = is_in_range(start.theta_dot) && is_in_range(start.phi_dot) &&
                        is_in_range(start.psi_dot);
-  if (is_kept) found.each[static_cast<int>(found.number++)] = start;
+  if (is_kept)
+    found.each[static_cast<int>(found.number++)] = start;
+  else
+    found.demand = SYMTOP_DEMANDS_RATES;
+}
+
+inline bool has_none(const symtop_solutions& found) {
+  return found.number == 0 && found.demand != SYMTOP_DEMANDS_RATES;
 }
 
 // ---- Regular precession ----
@@ -32,7 +40,7 @@ inline void solve_tilt_and_turn(const symtop_top& top, double theta, double peri
     const Long spin = (centrifugal * rate * rate + Long(top.Mgl)) / (Long(top.Iz) * rate);
     keep(found, {theta, 0.0, rate.to_double(), spin.to_double()});
   }
-  if (found.number == 0) refuse(found, SYMTOP_DEMANDS_REGULAR, 1);
+  if (has_none(found)) refuse(found, SYMTOP_DEMANDS_REGULAR, 1);
 }
 
 // A spin below 2 sqrt((Ix - Iz) cos(theta) Mgl)/Iz has no regular rate.
@@ -42,8 +50,9 @@ inline void solve_tilt_and_spin(const symtop_top& top, double theta, double psi_
   find_regular_rates(top, theta, psi_dot, SYMTOP_SPIN_RATE, rates);
   for (const bool is_positive : {true, false})
     for (int k = 0; k < (rates[0] == rates[1] ? 1 : 2); k++)  // a double root is one start
-      if ((rates[k] > 0) == is_positive) keep(found, {theta, 0.0, rates[k], psi_dot});
-  if (found.number > 0) return;
+      if (!std::isnan(rates[k]) && (rates[k] > 0) == is_positive)
+        keep(found, {theta, 0.0, rates[k], psi_dot});
+  if (!has_none(found)) return;
   const Long product = (Long(top.Ix) - Long(top.Iz)) * find_long_cosine(theta) * Long(top.Mgl);
   const double least = product.sign > 0 ? (root(product).scale(1) / Long(top.Iz)).to_double() : 0.0;
   refuse(found, least > 0 ? SYMTOP_DEMANDS_SIZE : SYMTOP_DEMANDS_REGULAR, 1, least);
@@ -64,7 +73,7 @@ inline void solve_spin_and_turn(const symtop_top& top, double psi_dot, double pe
     const double tangent = root(above / below).to_double();
     keep(found, {2 * arc_tangent(tangent, 1.0), 0.0, rate.to_double(), psi_dot});
   }
-  if (found.number == 0) refuse(found, SYMTOP_DEMANDS_REGULAR, 1);
+  if (has_none(found)) refuse(found, SYMTOP_DEMANDS_REGULAR, 1);
 }
 
 // ---- Let go at rest ----
@@ -132,7 +141,7 @@ inline void solve_tilt_and_nutation(const symtop_top& top, double theta, double 
   keep_at(find_period_at(asked, std::fmin(low, R / 2), std::fmin(R, LONGEST_AT), true));
   if (R > LONGEST_AT && asked >= find_relative_period(R) && asked < longest)
     keep_at(find_period_at(asked, LONGEST_AT, R, false));
-  if (found.number == 0) refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, longest * unit);
+  if (has_none(found)) refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, longest * unit);
 }
 
 // ---- Constants ----
@@ -230,7 +239,7 @@ inline void solve_constants(const symtop_top& top, const double known[3], symtop
                      Long(top.Mgl) / Ix};
   const Long terms = (size(Long(known[0])).scale(1) + along + size(Long(top.Mgl)).scale(1)) / Ix;
   const Long lacking = solve_well(well, spin, terms * Long(START_ROUNDING), found);
-  if (found.number > 0) return;
+  if (!has_none(found)) return;
   const Long least = Long(known[0]) + (lacking * Ix).scale(-1);
   refuse(found, SYMTOP_DEMANDS_LEAST, 0, least.to_double());
 }
@@ -240,7 +249,7 @@ inline void solve_goldstein(const symtop_top& top, const double known[3], symtop
   const Well well = {Long(known[0]), a, Long(known[2]), Long(top.Mgl) / Ix};
   const Long terms = size(well.alpha) + size(well.weight).scale(1);
   const Long lacking = solve_well(well, spin, terms * Long(START_ROUNDING), found);
-  if (found.number > 0) return;
+  if (!has_none(found)) return;
   refuse(found, SYMTOP_DEMANDS_LEAST, 0, (well.alpha + lacking).to_double());
 }
 
@@ -283,6 +292,8 @@ inline symtop_solutions solve_start(const symtop_top& top, symtop_question seen,
     if (found.demand != SYMTOP_DEMANDS_NOTHING) return found;
   }
   question.solve(top, known, found);
+  if (found.number > 0) found.demand = SYMTOP_DEMANDS_NOTHING;
+  if (found.demand == SYMTOP_DEMANDS_RATES) found.which = question.numbers - 1;
   return found;
 }
 
