@@ -6,7 +6,7 @@
 
 namespace symtop {
 
-inline bool is_part(symtop_part_kind kind, const symtop_part_of_body& part) {
+inline bool is_part(const symtop_part_kind& kind, const symtop_part_of_body& part) {
   const double numbers[] = {part.mass, part.distance};
   const bool has_size = read_number(kind) != SYMTOP_POINT;
   return is_number_of(read_number(kind), SYMTOP_BALL) && are_finite(numbers, 2) && part.mass > 0 &&
