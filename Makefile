@@ -7,7 +7,7 @@ HOUSE := $(CURDIR)
 include workshop/environment.mk
 
 # `$(SET_UP) NAME` makes what is missing or no longer fits. It runs with the Python of .venv, unless
-# there is no link, or make was given a different Python.
+# that has none, or make was given a different Python.
 ASKED := $(if $(filter-out file,$(origin PYTHON)),--asked)
 OLD = import sys; sys.version_info < (3, 11) and sys.exit(sys.version.split()[0])
 SET_UP = @python='$(PYTHON)'; \

@@ -16,7 +16,7 @@ Both are estimated for each element, and the steps are changed until their sums 
 - `estimates`: means of what several steps have given;
 - `settling`: the rounds, until all derivatives are right or none helps;
 - `scales`: units of all this;
-- `differentiable`: what a motion must have.
+- `differentiable`: the protocol of a motion.
 
 Here are the motions that need more: driven ones, and flat discs.
 """

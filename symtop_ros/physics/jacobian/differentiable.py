@@ -1,4 +1,4 @@
-"""What a motion must have to be differentiated."""
+"""The protocol of a motion that can be differentiated."""
 
 from typing import Protocol
 

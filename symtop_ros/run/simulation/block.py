@@ -122,7 +122,7 @@ class Blocks:
         self._later = Block(segment, stamps, self._encode, self.current.requested)
 
     def work_on_later(self) -> bool:
-        """Compute a piece of the block that follows; return False if there is none."""
+        """Compute a piece of the block that follows; return False if it is not begun."""
         if self._later is not None:
             self._later.work()
         return self._later is not None

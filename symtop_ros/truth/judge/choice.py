@@ -6,7 +6,7 @@ Each line is a step with its thresholds; causes that do not pass it go where its
       PER_PARAMETER estimates for each of their numbers            -> dropped
       squares as small as the smallest, within CHANCE or SIMPLER   -> dropped     (`select`)
       the fewest assumptions (`Cause.weight`)                      -> dropped
-      the smallest rotations, first parameters, smallest delay     -> told as well, if they are as
+      the smallest rotations, first parameters, smallest delay     -> also named, if they are as
                                                                       good within TIE and ALIGNED
     the best of them                                                              (`choose`)
       PER_PARAMETER estimates for each of its numbers              -> nothing is explained

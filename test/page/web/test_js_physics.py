@@ -217,7 +217,7 @@ def test_headline_and_reason_of_every_kind_agree_with_the_motion(tab, Mgl):
         direction = find_direction(start)
         verb = {1: "falls", -1: "rises", 0: "keeps its tilt"}[direction]
         assert re.search(rf": The (top|axis) {verb}\b", why), (start, why)
-        words = re.findall("falls|rises", headline)  # without a direction
+        words = re.findall("falls|rises", headline)  # empty if it names no direction
         assert words in ([], [verb]), (start, headline, why)
         is_steady = "precesses steadily" in headline
         assert is_steady == (kind == "regular" and start["phi_dot"] != 0), (start, headline)

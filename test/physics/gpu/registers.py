@@ -74,7 +74,7 @@ def read_functions(sass: str) -> dict[str, dict[int, Instruction]]:
 
 
 class Flow:
-    """Return the definitions of uniform registers that reach each instruction of a function."""
+    """The definitions of uniform registers that reach each instruction of a function."""
 
     def __init__(self, code: dict[int, Instruction]) -> None:
         places = {address: k for k, address in enumerate(code)}

@@ -48,8 +48,8 @@ inline symtop_energies find_energies(const symtop_top& top, const EnergyRates& n
 }
 
 inline symtop_energies find_gains(const symtop_top& top, const EnergyRates& first,
-                                  const EnergyRates& last) {
-  return {top.Mgl * subtract_heights(first, last),
+                                  const EnergyRates& last, double height) {
+  return {top.Mgl * height,
           top.Ix / 2 * subtract_squares(first.along, last.along),
           top.Ix / 2 * subtract_squares(first.tilting, last.tilting),
           top.Iz / 2 * subtract_squares(first.axial, last.axial)};
@@ -60,7 +60,8 @@ inline double find_larger(double a, double b) { return std::fmax(std::fabs(a), s
 inline symtop_exchange find_exchange(const symtop_top& top, const EnergyRates& first,
                                      const EnergyRates& last) {
   symtop_exchange found;
-  found.gained = find_gains(top, first, last);
+  found.height = subtract_heights(first, last);
+  found.gained = find_gains(top, first, last, found.height);
   found.first = find_energies(top, first), found.last = find_energies(top, last);
   const symtop_energies &a = found.first, &b = found.last;
   found.sizes = {std::fabs(top.Mgl), std::fmax(a.precession, b.precession),
@@ -68,7 +69,6 @@ inline symtop_exchange find_exchange(const symtop_top& top, const EnergyRates& f
   found.momentum_size = top.Ix * (find_larger(first.along, last.along) +
                                   find_larger(first.tilting, last.tilting)) +
                         top.Iz * find_larger(first.axial, last.axial);
-  found.height = subtract_heights(first, last);
   found.mean_along = (first.along + last.along) / 2;
   found.last_sine = 2 * last.half.x * last.half.y;
   return found;

@@ -13,12 +13,12 @@ import { findForces } from "./headline.js";
 export const MILLI = 1000;
 export const ROUNDING = 1e-9; // of the largest change; less is drawn and told as none
 
-/** @param {Energies} now @param {Energies} before @returns {Energies} in mJ */
-const subtractEnergies = (now, before) => ({
-  spin: MILLI * (now.spin - before.spin),
-  weight: MILLI * (now.weight - before.weight),
-  precession: MILLI * (now.precession - before.precession),
-  nutation: MILLI * (now.nutation - before.nutation),
+/** @param {Energies} energies in J @returns {Energies} in mJ */
+const toMilli = ({ spin, weight, precession, nutation }) => ({
+  spin: MILLI * spin,
+  weight: MILLI * weight,
+  precession: MILLI * precession,
+  nutation: MILLI * nutation,
 });
 
 /**
@@ -33,11 +33,16 @@ export const findLedger = ({ kind, course, before }) => {
   const { theta } = start.angles;
   const isHighest = theta - highest > lowest - theta;
   const weight = top.Mgl * Math.cos(isHighest ? highest : lowest);
-  const far = { ...after, weight, nutation: 0, precession: findRest(after) - weight };
-  const none = { spin: 0, weight: 0, precession: 0, nutation: 0 };
+  // At a turning point nothing nutates: what the weight has not, the precession has.
+  const far = {
+    spin: gained.spin,
+    weight: weight - first.weight,
+    precession: findRest(after) - weight - first.precession,
+    nutation: -first.nutation,
+  };
   return {
-    kick: subtractEnergies(gained, none),
-    far: subtractEnergies(far, first),
+    kick: toMilli(gained),
+    far: toMilli(far),
     point: isHighest ? "highest" : "lowest",
   };
 };
