@@ -94,20 +94,21 @@ class ExactTimes:
         ValueError
             If these are not enough, or not 0 or 1e-100 to 1e100 in size.
         """
-        parts = [0.0] * ELAPSED_PARTS
+        parts: list[float] = []
         left = self.elapsed
-        for place in range(ELAPSED_PARTS):
-            parts[place] = float(left)
-            if not SMALLEST <= abs(parts[place]) <= LARGEST_FACTOR:
+        while left and len(parts) < ELAPSED_PARTS:
+            part = left.numerator / left.denominator  # the nearest double
+            if not SMALLEST <= abs(part) <= LARGEST_FACTOR:
                 break
-            left -= Fraction(parts[place])
+            parts.append(part)
+            left -= Fraction(part)
         if left:
             raise refuse(
                 "elapsed",
                 "a sum of four doubles, each 0 or 1e-100 to 1e100 ns in size",
                 Words(f"{float(self.elapsed):.17g}"),
             )
-        return self.factor, tuple(parts)
+        return self.factor, (*parts, *[0.0] * (ELAPSED_PARTS - len(parts)))
 
     def advance(self, nanoseconds: int) -> Fraction:
         """Return the time of the motion in ns at another reading of the clock, exactly.
@@ -161,10 +162,12 @@ def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
 
 
 def _validate_elapsed(value: Any) -> Fraction:
-    is_exact = isinstance(value, Fraction | int) and not isinstance(value, bool)
-    if is_exact and value.denominator & (value.denominator - 1) == 0:
-        # without a division: this is asked for every sample
-        if abs(value.numerator) <= LARGEST_ELAPSED * value.denominator:
-            return value if isinstance(value, Fraction) else Fraction(value)
-        raise refuse("elapsed", "at most 1e300 ns in size", Words(f"{value.numerator:.3e}"))
-    raise refuse("elapsed", "a Fraction with a power of two as denominator (ns)", value)
+    condition = "a Fraction with a power of two as denominator (ns)"
+    if not isinstance(value, Fraction | int) or isinstance(value, bool):
+        raise refuse("elapsed", condition, value)
+    ticks, pieces = value.as_integer_ratio()
+    if pieces & (pieces - 1):
+        raise refuse("elapsed", condition, value)
+    if abs(ticks) > LARGEST_ELAPSED * pieces:  # no division: this is asked for every sample
+        raise refuse("elapsed", "at most 1e300 ns in size", Words(f"{ticks:.3e}"))
+    return value if isinstance(value, Fraction) else Fraction(value)

@@ -83,7 +83,8 @@ class Block:
         self._due.pop(topic, None)
         computed = SAMPLE_TOPICS[topic].compute(self._samples or self._compute_states())
         # A paused motion has one state for all stamps, and so has a block of one stamp.
-        numbers = np.broadcast_to(computed, (len(self._stamps), computed.shape[-1]))
+        numbers = np.empty((len(self._stamps), computed.shape[-1]))
+        numbers[:] = computed
         self._numbers[topic] = numbers
         self._messages[topic] = self._encode(topic, self._stamps, numbers)
 

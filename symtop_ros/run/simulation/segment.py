@@ -19,6 +19,7 @@ from symtop_ros.run.wire.layout import NANOSECONDS
 
 START = Fraction(0)
 NO_RIG = Rig()
+BEYOND = 2.0**64  # ns, more than two stamps differ by
 
 
 @dataclass(frozen=True)
@@ -61,13 +62,14 @@ class Segment:
 
     @cached_property
     def last_stamp(self) -> float:
-        """The last stamp (ns) with a state; infinite if there is no last one."""
-        farthest = self.motion.farthest_time
-        if not self.running or math.isinf(farthest):
+        """The last stamp (ns) with a state; beyond all stamps if there is no last one."""
+        if not self.running:
             return math.inf
-        # within the rounding of the kernel's own comparison
-        left = to_nanoseconds(farthest * (1 - 2**-40)) - self.elapsed
-        return self.stamp + math.floor(left / Fraction(self.factor))
+        # 2^-40 earlier than the last state: that covers the rounding of these doubles, and of the
+        # kernel's own comparison.
+        left = self.motion.farthest_time * (1 - 2**-40) - self.begin_time
+        stamps = left / self.factor * NANOSECONDS
+        return self.stamp + math.floor(max(-BEYOND, min(stamps, BEYOND)))
 
     def time_at(self, stamp: Any) -> Any:
         """Return the time of the motion (s) at a stamp (ns) or an array of stamps, rounded."""

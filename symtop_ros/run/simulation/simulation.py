@@ -5,10 +5,7 @@ old motion, samples from it on to the new one. What a change is says the `timeli
 takes effect, and what is published.
 """
 
-import threading
-from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TypeVar
 
@@ -25,6 +22,7 @@ from symtop_ros.run.simulation.gaps import Gaps
 from symtop_ros.run.simulation.host import Host, Sink
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.run.simulation.turns import Turns
 
 AT_ONCE = 0.0  # s until the next tick, if this one has left work to do
 WHY_IT_ENDS = "too fast for doubles, or 1e15 turns from its start"
@@ -41,8 +39,7 @@ class Simulation:
         self, settings: Settings, clock: HostClock | RunClock, sink: Sink, host: Host
     ) -> None:
         self._sink, self.host, self._clock = sink, host, clock
-        self._lock = threading.RLock()
-        self._waiting: deque[None] = deque()  # one for each turn that waits for the lock
+        self.turns = Turns()
         self._failures: dict[str, Failure] = {}  # by the name of the turn
         self.event_number = 0  # of the latest event
         self.ticker = Ticker(settings.publish_rate, self.now)
@@ -93,28 +90,23 @@ class Simulation:
         once until the action `name` succeeds again; the motion keeps running. A request that may
         be refused is an action of `attempt`.
         """
-        with self._turn():
-            self._follow_jump()
-            self.settle()
-            stamp, before = self.stamp, self.timeline
-            try:
-                result = act()
-            except Exception as error:
-                if not self.host.is_open:
-                    raise
-                failure = Failure(name, type(error).__name__, one_line(error))
-                self._report_failure(failure, stamp, before)
-                return failure
-            self._failures.pop(name, None)
-            return result
+        with self.turns:
+            return self._act(name, act)
 
-    @contextmanager
-    def _turn(self) -> Iterator[None]:
-        """Take the lock: who publishes late samples lets a turn in after each of them."""
-        self._waiting.append(None)
-        with self._lock:
-            self._waiting.pop()
-            yield
+    def _act(self, name: str, act: Callable[[], T]) -> T | Failure:
+        self._follow_jump()
+        self.settle()
+        stamp, before = self.stamp, self.timeline
+        try:
+            result = act()
+        except Exception as error:
+            if not self.host.is_open:
+                raise
+            failure = Failure(name, type(error).__name__, one_line(error))
+            self._report_failure(failure, stamp, before)
+            return failure
+        self._failures.pop(name, None)
+        return result
 
     def _report_failure(self, failure: Failure, stamp: int, before: Timeline) -> None:
         name = failure.action
@@ -128,8 +120,8 @@ class Simulation:
 
         `act` returns the answer or raises RefusedError.
         """
-        with self._turn():
-            found = self.take_turn(f"~/{name}", partial(attempt, act))
+        with self.turns:
+            found = self._act(f"~/{name}", partial(attempt, act))
             # The first sample of the new motion need not wait for the next tick.
             self.publish()
         return (False, str(found)) if isinstance(found, Failure) else found
@@ -139,7 +131,7 @@ class Simulation:
 
         None: only a change of a simulated clock can make a sample due.
         """
-        with self._lock:
+        with self.turns.lock:
             self._follow_jump()
             self._release_torque()
             if not (self.publish() and self._work_on_block()):
@@ -168,7 +160,7 @@ class Simulation:
         for stamp in ticker.due(self.now, catch_up, until, not clock.is_simulated):
             self._sink.send_sample(stamp, self._blocks.current)
             self.last = stamp
-            if self._waiting:
+            if self.turns.is_awaited:
                 break
         if ticker.missed > missed:
             self._gaps.add(ticker.missed - missed)
@@ -307,13 +299,13 @@ class Simulation:
 
         A sample in between would belong to the time of before, with a stamp of after.
         """
-        self._lock.acquire()
+        self.turns.lock.acquire()
 
     def end_jump(self, jumped: bool) -> None:
         """Continue after the clock was set; if it jumped, the next tick follows it."""
         if jumped:
             self._clock.note_jump()
-        self._lock.release()
+        self.turns.lock.release()
 
     def _follow_jump(self) -> None:
         """Continue the motion from its current state at the time the clock jumped to."""

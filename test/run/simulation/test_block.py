@@ -1,5 +1,6 @@
 """Stamps and samples in blocks, and the compute budget, whose clock advances when it is read."""
 
+import random
 from dataclasses import replace
 from fractions import Fraction
 
@@ -249,3 +250,26 @@ def test_a_motion_that_comes_to_its_last_state_is_stopped_there():
     assert budget.prepare(segment, last) == READY
     assert budget.prepare(segment, last + SECOND) == Progress(False, end=segment.time_at(last))
     assert segment.state_at(last) == motion.at(segment.times_at(last))
+
+
+def test_the_last_stamp_of_a_segment_has_a_state_and_lies_within_its_margin():
+    draws = random.Random(31)
+    for _ in range(300):
+        spin = draws.randrange(-(2**53), 2**53) / 2.0 ** draws.randrange(-20, 53)
+        motion = Motion(Top(1e-3, 1e-3, draws.choice((-1.0, 0.0, 1.0))), spinning(spin))
+        factor = draws.randrange(1, 2**20) / 2.0 ** draws.randrange(40)
+        begin = Fraction(motion.farthest_time) * draws.randrange(2**10) / 2**10 * SECOND
+        stamp = draws.randrange(2**61)
+        segment = Segment(motion, stamp, begin, factor, running=True)
+        last = min(int(segment.last_stamp), 2**62)
+        duration = Fraction(motion.farthest_time) / Fraction(factor) * SECOND
+        exact = stamp + duration - begin / Fraction(factor)
+        assert last < exact
+        # twice what is left for rounding, and the nanosecond that is not whole
+        assert last > min(exact, 2**62) - duration / 2**39 - 1
+        assert segment.state_at(last) is not None
+
+
+def spinning(spin: float) -> State:
+    """Return a tilted top at rest but for its spin (rad/s)."""
+    return State((0.8, 0.6, 0.0, 0.0), (0.0, 0.0, spin))

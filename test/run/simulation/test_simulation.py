@@ -157,7 +157,7 @@ def test_a_request_waits_for_one_sample_however_many_are_late():
         send(stamp, block)
         if not asking.ident:
             asking.start()
-            until(lambda: run.simulation._waiting)
+            until(lambda: run.simulation.turns.is_awaited)
 
     run.sink.send_sample = send_and_ask
     run.clock.now += 12 * SECOND // 1000  # they are in one block

@@ -10,8 +10,6 @@ from dataclasses import astuple, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from symtop_ros.base.refusals import (
     RefusedError,
     choice,
@@ -194,7 +192,7 @@ def name_pushes(pushes: Pushes) -> dict[str, float]:
 
 
 def _limit_rates(kind: str, request: Mapping[str, Any], after: State) -> None:
-    if not float(np.abs(after.angular_velocity).max()) <= MAX_RATE:
+    if max(map(abs, after.angular_velocity.tolist())) > MAX_RATE:
         raise refuse(kind, f"such that the top stays below {MAX_RATE:g} rad/s", request[kind])
 
 
