@@ -1,4 +1,4 @@
-"""A running node behind the page: its events and its attitude to the pages, their acts to it.
+"""A running node behind the page: its news to the pages, their acts to it.
 
 Needs ROS. The page computes all else from the events, as it does for its own top.
 """
@@ -6,9 +6,7 @@ Needs ROS. The page computes all else from the events, as it does for its own to
 import contextlib
 import threading
 import time
-from collections import deque
-from collections.abc import Callable, Iterator, Mapping
-from functools import partial
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import rclpy
@@ -19,10 +17,9 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 
 from symtop_ros.base.refusals import RefusedError, choice, to_double, vector
+from symtop_ros.page.panel.news import PERIOD, Message, News, Sample
 from symtop_ros.ros.client.connection import Connection, UnreachableError
 from symtop_ros.ros.live.feed import DEPTH, Feed
-from symtop_ros.run.simulation.events import Event
-from symtop_ros.run.simulation.run_file import RunRecorder
 from symtop_ros.run.simulation.settings import MAX_MOMENT
 from symtop_ros.run.simulation.topics import STATE_TOPICS
 
@@ -40,14 +37,7 @@ SERVICES = (
     PARAMETERS,
 )
 TIMEOUT = 3.0  # s for an answer
-SILENCE = 2.0  # s without samples after which the page says so
-PERIOD = 1 / 60  # s between two messages to a page
 IDLE = 0.2  # s in which a page is noticed, while none is open
-ALIVE = 2.0  # s after which a page without news is sent an empty message: a closed one is noticed
-KEPT = 200  # events of a run that a page is sent when it is opened
-
-Message = dict[str, Any]
-Place = tuple[int, int, Message]  # what a page was sent: run, number of its events, and state
 
 
 class Polled(CallbackGroup):
@@ -85,16 +75,8 @@ class Bridge:
         self._feed = Feed(node, self.name, ())
         self._samples: Subscription | None = None
         self._calls = threading.Lock()
-        self._news = threading.Condition()  # guards all that follows
-        self._pages = 0
-        self._recorder = RunRecorder()
-        self._events: deque[Message] = deque(maxlen=KEPT)  # of this run, each as a message
-        self._count = 0  # events of this run
-        self._runs = 0  # runs that have begun; a page with another number has an old one
-        self.last: Event | None = None  # the newest event of the node
-        self._sample: Message = {}
-        self._heard = time.monotonic()
-        self._lost = False
+        self.news = News(self.name)
+        self.follow = self.news.follow
         self._ending = threading.Event()
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
@@ -127,63 +109,20 @@ class Bridge:
             )
         return {"granted": granted, "answer": text}
 
-    # What pages are sent
-
-    def follow(self) -> Iterator[Message]:
-        """Yield what is new for one page, as soon as the page has taken what was before.
-
-        A page that does not keep up gets fewer samples, and all events.
-        """
-        place: Place = (-1, 0, {})
-        with self._news:
-            self._pages += 1
-        try:
-            while not self._ending.is_set():
-                with self._news:
-                    message = self._news.wait_for(partial(self._list_news, place), ALIVE)
-                    place = self._place
-                yield message
-                self._ending.wait(PERIOD)
-        finally:
-            with self._news:
-                self._pages -= 1
-
-    def _list_news(self, place: Place) -> Message:
-        """Return what a page has not been sent; nothing if it has all."""
-        if place == self._place:
-            return {}
-        run, count, _ = place
-        message = self._state
-        is_new = run != self._runs
-        missed = self._count if is_new else self._count - count
-        return message | {"new": is_new, "events": [*self._events][-missed:]} if missed else message
-
-    @property
-    def _place(self) -> Place:
-        return self._runs, self._count, self._state
-
-    @property
-    def _state(self) -> Message:
-        lost = (
-            f"no samples from {self.name} for {SILENCE:g} s: is top_node running, with the same "
-            "ROS_DOMAIN_ID and --node?"
-        )
-        return {**self._sample, "lost": lost if self._lost else None}
-
     # The thread of the node
 
     def _spin(self) -> None:
         with contextlib.suppress(ExternalShutdownException):
             while rclpy.ok(context=self._node.context) and not self._ending.is_set():
-                self._executor.spin_once(timeout_sec=PERIOD if self._pages else IDLE)
-                self._subscribe(self._pages > 0)
+                self._executor.spin_once(timeout_sec=PERIOD if self.news.pages else IDLE)
+                self._subscribe(self.news.pages > 0)
                 self._take()
 
     def _subscribe(self, wanted: bool) -> None:
         """Subscribe to the samples while a page is open; an unwatched node sends events only."""
         if wanted and self._samples is None:
             topic = STATE_TOPICS[DRAWN]
-            self._heard = time.monotonic()
+            self.news.expect()
             self._samples = self._node.create_subscription(
                 topic.load_message_class(),
                 topic.resolve(self.name),
@@ -201,16 +140,12 @@ class Bridge:
         if (data := self._take_sample()) is not None:
             self._feed.receive(DRAWN, data)
         batch = self._feed.batch()
-        with self._news:
-            for _, event in batch.events:
-                self._follow_event(event)
-            if columns := batch.columns.get(DRAWN):
-                self._follow_sample(int(columns.stamps[-1]), columns.numbers[-1].tolist())
-            # with publish_clock a pause has no samples
-            if columns or (self.last and not self.last.segment().running):
-                self._heard = time.monotonic()
-            self._lost = self._samples is not None and time.monotonic() > self._heard + SILENCE
-            self._news.notify_all()
+        columns = batch.columns.get(DRAWN)
+        sample: Sample | None = None
+        if columns:
+            sample = int(columns.stamps[-1]), columns.numbers[-1].tolist()
+        events = [event for _, event in batch.events]
+        self.news.tell(events, sample, is_expected=self._samples is not None)
 
     def _take_sample(self) -> bytes | None:
         """Return the newest sample that has arrived, without the executor."""
@@ -223,32 +158,9 @@ class Bridge:
             newest = taken[0]
         return newest
 
-    def _follow_event(self, event: Event) -> None:
-        if event.number == 1 or self.last is None:  # another node, or the first event that is seen
-            self._recorder, self._runs, self._count = RunRecorder(), self._runs + 1, 0
-            self._events.clear()
-            self._sample = {}
-        found = self._recorder.add(event)
-        self.last = event
-        segment = event.segment()
-        told: Message = {"running": segment.running, "factor": segment.factor}
-        if event.name == "record":
-            told["recording"] = event.values.get("outcome.kind") == "begun"
-        if found:
-            told["record"] = found.to_json()
-        # A stamp has more digits than a number of JavaScript.
-        told |= {"name": event.name, "said": event.verdict, "stamp": str(event.stamp)}
-        self._events.append(told)
-        self._count += 1
-
-    def _follow_sample(self, stamp: int, numbers: list[float]) -> None:
-        if self.last is None or stamp < self.last.stamp:
-            return  # of the motion before
-        x, y, z, w = numbers
-        self._sample = {"time": self._recorder.time_at(stamp), "orientation": [w, x, y, z]}
-
     def close(self) -> None:
         """End the thread and all pages. The node keeps running."""
+        self.news.close()
         self._ending.set()
         self._thread.join(timeout=2.0)
         self._executor.shutdown(timeout_sec=0.0)

@@ -13,7 +13,8 @@ from ros.node.running_top import RunningTop
 from serving import serving
 from waiting import until
 
-from symtop_ros.page.panel.bridge import KEPT, SILENCE, Bridge
+from symtop_ros.page.panel.bridge import Bridge
+from symtop_ros.page.panel.news import SILENCE
 from symtop_ros.page.web.join import write_file
 from symtop_ros.physics import State
 from workshop.load.domains import claim_domain
@@ -123,11 +124,12 @@ def test_a_request_that_is_none_is_one_message(node, request_, start):
 
 
 def test_pauses_leave_the_time_of_the_run_alone_and_a_step_moves_it(node, page):
-    _, bridge = node
+    running, bridge = node
     assert ask(bridge, "pause", True)[0]
     page.until(lambda: page.events[-1]["running"] is False)
     assert "record" not in page.events[-1]
-    before = bridge._recorder.time_at(0)  # that of the pause, at every stamp
+    segment = running.top.simulation.segment
+    before = round(segment.elapsed)  # ns, at every stamp; the run has one motion
     page.until(lambda: page.state["time"] == before)
     assert ask(bridge, "step", {"duration": 0.01})[0]
     page.until(lambda: page.state["time"] == before + 10_000_000)
@@ -170,10 +172,9 @@ def test_a_node_without_pages_sends_events_only(node):
     until(lambda: count() == 0)
 
 
-def test_silence_is_told_and_its_end(node, page):
-    running, bridge = node
-    running.top._pacer.stop()  # no samples: as after its end
-    bridge._heard -= SILENCE
+def test_a_node_that_falls_silent_is_told_of_and_its_return(node, page):
+    running, _ = node
+    running.top.close()  # no samples: as after its end
     page.until(lambda: page.state["lost"])
     assert f"/top for {SILENCE:g} s" in page.state["lost"]
 
@@ -183,31 +184,6 @@ def test_silence_is_told_and_its_end(node, page):
         return not page.state["lost"]
 
     page.until(is_back)
-
-
-def test_a_node_that_begins_again_is_a_new_run(node, page):
-    _, bridge = node
-    first = bridge.last
-    assert ask(bridge, "reset")[0]
-    page.until(lambda: len(page.events) == 2)
-    with bridge._news:
-        bridge._follow_event(first)  # the event with the number 1, as of another process
-        bridge._news.notify_all()
-    page.until(lambda: page.new.count(True) == 2)
-    assert page.events[-1]["stamp"] == page.events[0]["stamp"]
-
-
-def test_of_a_long_run_the_last_events_are_kept(node, page):
-    _, bridge = node
-    event = bridge.last
-    later = type(event)(event.stamp, "reset", "", {**event.values, "number": "2"})
-    with bridge._news:
-        for _ in range(KEPT + 5):
-            bridge._follow_event(later)
-    other = Page(bridge)
-    other.until(lambda: other.events)
-    assert len(other.events) == KEPT
-    other.close()
 
 
 def test_a_missing_node_is_one_message():
@@ -240,7 +216,7 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node, brow
         assert tab.is_hidden("#timeline")
         tab.click("#hurry")
         until(lambda: "without the push" in tab.text_content("#headline"), look)
-        act = bridge._events[-1]["record"]["act"]
+        act = tab.evaluate("window.symtop.run().events.at(-1).act")
         assert act == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
         tab.click("#tab-start")
         tab.fill("#field-top\\.Mgl", "0.05")
@@ -276,12 +252,12 @@ def test_a_held_button_pushes_the_node_until_it_is_released(node, browser):
         button.dispatch_event("pointerdown")
         until(lambda: re.search(r"sideways \d+ times", tab.text_content("#headline")), look)
         button.dispatch_event("pointerup")
-        until(lambda: bridge.last.name == "release", look)
-        given = int(bridge.last.values["before.pushes"])
+        until(lambda: bridge.news.last.name == "release", look)
+        given = int(bridge.news.last.values["before.pushes"])
         assert running.top.simulation.segment.motion.pushes.number == given > 0
         events = partial(tab.evaluate, "window.symtop.run().events")
         until(lambda: events()[-1]["act"]["number"] == given, look)
         assert (events()[-1]["kind"], events()[-1]["act"]["rate"]) == ("push", 20)
         until(lambda: f"sideways {given} times" in tab.text_content("#headline"), look)
-        assert bridge.last.verdict.startswith(f"Pushed sideways {given} times in ")
+        assert bridge.news.last.verdict.startswith(f"Pushed sideways {given} times in ")
         tab.close()
