@@ -175,7 +175,7 @@ def check_target(_, words):
     if others:
         options = " ".join(others).removeprefix("ARGS=").split()
         with contextlib.chdir(ROOT):
-            workshop.main._parser().parse_args([found[1], *options])
+            workshop.main.make_parser().parse_args([found[1], *options])
 
 
 def check_extra(_, words):

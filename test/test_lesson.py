@@ -55,7 +55,7 @@ def do(tops, line):
     """Do what a command of top_ctl does, without a new process for each; return the answer."""
     options = client.make_parser().parse_args(shlex.split(line)[1:])
     values = parse_values(vars(options).get("values", ()))
-    granted, text = client._run(options, values, tops[options.node])
+    granted, text = client.carry_out(options, values, tops[options.node])
     assert granted, text
     return text
 

@@ -20,7 +20,7 @@ the documents. `make help` lists the targets that call it."""
 
 def main(args: list[str] | None = None) -> int:
     """Run a command; return 0 (good), 1 (failed) or 2 (usage)."""
-    options = vars(_parser().parse_args(args))
+    options = vars(make_parser().parse_args(args))
     module, _, name = COMMANDS[options.pop("command")]["run"].rpartition(".")
     try:
         if folder := options.get("folder"):
@@ -35,7 +35,8 @@ def main(args: list[str] | None = None) -> int:
         return 1
 
 
-def _parser() -> argparse.ArgumentParser:
+def make_parser() -> argparse.ArgumentParser:
+    """Return the parser of all commands."""
     parser = argparse.ArgumentParser(prog="workshop", description=DESCRIPTION)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     of = {name: commands.add_parser(name, help=each["help"]) for name, each in COMMANDS.items()}

@@ -49,7 +49,7 @@ def main(args: list[str] | None = None) -> int:
             node = rclpy.create_node("top_ctl", start_parameter_services=False)
             with closing(Connection(node, options.node, options.timeout)) as top:
                 listen()
-                granted, text = _run(options, values, top)
+                granted, text = carry_out(options, values, top)
                 if top.doubles:
                     print(
                         f"top_ctl: {top.doubles} nodes have the name {top.name}, and one of them "
@@ -73,7 +73,8 @@ def main(args: list[str] | None = None) -> int:
     return 0 if granted else 1
 
 
-def _run(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Response:
+def carry_out(options: argparse.Namespace, values: dict[str, Any], top: Connection) -> Response:
+    """Do what a command says; return success and the answer."""
     if options.command in UNTIL_INTERRUPTED:
         if options.command == "keys":
             follow_keys(top)

@@ -121,17 +121,18 @@ class RunningTop(Listener):
         self.spin_until(is_matched)
 
     @property
-    def last_log(self) -> Path:
-        """The file of the current or the last recording."""
-        file = self.top.session._recorder._file
-        assert file
-        return file.path
+    def log(self) -> Path:
+        """The file of the recording."""
+        path = self.top.session.recording.path
+        assert path
+        return path
 
     def end_log(self) -> Path:
         """End the recording; return its file."""
+        path = self.log
         granted, answer = self.switch("record", False)
         assert granted, answer
-        return self.last_log
+        return path
 
     def state(self) -> Any:
         """The answer of ~/get_state."""

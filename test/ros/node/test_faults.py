@@ -46,8 +46,9 @@ class Recording:
 
     def switch(self, on):
         """Begin or end; return the file, or the answer that refuses."""
+        before = self.run.top.session.recording.path
         granted, answer = self.run.switch("record", on)
-        return self.run.last_log if granted else answer
+        return (before or self.run.log) if granted else answer
 
     def wait(self, samples=100):
         self.run.wait_for(self._angles, samples)

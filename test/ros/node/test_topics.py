@@ -8,7 +8,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import QuaternionStamped, TwistStamped, Vector3Stamped, WrenchStamped
 from ros.node.built_messages import importing
-from ros.node.running_top import LATCHED, facts, segment_of, stamp_of, vector
+from ros.node.running_top import LATCHED, STEP, facts, segment_of, stamp_of, vector
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
@@ -99,7 +99,7 @@ def test_diagnostics_report_the_motion_and_constants_that_do_not_drift(start_top
 def test_without_their_package_markers_are_only_logged(start_top, monkeypatch, capfd):
     monkeypatch.setitem(sys.modules, "visualization_msgs.msg", None)  # as if it were missing
     run = start_top(publish_markers=True)
-    run.spin_until(lambda: run.top.simulation.ticker._next > 10)
+    run.spin_until(lambda: run.top.simulation.stamp > 10 * STEP)
     line = "visualization_msgs is not installed: ~/markers is only logged"
     assert capfd.readouterr().err.count(line) == 1
 

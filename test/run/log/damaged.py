@@ -110,7 +110,7 @@ class Log:
         with path.open("xb") as stream:
             writer = Writer(stream, enable_data_crcs=True, **options)
             writer.start("ros2", "a test")
-            numbers = {n: self._register(writer, each) for n, each in self.channels.items()}
+            numbers = {n: self.register(writer, each) for n, each in self.channels.items()}
             for name in [each for each in self.metadata if not each.endswith(".end")]:
                 writer.add_metadata(name, self.metadata[name])
             before = None
@@ -128,7 +128,7 @@ class Log:
             writer.finish()
         return path
 
-    def _register(self, writer: Writer, channel: Channel) -> int:
+    def register(self, writer: Writer, channel: Channel) -> int:
         schema = self.schemas[channel.schema_id]
         number = writer.register_schema(schema.name, schema.encoding, schema.data)
         return writer.register_channel(

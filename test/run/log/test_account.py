@@ -108,7 +108,7 @@ def test_messages_between_chunks_are_read(log, tmp_path):
     with path.open("wb") as stream:
         writer = Writer(stream)
         writer.start("ros2")
-        numbers = {n: log._register(writer, each) for n, each in log.channels.items()}
+        numbers = {n: log.register(writer, each) for n, each in log.channels.items()}
         writer.add_metadata("symtop_ros", log.metadata["symtop_ros"])
         for k, each in enumerate(log.messages):
             message = replace(each, channel_id=numbers[each.channel_id])
