@@ -45,7 +45,7 @@ NOT_TYPED = {
     ("export",): "of SROS2, for which the wheels have no plugins",
     **{
         ("make", "-C", "workshop", name): "measures for minutes or hours; a part of make test-long"
-        for name in ("report", "filters", "stress", "soak", "node-cost")
+        for name in ("report", "filters", "stress", "soak", "node-cost", "starts", "links")
     },
     ("pip", "install", "-e", ".[gpu-cuda13]"): "for a GPU, 2 GB",
     ("make", "test"): "typed in the README's order",

@@ -14,8 +14,6 @@ Done = subprocess.CompletedProcess[str]
 RESOURCE = Path(__file__).parents[1] / "resource"
 # Options of top_ctl: a node that is starting on a loaded machine may take longer than 5 s.
 PATIENT = "--timeout", "300"
-# Fast DDS 3 has renamed an element.
-LOSSY_PROFILES = {"jazzy": "fastdds_lossy.xml", "kilted": "fastdds_lossy_kilted.xml"}
 
 
 def command(name: str, *arguments: object) -> list[str]:

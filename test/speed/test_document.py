@@ -1,7 +1,7 @@
 import pytest
 from documents import ROOT, find_section
 
-from workshop.load import node_cost, stress
+from workshop.load import links, node_cost, starts, stress
 from workshop.speed import derivatives, filters, many, testset
 from workshop.speed.ahead import TABLES
 from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
@@ -40,7 +40,10 @@ PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SECTIONS = (
     "chapters",
     "summary",
-    *(each.NAME for each in (derivatives, filters, many, testset, node_cost, stress)),
+    *(
+        each.NAME
+        for each in (derivatives, filters, many, testset, links, node_cost, starts, stress)
+    ),
 )
 
 

@@ -9,12 +9,13 @@ from pathlib import Path
 import programs
 import pytest
 from documents import ROOT
-from programs import LOSSY_PROFILES, command, set_parameters
-from system.two_hosts import ADDRESSES, Weather, two_hosts, why_not
+from programs import command, set_parameters
 from waiting import TIMEOUT, until
 
 from symtop_ros.ros.node.host import VARIABLES, distribution_name
 from workshop.load.endings import bound
+from workshop.load.links import LOSSY_FILES
+from workshop.load.two_hosts import ADDRESSES, Weather, two_hosts, why_not
 
 skip = pytest.mark.skipif(bool(why_not()), reason=f"no two hosts here: {why_not()}")
 pytestmark = [pytest.mark.long, skip, pytest.mark.untraced]
@@ -23,7 +24,7 @@ WITNESS = Path(__file__).with_name("witness.py")
 RANGE, PEERS = "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS"
 SETTINGS = (RANGE, PEERS, *VARIABLES)
 LOOPBACK = dict.fromkeys(VARIABLES, str(CONFIG / "fastdds_loopback.xml"))
-LOSSY = dict.fromkeys(VARIABLES, str(CONFIG / LOSSY_PROFILES[distribution_name()]))
+LOSSY = dict.fromkeys(VARIABLES, str(CONFIG / LOSSY_FILES[distribution_name()]))
 LOCAL = {RANGE: "LOCALHOST"}
 OFF = {RANGE: "OFF"}
 TO_THE_TOP = {PEERS: ADDRESSES[0]}

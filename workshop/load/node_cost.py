@@ -155,7 +155,8 @@ def _format_value(row: str, value: float) -> str:
     return f"{value:.3g}"
 
 
-def _runs(text: str) -> int:
+def whole(text: str) -> int:
+    """Return an argument that counts something."""
     if not (text.isdecimal() and int(text) > 0):
         raise argparse.ArgumentTypeError(f"must be a whole number above 0, got {text!r:.40}")
     return int(text)
@@ -173,7 +174,7 @@ def _run(options: argparse.Namespace) -> bool:
 def main(args: list[str] | None = None) -> int:
     """Print the comparison; return the exit status."""
     description = "CPU, jitter and kick latency of top_node, compared with bare rclpy nodes."
-    runs = {"type": _runs, "default": 3, "help": "default: %(default)d"}
+    runs = {"type": whole, "default": 3, "help": "default: %(default)d"}
     return run_program("node_cost.py", description, 5.0, _run, args, runs=runs, docs=DOCS)
 
 

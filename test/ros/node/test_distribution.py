@@ -3,12 +3,13 @@
 import sys
 
 import pytest
-from programs import LOSSY_PROFILES, environment, execute
+from programs import environment, execute
 
 from symtop_ros.ros.node import host
 from symtop_ros.ros.node.host import VARIABLES, distribution_name, use_profile
 from symtop_ros.run.simulation.presets import config_folder
 from workshop.load.domains import claim_domain
+from workshop.load.links import LOSSY_FILES
 
 
 @pytest.fixture(autouse=True)
@@ -53,7 +54,7 @@ def test_a_profile_of_the_user_is_kept(variable, monkeypatch):
 
 DOMAIN = claim_domain()
 NODE = "import rclpy; rclpy.init(); rclpy.create_node('profiled'); rclpy.shutdown()"
-LOSSY = LOSSY_PROFILES[distribution_name()]
+LOSSY = LOSSY_FILES[distribution_name()]
 
 
 def said_with(profile):
@@ -69,5 +70,5 @@ def test_a_profile_is_read_without_a_complaint(profile):
 
 
 def test_one_that_is_not_understood_is_complained_of():
-    (other,) = set(LOSSY_PROFILES.values()) - {LOSSY}
+    (other,) = set(LOSSY_FILES.values()) - {LOSSY}
     assert "XMLPARSER" in said_with(other)

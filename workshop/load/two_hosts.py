@@ -29,7 +29,7 @@ SHARED_MEMORY = "mount -t tmpfs tmpfs /dev/shm && ip link set lo up && echo read
 
 
 def why_not() -> str:
-    """Why hosts cannot be made here; empty where they can."""
+    """Return why hosts cannot be made here; empty where they can."""
     missing = [each for each in ("ip", "unshare", "nsenter") if not shutil.which(each)]
     if missing:
         return f"{', '.join(missing)}: not installed"
@@ -55,7 +55,7 @@ class Weather:
     reorder: float = 0.0
 
     def arrival(self, now: float, chance: random.Random) -> float | None:
-        """When a frame arrives; None for never."""
+        """Return when a frame arrives; None for never."""
         if chance.random() < self.loss:
             return None
         if chance.random() < self.reorder:
@@ -69,13 +69,13 @@ class Host:
     def __init__(self, address: str) -> None:
         self.address = address
         words = ["unshare", "--net", "--mount", "sh", "-c", SHARED_MEMORY]
-        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-        self._keeper = subprocess.Popen(words, **pipes)
+        self._keeper = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         assert self._keeper.stdout
         assert self._keeper.stdout.readline() == b"ready\n"
 
     @property
     def pid(self) -> int:
+        """Process id of the keeper of its namespaces."""
         return self._keeper.pid
 
     def words(self, *command: str) -> list[str]:
@@ -84,10 +84,12 @@ class Host:
         return ["nsenter", *options, *command]
 
     def run(self, *command: str) -> str:
+        """Run a command on this host to its end; return what it prints."""
         done = subprocess.run(self.words(*command), check=True, capture_output=True, text=True)
         return done.stdout
 
     def close(self) -> None:
+        """Give the namespaces up."""
         self._keeper.kill()
         self._keeper.communicate()
 
@@ -105,6 +107,7 @@ class Cable:
         self._thread.start()
 
     def close(self) -> None:
+        """Carry no more frames."""
         self._closing.set()
         self._thread.join()
         for end in self._ends:
@@ -144,7 +147,7 @@ def _plug(host: Host) -> int:
 
 @contextlib.contextmanager
 def two_hosts() -> Iterator[tuple[Host, Host, Cable]]:
-    """Two hosts joined by a cable."""
+    """Make two hosts joined by a cable."""
     with contextlib.ExitStack() as stack:
         hosts = []
         for address in ADDRESSES:
