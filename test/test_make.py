@@ -115,6 +115,18 @@ def test_nothing_is_run_where_all_is_there(checkout):
     assert set_up(checkout) == (0, [], [])
 
 
+def test_a_link_to_the_environment_of_another_checkout_is_replaced_and_the_other_one_kept(
+    checkout, tmp_path
+):
+    other = tmp_path / "other"
+    shutil.copytree(checkout, other, symlinks=True)
+    shutil.rmtree(other / ".venv")
+    (other / ".venv").symlink_to(checkout / ".venv")
+    assert is_anew(set_up(other)[1], f"was made in {checkout}")
+    assert not (other / ".venv").is_symlink()
+    assert set_up(checkout) == (0, [], [])
+
+
 def test_one_extra_more_has_those_before(checkout):
     status, printed, asked = set_up(checkout, "test")
     assert (status, printed[0].partition(":")[0]) == (0, "Setting up .venv")

@@ -243,6 +243,8 @@ def _make_environment(folder: Path) -> None:
     base = Path(getattr(sys, "_base_executable", sys.executable))
     python = str(base if base.exists() else Path(sys.executable).resolve())
     advice = f"{python} -m venv failed (Debian and Ubuntu: apt install python3-venv)"
+    if folder.is_symlink():  # to the environment of another checkout, which is left alone
+        folder.unlink()
     shutil.rmtree(folder, ignore_errors=True)
     _run((python, "-m", "venv", "--clear", str(folder)), advice)
 
