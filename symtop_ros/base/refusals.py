@@ -75,6 +75,20 @@ def show(value: object) -> str:
     return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 3]}..."
 
 
+def show_limit(limit: float) -> str:
+    """Return a limit in six digits if they are all of it, else in all its digits.
+
+    A limit that is rounded may be one that is refused itself.
+
+    Examples
+    --------
+    >>> show_limit(1e30), show_limit(0.25), show_limit(2 / 3)
+    ('1e+30', '0.25', '0.6666666666666666')
+    """
+    text = f"{limit:.6g}"
+    return text if float(text) == limit else show(limit)
+
+
 def validate_names(
     values: Mapping[str, Any], names: Collection[str], what: str = "field name"
 ) -> None:
@@ -123,10 +137,10 @@ def plain(text: str) -> str:
     return text
 
 
-def describe_range(low: float, high: float, unit: str) -> str:
+def describe_range(low: float, high: float, unit: str = "") -> str:
     """Return a range as text; without limits that of all numbers."""
     if math.isfinite(low) or math.isfinite(high):
-        return f"{low:.6g} to {high:.6g} {unit}".rstrip()
+        return f"{show_limit(low)} to {show_limit(high)} {unit}".rstrip()
     return f"a finite number ({unit})" if unit else "a finite number"
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.refusals import Words, require
+from symtop_ros.base.refusals import Words, require, show_limit
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY, specific_force
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import PART_KINDS
@@ -72,7 +72,8 @@ class Body:
         for name, unit in units.items():
             validate = validate_number if name == "arm" else validate_positive
             object.__setattr__(self, name, validate(name, getattr(self, name), unit))
-        require(self.Iz <= 2 * self.Ix, "Iz", f"<= 2 Ix = {2 * self.Ix:g} kg m^2", self.Iz)
+        most = 2 * self.Ix
+        require(self.Iz <= most, "Iz", f"<= 2 Ix = {show_limit(most)} kg m^2", self.Iz)
 
     @property
     def top(self) -> Top:
@@ -114,7 +115,7 @@ class Body:
         """
         mass, arm = validate_number("mass", mass, "kg"), validate_number("arm", arm, "m")
         Ix, lost = validate_number("Ix", Ix, "kg m^2"), (mass * arm) * arm
-        require(Ix > lost, "Ix", f"> mass arm^2 = {lost:g} kg m^2", Ix)
+        require(Ix > lost, "Ix", f"> mass arm^2 = {show_limit(lost)} kg m^2", Ix)
         return cls(mass, arm, Ix - lost, Iz, gravity)
 
     @classmethod
@@ -225,7 +226,7 @@ class Body:
         require(
             arm,
             "Iz",
-            f"< 2 Ix = {2 * top.Ix:g} kg m^2 for a body with Mgl = {top.Mgl:g} J to exist",
+            f"< 2 Ix = {show_limit(2 * top.Ix)} kg m^2 for a body with Mgl = {top.Mgl:g} J to exist",
             top.Iz,
         )
         mass = top.Mgl / arm / gravity

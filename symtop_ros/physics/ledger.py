@@ -14,7 +14,7 @@ from operator import add
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.refusals import Words, refuse, require
+from symtop_ros.base.refusals import Words, refuse, require, show, show_limit
 from symtop_ros.physics.dynamics import find_fastest_rate
 from symtop_ros.physics.exchange import Exchange
 from symtop_ros.physics.kernel.door import find_exchange
@@ -169,7 +169,7 @@ class Ledger:
         """
         validate_one(motion, "motion")
         begin, end = validate_number("begin", begin, "s"), validate_number("end", end, "s")
-        require(begin <= end, "end", f"at least begin = {begin:g} s", end)
+        require(begin <= end, "end", f"at least begin = {show_limit(begin)} s", end)
         top, first, last = motion.top, motion.at(begin), motion.at(end)
         exchange = _exchange(top, first, last)
         gained = _read_energies(exchange.gained)
@@ -339,8 +339,8 @@ def _list_parts(motion: Motion, begin: float, end: float) -> Iterator[tuple[floa
         longest = PART / find_fastest_rate(motion, begin)
         left = end - begin
         if left > MOST_PARTS * longest:
-            wanted = f"at most {MOST_PARTS * longest:.3g} s after begin"
-            raise refuse("end", wanted, Words(f"{left:g} s"))
+            wanted = f"at most {show_limit(MOST_PARTS * longest)} s after begin"
+            raise refuse("end", wanted, Words(f"{show(left)} s"))
         stop = min(end, max(begin + longest, math.nextafter(begin, math.inf)))
         yield begin, stop
         begin = stop

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from symtop_ros.base.refusals import RefusedError, Words, refuse
+from symtop_ros.base.refusals import RefusedError, Words, refuse, show_limit
 from symtop_ros.base.units import QUANTITIES
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import DEMANDS, QUESTIONS, SolutionsRecord
@@ -138,14 +138,15 @@ def _refuse(
     )
     conditions = {
         "finite": f"at most {LARGEST_MOMENT:g} {unit} in size",
-        "between": f"> {found.least:g} and < {found.most:.6g} {unit}",
+        "between": f"> {show_limit(found.least)} and < {show_limit(found.most)} {unit}",
         "positive": f"> 0 {unit}",
-        "least": f"at least {found.least!r} {unit} with {others}",
-        "size": f"at least {found.least:.6g} {unit} in size with {others}",
+        "least": f"at least {show_limit(found.least)} {unit} with {others}",
+        "size": f"at least {show_limit(found.least)} {unit} in size with {others}",
         "regular": f"such that the top can precess regularly with {others}",
+        "spin": f"other than 0 {unit}: without weight every precession rate is then regular",
         "rates": f"such that no rate exceeds {LARGEST_ANGULAR_VELOCITY:g} rad/s with {others}",
     }
     condition = conditions[str(demand)]
     if demand == "positive" and math.isfinite(found.most):
-        condition = f"> 0 and at most {found.most:.6g} {unit} with {others}"
+        condition = f"> 0 and at most {show_limit(found.most)} {unit} with {others}"
     return refuse(name, condition, value)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real, rotate, split, stack
-from symtop_ros.base.refusals import Words, refuse, require
+from symtop_ros.base.refusals import Words, refuse, require, show
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.times import ExactTimes, to_seconds
 from symtop_ros.physics.values import (
@@ -486,7 +486,7 @@ def _normalize(q: Real) -> Real:
         raise refuse(
             "orientation",
             f"a quaternion of norm 1 within {NORM_TOLERANCE:g}",
-            Words(f"a norm of {norm.flat[deviation.argmax()]:g}"),
+            Words(f"a norm of {show(norm.flat[deviation.argmax()])}"),
         )
     door.demand_arithmetic()
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))

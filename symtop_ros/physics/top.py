@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real, Vector, split, stack
-from symtop_ros.base.refusals import Words, refuse
+from symtop_ros.base.refusals import Words, refuse, show_limit
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import FRICTION_KINDS
 from symtop_ros.physics.state import State
@@ -115,7 +115,8 @@ class Top(_Numbers):
     def critical_spin(self) -> Any:
         """Smallest |omega_z| in rad/s at which sleeping upright is stable; 0 for Mgl <= 0.
 
-        Sleeping upright is stable if and only if p_psi^2 >= 4 Ix Mgl (Goldstein, section 5.7).
+        Sleeping upright is stable if and only if p_psi^2 >= 4 Ix Mgl (Goldstein, section 5.7);
+        for Mgl = 0, if and only if omega_z is not 0.
         """
         spin = 2 * np.sqrt(self.Ix) * np.sqrt(np.maximum(self.Mgl, 0.0)) / self.Iz
         return spin if self.shape else float(spin)
@@ -125,7 +126,8 @@ class Top(_Numbers):
         """Return True if an axis at rest on the vertical stays near it after a small kick.
 
         A centre of mass above the pivot needs p_psi^2 >= 4 Ix |Mgl|; below the pivot the axis is
-        always stable.
+        always stable. Without weight it is stable if the top spins: else a small kick turns it on
+        and on.
 
         Parameters
         ----------
@@ -134,7 +136,9 @@ class Top(_Numbers):
         """
         validate_one(self)
         weight = self.Mgl if state.vertical[2] > 0 else -self.Mgl
-        if weight <= 0:
+        if weight == 0:
+            return bool(state.angular_velocity[2] != 0)
+        if weight < 0:
             return True
         # Roots, not squares: those would overflow. The critical spin itself is stable, whichever
         # way its double is rounded.
@@ -185,7 +189,7 @@ def _validate_moments(Ix: float, Iz: float, Mgl: float) -> None:
     if Ix <= 0:
         raise refuse("Ix", "> 0 kg m^2", Ix)
     if not 0 < Iz <= 2 * Ix:
-        raise refuse("Iz", f"> 0 and <= 2 Ix = {2 * Ix:g} kg m^2", Iz)
+        raise refuse("Iz", f"> 0 and <= 2 Ix = {show_limit(2 * Ix)} kg m^2", Iz)
     for name, moment in (("Ix", Ix), ("Iz", Iz)):
         if not SMALLEST_MOMENT <= moment <= LARGEST_MOMENT:
             raise refuse(name, f"{SMALLEST_MOMENT:g} to {LARGEST_MOMENT:g} kg m^2", moment)

@@ -104,6 +104,17 @@ def test_a_body_has_the_tops_constants_and_could_be_built(sign):
         assert math.copysign(1, body.arm) == sign
 
 
+@pytest.mark.parametrize("make", [Top, lambda Ix, Iz, _: Body(1.0, 1.0, Ix, Iz, 9.81)])
+def test_the_largest_axial_moment_that_a_refusal_states_is_accepted(make):
+    rng = Numbers("largest moments")
+    for _ in range(100):
+        Ix = rng.power(-6, 3)
+        with pytest.raises(ValueError, match="^Iz must be ") as refused:
+            make(Ix, math.nextafter(2 * Ix, math.inf), 1.0)
+        stated = float(str(refused.value).split("2 Ix = ")[1].split()[0])
+        assert make(Ix, stated, 1.0).Iz == 2 * Ix
+
+
 def test_a_weight_of_next_to_nothing_has_no_arm_of_kilometres():
     top = Top(Ix=1.0, Iz=0.5, Mgl=-1e-9)
     body = Body.of(top)

@@ -273,13 +273,13 @@ def test_less_than_the_least_energy_is_refused_and_the_least_is_not(seed):
 
 def test_each_question_is_refused_in_words_that_say_what_would_do():
     refusals = {
-        "theta must be > 0 and < 3.14159 rad, got 0": {"theta": 0.0, "psi_dot": 9.0},
+        "theta must be > 0 and < 3.141592653589793 rad, got 0": {"theta": 0.0, "psi_dot": 9.0},
         "dip must be > 0 rad, got 0": {"theta": 1.0, "dip": 0.0},
-        "dip must be > 0 and at most 2.14159 rad with theta = 1 rad, got 3": {
+        "dip must be > 0 and at most 2.141592653589793 rad with theta = 1 rad, got 3": {
             "theta": 1.0,
             "dip": 3.0,
         },
-        "psi_dot must be at least 111.629 rad/s in size with theta = 0.5 rad, got 9": {
+        "psi_dot must be at least 111.6288238370232 rad/s in size with theta = 0.5 rad, got 9": {
             "theta": 0.5,
             "psi_dot": 9.0,
         },
@@ -294,6 +294,43 @@ def test_each_question_is_refused_in_words_that_say_what_would_do():
         with pytest.raises(RefusedError) as refused:
             solve_start(ARTICLE, **known)
         assert str(refused.value) == sentence
+
+
+def read_limit(one, known, name):
+    """The limit that a refusal states, "at least" or "at most", and its sentence."""
+    with pytest.raises(RefusedError, match=f"^{name} must be ") as refused:
+        solve_start(one.top, **known)
+    sentence = str(refused.value)
+    return float(sentence.replace("at most", "at least").split("at least ")[1].split()[0])
+
+
+@pytest.mark.parametrize("seed", seeds(2, MANY // FEW))
+def test_a_limit_that_a_refusal_states_is_not_refused_and_what_lies_beyond_it_is(seed):
+    rng = Numbers(f"limits {seed}")
+    for k in range(FEW):
+        one = Drawn(seed * FEW + k)
+        theta = rng.uniform(0.01, 3.13)
+        asked = {"dip": 3.1415, "nutation_period": 1e30}
+        difference = (one.top.Ix - one.top.Iz) * math.cos(theta) * one.top.Mgl
+        if difference > 0:
+            asked["psi_dot"] = 0.0
+        for name, value in asked.items():
+            if name != "psi_dot" and one.top.Mgl == 0:
+                continue
+            limit = read_limit(one, {"theta": theta, name: value}, name)
+            assert find(one.top, theta=theta, **{name: limit}), (name, limit)
+            beyond = limit * (1 + (-1e-13 if name == "psi_dot" else 1e-13))
+            assert not find(one.top, theta=theta, **{name: beyond}), (name, beyond)
+
+
+def test_where_every_rate_is_regular_the_spin_is_refused_and_not_the_precession():
+    for top, theta in ((Top(1.0, 1.0, 0.0), 0.5), (Top(1.0, 0.5, 0.0), PI / 2)):
+        with pytest.raises(RefusedError, match="psi_dot must be other than 0 rad/s: without "):
+            solve_start(top, theta=theta, psi_dot=0.0)
+        (start,) = solve_start(top, theta=theta, psi_dot=3.0)
+        assert start.phi_dot == 0.0
+    with pytest.raises(RefusedError, match="such that the top can precess regularly"):
+        solve_start(Top(1.0, 1.0, 1.0), theta=0.5, psi_dot=0.0)
 
 
 def test_tops_without_weight_and_spheres_are_refused_where_they_decide():

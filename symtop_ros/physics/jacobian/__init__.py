@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.arrays import Real, compose, invert
-from symtop_ros.base.refusals import refuse
+from symtop_ros.base.refusals import refuse, show_limit
 from symtop_ros.physics.arguments import read_start
 from symtop_ros.physics.jacobian.differentiable import Differentiable
 from symtop_ros.physics.jacobian.nodes import TINY
@@ -93,7 +93,7 @@ def _limit(motion: Differentiable, times: Real) -> None:
     """Refuse times that some ninety driven motions take too long to reach."""
     longest = MOST_NUTATION / max(find_rates(motion)[0], TINY)
     for t in times[np.abs(times) > longest].tolist():
-        within = f"within {longest:.3g} s of the start"
+        within = f"within {show_limit(longest)} s of the start"
         raise refuse("t", f"{within} for derivatives with friction or a torque", t)
 
 

@@ -93,6 +93,7 @@ Demand = Literal[
     "unequal",
     "weight",
     "rates",
+    "spin",
 ]
 DEMANDS: tuple[Demand | None, ...] = (
     None,
@@ -105,6 +106,7 @@ DEMANDS: tuple[Demand | None, ...] = (
     "unequal",
     "weight",
     "rates",
+    "spin",
 )
 
 KickKind = Literal["rate", "change", "factor", "impulse", "axle"]
@@ -119,7 +121,7 @@ DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 Rule = Literal["holds", "fails"]
 RULES: tuple[Rule | None, ...] = (None, "holds", "fails")
 
-PlaceKind = Literal["none", "only", "above", "below", "slow", "fast", "between", "outside"]
+PlaceKind = Literal["none", "only", "above", "below", "slow", "fast", "between", "outside", "every"]
 PLACE_KINDS: tuple[PlaceKind, ...] = get_args(PlaceKind)
 
 ReasonKind = Literal[

@@ -3,7 +3,7 @@
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.refusals import refuse
+from symtop_ros.base.refusals import refuse, show_limit
 from symtop_ros.physics.arguments import read_start
 from symtop_ros.physics.kernel.door import NOT_PUSHED, KernelMotion, demand, refuse_status
 from symtop_ros.physics.kernel.records import (
@@ -91,13 +91,14 @@ def reach(motion: KernelMotion, t: float, steps: float) -> float:
 def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
     """Return the error for a time at which there is no state."""
     if status == TOO_FAR:
-        return refuse("t", f"within {motion.farthest_time:.3g} s of the start (1e15 turns)", t)
+        farthest = show_limit(motion.farthest_time)
+        return refuse("t", f"within {farthest} s of the start (1e15 turns)", t)
     if status not in (TOO_FAST, TOO_STIFF, TOO_LONG, *NOT_PUSHED):
         return refuse_status(status)
     reached = reach(motion, t, 0) if motion.engine == "taylor" else motion.farthest_time
     if status in NOT_PUSHED:
         why = f"the push then cannot be made: {WHY_NOT_PUSHED[status]}"
-        return refuse("t", f"before {reached:.9g} s ({why})", t)
+        return refuse("t", f"before {show_limit(reached)} s ({why})", t)
     if status == TOO_LONG:
         # No time can be named: back in time friction drives a top, and the steps become shorter.
         way = "ten million steps of integration (a minute or two)"

@@ -353,7 +353,8 @@ typedef enum {
   SYMTOP_DEMANDS_REGULAR,  /* "regular": such that a tilt is constant; of an interval or two */
   SYMTOP_DEMANDS_UNEQUAL,  /* "unequal": the top must have Ix and Iz that differ */
   SYMTOP_DEMANDS_WEIGHT,   /* "weight": the top must have Mgl other than 0 */
-  SYMTOP_DEMANDS_RATES     /* "rates": such that no rate of a start exceeds 1e100 rad/s */
+  SYMTOP_DEMANDS_RATES,    /* "rates": such that no rate of a start exceeds 1e100 rad/s */
+  SYMTOP_DEMANDS_SPIN      /* "spin": other than 0, at which every rate is regular */
 } symtop_demand;
 
 typedef struct {
@@ -411,7 +412,8 @@ typedef enum {
   SYMTOP_AT_THE_SLOW_RATE,    /* "slow" */
   SYMTOP_AT_THE_FAST_RATE,    /* "fast" */
   SYMTOP_BETWEEN_THE_RATES,   /* "between" */
-  SYMTOP_OUTSIDE_THE_RATES    /* "outside" */
+  SYMTOP_OUTSIDE_THE_RATES,   /* "outside" */
+  SYMTOP_EVERY_RATE           /* "every": no weight, no spin, and no centrifugal torque either */
 } symtop_place_kind;
 
 typedef struct {

@@ -13,7 +13,14 @@ from typing import Any, Literal
 
 from symtop_ros import __version__
 from symtop_ros.base.missing import find_package, name_remedy
-from symtop_ros.base.refusals import RefusedError, attempt, number, refuse, validate_names
+from symtop_ros.base.refusals import (
+    RefusedError,
+    attempt,
+    number,
+    refuse,
+    show_limit,
+    validate_names,
+)
 from symtop_ros.run.log.recorder import Recorder, describe_error
 from symtop_ros.run.session.diagnostics import collect_statuses, summarize_state
 from symtop_ros.run.session.outputs import OutputHost, Outputs
@@ -190,8 +197,8 @@ class Requests:
         end = segment.step(duration, segment.stamp).time_at(segment.stamp)
         if not StepBudget().reach(segment.motion, end, STEPS_OF_A_REQUEST):
             longest = segment.motion.reach(end, 0) - segment.time_at(segment.stamp)
-            condition = f"up to {longest:.6g} s in one step under friction or an applied torque"
-            raise refuse("duration", condition, duration)
+            driven = "in one step under friction or an applied torque"
+            raise refuse("duration", f"up to {show_limit(longest)} s {driven}", duration)
         return duration
 
     def get_state(self) -> str:

@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 from symtop_ros import __version__
-from symtop_ros.base.refusals import one_line
+from symtop_ros.base.refusals import describe_range, one_line, show
 from symtop_ros.physics import Friction, Motion, Pushes, State, Top, kernel_version
 from symtop_ros.run.simulation.changes.follow import Change
 from symtop_ros.run.simulation.changes.outcomes import OUTCOMES, Outcome
@@ -259,7 +259,7 @@ def _read_elapsed(text: str) -> Fraction:
 
 def _limit(low: float, name: str, value: Number, high: float) -> Number:
     if not low <= value <= high:
-        raise ValueError(f"{name} must be {low:.6g} to {high:.6g}, got {float(value):.6g}")
+        raise ValueError(f"{name} must be {describe_range(low, high)}, got {show(float(value))}")
     return value
 
 

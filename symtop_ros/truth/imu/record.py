@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 
 from symtop_ros.base.arrays import Real, Stamps
-from symtop_ros.base.refusals import RefusedError, number
+from symtop_ros.base.refusals import RefusedError, number, refuse
 from symtop_ros.physics import STANDARD_GRAVITY, ExactTimes, Motion
 from symtop_ros.run.simulation.events import Event, start_event
 from symtop_ros.run.simulation.sensor.imu import Imu, Rig
@@ -177,8 +177,7 @@ def _choose_nodes(turn: float, count: int) -> tuple[int, Real, Real]:
     height = 2 * REGULAR * stretches / turn if turn else math.inf  # of the ellipse, in half widths
     points = 1 + math.ceil(LOST / 2 / math.asinh(min(height, 1e6)))  # asinh(height) is ln(rho)
     if count * stretches * points > MAX_STATES:
-        needed = f"{count * stretches * points:.3g}"
-        raise RefusedError(f"states of all means must be at most {MAX_STATES:g}, got {needed}")
+        raise refuse("states of all means", f"at most {MAX_STATES:g}", count * stretches * points)
     return stretches, *np.polynomial.legendre.leggauss(points)
 
 

@@ -300,6 +300,27 @@ def test_what_is_said_of_a_start_and_of_a_kick_is_true_of_the_motion(family, cou
     assert sum(said[each] for each in CLAIMS) > count / 4  # of both, most can be explained
 
 
+@pytest.mark.parametrize("is_hanging", [False, True])
+def test_next_to_the_vertical_angles_are_those_of_the_motion(is_hanging):
+    """Turning angles that a verdict does not tell apart, and L at up to a right angle to the axle."""
+    rng = Numbers(f"next to the vertical {is_hanging}")
+    for _ in range(200):
+        Ix, tilt, unit = rng.power(-4, 0), rng.power(-8, -7.1), rng.power(0, 1.5)
+        top = Top(Ix, Ix * rng.uniform(0.05, 2.0), (1 if is_hanging else -1) * Ix * unit * unit)
+        theta = PI - tilt if is_hanging else tilt
+        start = State.from_euler(theta=theta, psi_dot=unit * rng.choice([0.0, rng.power(-9, 1)]))
+        cause = perrys_rule(top, start).cause
+        seen = Seen(top, start)
+        assert cause.momentum_from_axle[2] == pytest.approx(
+            from_line(seen.L, seen.axle).max(), rel=1e-3
+        )
+        assert cause.omega_from_axle[2] == pytest.approx(
+            from_line(seen.omega, seen.axle).max(), rel=1e-3
+        )
+        if cause.explanation:
+            assert CLAIMS[cause.explanation](seen, cause), (cause, top, start)
+
+
 def test_of_a_driven_motion_nothing_is_said():
     before = State.from_euler(theta=0.5, psi_dot=200.0)
     motion = Motion(ARTICLE, hurry(before), Friction(axial=2e-6))

@@ -237,6 +237,27 @@ def test_the_reason_names_theta_acceleration_and_the_place_among_the_rates():
     assert [place(sphere, precess(rate)) for rate in (5.0, 1.0, 0.5)] == ["above", "only", "below"]
 
 
+WITHOUT_SPIN = [  # tops without weight, and tilts at which they precess at psi' = 0
+    (Top(1.0, 1.0, 0.0), 0.5, True),
+    (Top(0.1, 0.1, 0.0), 3.0, True),
+    (Top(1.0, 0.5, 0.0), math.pi / 2, True),
+    (Top(0.3, 0.6, 0.0), math.pi / 2, True),
+    (Top(1.0, 0.5, 0.0), 0.5, False),
+    (Top(1.0, 2.0, 0.0), 2.0, False),
+]
+
+
+@pytest.mark.parametrize(("top", "theta", "is_every"), WITHOUT_SPIN)
+def test_without_weight_and_spin_every_rate_or_zero_alone_is_regular(top, theta, is_every):
+    times = np.linspace(0.0, 7.0, 101)
+    for rate, only in ((2.0, "above"), (-3.0, "below"), (0.0, "only")):
+        state = State.from_euler(theta=theta, phi_dot=rate)
+        tilts = Motion(top, state).at(times).euler_angles.theta
+        is_regular = np.ptp(tilts) < 1e-12
+        assert is_regular == (is_every or rate == 0)
+        assert perrys_rule(top, state).reason.place.kind == ("every" if is_every else only)
+
+
 def test_on_the_vertical_the_direction_is_away_from_the_pole():
     assert perrys_rule(ARTICLE, State((1, 0, 0, 0), (0, 0, 200.0))).direction == "stays"
     assert perrys_rule(ARTICLE, State((1, 0, 0, 0), (1.0, 0, 200.0))).direction == "falls"

@@ -174,9 +174,12 @@ inline bool is_swinging(const Instant& now) {
 
 class CauseFinder {
  public:
-  CauseFinder(const Instant& now, const symtop_verdict& verdict)
-      : now_(now), verdict_(verdict), L_(now), angles_{verdict.turning_angles[0],
-                                                       verdict.turning_angles[1]} {}
+  // The turning angles are those of the motion: next to a pole those that a verdict takes as equal
+  // may differ by all of the tilt.
+  CauseFinder(const Instant& now, const symtop_verdict& verdict, GravityMotion& motion)
+      : now_(now), verdict_(verdict), L_(now) {
+    motion.find_turning_angles(angles_);
+  }
 
   symtop_cause find() const {
     symtop_cause cause = {};
@@ -193,7 +196,7 @@ class CauseFinder {
   const Instant& now_;
   const symtop_verdict& verdict_;
   const Momentum L_;
-  const double angles_[2];
+  double angles_[2];
 
   bool is_zero(double rate) const { return std::fabs(rate) <= START_ROUNDING; }  // in L_.unit
   bool is_at_rest() const { return L_.size_now() == 0; }
@@ -300,8 +303,9 @@ class CauseFinder {
   }
 };
 
-inline symtop_cause find_cause(const Instant& now, const symtop_verdict& verdict) {
-  return CauseFinder(now, verdict).find();
+inline symtop_cause find_cause(const Instant& now, const symtop_verdict& verdict,
+                               GravityMotion& motion) {
+  return CauseFinder(now, verdict, motion).find();
 }
 
 // Under friction or a torque of other origin nothing of this holds for long.

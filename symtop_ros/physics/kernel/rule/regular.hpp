@@ -107,6 +107,9 @@ struct TiltQuadratic {
     return size(slope) <= Precise(START_ROUNDING) * largest ? Precise() : (q - p) * slope;
   }
 
+  // True if it vanishes at every rate: without weight and spin, where a is zero as well.
+  bool is_nothing() const { return !a.sign && !b.sign && !Mgl.sign; }
+
   // True if the quadratic vanishes at a rate, up to rounding of its terms.
   bool is_balanced(double rate) const {
     const Precise p(std::fabs(rate)), terms = (a_terms * p + b_terms) * p + size(Mgl);

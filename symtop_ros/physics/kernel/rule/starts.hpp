@@ -43,7 +43,8 @@ inline void solve_tilt_and_turn(const symtop_top& top, double theta, double peri
   if (has_none(found)) refuse(found, SYMTOP_DEMANDS_REGULAR, 1);
 }
 
-// A spin below 2 sqrt((Ix - Iz) cos(theta) Mgl)/Iz has no regular rate.
+// A spin below 2 sqrt((Ix - Iz) cos(theta) Mgl)/Iz has no regular rate. Without spin, weight and
+// centrifugal torque each rate is one.
 inline void solve_tilt_and_spin(const symtop_top& top, double theta, double psi_dot,
                                 symtop_solutions& found) {
   double rates[2];
@@ -54,8 +55,12 @@ inline void solve_tilt_and_spin(const symtop_top& top, double theta, double psi_
         keep(found, {theta, 0.0, rates[k], psi_dot});
   if (!has_none(found)) return;
   const Long product = (Long(top.Ix) - Long(top.Iz)) * find_long_cosine(theta) * Long(top.Mgl);
-  const double least = product.sign > 0 ? (root(product).scale(1) / Long(top.Iz)).to_double() : 0.0;
-  refuse(found, least > 0 ? SYMTOP_DEMANDS_SIZE : SYMTOP_DEMANDS_REGULAR, 1, least);
+  double least = product.sign > 0 ? (root(product).scale(1) / Long(top.Iz)).to_double() : 0.0;
+  // The nearest double may be below the least spin, and the next one is above it.
+  find_regular_rates(top, theta, least, SYMTOP_SPIN_RATE, rates);
+  if (least > 0 && std::isnan(rates[0])) least = std::nextafter(least, INFINITY);
+  const symtop_demand other = top.Mgl == 0 ? SYMTOP_DEMANDS_SPIN : SYMTOP_DEMANDS_REGULAR;
+  refuse(found, least > 0 ? SYMTOP_DEMANDS_SIZE : other, 1, least);
 }
 
 // cos(theta) = N/D with N = Iz psi' p - Mgl and D = (Ix - Iz) p^2. The half angle has the tangent

@@ -97,14 +97,15 @@ class TiltAcceleration {
 
   symtop_place_kind find_place(double rate, const double roots[2]) const {
     const double slow = roots[0], fast = roots[1];
+    if (quadratic.is_nothing()) return SYMTOP_EVERY_RATE;
     if (std::isnan(slow)) return SYMTOP_NO_REGULAR_RATE;
+    const bool is_only = std::isnan(fast) || fast == slow;  // two equal roots are one rate
     if (quadratic.is_balanced(rate)) {
-      if (std::isnan(fast)) return SYMTOP_AT_THE_ONLY_RATE;
+      if (is_only) return SYMTOP_AT_THE_ONLY_RATE;
       const bool is_slow = std::fabs(slow - rate) <= std::fabs(fast - rate);
       return is_slow ? SYMTOP_AT_THE_SLOW_RATE : SYMTOP_AT_THE_FAST_RATE;
     }
-    if (std::isnan(fast)) return rate > slow ? SYMTOP_ABOVE_THE_ONLY_RATE
-                                             : SYMTOP_BELOW_THE_ONLY_RATE;
+    if (is_only) return rate > slow ? SYMTOP_ABOVE_THE_ONLY_RATE : SYMTOP_BELOW_THE_ONLY_RATE;
     const bool is_between = std::fmin(slow, fast) < rate && rate < std::fmax(slow, fast);
     return is_between ? SYMTOP_BETWEEN_THE_RATES : SYMTOP_OUTSIDE_THE_RATES;
   }

@@ -52,10 +52,12 @@ inline symtop_direction find_visible_direction(const Instant& now, const double 
 }
 
 // True if an axis at rest on the vertical stays near it after a small kick: p_psi^2 >= 4 Ix |Mgl|
-// for a centre of mass above the pivot (Goldstein, section 5.7), and always below it.
+// for a centre of mass above the pivot (Goldstein, section 5.7), and always below it. Without weight
+// a kick turns the axis about L, which leaves it near the vertical only if it spins.
 inline bool is_sleeping_stable(const Instant& now) {
   const double weight = now.vertical.z > 0 ? now.top.Mgl : -now.top.Mgl;
-  if (weight <= 0) return true;
+  if (weight == 0) return now.start.angular_velocity[2] != 0;
+  if (weight < 0) return true;
   // Roots, not squares: those would overflow. The critical spin itself is stable, whichever way its
   // double is rounded.
   const double least = 2 * std::sqrt(now.top.Ix) * std::sqrt(weight);
@@ -169,7 +171,7 @@ inline bool judge(const symtop_start& s, GravityMotion& motion, double factor, s
   if (!(std::fabs(after) <= LARGEST)) return false;
   verdict = describe_course(now, motion);
   verdict.average = find_average(s, motion);
-  verdict.cause = find_cause(now, verdict);
+  verdict.cause = find_cause(now, verdict, motion);
   verdict.factor = factor;
   verdict.reason = is_vertical ? explain_vertical(now)
                                : explain_change(TiltAcceleration(now, hold),
@@ -209,7 +211,7 @@ inline symtop_verdict judge_kick(const symtop_start& before, const symtop_start&
       given == SYMTOP_NOTHING && is_push_along(was, now) ? SYMTOP_SPIN_MOMENTUM : given;
   symtop_verdict verdict = describe_course(now, with);
   verdict.average = is_driven ? leave_average() : find_average(after, with);
-  verdict.cause = is_driven ? leave_cause() : find_cause(now, verdict);
+  verdict.cause = is_driven ? leave_cause() : find_cause(now, verdict, with);
   if (is_driven) verdict.motion = SYMTOP_DRIVEN;
   verdict.factor = NAN;
   if (was.vertical.is_of_vertical_axis()) {

@@ -10,7 +10,7 @@ from dataclasses import astuple, dataclass, replace
 from functools import partial
 from typing import Any
 
-from symtop_ros.base.refusals import refuse
+from symtop_ros.base.refusals import Words, refuse, show
 from symtop_ros.physics import KickVerdict, State, clamp_verdict, kick_verdict
 from symtop_ros.run.simulation.changes.outcomes import (
     ClockJump,
@@ -106,7 +106,7 @@ def demand_a_day(segment: Segment) -> Segment:
     left = (segment.motion.farthest_time - segment.begin_time) / segment.factor
     if left < DAY:
         condition = "so slow that it stays within 1e15 turns for a day at this real-time factor"
-        raise refuse("motion", condition, f"{left:.3g} s")
+        raise refuse("motion", condition, Words(f"{show(left)} s"))
     return segment
 
 

@@ -193,7 +193,8 @@ def name_pushes(pushes: Pushes) -> dict[str, float]:
 
 def _limit_rates(kind: str, request: Mapping[str, Any], after: State) -> None:
     if max(map(abs, after.angular_velocity.tolist())) > MAX_RATE:
-        raise refuse(kind, f"such that the top stays below {MAX_RATE:g} rad/s", request[kind])
+        what = "such that angular_velocity has components of at most"
+        raise refuse(kind, f"{what} {MAX_RATE:g} rad/s (body frame)", request[kind])
 
 
 def start_motion(settings: Settings) -> Motion:
@@ -262,6 +263,8 @@ def _regular_rate(top: Top, which: str, theta: float, psi_dot: float) -> float:
     if len(roots) > PRECESSIONS.index(which):
         return roots[PRECESSIONS.index(which)]
     count = f"only {roots[0]:.6g} rad/s" if roots else "no real root"
+    if not rates and top.Mgl == 0:  # and neither spin nor centrifugal torque
+        count = "every rate, none of them slow or fast"
     if len(roots) < len(rates):
         count += f" up to {MAX_RATE:g} rad/s"
     raise RefusedError(

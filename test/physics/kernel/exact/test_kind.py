@@ -7,7 +7,14 @@ import pytest
 from drawn import PI, Numbers
 from physics.tops import ARTICLE, EPS, SLOW, random_case
 
-from symtop_ros.physics import Motion, State, Top, perrys_rule, regular_precession_rates
+from symtop_ros.physics import (
+    Motion,
+    State,
+    Top,
+    apply_impulse,
+    perrys_rule,
+    regular_precession_rates,
+)
 
 KINDS = {
     "cusps": {"theta": 0.5, "psi_dot": 200.0},
@@ -36,7 +43,9 @@ SLEEPERS = [
     (0.068, False, 0.0, True),
     (-0.068, False, 0.9, False),
     (-0.068, False, 1.1, True),
-    (0.0, True, 0.0, True),
+    (0.0, True, 0.0, False),
+    (0.0, True, 1e-9, True),
+    (0.0, False, 0.0, False),
 ]
 
 
@@ -117,6 +126,15 @@ def test_a_plane_pendulum_goes_through_the_pole_in_any_direction(phi):
 def test_a_precession_of_rounding_size_is_a_cusp(phi_dot):
     start = State.from_euler(**KINDS["cusps"], phi=0.3, phi_dot=phi_dot)
     assert Motion(ARTICLE, start).kind == "cusps"
+
+
+@pytest.mark.parametrize(("spin", "farthest"), [(0.0, math.pi), (1.0, 2e-6)])
+def test_without_weight_only_a_spin_keeps_a_kicked_axis_near_the_vertical(spin, farthest):
+    top = Top(1.0, 1.0, 0.0)
+    state = State((1, 0, 0, 0), (0, 0, spin))
+    kicked = Motion(top, apply_impulse(top, state, (1e-6, 0.0, 0.0)))
+    assert kicked.turning_angles == pytest.approx((0.0, farthest), rel=1e-9, abs=1e-15)
+    assert top.sleeping_is_stable(state) == (farthest < 1e-3)
 
 
 @pytest.mark.parametrize("theta", [0.0, 0.5, math.pi])

@@ -13,12 +13,24 @@ import { phrase } from "../words/wording.js";
 /** @typedef {{theta: number, theta_dot: number, phi_dot: number, psi_dot: number}} Solution */
 
 const PER_MINUTE = 30 / Math.PI; // turns, of rad/s
+const DIGITS = 5; // of a limit
 
 /** @param {Solution} start */
 const describe = (start) => {
   const variant = inDegrees() ? "degrees" : "radians";
   const turns = { spin: start.psi_dot * PER_MINUTE, theta_dot: start.theta_dot || null };
   return phrase("solution", { ...start, ...turns }, variant);
+};
+
+/**
+ * A limit in few digits, rounded to the side that is allowed: one that is typed in again is not refused.
+ * @param {number} limit @param {1 | -1} side of what is allowed
+ */
+const roundInwards = (limit, side) => {
+  const near = Number(limit.toPrecision(DIGITS));
+  if (!Number.isFinite(near) || side * (near - limit) >= 0) return near;
+  const place = Math.floor(Math.log10(Math.abs(near))) - DIGITS + 1;
+  return Number((near + side * 10 ** place).toPrecision(DIGITS));
 };
 
 export class Seen {
@@ -77,7 +89,8 @@ export class Seen {
       const isBounded = demand === "positive" && Number.isFinite(most);
       const [unit, got] = [QUANTITIES[this.names[which]], this.inputs[which]?.value];
       const kind = isBounded ? "most" : demand;
-      refuse(phrase("demand", { kind, name, least, most, unit, got }));
+      const limits = { least: roundInwards(least, 1), most: roundInwards(most, -1) };
+      refuse(phrase("demand", { kind, name, ...limits, unit, got }));
       return;
     }
     say("solutions-text", phrase("page.solutions"));
