@@ -226,7 +226,8 @@ class Body:
         require(
             arm,
             "Iz",
-            f"< 2 Ix = {show_limit(2 * top.Ix)} kg m^2 for a body with Mgl = {top.Mgl:g} J to exist",
+            f"< 2 Ix = {show_limit(2 * top.Ix)} kg m^2 for a body with "
+            f"Mgl = {top.Mgl:g} J to exist",
             top.Iz,
         )
         mass = top.Mgl / arm / gravity

@@ -302,7 +302,7 @@ def test_what_is_said_of_a_start_and_of_a_kick_is_true_of_the_motion(family, cou
 
 @pytest.mark.parametrize("is_hanging", [False, True])
 def test_next_to_the_vertical_angles_are_those_of_the_motion(is_hanging):
-    """Turning angles that a verdict does not tell apart, and L at up to a right angle to the axle."""
+    """The turning angles read the same, and L may be at up to a right angle to the axle."""
     rng = Numbers(f"next to the vertical {is_hanging}")
     for _ in range(200):
         Ix, tilt, unit = rng.power(-4, 0), rng.power(-8, -7.1), rng.power(0, 1.5)
