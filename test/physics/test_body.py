@@ -109,7 +109,7 @@ def test_the_largest_axial_moment_that_a_refusal_states_is_accepted(make):
     rng = Numbers("largest moments")
     for _ in range(100):
         Ix = rng.power(-6, 3)
-        with pytest.raises(ValueError, match="^Iz must be ") as refused:
+        with pytest.raises(ValueError, match=r"^Iz must be ") as refused:
             make(Ix, math.nextafter(2 * Ix, math.inf), 1.0)
         stated = float(str(refused.value).split("2 Ix = ")[1].split()[0])
         assert make(Ix, stated, 1.0).Iz == 2 * Ix
