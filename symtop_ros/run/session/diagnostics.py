@@ -20,10 +20,12 @@ from symtop_ros.physics import (
 )
 from symtop_ros.run.log.recorder import Recorder
 from symtop_ros.run.simulation.block import GAP
+from symtop_ros.run.simulation.changes.outcomes import Neglected
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.sensor.imu import find_body
 from symtop_ros.run.simulation.simulation import Simulation
 from symtop_ros.run.wire.diagnostics import ERROR, OK, WARN, Status, write_text
+from symtop_ros.words import write
 
 MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very start
 
@@ -88,7 +90,12 @@ def balance_status(segment: Segment, stamp: int) -> Status:
 
 def _say(motion: Motion, verdict: Verdict) -> str:
     """Return what follows from the present state, or from the clamp that holds the motion."""
-    return str(clamp_verdict(motion.top, motion.start) if motion.clamped else verdict)
+    if motion.clamped:
+        return str(clamp_verdict(motion.top, motion.start))
+    neglected = Neglected.of(motion)
+    return (
+        write("driven", {"neglected": neglected, "verdict": verdict}) if neglected else str(verdict)
+    )
 
 
 def _name_forces(motion: Motion) -> str:

@@ -13,7 +13,7 @@ from trials import trials
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import Ledger, Motion, kick_verdict, perrys_rule
-from symtop_ros.run.session.diagnostics import summarize_state
+from symtop_ros.run.session.diagnostics import motion_status, summarize_state
 from symtop_ros.run.session.session import Answer
 from symtop_ros.run.simulation.changes import requests
 from symtop_ros.run.simulation.changes.follow import Act, Change
@@ -226,6 +226,30 @@ def test_the_state_says_why_the_axis_moves_as_it_does_under_gravity_alone():
     assert why("regular_precession").startswith("Gravity's torque does not change the tilt: it is")
     assert why("free").startswith("No torque acts: the angular momentum L is constant")
     assert why("friction") == ""
+
+
+@pytest.mark.parametrize(
+    ("acting", "forces"),
+    [
+        ({}, None),
+        ({"friction.axial": 1e-6}, "friction"),
+        ({"steady_torque": [0.0, 0.0, 1e-4]}, "torque"),
+        ({"friction.transverse": 1e-6, "steady_torque": [1e-4, 0.0, 0.0]}, "both"),
+    ],
+)
+def test_what_a_verdict_neglects_is_said_with_it(acting, forces):
+    run = Run("cusps")
+    run.change(acting)
+    run.ask("reset")
+    outcome = run.sink.events[-1].outcome()
+    verdict = str(outcome.verdict)
+    condition = write("neglected", {"forces": forces}) if forces else ""
+    assert (outcome.neglected and outcome.neglected.forces) == forces
+    assert f"{condition} {verdict}" in run.sink.events[-1].verdict
+    segment, stamp = run.simulation.segment, run.simulation.stamp
+    now = f"{condition} {perrys_rule(segment.motion.top, run.simulation.state)}".strip()
+    assert summarize_state(segment, stamp)["verdict"] == now
+    assert motion_status(segment, stamp, 1).message == now
 
 
 def test_reset_starts_from_initial_parameters_that_were_set_after_the_last_start():

@@ -29,10 +29,25 @@ ROUNDING = 1e-9  # of |Mgl|; a smaller change counts as none
 
 
 @dataclass(frozen=True, slots=True)
+class Neglected:
+    """The forces that act and of which a verdict knows nothing."""
+
+    forces: Literal["friction", "torque", "both"]
+
+    @classmethod
+    def of(cls, motion: Motion) -> "Neglected | None":
+        """Return those that act on a motion; None for gravity alone."""
+        if not any(motion.applied_torque):
+            return cls("friction") if motion.friction else None
+        return cls("both" if motion.friction else "torque")
+
+
+@dataclass(frozen=True, slots=True)
 class Start:
     """A motion that begins: its kind and what follows from its start."""
 
     motion: Kind
+    neglected: Neglected | None  # None if only gravity acts
     verdict: Verdict | None  # None of a motion whose precession is held
     clamp: ClampVerdict | None = None  # of such a motion
 
@@ -40,8 +55,9 @@ class Start:
     def of(cls, motion: Motion) -> "Start":
         """Return the outcome of the start of a motion."""
         if motion.clamped:
-            return cls(motion.kind, None, clamp_verdict(motion.top, motion.start))
-        return cls(motion.kind, perrys_rule(motion.top, motion.start))
+            return cls(motion.kind, None, None, clamp_verdict(motion.top, motion.start))
+        verdict = perrys_rule(motion.top, motion.start)
+        return cls(motion.kind, Neglected.of(motion), verdict)
 
 
 @dataclass(frozen=True, slots=True)

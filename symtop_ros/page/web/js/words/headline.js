@@ -122,7 +122,7 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
       motion: findMoves(moves, turning_angles, verdict.reason.kind),
     },
     name: forces ? "driven" : "start",
-    outcome: { motion: moves, forces, verdict, clamp: null },
+    outcome: { motion: moves, neglected: forces && { forces }, verdict, clamp: null },
     because: forces ? null : verdict.cause,
   };
 };
