@@ -10,7 +10,7 @@ import pytest
 from symtop_ros.physics import Motion
 
 FINITE_ARRAY = "an array of finite numbers"
-NOT_TOO_LATE = "s of the start (1e15 turns)"
+NOT_TOO_LATE = "s from the start (1e15 turns)"
 
 
 def meet(motion: Motion, t: float) -> float:
@@ -20,7 +20,7 @@ def meet(motion: Motion, t: float) -> float:
     except ValueError as refusal:
         if NOT_TOO_LATE not in str(refusal):
             raise
-        last = float(str(refusal).removeprefix("t must be within ").split()[0])
+        last = float(str(refusal).removeprefix("t must be less than ").split()[0])
         return math.copysign(0.9 * last, t)
     return t
 

@@ -92,7 +92,7 @@ def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
     """Return the error for a time at which there is no state."""
     if status == TOO_FAR:
         farthest = show_limit(motion.farthest_time)
-        return refuse("t", f"within {farthest} s of the start (1e15 turns)", t)
+        return refuse("t", f"less than {farthest} s from the start (1e15 turns)", t)
     if status not in (TOO_FAST, TOO_STIFF, TOO_LONG, *NOT_PUSHED):
         return refuse_status(status)
     reached = reach(motion, t, 0) if motion.engine == "taylor" else motion.farthest_time

@@ -49,16 +49,28 @@ inline bool spin_reverses(const ClosedForm& motion) {
   return values.has_both_signs(Precise(START_ROUNDING) * largest);
 }
 
-// Without a torque the axis moves on a circle about L, at an angle `cone` from it.
+// Without a torque the axis moves on a circle about L, at an angle `cone` from it. Next to the vertical
+// h is as small as sin^2(theta), so the vertex is found by w = 1 - |u|, the height below that pole:
+//
+//   h = -d + w (2 omega_z - a + d) + w^2 (a - omega_z),        d = +-b - a, a product of sines.
 inline bool spin_reverses_free(double tilt_of_momentum, double cone, double rate, double omega_z) {
-  const Pair low = cosine_and_sine(tilt_of_momentum - cone);
-  const Pair far = cosine_and_sine(tilt_of_momentum + cone), half = cosine_and_sine(cone);
-  const double across = rate * half.y;
+  const double least = tilt_of_momentum - cone, most = tilt_of_momentum + cone;
+  const Pair low = cosine_and_sine(least), far = cosine_and_sine(most);
+  const Pair half_low = cosine_and_sine(least / 2), half_far = cosine_and_sine(most / 2);
+  const Pair opening = cosine_and_sine(cone);
+  const double across = rate * opening.y, a = rate * opening.x;
   Range<double> values(omega_z * (far.y * far.y) - far.x * across * far.y);
   values.add(omega_z * (low.y * low.y) + low.x * across * low.y);
-  const double a = rate * half.x, b = rate * cosine_and_sine(tilt_of_momentum).x;
-  values.add_vertex(omega_z, a, b, far.x, low.x);
-  return values.has_both_signs(START_ROUNDING * (std::fabs(omega_z) + rate));
+  const bool is_upper = std::fabs(half_low.y * half_far.y) < std::fabs(half_low.x * half_far.x);
+  const double first = is_upper ? half_low.y : half_low.x, last = is_upper ? half_far.y : half_far.x;
+  const double d = -2 * rate * first * last;
+  const double slope = (omega_z - a) + (omega_z + d), bend = 2 * (a - omega_z);
+  const double w = -slope / bend, w_low = 2 * first * first, w_far = 2 * last * last;
+  if (std::fmin(w_low, w_far) < w && w < std::fmax(w_low, w_far)) values.add(slope * w / 2 - d);
+  const bool crosses = low.x * far.x <= 0;  // the horizontal, where sin(theta) is 1
+  const double sine = crosses ? 1.0 : std::fmax(std::fabs(low.y), std::fabs(far.y));
+  return values.has_both_signs(START_ROUNDING * sine *
+                               (std::fabs(omega_z) * sine + std::fabs(across)));
 }
 
 }  // namespace symtop

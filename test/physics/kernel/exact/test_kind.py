@@ -189,6 +189,26 @@ def test_the_spin_reverses_where_samples_of_a_nutation_have_both_signs():
     assert 40 < reversing < 300
 
 
+@pytest.mark.parametrize("tilt", [1e-3, 1e-7, 1e-9, 1e-12])
+@pytest.mark.parametrize("is_hanging", [False, True])
+def test_without_weight_the_spin_reverses_next_to_the_vertical_as_anywhere(tilt, is_hanging):
+    rng = Numbers(f"reversal {tilt} {is_hanging}")
+    reversing = 0
+    for _ in range(300):
+        theta = tilt * rng.uniform(0.5, 2.0)
+        spin = rng.choice([-1.0, 1.0]) * rng.power(-2, 2)
+        rates = {name: spin * rng.uniform(-3.0, 3.0) for name in ("phi_dot", "psi_dot")}
+        rates["theta_dot"] = spin * tilt * rng.uniform(-3.0, 3.0)
+        start = State.from_euler(theta=PI - theta if is_hanging else theta, **rates)
+        motion = Motion(Top(1.0, rng.uniform(0.05, 2.0), 0.0), start)
+        spins = sampled_spin(motion)
+        low, high = spins.min() / np.abs(spins).max(), spins.max() / np.abs(spins).max()
+        if min(abs(low), abs(high)) > 1e-5:  # 2001 samples may miss less, as above
+            assert motion.spin_reverses == (low < 0 < high), motion
+            reversing += motion.spin_reverses
+    assert 20 < reversing < 290
+
+
 def test_the_precession_of_a_nutation_is_the_mean_rate_over_its_period():
     for motion in MOTIONS:
         turns = motion.mean_precession_rate * motion.nutation_period / (2 * math.pi)
