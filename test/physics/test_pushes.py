@@ -115,7 +115,7 @@ def test_a_push_that_cannot_be_ends_the_states_and_says_why():
     for motion, t, words in (
         (sleeping, 0.25, vertical),
         (driven, 0.5, vertical),
-        (wild, 100.0, "t must be (before|within)"),
+        (wild, 100.0, "t must be (before|less than)"),
     ):
         for ask in (motion.at, motion.piece_at, lambda t, motion=motion: motion.at([0.0, t])):
             with pytest.raises(ValueError, match=words):
