@@ -178,6 +178,17 @@ def check_target(_, words):
             workshop.main.make_parser().parse_args([found[1], *options])
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_a_target_of_make_that_a_sentence_names_exists(page):
+    groups = re.search(r"^GROUPS := (.*)$", (ROOT / "Makefile").read_text(), re.MULTILINE)
+    assert groups
+    known = {f"test-{group}" for group in groups[1].split()}
+    rule = r"`make ((?:-C workshop )?[a-z][a-z-]*)(?= |`)"
+    for found in re.findall(rule, " ".join(page.read_text(encoding="utf-8").split())):
+        if found not in known:
+            check_target("make", found.split())
+
+
 def check_extra(_, words):
     (extra,) = re.findall(r"\[([\w-]+)\]", words[-1])
     assert f'"{extra}": ' in (ROOT / "setup.py").read_text()
