@@ -74,6 +74,71 @@ def test_the_energy_of_a_kick_is_that_of_the_article(opened):
     assert bars[:8] == ["0", "+1.06", "0", "+1.06", "+1.93", "\u22120.871", "0", "+1.06"]
 
 
+@pytest.mark.parametrize("act", ["hurry", "delay"])
+def test_the_highest_point_of_the_energies_is_that_of_the_weight(open_page, act):
+    """If Mgl < 0 the weight is lowest where the axis is highest, and it has lost energy there."""
+    page = open_page("#scene=perry_fails")
+    page.press("Space")
+    page.tab.click(f"[data-act={act}]")
+    page.wait_for_texts()
+    point, gain = re.search(
+        r"At its (\w+) point the weight has (\w+)", page.say("ledger-text")
+    ).groups()
+    assert (point, gain) in {("highest", "gained"), ("lowest", "lost")}
+    bars = page.tab.locator("#ledger text.tick[text-anchor=middle]").all_text_contents()
+    assert bars[-1] == f"at its {point} point"
+
+
+def read_constants(page):
+    rows = page.tab.locator("#constants tr").evaluate_all(
+        "all => all.map(e => [...e.children].map(each => each.textContent))"
+    )
+    return dict(rows)
+
+
+@pytest.mark.parametrize(
+    "start",
+    ["psi_dot=200", "psi_dot=-150&theta_dot=2", "psi_dot=0&theta_dot=3"],
+)
+def test_a_constant_that_is_nearly_zero_is_constant(open_page, start):
+    """cos(pi/2) is 6e-17 in doubles: of a sum of parts that cancel nothing but rounding is left."""
+    page = open_page(f"#theta={np.pi / 2}&phi_dot=0&{start}")
+    for time in (0.05, 0.11, 0.17):
+        page.wait_for_time(time)
+        page.wait_for_texts()
+        rows = read_constants(page)
+        assert rows["Lz\u2032, about the vertical"] == "0 N m s, constant"
+        assert rows["energy E"].endswith(" J, constant")
+
+
+def test_rates_without_friction_are_told_as_such(open_page):
+    page = open_page("#scene=friction")
+    page.wait_for_time(0.3)
+    rows = read_constants(page)
+    for name in ("motion", "nutation period", "time of one turn"):
+        assert rows[name].endswith(" (apart from friction)"), rows
+    assert "changed by" in rows["energy E"]
+    page.follow("scene=cusps")
+    page.until(lambda: read_constants(page)["motion"] == "cusps")
+
+
+def test_the_time_at_which_rounding_decides_is_one_of_the_run(open_page):
+    page = open_page("#scene=separatrix")
+    run = page.read_run()
+    start = {**run["events"][-1], "time": 0.0}
+    shows_at = read_motion(start).rounding_shows_at
+    page.drop({**run, "events": [start, {**start, "time": 5.0}], "end": 6.0})
+    page.wait_for_texts()
+    page.wait_for_texts()
+    assert [each["time"] for each in page.read_events()] == [0, 5]
+    for time, began in ((5.5, 5.0), (1.0, 0.0)):
+        page.seek(time)
+        page.wait_for_texts()
+        page.wait_for_texts()
+        said = read_constants(page)["rounding decides"]
+        assert said.startswith(f"from {began + shows_at:.3g} s on"), said
+
+
 def test_the_map_of_kinds_has_the_exact_curve_and_the_present_motion(open_page):
     page = open_page("#theta=0.5&psi_dot=200&phi_dot=11.325")
     dot = page.tab.locator("#kinds #present")

@@ -1,12 +1,12 @@
 // The table of what is constant in a motion, and by how much it has changed.
 
 import { find, make } from "../controls/document.js";
-import { findConstants, findPivotForce } from "../physics/formulas.js";
+import { findConstants, findPivotForce, findSizes } from "../physics/formulas.js";
 import { shorten } from "../words/quantities.js";
 import { typeset } from "../words/typeset.js";
 import { phrase } from "../words/wording.js";
 
-const ROUNDING = 1e-12;
+const ROUNDING = 1e-12; // of the sizes of the parts of a constant, which may be nearly opposite
 /** @type {["energy" | "L_z" | "L_z'", string][]} */
 const UNITS = [
   ["energy", "J"],
@@ -14,11 +14,12 @@ const UNITS = [
   ["L_z'", "N m s"],
 ];
 
-/** @param {number} value @param {number} change */
-const writeChange = (value, change) =>
-  Math.abs(change) <= ROUNDING * Math.abs(value)
-    ? phrase("table.constant")
-    : phrase("table.changed", { change: shorten(change, 2) });
+/** A constant that rounding alone may have made is none. @param {number} value @param {number} least */
+const dropRounding = (value, least) => (Math.abs(value) <= least ? 0 : value);
+
+/** @param {number} change that is not rounding, or 0 */
+const writeChange = (change) =>
+  change ? phrase("table.changed", { change: shorten(change, 2) }) : phrase("table.constant");
 
 /** @param {[name: string, text: string]} row */
 const createRow = ([name, text]) =>
@@ -46,10 +47,13 @@ export const showConstants = (rates, sample, mass) => {
   const { state, course } = sample;
   const { top, start } = course;
   const [now, before] = [state, start].map((each) => findConstants(top, each));
-  const rows = UNITS.map(([name, unit]) => [
-    phrase(`table.${name}`),
-    `${shorten(now[name], 6)} ${unit}, ${writeChange(now[name], now[name] - before[name])}`,
-  ]);
+  const sizes = findSizes(top, state);
+  const rows = UNITS.map(([name, unit]) => {
+    const least = ROUNDING * sizes[name];
+    const change = dropRounding(now[name] - before[name], least);
+    const value = shorten(dropRounding(now[name], least), 6);
+    return [phrase(`table.${name}`), `${value} ${unit}, ${writeChange(change)}`];
+  });
   const all = /** @type {[string, string][]} */ ([...rates, ...listForce(sample, mass), ...rows]);
   if (JSON.stringify(all) === shown) return;
   shown = JSON.stringify(all);

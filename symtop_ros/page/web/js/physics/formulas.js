@@ -43,6 +43,17 @@ export const findConstants = ({ Ix, Iz, Mgl }, state) => {
   };
 };
 
+/** The sizes of the parts that add up to each of them. @param {Top} top @param {State} state */
+export const findSizes = ({ Ix, Iz, Mgl }, state) => {
+  const [x, y, z] = state.omega;
+  const across = Ix * Math.hypot(x, y);
+  return {
+    energy: (across * Math.hypot(x, y) + Iz * z * z) / 2 + Math.abs(Mgl),
+    L_z: Iz * Math.abs(z),
+    "L_z'": Math.hypot(across, Iz * z),
+  };
+};
+
 /** The least |psi'| at which the top sleeps upright; 0 if every one will do. @param {Top} top */
 export const findCriticalSpin = ({ Ix, Iz, Mgl }) =>
   (2 * Math.sqrt(Ix) * Math.sqrt(Math.max(Mgl, 0))) / Iz;

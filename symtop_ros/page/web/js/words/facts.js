@@ -1,7 +1,7 @@
 // What the page says and plots of a run: sentences, rates, roots, the potential.
 
 import { NANO } from "../physics/course.js";
-import { findOutcome } from "./headline.js";
+import { findForces, findOutcome } from "./headline.js";
 import { listHistory } from "./history.js";
 import { findLedger, nameLedger } from "./ledger.js";
 import { describeOutlooks } from "./outlooks.js";
@@ -17,6 +17,7 @@ import { shorten } from "./quantities.js";
 /** @import { Course } from "../physics/course.js" */
 /** @import { State } from "../physics/state.js" */
 /** @import { Variant } from "./wording.js" */
+/** @import { Forces } from "./headline.js" */
 /**
  * What holds after an act until the next one, what follows the motion, and how its top runs.
  * @typedef {ReturnType<typeof describe> & MotionFacts & {running: boolean, factor: number, recording: boolean}} Facts
@@ -87,22 +88,24 @@ const describePotential = ({ top: body, start, motion, clamped }, change) => {
   };
 };
 
-/** @param {Course} course */
-const listRates = ({ kernel, motion, top, packed, clamped }) => {
+/**
+ * What holds for a motion under gravity alone, which is said where more acts.
+ * @param {Course} free @param {number} began s of the run @param {Forces} forces besides gravity
+ */
+const listRates = ({ kernel, motion, top, packed, clamped }, began, forces) => {
   const { nutation_period, mean_precession_rate } = motion.rates;
-  const rows = [[phrase("table.motion"), phrase(`motion.${motion.kind}`)]];
-  if (Number.isFinite(nutation_period))
-    rows.push([phrase("table.nutation_period"), `${shorten(nutation_period)} s`]);
-  if (Number.isFinite(mean_precession_rate))
-    rows.push([phrase("table.mean_phi_dot"), writeWay(mean_precession_rate)]);
+  /** @type {string[][]} */
+  const rows = [];
+  const apart = forces ? ` ${phrase("apart", { kind: forces })}` : "";
+  const add = (/** @type {string} */ name, /** @type {string} */ text) =>
+    rows.push([phrase(`table.${name}`), `${text}${apart}`]);
+  add("motion", phrase(`motion.${motion.kind}`));
+  if (Number.isFinite(nutation_period)) add("nutation_period", `${shorten(nutation_period)} s`);
+  if (Number.isFinite(mean_precession_rate)) add("mean_phi_dot", writeWay(mean_precession_rate));
   if (Number.isFinite(1 / mean_precession_rate))
-    rows.push([
-      phrase("table.turn"),
-      `${shorten((2 * Math.PI) / Math.abs(mean_precession_rate))} s`,
-    ]);
-  const shows_at = clamped ? Infinity : kernel.findDoubt(packed);
-  if (Number.isFinite(shows_at))
-    rows.push([phrase("table.rounding"), phrase("table.rounding_from", { shows_at })]);
+    add("turn", `${shorten((2 * Math.PI) / Math.abs(mean_precession_rate))} s`);
+  const shows_at = began + (clamped ? Infinity : kernel.findDoubt(packed));
+  if (Number.isFinite(shows_at)) add("rounding", phrase("table.rounding_from", { shows_at }));
   if (top.Mgl > 0)
     rows.push([phrase("table.critical_spin"), `${shorten(findCriticalSpin(top))} rad/s`]);
   return rows;
@@ -130,7 +133,9 @@ const findAnnounced = (run, time) => {
 export const describeMotion = (run, time, free) => {
   const announced = findAnnounced(run, time);
   const found = announced.kind === "push" ? describePushes(run, announced, time, free) : null;
-  const { headline, name, outcome, because } = found ?? findOutcome(run.find(time), free);
+  const moment = run.find(time);
+  const { headline, name, outcome, because } = found ?? findOutcome(moment, free);
+  const forces = findForces(moment.course);
   const say = (/** @type {Variant} */ variant) => ({
     headline: phrase("headline", headline, variant),
     because: because ? phrase("cause", because, variant).trim() : "",
@@ -139,7 +144,7 @@ export const describeMotion = (run, time, free) => {
   return {
     texts: { radians: say("radians"), degrees: say("degrees") },
     potential: describePotential(free, announced.kind === "start" ? null : announced),
-    table: listRates(free),
+    table: listRates(free, (forces ? time : moment.time) / NANO, forces),
     turning: findTurning(free),
     seen: name === "kick" ? headline.kind : null,
   };

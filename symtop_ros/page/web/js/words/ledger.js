@@ -6,7 +6,7 @@ import { findForces } from "./headline.js";
 /** @import { Energies } from "../physics/formulas.js" */
 /**
  * What has changed since before a kick, in mJ: just after it, and at the turning point that is
- * farther from there.
+ * farther from there; whether the weight is highest or lowest there, which is what has that energy.
  * @typedef {{kick: Energies, far: Energies, point: "highest" | "lowest"}} Ledger
  */
 
@@ -43,7 +43,8 @@ export const findLedger = ({ kind, course, before }) => {
   return {
     kick: toMilli(gained),
     far: toMilli(far),
-    point: isHighest ? "highest" : "lowest",
+    // If Mgl < 0 the weight is lowest where the axis is highest.
+    point: isHighest === top.Mgl >= 0 ? "highest" : "lowest",
   };
 };
 
