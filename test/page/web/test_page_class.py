@@ -62,6 +62,17 @@ def test_a_body_of_parts_is_that_of_python(opened):
     assert read_top(opened) == list(Body.disc(0.17, 0.055, 0.105).top.moments)
 
 
+def test_a_list_that_is_typed_is_not_said_to_move_as_the_top_does_until_it_is_used(opened):
+    opened.open_tab("start")
+    opened.until(lambda: "moves in the same way" in opened.say("parts-text"))
+    fill_part(opened, 0, "ball", "1 kg", "1 m", "2 m")
+    assert opened.say("parts-text") == "This list is not used yet:"
+    opened.tab.click("#hurry")  # an act changes nothing of it
+    assert opened.say("parts-text") == "This list is not used yet:"
+    opened.tab.click("#use-body")
+    opened.until(lambda: opened.say("parts-text").startswith("This top is a body of parts"))
+
+
 @pytest.mark.parametrize("name", BODIES)
 def test_bodies_of_the_classroom_are_those_of_python(opened, name):
     opened.open_tab("start")
@@ -142,4 +153,5 @@ def test_where_rounding_decides_the_table_says_from_when_on(opened):
     opened.follow(f"theta={math.pi / 3!r}&phi_dot={rate!r}&psi_dot={rate!r}")
     start = State.from_euler(theta=math.pi / 3, phi_dot=rate, psi_dot=rate)
     shows_at = Motion(Top(1.0, 1.0, 1.0), start).rounding_shows_at
-    wait_for_table(opened, f"from {shows_at:.3g} s on")
+    began = opened.read_events()[-1]["time"]  # s of the run, of which the table speaks
+    wait_for_table(opened, f"from {began + shows_at:.3g} s on")

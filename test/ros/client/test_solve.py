@@ -81,7 +81,7 @@ def test_all_solutions_are_listed_and_one_is_started(ctl):
     ("words", "refusal"),
     [
         ("start theta=90deg dip=0.1 solution=3", "solution must be one of 1, 2, got 3"),
-        ("start theta=90deg dip=3", "dip must be > 0 and at most 1.5708 rad with theta = 1.57"),
+        ("start theta=90deg dip=3", "dip must be > 0 and at most 1.57079632679489"),
         ("start dip=3", "known must be one of theta, precession_period / theta, psi_dot / "),
         ("start theta=9rpm", "theta must be a number in rad, °, deg or degrees, got '9rpm'"),
         ("body wheel", "part must be point:MASS,DISTANCE or rod, hoop, disc, ball:MASS,SIZE,"),

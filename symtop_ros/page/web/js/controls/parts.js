@@ -43,9 +43,7 @@ class Row {
     remove.addEventListener("click", () => list.remove(this));
     this.element = make("div", { className: "part" }, this.kind, ...this.inputs, remove);
     this.kind.addEventListener("change", () => this.followKind());
-    this.element.addEventListener("input", () => {
-      list.isTyped = true;
-    });
+    this.element.addEventListener("input", () => list.change());
     this.element.addEventListener("keydown", ({ key, target }) => {
       if (key === "Enter" && target instanceof HTMLInputElement) list.use();
     });
@@ -88,7 +86,7 @@ export class Parts {
     this.used = null;
     this.offer(bodies);
     find("add-part").addEventListener("click", () => {
-      this.isTyped = true;
+      this.change();
       this.fill([
         ...this.rows,
         new Row({ kind: POINT, mass: NaN, size: NaN, distance: NaN }, this),
@@ -110,6 +108,12 @@ export class Parts {
     });
   }
 
+  /** The list differs from the body of the top until it is used. */
+  change() {
+    this.isTyped = true;
+    write(find("parts-text"), phrase("page.parts_typed"));
+  }
+
   /** @param {Part[]} parts */
   list(parts) {
     this.fill(parts.map((part) => new Row(part, this)));
@@ -123,7 +127,7 @@ export class Parts {
 
   /** @param {Row} row */
   remove(row) {
-    this.isTyped = true;
+    this.change();
     this.fill(this.rows.filter((each) => each !== row));
   }
 
@@ -145,9 +149,10 @@ export class Parts {
     const own = this.used && findBody(this.used);
     const isOwn = own && String(Object.values(own.top)) === String([body.Ix, body.Iz, body.Mgl]);
     this.mass = isOwn ? own.mass : mass;
+    if (this.isTyped) return;
     const about = phrase(isOwn ? "page.parts_own" : mass ? "page.parts_disc" : "page.parts_none");
     write(find("parts-text"), about);
-    if (this.isTyped || isOwn) return;
+    if (isOwn) return;
     this.used = null;
     if (!this.place.contains(document.activeElement))
       this.list(Number.isFinite(mass) ? [{ kind: "disc", mass, size, distance }] : []);
