@@ -122,6 +122,15 @@ def test_rates_without_friction_are_told_as_such(open_page):
     page.until(lambda: read_constants(page)["motion"] == "cusps")
 
 
+def test_what_is_of_gravity_alone_is_said_to_be_or_is_not_shown(open_page):
+    page = open_page("#scene=friction")
+    page.until(lambda: page.say("rule-apart") == "(apart from friction)")
+    assert page.tab.is_hidden("#impulses-chart")
+    page.follow("scene=cusps")
+    page.until(lambda: page.tab.is_visible("#impulses-chart"))
+    assert page.say("rule-apart") == ""
+
+
 def test_the_time_at_which_rounding_decides_is_one_of_the_run(open_page):
     page = open_page("#scene=separatrix")
     run = page.read_run()

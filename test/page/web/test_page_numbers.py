@@ -37,6 +37,7 @@ class Shown:
         self.top = motion.top
         self.state = motion.at(ExactTimes(time - round(self.event["time"] * 1e9)))
         self.free = Motion(self.top, self.state)
+        self.is_driven = motion.is_driven
 
     def check(self, page):
         theta = self.state.euler_angles.theta
@@ -53,7 +54,9 @@ class Shown:
         self.check_motion(page.say("headline"))
 
     def check_motion(self, headline):
-        assert self.texts["rows"]["motion"] == self.free.kind
+        kind, _, apart = self.texts["rows"]["motion"].partition(" (")
+        assert kind == self.free.kind
+        assert apart.startswith("apart from ") == self.is_driven
         period = self.texts["rows"].get("nutation period")
         if period:
             assert is_rounded(period.split()[0], self.free.nutation_period, 4)

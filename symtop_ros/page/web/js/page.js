@@ -205,7 +205,6 @@ export class Page {
     this.showParts(facts);
     this.lesson?.follow(facts);
     say("impulses-title", facts.impulses);
-    find("impulses-chart").hidden = facts.isHeld;
     for (const [name, text] of Object.entries(facts.outlooks)) say(`outlook-${name}`, text);
     showLedger(facts.ledger, facts.energies);
   }
@@ -231,6 +230,9 @@ export class Page {
     say("headline", headline);
     say("because", because);
     say("why", why);
+    say("rule-apart", facts.apart);
+    // Impulses are those of gravity alone, and of a precession that is free.
+    find("impulses-chart").hidden = facts.isHeld || facts.apart !== "";
     if (isAct) this.question.follow(facts);
     showKinds(facts.body, facts.turning);
   }

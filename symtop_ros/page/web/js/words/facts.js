@@ -17,7 +17,6 @@ import { shorten } from "./quantities.js";
 /** @import { Course } from "../physics/course.js" */
 /** @import { State } from "../physics/state.js" */
 /** @import { Variant } from "./wording.js" */
-/** @import { Forces } from "./headline.js" */
 /**
  * What holds after an act until the next one, what follows the motion, and how its top runs.
  * @typedef {ReturnType<typeof describe> & MotionFacts & {running: boolean, factor: number, recording: boolean}} Facts
@@ -90,15 +89,14 @@ const describePotential = ({ top: body, start, motion, clamped }, change) => {
 
 /**
  * What holds for a motion under gravity alone, which is said where more acts.
- * @param {Course} free @param {number} began s of the run @param {Forces} forces besides gravity
+ * @param {Course} free @param {number} began s of the run @param {string} apart what else acts, in words
  */
-const listRates = ({ kernel, motion, top, packed, clamped }, began, forces) => {
+const listRates = ({ kernel, motion, top, packed, clamped }, began, apart) => {
   const { nutation_period, mean_precession_rate } = motion.rates;
   /** @type {string[][]} */
   const rows = [];
-  const apart = forces ? ` ${phrase("apart", { kind: forces })}` : "";
   const add = (/** @type {string} */ name, /** @type {string} */ text) =>
-    rows.push([phrase(`table.${name}`), `${text}${apart}`]);
+    rows.push([phrase(`table.${name}`), `${text} ${apart}`.trim()]);
   add("motion", phrase(`motion.${motion.kind}`));
   if (Number.isFinite(nutation_period)) add("nutation_period", `${shorten(nutation_period)} s`);
   if (Number.isFinite(mean_precession_rate)) add("mean_phi_dot", writeWay(mean_precession_rate));
@@ -136,6 +134,7 @@ export const describeMotion = (run, time, free) => {
   const moment = run.find(time);
   const { headline, name, outcome, because } = found ?? findOutcome(moment, free);
   const forces = findForces(moment.course);
+  const apart = forces ? phrase("apart", { kind: forces }) : "";
   const say = (/** @type {Variant} */ variant) => ({
     headline: phrase("headline", headline, variant),
     because: because ? phrase("cause", because, variant).trim() : "",
@@ -144,7 +143,8 @@ export const describeMotion = (run, time, free) => {
   return {
     texts: { radians: say("radians"), degrees: say("degrees") },
     potential: describePotential(free, announced.kind === "start" ? null : announced),
-    table: listRates(free, (forces ? time : moment.time) / NANO, forces),
+    table: listRates(free, (forces ? time : moment.time) / NANO, apart),
+    apart,
     turning: findTurning(free),
     seen: name === "kick" ? headline.kind : null,
   };
