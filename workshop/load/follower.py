@@ -63,10 +63,10 @@ class Subscriber:
         """Receive for some seconds."""
         self.connection.spin_until(lambda: False, seconds)
 
-    def wait(self, done: Callable[[], bool], wanted: str) -> None:
-        """Receive until a condition holds; UnreachableError if it does not in time."""
-        if not self.connection.spin_until(done, TIMEOUT):
-            raise UnreachableError(f"no {wanted} from {self.connection.name} within {TIMEOUT:g} s")
+    def wait(self, done: Callable[[], bool], wanted: str, timeout: float = TIMEOUT) -> None:
+        """Receive until a condition holds; UnreachableError if it does not in time (s)."""
+        if not self.connection.spin_until(done, timeout):
+            raise UnreachableError(f"no {wanted} from {self.connection.name} within {timeout:g} s")
 
 
 class Follower(Subscriber):

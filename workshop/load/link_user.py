@@ -15,6 +15,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 
+from symtop_ros.ros.client.connection import UnreachableError
 from workshop.load.bare import TOPICS
 from workshop.load.follower import DEPTH, Subscriber, read_stamp
 
@@ -82,4 +83,7 @@ def _note(received: Received, data: bytes) -> None:
 
 
 if __name__ == "__main__":
-    print(json.dumps(follow(float(sys.argv[1]), float(sys.argv[2]))), flush=True)
+    try:
+        print(json.dumps(follow(float(sys.argv[1]), float(sys.argv[2]))), flush=True)
+    except UnreachableError as error:
+        sys.exit(f"link_user: {error}")

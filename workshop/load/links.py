@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from symtop_ros.ros.client.connection import UnreachableError
 from symtop_ros.ros.node.host import VARIABLES, distribution_name
 from workshop.load.follower import SUBSCRIBED_RATE
 from workshop.load.processes import DOCS, ROOT, domain, run_program, script, top_node
@@ -65,15 +66,22 @@ def _follow(
         _running(here, variables, top_node(f"publish_rate:={SUBSCRIBED_RATE}")),
         _running(there, variables, user_words) as user,
     ):
-        assert user.stdin
-        assert user.stdout
-        user.stdout.readline()  # samples arrive
+        _read_line(user)  # samples arrive
         cable.weather = weather
+        assert user.stdin
         user.stdin.write("begin\n")
         user.stdin.flush()
-        seen: dict[str, Any] = json.loads(user.stdout.readline())
-        cable.weather = Weather()
+        seen: dict[str, Any] = json.loads(_read_line(user))
     return seen
+
+
+def _read_line(user: subprocess.Popen[str]) -> str:
+    """Return the next line of the user on the other host."""
+    assert user.stdout
+    line = user.stdout.readline()
+    if not line:
+        raise UnreachableError("the user on the other host ended without an answer")
+    return line
 
 
 @contextmanager

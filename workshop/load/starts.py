@@ -16,7 +16,6 @@ import numpy as np
 from geometry_msgs.msg import QuaternionStamped
 from std_srvs.srv import Trigger
 
-from symtop_ros.ros.client.connection import UnreachableError
 from workshop.load.follower import SUBSCRIBED_RATE, TIMEOUT, Subscriber
 from workshop.load.node_cost import BARE, TOP, whole
 from workshop.load.processes import (
@@ -60,12 +59,10 @@ class User(Subscriber):
 
     def find_all(self) -> None:
         """Wait until the service of each node is found."""
-        count = len(self._clients)
-        if not self.connection.spin_until(self._have_all, TIMEOUT * max(1, count / 5)):
-            raise UnreachableError(f"not all of {count} nodes were found")
-
-    def _have_all(self) -> bool:
-        return all(each.service_is_ready() for each in self._clients)
+        patience = TIMEOUT * max(1.0, len(self._clients) / 5)  # many nodes start side by side
+        self.wait(
+            lambda: all(each.service_is_ready() for each in self._clients), "service", patience
+        )
 
     def ask(self, number: int = 0) -> float:
         """Send a request to a node; return the time in ms until its answer."""

@@ -24,7 +24,7 @@ Place = tuple[int, int, Message]  # what a page was sent: run, number of its eve
 
 
 class News:
-    """What the pages are sent of a node (full name). Methods may be called from any thread."""
+    """The news of a node (full name) for its pages. Methods may be called from any thread."""
 
     def __init__(self, name: str, clock: Callable[[], float] = time.monotonic) -> None:
         self.name, self._clock = name, clock
@@ -61,7 +61,8 @@ class News:
 
     def expect(self) -> None:
         """Count the silence from now on: samples were asked for."""
-        self._heard = self._clock()
+        with self._changed:
+            self._heard = self._clock()
 
     def tell(self, events: Sequence[Event], sample: Sample | None, is_expected: bool) -> None:
         """Let the pages know what has come; `is_expected` if samples were asked for."""
