@@ -94,6 +94,7 @@ LONG = {
 }
 
 
+@cache
 def _load() -> ctypes.CDLL:
     """Return the library.
 
@@ -135,15 +136,18 @@ def digest_sources() -> str:
 
 
 @cache
-def open_door() -> SimpleNamespace:
-    """Return the functions of the library, which is loaded at the first call, by their names."""
-    # Calls of the first release the interpreter's lock.
+def open_door(for_few: bool = False) -> SimpleNamespace:
+    """Return the functions of the library, which is loaded at the first call, by their names.
+
+    `for_few`: for calls of one element, none of which releases the interpreter's lock. A thread
+    that gives the lock away may wait for it longer than such a call takes.
+    """
     released = _load()
     locked = ctypes.PyDLL(str(FILE))
     door = SimpleNamespace()
     for name, (result, arguments) in FUNCTIONS.items():
         # By index: a function object that belongs to this door alone.
-        function = (released if name in LONG else locked)[f"symtop_{name}"]
+        function = (released if name in LONG and not for_few else locked)[f"symtop_{name}"]
         function.argtypes, function.restype = arguments, result
         setattr(door, name, function)
     return door
@@ -207,13 +211,15 @@ def write_to(array: NDArray[Any], count: int, code: str = "d") -> Any:
 class KernelMotion:
     """A motion in the library, which is freed with this object."""
 
-    __slots__ = ("_door", "_handle", "_is_clamped", "_pushes", "start")
+    __slots__ = ("_door", "_door_of_one", "_handle", "_is_clamped", "_pushes", "start")
 
     def __init__(self, start: bytes, pushes: bytes = b"", is_clamped: bool = False) -> None:
         """Make the motion of the 15 numbers of `symtop_start`, and of those of `symtop_pushes`."""
         self._handle: int | None = None
         self.start, self._pushes, self._is_clamped = start, pushes, is_clamped
         self._door = open_door()
+        # Of a motion with pushes one state may take those of all pieces before it.
+        self._door_of_one = open_door(for_few=not pushes)
         if len(start) != 8 * START:
             raise ValueError(f"start must have {START} numbers, got {len(start) / 8:g}")
         special = bool(pushes) or is_clamped
@@ -246,7 +252,7 @@ class KernelMotion:
             clock = bytes(ClockRecord(*t.clock))
             stamp = int(t.nanoseconds).to_bytes(8, sys.byteorder, signed=True)
             given = clock, stamp, 1, 0.0
-            status = self._door.states_of_clock(self._handle, *given, q, omega, c_size_t())
+            status = self._door_of_one.states_of_clock(self._handle, *given, q, omega, c_size_t())
             numbers: tuple[float, ...] = (*q, *omega)
         else:
             state = State(t)
@@ -314,7 +320,7 @@ class KernelMotion:
     def farthest_time(self) -> float:
         """The time in s from which on there are no states; infinite for a driven motion."""
         farthest = c_double()
-        demand(self._door.find_farthest_time(self._handle, farthest))
+        demand(self._door_of_one.find_farthest_time(self._handle, farthest))
         return farthest.value
 
 
@@ -427,7 +433,8 @@ def kick(
     count = omega.size // 3
     state = map(read_from, (tops, orientation, omega))
     to = write_to(kicked, 3 * count)
-    status = open_door().kick(*state, kind, hold, read_from(amounts), count, to, done)
+    door = open_door(for_few=count == 1)
+    status = door.kick(*state, kind, hold, read_from(amounts), count, to, done)
     return kicked, done.value, status
 
 

@@ -151,23 +151,22 @@ class Requests:
 
     def kick(self, values: Values) -> str:
         """Kick by named values; see `plan_kick` and `plan_pushes`."""
-        simulation = self._simulation
-        act = Act(name_kick(values), simulation.stamp, values)
-        return simulation.apply_at_once(simulation.timeline.follow(act))
+        return self._follow(name_kick(values), values)
 
     def release(self) -> str:
         """End the pushes that the motion would still get."""
-        simulation = self._simulation
-        act = Act("release", simulation.stamp, {})
-        return simulation.apply_at_once(simulation.timeline.follow(act))
+        return self._follow("release", {})
 
     def clamp(self, held: bool) -> str:
         """Hold the precession by hand, or let it go."""
-        simulation = self._simulation
-        if held == simulation.segment.motion.clamped:
+        if held == self._simulation.segment.motion.clamped:
             return str(Answer("clamped" if held else "free"))
-        act = Act("clamp" if held else "unclamp", simulation.stamp, {})
-        return simulation.apply_at_once(simulation.timeline.follow(act))
+        return self._follow("clamp" if held else "unclamp", {})
+
+    def _follow(self, name: str, values: Values) -> str:
+        simulation = self._simulation
+        act = Act(name, simulation.stamp, values)
+        return simulation.apply_at_once(simulation.timeline.follow(act, simulation.state))
 
     def hurry_precession(self) -> str:
         """Multiply the precession rate by the parameter `hurry_factor`."""

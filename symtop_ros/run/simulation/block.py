@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 import numpy as np
 
 from symtop_ros.base.arrays import Real, Stamps
+from symtop_ros.physics import State
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS, Samples
 from symtop_ros.run.wire.layout import NANOSECONDS
@@ -79,6 +80,13 @@ class Block:
         found: list[float] = self._numbers[topic][self._row[stamp]].tolist()
         return found
 
+    def find_state(self, stamp: int) -> State | None:
+        """Return the state at a stamp of the block; None if the states are not computed yet."""
+        if self._samples is None:
+            return None
+        state = self._samples.state  # one for all stamps while paused
+        return state if state.orientation.ndim == 1 else state[self._row[stamp]]
+
     def _compute(self, topic: str) -> None:
         self._due.pop(topic, None)
         computed = SAMPLE_TOPICS[topic].compute(self._samples or self._compute_states())
@@ -112,6 +120,12 @@ class Blocks:
         if self._later and self._later.covers(segment, stamp):
             self.current, self._later = self._later, None
         return self.current.covers(segment, stamp)
+
+    def state_at(self, segment: Segment, stamp: int) -> State:
+        """Return the state of a segment at a stamp, with the same bits whether a block has it."""
+        blocks = (self.current, self._later)
+        found = (each.find_state(stamp) for each in blocks if each and each.covers(segment, stamp))
+        return next(filter(None, found), None) or segment.state_at(stamp)
 
     def begin(self, segment: Segment, stamps: Sequence[int]) -> None:
         """Go to a new block; of it those topics are due that were asked for in the last one."""

@@ -77,7 +77,9 @@ class Segment:
 
     def state_at(self, stamp: Any) -> State:
         """Return the state at a stamp (ns) or an array of them; one state if paused."""
-        return self.motion.at(self.times_at(stamp))
+        # The first state comes right after an act, when it is waited for: it needs no exact time.
+        is_start = isinstance(stamp, int) and stamp == self.stamp and not self.elapsed
+        return self.motion.at(0.0 if is_start else self.times_at(stamp))
 
     def count_pushes(self, stamp: int) -> int | None:
         """Return how many pushes the motion got up to a stamp (ns); None if nothing pushes it."""
@@ -119,7 +121,7 @@ class Segment:
 
     def replace_motion(self, motion: Motion, stamp: int) -> "Segment":
         """Continue with another motion from its start."""
-        return replace(self, motion=motion, stamp=stamp, elapsed=START)
+        return Segment(motion, stamp, START, self.factor, self.running, self.rig)
 
     def pause(self, stamp: int) -> "Segment":
         """Stop the motion at its state at a stamp."""

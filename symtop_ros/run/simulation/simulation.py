@@ -79,7 +79,7 @@ class Simulation:
     @property
     def state(self) -> State:
         """State at the next stamp."""
-        return self.segment.state_at(self.stamp)
+        return self._blocks.state_at(self.segment, self.stamp)
 
     # Turns. Ticks, requests and timers run in different threads; each takes a turn.
 

@@ -7,10 +7,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from log_files import ARTICLE, BEGIN, CUSPS
+from physics.tops import FAMILIES, precess, random_case
 from run.simulation.runs import SECOND
 
 from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.run.simulation.block import CATCH_UP, Block, Ticker
+from symtop_ros.run.simulation.block import CATCH_UP, Block, Blocks, Ticker
 from symtop_ros.run.simulation.budget import (
     READY,
     STEPS_AT_ONCE,
@@ -62,6 +63,35 @@ def test_it_covers_its_segment_and_stamps_only():
     assert not block.covers(segment, STAMPS[0] + 1)
     assert not block.covers(other, STAMPS[0])
     assert not make(segment, []).covers(segment, STAMPS[0])
+
+
+@pytest.mark.parametrize("segment", SEGMENTS.values(), ids=SEGMENTS)
+def test_a_state_has_the_same_bits_whether_a_block_has_it(segment):
+    blocks = Blocks(segment, lambda name, *given: LAYOUTS[name].encode_many(*given))
+    steps = [
+        lambda: blocks.begin(segment, STAMPS[:8]),
+        lambda: blocks.current.message("torque", STAMPS[0]),  # the states of this one, and
+        lambda: blocks.begin_later(segment, STAMPS[8:]),
+        blocks.work_on_later,  # of the next
+        lambda: blocks.begin(segment, STAMPS[:1]),
+        lambda: blocks.current.message("torque", STAMPS[0]),
+    ]
+    for step in steps:
+        step()
+        for stamp in STAMPS:
+            assert blocks.state_at(segment, stamp) == segment.state_at(stamp)
+    other = SEGMENTS["paused"].change(BEGIN, precess(3.0))  # no block is of it
+    assert blocks.state_at(other, STAMPS[0]) == other.state_at(STAMPS[0])
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_the_first_state_is_that_of_the_exact_time_zero(family):
+    for seed in range(20):
+        case = random_case(seed, family)
+        segment = Segment.begin(Motion(case.top, case.start), BEGIN, 1 / 3)
+        exact = segment.motion.at(segment.times_at(BEGIN))
+        many = segment.state_at(np.array([BEGIN, BEGIN + 1]))
+        assert segment.state_at(BEGIN) == exact == many[0]
 
 
 @pytest.fixture

@@ -75,15 +75,17 @@ class Change:
         return self.told() if isinstance(self.told, partial) else self.told
 
 
-def follow(segment: Segment, act: Act) -> Change:
+def follow(segment: Segment, act: Act, before: State | None = None) -> Change:
     """Return the change by an act on the motion of a segment.
+
+    `before` is the state right before the act, where it is known.
 
     Raises
     ------
     ValueError
         If no program grants the request; RefusedError with the reason for a user.
     """
-    before = state_before(segment, act)
+    before = before or state_before(segment, act)
     pushes = segment.count_pushes(_find_stamp(act))
     following, told = RULES[act.name](segment, act, before)
     return Change(act, before, following, told, pushes)

@@ -28,7 +28,7 @@ class Timeline:
     settings: Settings
     change: Change  # the last one, whose segment holds from it on
     start: State  # the last initial conditions
-    since: str  # the event with which the motion of the segment began, and its stamp
+    origin: Act  # with which the motion of the segment began
     held_torque: Vector = NO_TORQUE  # from ~/applied_torque
     torque_end: int = 0  # stamp in ns at which the held torque ends
 
@@ -39,25 +39,28 @@ class Timeline:
         # With publish_clock the clock has this factor.
         factor = 1.0 if settings.publish_clock else settings.real_time_factor
         segment = demand_a_day(Segment.begin(motion, stamp, factor, settings.rig(stamp)))
-        since = _describe_origin("start", stamp)
-        return cls(settings, Change.begin(segment), motion.start, since)
+        change = Change.begin(segment)
+        return cls(settings, change, motion.start, change.act)
 
     @property
     def segment(self) -> Segment:
         """The motion from the last change on."""
         return self.change.segment
 
+    @property
+    def since(self) -> str:
+        """The event with which the motion of the segment began, and its stamp."""
+        return f"{self.origin.name} at stamp {self.origin.stamp / NANOSECONDS:.9f} s"
+
     def announce(self, scene: str) -> "Timeline":
         """Return the timeline with what the first event of a run says: the scene."""
         return replace(self, change=Change.begin(self.segment, {"scene": scene}))
 
-    def follow(self, act: Act) -> "Timeline":
-        """Return the timeline after an act."""
-        change = follow(self.segment, act)
-        since = self.since
-        if change.segment.motion is not self.segment.motion:
-            since = _describe_origin(act.name, act.stamp)
-        return replace(self, change=change, since=since)
+    def follow(self, act: Act, before: State | None = None) -> "Timeline":
+        """Return the timeline after an act; `before` is the state right before it, where known."""
+        change = follow(self.segment, act, before)
+        is_continued = change.segment.motion is self.segment.motion
+        return replace(self, change=change, origin=self.origin if is_continued else act)
 
     def restart(self, stamp: int, values: Request | None = None) -> "Timeline":
         """Restart from named initial conditions, or without them from the last ones."""
@@ -134,7 +137,3 @@ class Timeline:
         """Report an action that failed, whatever it has left of the segment before."""
         act = Act("failure", stamp, {}, told=failure, left=self.segment)
         return replace(self, change=follow(before, act))
-
-
-def _describe_origin(name: str, stamp: int) -> str:
-    return f"{name} at stamp {stamp / NANOSECONDS:.9f} s"
