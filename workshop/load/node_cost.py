@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from workshop.load import alone
 from workshop.load.bare import TOPICS
 from workshop.load.listener import Listener, Traffic
 from workshop.load.processes import DOCS, domain, run_program, running, script, top_node
@@ -129,6 +130,8 @@ def _measure_all(node: str, command: Command, seconds: float) -> Iterator[tuple[
     if node != RECORDING:
         for row, value in zip((KICK, SLOW_KICK), measure_kicks(command, rates[-1]), strict=True):
             yield f"{rates[-1]:.0f} Hz: {row}", value
+    if node == TOP:
+        yield from alone.measure().items()
     if not (node == RECORDING or is_real_time):
         yield HIGHEST, find_highest_rate(command, seconds / 2)
 
@@ -138,7 +141,8 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     runs: Runs = facts["runs"]
     nodes = tuple(dict.fromkeys(node for row in runs.values() for node in row))
     rows = [[row, *(_format_cell(row, of.get(node)) for node in nodes)] for row, of in runs.items()]
-    values = {"messages": len(TOPICS), "rates": ", ".join(f"{rate:g}" for rate in RATES)}
+    rates = ", ".join(f"{rate:g}" for rate in RATES)
+    values = {"messages": len(TOPICS), "alone": alone.KICKS, "rates": rates}
     return {NAME: write_chapter(NAME, **facts, **values, table=format_tables(["", *nodes], rows))}
 
 

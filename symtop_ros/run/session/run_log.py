@@ -15,6 +15,7 @@ import numpy as np
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import Motion
+from symtop_ros.run.session.outputs import Publisher
 from symtop_ros.run.session.session import Session
 from symtop_ros.run.simulation.events import KICKS
 from symtop_ros.run.simulation.run_file import RATE, RunEvent
@@ -50,7 +51,7 @@ class Silent:
         """Return the name of a topic of the node."""
         return topic.resolve(NODE)
 
-    def create_publisher_of(self, topic: Topic) -> None:
+    def create_publisher_of(self, topic: Topic) -> Publisher | None:
         """Return None: topics are only logged."""
 
     def update_statuses(self) -> list[Status]:
