@@ -11,7 +11,7 @@ from mcap.writer import Writer
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Friction, Motion, State, Top, kick_verdict, regular_precession_rates
-from symtop_ros.run.log.reader import McapFile
+from symtop_ros.run.log.reader import MAGIC, RECORD_START, McapFile
 from symtop_ros.run.log.top_log import TopLog
 from symtop_ros.run.log.writer import NODE_ENTRY, TOPICS_ENTRY, LogFile
 from symtop_ros.run.models.urdf import robot_description
@@ -139,3 +139,13 @@ def write_mcap(path: Path, topics: Sent, encoding: str = "cdr", **options: Any) 
             writer.add_message(channel, stamp, data, stamp)
         writer.finish()
     return path
+
+
+def list_records(data: bytes) -> Iterable[tuple[int, int, int]]:
+    """Opcode, beginning and end of the content of each record of a file."""
+    place = len(MAGIC)
+    while place < len(data) - len(MAGIC):
+        opcode, length = RECORD_START.unpack_from(data, place)
+        begin = place + RECORD_START.size
+        place = begin + length
+        yield opcode, begin, place

@@ -58,14 +58,16 @@ def read_damage(path: Path) -> list[str]:
         while len(head := file.read(RECORD_START.size)) == RECORD_START.size:
             opcode, length = RECORD_START.unpack(head)
             if not fits(opcode, length, size - file.tell()):
-                break  # `McapFile` reports the gap
+                # Before the end of the data `McapFile` reports the gap.
+                found.in_summary |= opcode == Opcode.DATA_END
+                break
             if opcode in HELD or length <= PIECE:
                 found.take(opcode, head, file.read(length), file.tell())
             else:
                 found.pass_over(opcode, head, file, length)
             if opcode == Opcode.FOOTER:
                 found.end(file.read())
-    if found.in_summary:  # a damaged length leads past the footer
+    if found.in_summary:  # a damaged length leads past the footer, or past the end of the file
         found.problems.append("the summary is damaged: it has no end")
     return found.problems
 

@@ -59,6 +59,7 @@ PARSED: dict[int, Parse] = {**PARSED_IN_CHUNK, Opcode.METADATA: Metadata.read}
 SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX, Opcode.METADATA_INDEX)
 # Records whose content is read; the others may have any length that the file has.
 HELD = frozenset((*PARSED, Opcode.MESSAGE, Opcode.MESSAGE_INDEX, Opcode.CHUNK))
+ENDS = (Opcode.DATA_END, Opcode.FOOTER)
 CHECKSUM = struct.Struct("<I")  # behind the bytes of an attachment; 0: without it
 INDEX_HEAD = struct.Struct("<HI")  # channel, and bytes of the entries of 16 bytes each
 MAX_DESCRIPTIONS = 64 * 2**20  # bytes of schemas, channels and metadata in memory
@@ -119,7 +120,8 @@ class McapFile(MessageSource):
         super().__init__(path)
         self.profile = ""  # "ros2" for logs of ROS 2
         self._span: tuple[int, int] | None = None  # log times of the first and latest message
-        self._chunk_offsets: list[int] = []
+        self._chunk_offsets: list[int] = []  # as the index has them
+        self._chunks: list[int] = []  # those at which a chunk begins, in their order
         self._described = 0  # bytes of all descriptions, about
         with log_errors("open", path), path.open("rb") as file:
             self.size = file.seek(0, 2)
@@ -208,7 +210,7 @@ class McapFile(MessageSource):
             place = max(len(MAGIC), self.size - FOOTER_SIZE)
             for footer in islice(self._records_at(file, place, Opcode.FOOTER), 1):
                 self._read_index(file, Footer.read(open_stream(footer.data)).summary_start)
-        self._chunk_offsets.sort()
+        self._chunks = sorted(each for each in self._chunk_offsets if self._has_chunk(file, each))
 
     def _read_index(self, file: BinaryIO, start: int) -> None:
         """Read descriptions and places of chunks from an offset on; 0: the file lacks them."""
@@ -226,16 +228,19 @@ class McapFile(MessageSource):
             for record in islice(self._records_at(file, offset, Opcode.METADATA), 1):
                 self._describe(_contents(record)[0])
 
+    def _has_chunk(self, file: BinaryIO, offset: int) -> bool:
+        """Return True if a chunk begins at an offset of the index."""
+        file.seek(min(offset, self.size))
+        opcode, length = _read_head(file)
+        return opcode == Opcode.CHUNK and fits(opcode, length, self.size - file.tell())
+
     def _records_at(self, file: BinaryIO, offset: int, *wanted: int) -> Iterator[FileRecord]:
         """Yield the readable records with some opcodes from an offset on."""
         place = min(offset, self.size)  # offsets in a damaged index may be any
         while True:
             file.seek(place)
-            head = file.read(RECORD_START.size)
-            if len(head) < RECORD_START.size:
-                return
-            opcode, length = RECORD_START.unpack(head)
-            if not self._fits(opcode, length, file.tell()):
+            opcode, length = _read_head(file)
+            if not opcode or not self._fits(opcode, length, file.tell()):
                 return
             start, place = place, file.tell() + length
             if opcode in wanted:
@@ -245,13 +250,13 @@ class McapFile(MessageSource):
         """Yield all records of the data; damaged bytes are skipped with the help of the index."""
         while True:
             start = file.tell()
-            head = file.read(RECORD_START.size)
-            opcode, length = RECORD_START.unpack(head) if len(head) == RECORD_START.size else (0, 0)
-            if opcode in (Opcode.DATA_END, Opcode.FOOTER):
+            opcode, length = _read_head(file)
+            following = self._list_following(start)
+            # Damaged bytes may have any opcode, but no end is at or before a chunk of the index.
+            is_end = opcode in ENDS and start not in self._chunk_offsets
+            if is_end and not following:
                 return
-            if not opcode or not self._fits(opcode, length, file.tell()):
-                place = bisect_right(self._chunk_offsets, start)
-                following = self._chunk_offsets[place : place + 1]
+            if is_end or not opcode or not self._fits(opcode, length, file.tell()):
                 self._report_gap(start, *following)
                 if not following:
                     return
@@ -266,10 +271,14 @@ class McapFile(MessageSource):
         """Return True if a record of a length in bytes may begin at an offset with its content."""
         if not fits(opcode, length, self.size - begin):
             return False
-        # A damaged length of what is passed over would lead over chunks.
-        place = bisect_right(self._chunk_offsets, begin)
-        following = self._chunk_offsets[place : place + 1]
-        return opcode in HELD or not following or begin + length <= following[0]
+        # A damaged length may lead over chunks.
+        following = self._list_following(begin)
+        return not following or begin + length <= following[0]
+
+    def _list_following(self, offset: int) -> list[int]:
+        """Return the offset of the next chunk after an offset, if the index has one."""
+        place = bisect_right(self._chunks, offset)
+        return self._chunks[place : place + 1]
 
     def _describe(self, descriptions: Iterable[Description]) -> None:
         """Keep descriptions, within a limit: a small chunk may decompress to a lot of them."""
@@ -424,6 +433,13 @@ def _parse(data: bytes, places: Iterable[Span], parsed: Mapping[int, Parse]) -> 
         if opcode == Opcode.MESSAGE and end - begin < MESSAGE_START.size:
             raise DamageError("not a message")
     return descriptions, _messages(data, places)
+
+
+def _read_head(file: BinaryIO) -> tuple[int, int]:
+    """Return opcode and length of the record that begins here; zeros at the end of the file."""
+    head = file.read(RECORD_START.size)
+    opcode, length = RECORD_START.unpack(head) if len(head) == RECORD_START.size else (0, 0)
+    return opcode, length
 
 
 def fits(opcode: int, length: int, rest: int) -> bool:

@@ -1,15 +1,15 @@
 """Bytes of a file that no reader of messages looks at are verified: indexes and checksums."""
 
 import random
-import struct
 
 import pytest
+from log_files import list_records
 from mcap.opcode import Opcode
-from trials import seeds
+from trials import choose, seeds
 
 from symtop_ros.run.check.run import check_run
 from symtop_ros.run.log.checksums import read_damage
-from symtop_ros.run.log.reader import MAGIC, McapFile
+from symtop_ros.run.log.reader import McapFile
 from symtop_ros.run.log.top_log import TopLog
 
 
@@ -21,15 +21,6 @@ def log(path):
 def flip(data, place, bit):
     """The bytes with one bit flipped."""
     return data[:place] + bytes([data[place] ^ 1 << bit]) + data[place + 1 :]
-
-
-def list_records(data):
-    """Opcode, beginning and end of the content of each record of a file."""
-    place = len(MAGIC)
-    while place < len(data) - len(MAGIC):
-        opcode, length = struct.unpack_from("<BQ", data, place)
-        yield opcode, place + 9, place + 9 + length
-        place += 9 + length
 
 
 def find_all(path):
@@ -49,6 +40,19 @@ def test_a_flipped_bit_anywhere_is_found(log, tmp_path, seed):
         bit = rng.randrange(8)
         path.write_bytes(flip(log, place, bit))
         assert find_all(path), (place, bit)
+
+
+KINDS = [*range(Opcode.HEADER, Opcode.DATA_END + 1)]
+ABSENT = [Opcode.MESSAGE, Opcode.ATTACHMENT, Opcode.ATTACHMENT_INDEX]  # or in chunks alone
+
+
+@pytest.mark.parametrize("opcode", choose({*KINDS}.difference(ABSENT), (Opcode.DATA_END,)))
+def test_a_flipped_bit_in_the_head_of_a_record_is_found(log, tmp_path, opcode):
+    path = tmp_path / "run.mcap"
+    begin = next(begin - 9 for kind, begin, _ in list_records(log) if kind == opcode)
+    for bit in range(72):
+        path.write_bytes(flip(log, begin + bit // 8, bit % 8))
+        assert find_all(path), bit
 
 
 OPCODES = [Opcode.MESSAGE_INDEX, Opcode.DATA_END, Opcode.FOOTER, Opcode.STATISTICS]

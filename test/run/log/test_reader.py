@@ -14,10 +14,11 @@ import zstandard
 from exact_log import STATES, compare_samples
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from log_files import BEGIN, Run, topic, write_mcap
+from log_files import BEGIN, Run, list_records, topic, write_mcap
 from mcap.data_stream import RecordBuilder
 from mcap.records import Chunk
 from mcap.writer import CompressionType
+from trials import seeds
 
 from symtop_ros.run.log import reader
 from symtop_ros.run.log.checksums import read_damage
@@ -47,6 +48,12 @@ def read(path):
         for chunk in file.chunks()
         for message in chunk
     ]
+
+
+def read_raw(path):
+    """A file and its messages, whether or not their channels are known."""
+    file = McapFile(path)
+    return file, [message for chunk in file.chunks() for message in chunk]
 
 
 @settings(max_examples=100)
@@ -89,6 +96,37 @@ def test_a_damaged_chunk_is_told_with_its_times_and_the_count_of_its_messages(go
     first, last = ((stamp - BEGIN) * 1e-9 for stamp in (times[0], times[-1]))
     expected = f"a chunk is damaged: {lost} messages of {first:.3f} .. {last:.3f} s are lost"
     assert file.problems == [expected]
+
+
+def damage(data, rng):
+    """The bytes of a file, some of them flipped, lost or replaced; its first bytes are whole."""
+    for _ in range(rng.randrange(1, 4)):
+        place = rng.randrange(8, len(data))
+        flipped = bytes([data[place] ^ 1 << rng.randrange(8)])
+        instead = rng.choice([flipped, flipped, b"", rng.randbytes(rng.randrange(1, 200))])
+        lost = 1 if instead == flipped else rng.randrange(1, 300)
+        data = data[:place] + instead + data[place + lost :]
+    return data
+
+
+@pytest.mark.parametrize("seed", seeds(3, 200))
+def test_no_message_is_lost_without_a_word(good, tmp_path, seed):
+    rng = random.Random(seed)
+    whole, (_, messages) = good.read_bytes(), read_raw(good)
+    for _ in range(20):
+        file, found = read_raw(save(tmp_path, damage(whole, rng)))
+        assert found == messages or file.problems
+
+
+@pytest.mark.parametrize("part", seeds(1, 20))
+def test_a_flipped_bit_in_the_head_of_a_record_loses_nothing_without_a_word(good, tmp_path, part):
+    whole, (_, messages) = good.read_bytes(), read_raw(good)
+    heads = [begin - 9 for _, begin, _ in list_records(whole)]
+    for place in [8 * head + bit for head in heads for bit in range(72)][part::20]:
+        flipped = bytes([whole[place // 8] ^ 1 << place % 8])
+        damaged = whole[: place // 8] + flipped + whole[place // 8 + 1 :]
+        file, found = read_raw(save(tmp_path, damaged))
+        assert found == messages or file.problems, place
 
 
 def test_a_nonsense_length_in_the_middle_is_passed_over_by_the_index(good, tmp_path):
