@@ -313,13 +313,16 @@ class McapFile(MessageSource):
         damaged.clear()
 
     def _report_gap(self, start: int, onward: int | None = None) -> None:
+        """Report bytes that cannot be read, up to the next chunk or to the end of the file."""
         latest = self.since_start(self._span[1]) if self._span else 0.0
-        where = (
-            f"the file ends or is unreadable at byte {start} of {self.size}"
-            if onward is None
-            else f"bytes {start} to {onward} are damaged"
-        )
-        self.report(f"{where}: messages after {latest:.3f} s are lost")
+        if onward is None:
+            where = f"the file ends or is unreadable at byte {start} of {self.size}"
+            self.report(f"{where}: messages after {latest:.3f} s are lost")
+            return
+        lost = sum(start <= each < onward for each in self._chunk_offsets)
+        chunks = "a chunk" if lost == 1 else f"{lost} chunks"
+        what = f": after {latest:.3f} s the messages of {chunks} are lost" if lost else ""
+        self.report(f"bytes {start} to {onward} are damaged{what}")
 
     def _report_ending(self) -> None:
         """Report what the recorder noted itself, if symtop_ros wrote the log, and what a repair."""

@@ -3,6 +3,7 @@
 import errno
 import os
 import random
+import re
 import resource
 import struct
 import zlib
@@ -118,6 +119,9 @@ def test_no_message_is_lost_without_a_word(good, tmp_path, seed):
         assert found == messages or file.problems
 
 
+ONLY_DAMAGED = r"bytes \d+ to \d+ are damaged"  # which says that no message is lost
+
+
 @pytest.mark.parametrize("part", seeds(1, 20))
 def test_a_flipped_bit_in_the_head_of_a_record_loses_nothing_without_a_word(good, tmp_path, part):
     whole, (_, messages) = good.read_bytes(), read_raw(good)
@@ -126,7 +130,8 @@ def test_a_flipped_bit_in_the_head_of_a_record_loses_nothing_without_a_word(good
         flipped = bytes([whole[place // 8] ^ 1 << place % 8])
         damaged = whole[: place // 8] + flipped + whole[place // 8 + 1 :]
         file, found = read_raw(save(tmp_path, damaged))
-        assert found == messages or file.problems, place
+        told = [each for each in file.problems if not re.fullmatch(ONLY_DAMAGED, each)]
+        assert found == messages or told, place
 
 
 def test_a_nonsense_length_in_the_middle_is_passed_over_by_the_index(good, tmp_path):
@@ -137,7 +142,8 @@ def test_a_nonsense_length_in_the_middle_is_passed_over_by_the_index(good, tmp_p
     file, messages = read(save(tmp_path, whole))
     assert 0 < len(messages) < len(RUN.messages)
     assert messages[-1] == RUN.messages[-1]  # what comes behind it is there
-    assert any("are damaged: messages after" in problem for problem in file.problems)
+    (problem,) = (each for each in file.problems if each.startswith("bytes "))
+    assert problem.endswith("the messages of a chunk are lost")
 
 
 @pytest.mark.parametrize("data", [b"", b"\x89MCAP", b"PK\3\4" + bytes(100), b"\0" * 1000])
