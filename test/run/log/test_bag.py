@@ -225,6 +225,27 @@ def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path,
     assert list(copies.iterdir()) == []
 
 
+@pytest.mark.parametrize("is_whole", [True, False])
+@pytest.mark.parametrize("storage", STORAGES)
+def test_a_bag_whose_files_a_player_has_unpacked_next_to_them_has_them_once(
+    storage, is_whole, tmp_path
+):
+    """As `ros2 bag play` leaves a bag of compressed files; if it was killed, the copy is in part."""
+    bag = write(tmp_path / "bag", RUN.messages, storage, mode=CompressionMode.FILE)
+    (packed,) = bag.glob("*.zstd")
+    with packed.open("rb") as stream:
+        copy = zstandard.ZstdDecompressor().stream_reader(stream).read()
+    packed.with_suffix("").write_bytes(copy if is_whole else copy[: len(copy) // 2])
+    assert_complete([bag])
+
+
+def test_a_file_that_a_killed_recorder_has_compressed_in_part_is_read_as_it_was(tmp_path):
+    bag = write(tmp_path / "bag", RUN.messages)
+    (bag / "metadata.yaml").unlink()
+    (bag / "bag.mcap.zstd").write_bytes(zstandard.ZstdCompressor().compress(b"a part"))
+    assert_complete([bag])
+
+
 @pytest.mark.parametrize("mode", MODES, ids=lambda mode: mode.name)
 @pytest.mark.parametrize("storage", STORAGES)
 def test_a_split_bag_with_latched_messages_at_each_head_is_read_as_rosbags_reads_it(
