@@ -46,8 +46,8 @@ def _files_of(path: Path) -> list[Path]:
 def _without_copies(folder: Path, files: list[Path]) -> list[Path]:
     """Return each file of a bag once, compressed or not.
 
-    A player of rosbag2 unpacks compressed files next to them and leaves them there, perhaps in part;
-    the bag's metadata name the compressed ones. Without metadata the recorder was killed: then the
+    A player of rosbag2 unpacks compressed files next to them and leaves copies, perhaps in part; in
+    the bag's metadata are the compressed ones. Without metadata the recorder was killed: then the
     compressed one may be in part.
     """
     pairs = [(file, packed) for file in files if (packed := _packed(file)) in files]

@@ -230,7 +230,7 @@ def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path,
 def test_a_bag_whose_files_a_player_has_unpacked_next_to_them_has_them_once(
     storage, is_whole, tmp_path
 ):
-    """As `ros2 bag play` leaves a bag of compressed files; if it was killed, the copy is in part."""
+    """As `ros2 bag play` leaves a bag of compressed files; if killed, the copy is in part."""
     bag = write(tmp_path / "bag", RUN.messages, storage, mode=CompressionMode.FILE)
     (packed,) = bag.glob("*.zstd")
     with packed.open("rb") as stream:
