@@ -50,7 +50,8 @@ def _without_copies(folder: Path, files: list[Path]) -> list[Path]:
     the bag's metadata are the compressed ones. Without metadata the recorder was killed: then the
     compressed one may be in part.
     """
-    pairs = [(file, packed) for file in files if (packed := _packed(file)) in files]
+    known = {*files}
+    pairs = [(file, packed) for file in files if (packed := _packed(file)) in known]
     if not pairs:
         return files
     about = _read_metadata(folder)
