@@ -51,14 +51,15 @@ class Run:
     frame: str = "top"
     friction: Friction = NO_FRICTION
     torque: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    begin: int = BEGIN  # stamp in ns
     messages: list[tuple[str, int, bytes]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         motion = Motion(self.top, self.start, self.friction, self.torque)
-        segment = Segment.begin(motion, BEGIN, 1.0)
+        segment = Segment.begin(motion, self.begin, 1.0)
         self._announce(Event.of(Change.begin(segment), top_frame=self.frame))
         count = int(self.seconds * self.rate)
-        stamps = [BEGIN + round(k * 1e9 / self.rate) for k in range(count)]
+        stamps = [self.begin + round(k * 1e9 / self.rate) for k in range(count)]
         half = count // 2 if self.hurried else count
         self._samples(segment, stamps[:half])
         if self.hurried:
@@ -109,10 +110,10 @@ class Run:
         names = {each.name: each.resolve("/top") for each in TOPICS}
         about = {"version": "test", NODE_ENTRY: "/top", TOPICS_ENTRY: json.dumps(names)}
         log = LogFile(folder, channels, about, {})
-        flushed = BEGIN
+        flushed = self.begin
         if self.described:
             urdf = encode_string(robot_description(self.top, "world", "top"))
-            log.write(CHANNELS["robot_description"], BEGIN, urdf)
+            log.write(CHANNELS["robot_description"], self.begin, urdf)
         for name, stamp, data in self.messages:
             if stamp - flushed >= 500_000_000:
                 log.flush()

@@ -1,6 +1,7 @@
 """Entry point of `top_replay`: play a log or a run in Rerun, check, repair or convert it."""
 
 import argparse
+import os
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -40,12 +41,19 @@ def _run(options: argparse.Namespace) -> int:
         print(f"wrote {options.mcap}")
         return 0
     if options.repair:
-        if len(options.files) > 1:
-            raise LogError(f"--repair must be given one log, got {len(options.files)}")
-        return _repair(McapFile(options.files[0]), options.repair)
+        return _repair(McapFile(_only_file(options.files)), options.repair)
     with _open_file(options.files, options.node) as log:
         _print_problems(log.account)
         return check(log, options.strict) if options.check else _show(log, options)
+
+
+def _only_file(paths: Sequence[Path]) -> Path:
+    """Return the file that is to be repaired; LogError if there are several, or a folder."""
+    if len(paths) > 1:
+        raise LogError(f"--repair must be given one MCAP file, got {len(paths)}")
+    if os.path.isdir(paths[0]):  # Path.is_dir raises for names that are too long
+        raise LogError(f"--repair must be given one MCAP file, got the folder {paths[0]}")
+    return paths[0]
 
 
 def _repair(file: McapFile, target: Path) -> int:

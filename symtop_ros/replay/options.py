@@ -69,7 +69,7 @@ def make_parser() -> argparse.ArgumentParser:
         "--repair",
         type=Path,
         metavar="OUT.mcap",
-        help="write the readable messages to a complete log",
+        help="write the readable messages of an MCAP file to a complete log",
     )
     ways.add_argument(
         "--mcap",

@@ -241,6 +241,15 @@ def test_each_reader_says_what_is_wrong_first(name, reader, log, remapped, tmp_p
         assert "not explained" not in out
 
 
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_repair_of_a_folder_or_of_several_files_is_refused(count, tmp_path, capsys):
+    assert replay([str(tmp_path)] * count + ["--repair", str(tmp_path / "whole.mcap")]) == 1
+    got = f"the folder {tmp_path}" if count == 1 else count
+    said = f"top_replay: --repair must be given one MCAP file, got {got}\n"
+    assert capsys.readouterr().err == said
+    assert list(tmp_path.iterdir()) == []
+
+
 LOST = [name for name, case in CASES.items() if case.check and name != "the index damaged"]
 
 

@@ -8,7 +8,7 @@ import sqlite3
 import tempfile
 import weakref
 from collections.abc import Iterator, Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -40,7 +40,33 @@ def _files_of(path: Path) -> list[Path]:
     files = sorted(file for suffix in SUFFIXES for file in path.glob(f"*{suffix}"))
     if not files:
         raise LogError(f"cannot open {path}: no .mcap or .db3 file in it")
-    return files
+    return _without_copies(path, files)
+
+
+def _without_copies(folder: Path, files: list[Path]) -> list[Path]:
+    """Return each file of a bag once, compressed or not.
+
+    A player of rosbag2 unpacks compressed files next to them and leaves copies, perhaps in part; in
+    the bag's metadata are the compressed ones. Without metadata the recorder was killed: then the
+    compressed one may be in part.
+    """
+    known = {*files}
+    pairs = [(file, packed) for file in files if (packed := _packed(file)) in known]
+    if not pairs:
+        return files
+    about = _read_metadata(folder)
+    left_out = {file if packed.name in about else packed for file, packed in pairs}
+    return [file for file in files if file not in left_out]
+
+
+def _packed(file: Path) -> Path:
+    return file.with_name(f"{file.name}{ZSTD}")
+
+
+def _read_metadata(folder: Path) -> str:
+    with suppress(OSError):
+        return (folder / "metadata.yaml").read_text(errors="replace")
+    return ""
 
 
 def _open(path: Path) -> MessageSource:

@@ -94,6 +94,8 @@ class Grid:
             *(_list_resumptions(ordered.events, self._periods[1:]) if is_own_time else ()),
         ]
         self._jumps = _find_jumps(ordered)
+        # Of each event, and at the end, for owner -1, of what is before all of them.
+        self._runs = np.array([*ordered.runs, *ordered.runs[:1]], dtype=np.int64)
         self._empty = sorted(empty)
         self._empty_of_tf = sorted([*empty, *_list_times_without_tf(ordered.events)])
 
@@ -140,7 +142,9 @@ class Grid:
         stamps, places, owners = samples
         before, after = stamps[:-1], stamps[1:]
         period = np.maximum(periods[:-1], periods[1:])
-        wide = np.flatnonzero((period > 0) & (after - before > WIDE * period))
+        # Between two runs no node published. A run begins like a log: with its first sample.
+        is_one_run = self._runs[owners[:-1]] == self._runs[owners[1:]] if len(self._runs) else True
+        wide = np.flatnonzero((period > 0) & (after - before > WIDE * period) & is_one_run)
         columns = before, after, owners[:-1], owners[1:], period, places[:-1] + 1
         for begin, end, owner, next_owner, step, place in zip(
             *(each[wide].tolist() for each in columns), strict=True

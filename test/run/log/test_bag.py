@@ -13,7 +13,7 @@ import pytest
 import yaml
 import zstandard
 from exact_log import assert_agrees, compare_samples
-from log_files import Run, topic
+from log_files import BEGIN, Run, topic
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
@@ -171,6 +171,38 @@ def test_a_bag_of_compressed_messages_is_read(storage, tmp_path):
     assert found == {(300, 0.0)}
 
 
+def restarted(pause, first=RUN.messages):
+    """What a recorder gets that runs on while the node is ended and started again."""
+    later = round(RUN.seconds * SECOND) + pause
+    second = Run(seconds=RUN.seconds, begin=BEGIN + later)
+    return [*first, *second.messages]
+
+
+@pytest.mark.parametrize("pause", [0, 20_000_000, 3 * SECOND])
+@pytest.mark.parametrize("storage", STORAGES)
+def test_a_bag_in_which_the_node_was_started_again_is_complete(storage, pause, tmp_path):
+    assert_complete([write(tmp_path / "bag", restarted(pause), storage)], 600)
+
+
+def test_two_logs_of_the_node_are_read_as_two_runs(tmp_path):
+    later = Run(seconds=1.0, begin=BEGIN + 100 * SECOND)
+    logs = [RUN.write(tmp_path / "one"), later.write(tmp_path / "two")]
+    for order in itertools.permutations(logs):
+        assert_complete(order, 500)
+
+
+@pytest.mark.parametrize(
+    ("first", "said"), [(50, "20 samples are missing"), (200, "no event was lost")]
+)
+def test_what_is_lost_before_the_node_is_started_again_is_told(first, said, tmp_path):
+    """After the kick, at sample 150, nothing of that run proves that no other event followed."""
+    begin, end = (RUN.places("orientation")[k] for k in (first, first + 20))
+    kept = [*RUN.messages[:begin], *RUN.messages[end:]]
+    log = TopLog(open_run([write(tmp_path / "bag", restarted(3 * SECOND, kept))]))
+    (problem,) = log.account.problems
+    assert said in problem
+
+
 @pytest.fixture(name="copies")
 def _copies(tmp_path, monkeypatch):
     """The folder in which temporary folders are made."""
@@ -191,6 +223,27 @@ def test_a_bag_of_compressed_files_is_read_and_leaves_no_copy(storage, tmp_path,
     assert_complete([folder])
     gc.collect()
     assert list(copies.iterdir()) == []
+
+
+@pytest.mark.parametrize("is_whole", [True, False])
+@pytest.mark.parametrize("storage", STORAGES)
+def test_a_bag_whose_files_a_player_has_unpacked_next_to_them_has_them_once(
+    storage, is_whole, tmp_path
+):
+    """As `ros2 bag play` leaves a bag of compressed files; if killed, the copy is in part."""
+    bag = write(tmp_path / "bag", RUN.messages, storage, mode=CompressionMode.FILE)
+    (packed,) = bag.glob("*.zstd")
+    with packed.open("rb") as stream:
+        copy = zstandard.ZstdDecompressor().stream_reader(stream).read()
+    packed.with_suffix("").write_bytes(copy if is_whole else copy[: len(copy) // 2])
+    assert_complete([bag])
+
+
+def test_a_file_that_a_killed_recorder_has_compressed_in_part_is_read_as_it_was(tmp_path):
+    bag = write(tmp_path / "bag", RUN.messages)
+    (bag / "metadata.yaml").unlink()
+    (bag / "bag.mcap.zstd").write_bytes(zstandard.ZstdCompressor().compress(b"a part"))
+    assert_complete([bag])
 
 
 @pytest.mark.parametrize("mode", MODES, ids=lambda mode: mode.name)
