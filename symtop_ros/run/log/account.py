@@ -281,11 +281,15 @@ class _Conclusions:
         if not len(own):
             found = [stamps]
         else:
-            around = ((places < own[0], own_stamps[0]), (places > own[-1], own_stamps[-1]))
+            if (np.diff(stamps) > 0).all():  # places are those of a grid, and stamps are exact
+                before, after = stamps < own_stamps.min(), stamps > own_stamps.max()
+            else:
+                before, after = places < own[0], places > own[-1]
+            around = ((before, own_stamps[0]), (after, own_stamps[-1]))
             found = [stamps[a][np.abs(stamps[a] - s) > ROUNDING] for a, s in around]
         for absent in map(np.unique, found):
-            # A file may begin and end within a sample.
-            if (missing := len(absent) - bool(len(own))) > 0:
+            if len(absent):  # a file may begin and end within a sample
+                missing = len(absent) - bool(len(own))
                 yield Gap(int(absent[0]), int(absent[-1]), NOWHERE, missing)
 
     @cached_property
@@ -344,18 +348,30 @@ class _Conclusions:
         lines: dict[str, list[str]] = {}
         for name, topic in self._topics.items():
             if topic.missing:
-                widest = max(self._list_gaps(name), key=lambda gap: gap.after - gap.before)
-                text = (
-                    f"{topic.missing} samples are missing, most of them between {widest.before} "
-                    f"and {widest.after} ns; the node has counted {self._counted} as missed"
-                )
+                text = self._describe_missing(name, topic.missing)
                 lines.setdefault(text, []).append(name)
             if topic.repeated:
-                text = (
-                    f"{topic.repeated} samples are repeated: their stamps are not later than before"
-                )
+                count = _count_samples(topic.repeated)
+                text = f"{count} repeated: their stamps are not later than before"
                 lines.setdefault(text, []).append(name)
         yield from (f"{', '.join(names)}: {text}" for text, names in lines.items())
+
+    def _describe_missing(self, name: str, missing: int) -> str:
+        """Return how many samples of a topic are missing, at least, and where."""
+        found = self._list_gaps(name)
+        gaps = [gap for gap in found if gap.missing]
+        widest = max(gaps, key=lambda gap: gap.missing)
+        where = f"between {widest.before} and {widest.after} ns"
+        if 2 * widest.missing <= missing:
+            begin, end = min(gap.before for gap in gaps), max(gap.after for gap in gaps)
+            where = f"in {len(gaps)} gaps between {begin} and {end} ns"
+        elif len(gaps) > 1:
+            where = f"most of them {where}"
+        # Others may be in a gap that an event explains, or in the first and the last sample.
+        in_grid = self._found.get(name, GridFindings()).missing
+        is_least = missing != in_grid or any(gap.place == NOWHERE for gap in found)
+        count = ("at least " if is_least else "") + _count_samples(missing)
+        return f"{count} missing, {where}; the node has counted {self._counted} as missed"
 
     def _list_notes(self, lacking: Sequence[str]) -> Iterator[str]:
         names = self._names
@@ -371,6 +387,11 @@ class _Conclusions:
             )
         missing = find_missing(self._ordered, self._proofs).values()
         yield from (each.describe() for each in missing if each.is_off)
+
+
+def _count_samples(count: int) -> str:
+    """Return a number of samples as the subject of a sentence, with its verb."""
+    return f"{count} sample{'s are' if count > 1 else ' is'}"
 
 
 def _cut(stamps: Stamps, places: Places, begin: int, end: int) -> tuple[Stamps, Places]:

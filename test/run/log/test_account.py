@@ -1,5 +1,7 @@
 """The account of logs of other writers, and of logs that are odd and sound."""
 
+import random
+import re
 import struct
 from dataclasses import replace
 
@@ -11,6 +13,7 @@ from mcap.records import Attachment, Message, Metadata
 from mcap.writer import Writer
 from run.log.damaged import Log, Recorded, zero_chunk
 from run.log.variants import INPUTS, list_variants, write_variant
+from trials import seeds
 
 from symtop_ros.run.log.account import read_account
 from symtop_ros.run.log.bags import open_run
@@ -217,3 +220,35 @@ def test_diagnostics_after_a_loss_prove_that_no_event_was_lost(log, tmp_path):
     assert account.stretches[-1].end == account.end + 1 == 2_500_000_001
     assert 0 <= account.stretches[0].begin < account.stretches[0].end == 1_210_000_000
     assert account.topics["orientation"].rate == 100.0
+
+
+MISSING = re.compile(
+    r"(.*): (at least )?(\d+) samples? (?:is|are) missing, (most of them |in (\d+) gaps )?"
+    r"between (\d+) and (\d+) ns; the node has counted 0 as missed"
+)
+
+
+@pytest.mark.parametrize("seed", seeds(2, 100))
+def test_samples_are_said_to_be_missing_where_they_are(seed, log, tmp_path):
+    rng = random.Random(seed)
+    topic = rng.choice(("orientation", "torque"))
+    places = log.places(f"/{topic}")
+    lost = set()
+    for _ in range(rng.randrange(1, 6)):
+        begin = rng.randrange(len(places))
+        lost |= {*places[begin : begin + rng.choice((1, 2, 10, 40))]}
+    _, account = account_of(log.without(lost).write(tmp_path / "run.mcap"))
+    stamps = [log.messages[k].log_time for k in sorted(lost)]
+    if not account.problems:  # the first sample, the last one or both may never have been recorded
+        assert lost <= {places[0], places[-1]}
+        return
+    name, is_least, count, way, gaps, *ends = MISSING.fullmatch(*account.problems).groups()
+    first, last = map(int, ends)
+    inside = sum(first <= each <= last for each in stamps)
+    at_an_end = bool(lost & {places[0], places[-1]})
+    assert name == topic
+    assert bool(is_least) == at_an_end
+    assert int(count) in range(len(lost) - 2 * at_an_end, len(lost) + 1)
+    if gaps:
+        assert int(gaps) > 1
+    assert (2 * inside > int(count)) if way == "most of them " else (inside >= int(count))
