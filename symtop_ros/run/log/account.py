@@ -17,7 +17,14 @@ from symtop_ros.base.arrays import Places, Stamps
 from symtop_ros.run.log.checksums import find_damage
 from symtop_ros.run.log.chronicle import Ordered, order_events
 from symtop_ros.run.log.contents import Contents, read_contents
-from symtop_ros.run.log.grid import Gap, Grid, GridFindings, Recording, list_recordings
+from symtop_ros.run.log.grid import (
+    Gap,
+    Grid,
+    GridFindings,
+    Recording,
+    list_absent_files,
+    list_recordings,
+)
 from symtop_ros.run.log.names import KNOWN, TELLING, Names, read_names
 from symtop_ros.run.log.reader import list_problems
 from symtop_ros.run.log.source import Loss, MessageSource
@@ -377,6 +384,10 @@ class _Conclusions:
         names = self._names
         if not any(self._contents.counts[name] for name in TELLING):
             return
+        if absent := list_absent_files(self._file):
+            what = "files" if len(absent) > 1 else "file"
+            are = "are" if len(absent) > 1 else "is"
+            yield f"{what} {', '.join(map(str, absent))} of the recording {are} not in the log"
         stated = [each for each in lacking if each in STATE_TOPICS or names.find_given(each)]
         if stated:
             yield f"the log has no {', no '.join(stated)}"

@@ -18,7 +18,7 @@ from symtop_ros.run.log.batch import TF
 from symtop_ros.run.log.chronicle import Chronicle, Ordered
 from symtop_ros.run.log.source import MessageSource
 from symtop_ros.run.log.stamps import StampRows
-from symtop_ros.run.log.writer import BEGUN_ENTRY, METADATA
+from symtop_ros.run.log.writer import BEGUN_ENTRY, FILE_ENTRY, METADATA
 from symtop_ros.run.simulation.events import MAX_STAMP, WHOLE, Event
 from symtop_ros.run.wire.layout import NANOSECONDS
 
@@ -26,6 +26,7 @@ Empty = tuple[int, int, int]  # number of an event, and two stamps in ns
 MIN_RATE, MAX_RATE = 1e-3, 1e6  # Hz; a log may be hostile
 RATE, TF_SWITCH, OWN_TIME = "publish_rate", "publish_tf", "publish_clock"
 BEGUN = "begun"  # the outcome of an event with which a recording begins
+MAX_FILES = 1000  # of a recording whose numbers are compared
 WIDE = 1.5  # periods: neighbours that are further apart have lost samples
 
 
@@ -78,6 +79,17 @@ def list_recordings(file: MessageSource) -> list[Recording]:
         )
         found.setdefault(values.get(BEGUN_ENTRY, ""), recording)
     return list(found.values())
+
+
+def list_absent_files(file: MessageSource) -> list[int]:
+    """Return the numbers of files of a recording that are not there, but for those after all."""
+    found: dict[str, set[int]] = {}
+    for each in file.files:
+        values = each.metadata.get(METADATA, {})
+        number = values.get(FILE_ENTRY, "")
+        if BEGUN_ENTRY in values and WHOLE.fullmatch(number) and int(number) <= MAX_FILES:
+            found.setdefault(values[BEGUN_ENTRY], set()).add(int(number))
+    return sorted({n for there in found.values() for n in {*range(1, max(there))} - there})
 
 
 class Grid:

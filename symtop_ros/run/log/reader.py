@@ -8,7 +8,7 @@ import json
 import struct
 import zlib
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -142,17 +142,30 @@ class McapFile(MessageSource):
     def attachments(self) -> Iterator[Attachment]:
         """Yield the attachments that can be read, one at a time in memory."""
         with log_errors("read", self.path), self.path.open("rb") as file:
-            for record in self._records_at(file, len(MAGIC), Opcode.ATTACHMENT):
-                with suppress(*DAMAGE):
-                    yield read_attachment(record.data)
+            for record in self._records(file, {Opcode.ATTACHMENT}):
+                if record.opcode == Opcode.ATTACHMENT:
+                    with suppress(*DAMAGE):
+                        yield read_attachment(record.data)
+
+    def list_metadata(self) -> Iterator[tuple[str, dict[str, str]]]:
+        """Yield the name and the values of each metadata record; names may be there twice."""
+        names = set()
+        with log_errors("read", self.path), self.path.open("rb") as file:
+            for record in self._records(file, {Opcode.METADATA}):
+                if record.opcode == Opcode.METADATA:
+                    with suppress(*DAMAGE):
+                        found: Metadata = Metadata.read(open_stream(record.data))
+                        names.add(found.name)
+                        yield found.name, found.metadata
+        # in bytes that are damaged, found by the index
+        yield from (each for each in self.metadata.items() if each[0] not in names)
 
     def _read(self) -> Iterator[list[Message]]:
         """Yield messages in the order of the file, those of a chunk together."""
         with log_errors("read", self.path), self.path.open("rb") as file:
-            file.seek(len(MAGIC))
             self._damaged = None
             self._found = self._data_end = 0
-            for record in self._records(file):
+            for record in self._records(file, HELD, self._report_gap):
                 self.offset = record.end
                 if self._damaged and record.opcode == Opcode.MESSAGE_INDEX:
                     self._damaged.add(record.data, record.end - record.start)
@@ -273,8 +286,14 @@ class McapFile(MessageSource):
             if opcode in wanted:
                 yield FileRecord(opcode, file.read(length), start, place)
 
-    def _records(self, file: BinaryIO) -> Iterator[FileRecord]:
+    def _records(
+        self,
+        file: BinaryIO,
+        held: Container[int],  # the kinds of which the content is read
+        report: Callable[..., None] = lambda *_: None,
+    ) -> Iterator[FileRecord]:
         """Yield all records of the data; damaged bytes are skipped with the help of the index."""
+        file.seek(len(MAGIC))
         while True:
             start = file.tell()
             opcode, length = _read_head(file)
@@ -285,13 +304,13 @@ class McapFile(MessageSource):
                 self._data_end = file.tell() + length
                 return
             if is_end or not opcode or not self._fits(opcode, length, file.tell()):
-                self._report_gap(start, *following)
+                report(start, *following)
                 if not following:
                     return
                 file.seek(following[0])
             else:
                 end = file.tell() + length
-                data = file.read(length) if opcode in HELD else b""
+                data = file.read(length) if opcode in held else b""
                 file.seek(end)
                 yield FileRecord(opcode, data, start, end)
 

@@ -13,7 +13,7 @@ import pytest
 import yaml
 import zstandard
 from exact_log import assert_agrees, compare_samples
-from log_files import Run, topic
+from log_files import Run, topic, write_mcap
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
@@ -96,6 +96,18 @@ def test_topics_that_were_never_recorded_are_named_and_only_strict_readers_mind(
     assert "/diagnostics                 not compared: it was never recorded\n" in out
     said = "topics are recognised by their types and the ends of their names: "
     assert f"top_replay: {said}" in err
+
+
+def test_a_topic_of_which_a_cut_log_has_nothing_is_not_said_to_be_never_recorded(tmp_path, capsys):
+    topics = [(topic(n), TYPES[n], [m[1:] for m in RUN.messages if m[0] == n]) for n in TYPES]
+    path = write_mcap(tmp_path / "run.mcap", topics, chunk_size=20_000)
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    assert module.main([str(path), "--check"]) == 1
+    out, _ = capsys.readouterr()
+    assert "the log ends early\n" in out
+    assert (
+        "/diagnostics                 not compared: it is not in what is left of the log\n" in out
+    )
 
 
 def test_damage_is_reported_with_the_name_of_its_file(tmp_path):
