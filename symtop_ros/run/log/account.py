@@ -374,9 +374,10 @@ class _Conclusions:
             where = f"in {len(gaps)} gaps between {begin} and {end} ns"
         elif len(gaps) > 1:
             where = f"most of them {where}"
-        # Others may be in a gap that an event explains, or in the first and the last sample.
+        # Others may be at an event, in a gap that an event explains, or at an end of a file.
         in_grid = self._found.get(name, GridFindings()).missing
-        is_least = missing != in_grid or any(gap.place == NOWHERE for gap in found)
+        is_open = any(gap.has_event or gap.place == NOWHERE for gap in found)
+        is_least = is_open or missing != in_grid
         count = ("at least " if is_least else "") + _count_samples(missing)
         return f"{count} missing, {where}; the node has counted {self._counted} as missed"
 

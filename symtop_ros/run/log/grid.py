@@ -38,6 +38,7 @@ class Gap:
     after: int
     place: int  # in the log, right behind the earlier one
     missing: int  # samples
+    has_event: bool = False  # True if an event in it may have had samples off the grid
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +164,7 @@ class Grid:
             numbers = slice(*(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, last)))
             lost = end - begin - _measure(empty[numbers], begin, end)
             if (missing := round(lost / step) - 1) > 0:
-                yield Gap(begin, end, place, missing)
+                yield Gap(begin, end, place, missing, owner != next_owner)
 
 
 def _measure(intervals: Iterable[Empty], begin: int, end: int) -> int:

@@ -5,6 +5,7 @@ import itertools
 import shutil
 import sqlite3
 import tempfile
+from contextlib import closing
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -359,3 +360,26 @@ def test_a_wrong_number_is_found_although_the_clock_went_back(late, tmp_path, ca
     assert "the samples DO NOT agree" in capsys.readouterr().out
     deviations = compare_samples(TopLog(open_run([folder])))
     assert [name for name, each in deviations.items() if each.differing] == ["orientation"]
+
+
+def test_rows_of_a_bag_without_a_message_lose_those_messages_and_no_others(tmp_path):
+    (file,) = parts(tmp_path, 1, StoragePlugin.SQLITE3)
+    whole = TopLog(open_run([file])).file
+    count = sum(map(len, whole.chunks()))
+    with closing(sqlite3.connect(file)) as database:
+        database.execute("UPDATE messages SET data = 'text' WHERE id IN (100, 101, 300)")
+        database.commit()
+    damaged = open_run([file])
+    assert sum(map(len, damaged.chunks())) == count - 3
+    said = [(each.text, each.place) for each in damaged.losses]
+    assert said == [
+        ("2 rows without a message: the bag is damaged", 99),
+        ("1 row without a message: the bag is damaged", 297),
+    ]
+
+
+def test_a_bag_of_which_the_end_is_cut_is_damaged(tmp_path):
+    (file,) = parts(tmp_path, 1, StoragePlugin.SQLITE3)
+    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    with pytest.raises(LogError, match=f"cannot open {file}: the bag is damaged"):
+        open_run([file])
