@@ -25,6 +25,7 @@ from symtop_ros.run.wire.layout import NANOSECONDS
 Empty = tuple[int, int, int]  # number of an event, and two stamps in ns
 MIN_RATE, MAX_RATE = 1e-3, 1e6  # Hz; a log may be hostile
 RATE, TF_SWITCH, OWN_TIME = "publish_rate", "publish_tf", "publish_clock"
+OFF_GRID = "clock", "pause", "resume", "step", "record"  # events
 BEGUN = "begun"  # the outcome of an event with which a recording begins
 MAX_FILES = 1000  # of a recording whose numbers are compared
 WIDE = 1.5  # periods: neighbours that are further apart have lost samples
@@ -107,6 +108,7 @@ class Grid:
             *(_list_resumptions(ordered.events, self._periods[1:]) if is_own_time else ()),
         ]
         self._jumps = _find_jumps(ordered)
+        self._changes = {k for k, event in enumerate(ordered.events) if _changes_grid(event)}
         self._empty = sorted(empty)
         self._empty_of_tf = sorted([*empty, *_list_times_without_tf(ordered.events)])
 
@@ -164,7 +166,13 @@ class Grid:
             numbers = slice(*(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, last)))
             lost = end - begin - _measure(empty[numbers], begin, end)
             if (missing := round(lost / step) - 1) > 0:
-                yield Gap(begin, end, place, missing, owner != next_owner)
+                has_event = any(number in self._changes for number in range(owner + 1, last + 1))
+                yield Gap(begin, end, place, missing, has_event)
+
+
+def _changes_grid(event: Event) -> bool:
+    """Return True if samples may be off the grid at an event."""
+    return event.name in OFF_GRID or RATE in event.request
 
 
 def _measure(intervals: Iterable[Empty], begin: int, end: int) -> int:

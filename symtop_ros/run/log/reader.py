@@ -177,32 +177,36 @@ class McapFile(MessageSource):
 
     def _read_record(self, record: FileRecord) -> Iterator[list[Message]]:
         """Yield the messages of a record, and report or note its damage."""
-        is_chunk = record.opcode == Opcode.CHUNK
         is_of_index = self._is_chunk_of_index(record)
-        if is_chunk or is_of_index:
+        if record.opcode == Opcode.CHUNK or is_of_index:
             # Until its messages are found: readers pass over another opcode, and a head of zeros
             # is that of an empty chunk. The indexes behind it tell.
             self._damaged = DamagedChunk(_chunk_of(record), self._index.get(record.start))
-            self._damaged.is_certain = not is_chunk
-        if is_of_index and not is_chunk:
-            return
-        if record.opcode == Opcode.MESSAGE and self._index and not self._is_message(record.data):
-            self.report("a record between chunks is damaged")
-            return
         try:
-            descriptions, messages = _contents(record)
+            descriptions, messages = self._parse_record(record, is_of_index)
         except DAMAGE:
-            if self._damaged and (is_of_index or not self._index):
-                self._damaged.is_certain = True
-            else:  # a flipped bit makes a chunk of the index behind one
-                self._damaged = None
-                self.report(f"the record before byte {record.end} is damaged")
+            self._note_damage(record, is_of_index)
             return
         self._describe(descriptions)
         found = self._found
         yield from self._runs(messages)
         if self._found > found:
             self._damaged = None
+
+    def _parse_record(self, record: FileRecord, is_of_index: bool) -> Contents:
+        """Return the contents; DamageError for a record whose kind a flipped bit has changed."""
+        if is_of_index and record.opcode != Opcode.CHUNK:
+            raise DamageError("not a chunk")
+        if record.opcode == Opcode.MESSAGE and self._index and not self._is_message(record.data):
+            raise DamageError("not a message")
+        return _contents(record)
+
+    def _note_damage(self, record: FileRecord, is_of_index: bool) -> None:
+        if self._damaged and (is_of_index or not self._index):
+            self._damaged.is_certain = True
+            return
+        self._damaged = None  # a flipped bit makes a chunk of the index behind one
+        self.report(f"the record before byte {record.end} is damaged")
 
     def _is_chunk_of_index(self, record: FileRecord) -> bool:
         """Return True for a record that the index has as a chunk."""

@@ -23,7 +23,7 @@ SHIFTED = re.compile(r"(\d+) bytes before the index are missing: messages may be
 INSERTED = re.compile(r"(\d+) bytes were inserted before the index")
 NOTHING_LOST = re.compile(
     r"bytes \d+ to \d+ are damaged|a chunk without messages is damaged|"
-    r"a record between chunks is damaged|\d+ bytes were inserted before the index"
+    r"\d+ bytes were inserted before the index"
 )
 MAY_BE_LOST = re.compile(r".*(may be lost|its messages are lost)|the record before .* is damaged")
 
