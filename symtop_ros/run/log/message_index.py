@@ -31,8 +31,10 @@ class DamagedChunk:
     stated.
     """
 
-    def __init__(self, chunk: Chunk | None, index: ChunkIndex | None) -> None:
-        self._index = index
+    def __init__(
+        self, chunk: Chunk | None, index: ChunkIndex | None, has_messages: bool = True
+    ) -> None:
+        self._index, self.has_messages = index, has_messages
         heads = [each for each in (chunk, index) if each]
         self._spans = [(each.message_start_time, each.message_end_time) for each in heads]
         self._times: list[int] = []  # of the first and the latest message in each index
@@ -51,12 +53,6 @@ class DamagedChunk:
         self._times += [min(times), max(times)] if times else []
         self._length += length
         self.count += len(times)
-
-    @property
-    def has_messages(self) -> bool:
-        """False if the index in the summary says that the chunk has no messages."""
-        index = self._index
-        return not index or bool(index.message_index_length or index.message_end_time)
 
     def find_span(self) -> tuple[int, int] | None:
         """Return the log times of the first and the latest message; None if they are not known."""

@@ -181,7 +181,8 @@ class McapFile(MessageSource):
         if record.opcode == Opcode.CHUNK or is_of_index:
             # Until its messages are found: readers pass over another opcode, and a head of zeros
             # is that of an empty chunk. The indexes behind it tell.
-            self._damaged = DamagedChunk(_chunk_of(record), self._index.get(record.start))
+            index = self._index.get(record.start)
+            self._damaged = DamagedChunk(_chunk_of(record), index, self._has_messages(index))
         try:
             descriptions, messages = self._parse_record(record, is_of_index)
         except DAMAGE:
@@ -207,6 +208,13 @@ class McapFile(MessageSource):
             return
         self._damaged = None  # a flipped bit makes a chunk of the index behind one
         self.report(f"the record before byte {record.end} is damaged")
+
+    def _has_messages(self, chunk: ChunkIndex | None) -> bool:
+        """Return False if a chunk has no messages, as far as the index of the file says."""
+        if not chunk or chunk.message_index_length or chunk.message_end_time:
+            return True
+        # A message may have the time 0, and not all writers write indexes of messages.
+        return not any(each.message_index_length for each in self._index.values())
 
     def _is_chunk_of_index(self, record: FileRecord) -> bool:
         """Return True for a record that the index has as a chunk."""
@@ -389,7 +397,7 @@ class McapFile(MessageSource):
         lost = [
             each
             for offset, each in self._index.items()
-            if start <= offset < end and DamagedChunk(None, each).has_messages
+            if start <= offset < end and self._has_messages(each)
         ]
         damage = f"bytes {start} to {end} are damaged"
         self.report(damage + self._describe_lost(lost), is_place=bool(lost))

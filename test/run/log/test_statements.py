@@ -5,8 +5,9 @@ import re
 from collections import Counter
 
 import pytest
-from log_files import BEGIN, Run, list_records
+from log_files import BEGIN, Run, list_records, write_mcap
 from mcap.opcode import Opcode
+from mcap.writer import IndexType
 from trials import seeds
 
 from symtop_ros.run.log.reader import McapFile
@@ -143,3 +144,16 @@ def test_a_log_whose_last_record_is_damaged_was_finished(good, tmp_path):
     assert problems == [
         "the log has no record of its end: messages after the last one, at 1.990 s, may be lost"
     ]
+
+
+@pytest.mark.parametrize("index", [IndexType.ALL, IndexType.CHUNK])
+def test_a_damaged_chunk_with_a_message_at_the_time_0_has_messages(index, tmp_path):
+    words = [("/words", "std_msgs/msg/String", [(0, bytes(500)), (10**9, bytes(500))])]
+    options = {"chunk_size": 400, "index_types": index}
+    data = write_mcap(tmp_path / "good.mcap", words, **options).read_bytes()
+    begin = next(b for kind, b, _ in list_records(data) if kind == Opcode.CHUNK)
+    data = data[: begin + 60] + b"\xff" + data[begin + 61 :]
+    problems, found = read(tmp_path, data)
+    assert len(found) == 1
+    lost = "its messages, of" if index == IndexType.CHUNK else "1 messages of"
+    assert problems[0].startswith(f"a chunk is damaged: {lost} 0.000 .. 0.000 s")
