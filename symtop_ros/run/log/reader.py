@@ -425,7 +425,7 @@ class McapFile(MessageSource):
         ending = self.metadata.get(ENDING, {})
         dropped = ending.get("dropped", "0")
         if dropped != "0":
-            self.report(f"{dropped} messages were dropped: the disk was too slow", is_place=False)
+            self.report(self._describe_dropped(dropped), is_place=False)
         self.losses += _read_repair(self.metadata.get(REPAIR, {}))
         if self.losses:
             return
@@ -439,6 +439,14 @@ class McapFile(MessageSource):
             has_index = self._footer and self._footer.summary_start
             what = "the log has no record of its end" if has_index else NOT_FINISHED
             self.report(f"{what}: {self._doubt_end()}")
+
+    def _describe_dropped(self, count: str) -> str:
+        """Return what the record of the end says, which may be damaged."""
+        if not count.isdecimal():
+            return "the record of the end of the log is damaged"
+        text = f"{count} messages were dropped: the disk was too slow"
+        is_doubtful = self._is_sound is False
+        return f"{text}, if the record of the end is not damaged" if is_doubtful else text
 
     def _find_shift(self) -> int:
         """Return how far the index is before its place; 0: no checksum proves it."""

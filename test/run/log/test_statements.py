@@ -157,3 +157,14 @@ def test_a_damaged_chunk_with_a_message_at_the_time_0_has_messages(index, tmp_pa
     assert len(found) == 1
     lost = "its messages, of" if index == IndexType.CHUNK else "1 messages of"
     assert problems[0].startswith(f"a chunk is damaged: {lost} 0.000 .. 0.000 s")
+
+
+DROPPED = "8 messages were dropped: the disk was too slow, if the record of the end is not damaged"
+COUNTS = [(b"8", DROPPED), (b"x", "the record of the end of the log is damaged")]
+
+
+@pytest.mark.parametrize(("count", "said"), COUNTS)
+def test_a_damaged_count_of_dropped_messages_is_not_a_fact(count, said, good, tmp_path):
+    head, key, rest = good.rpartition(b"dropped\x01\0\0\0")
+    problems, _ = read(tmp_path, head + key + count + rest[1:])
+    assert problems == [said]
