@@ -70,9 +70,10 @@ def _print_topics(account: Account, found: Findings) -> None:
             print(_row(topic.name, found.deviations[name]))
         else:
             print(f"{one_line(topic.name):{WIDTH}}{_describe_text(name, topic.count, found)}")
+    lacking = "it is not in what is left of the log" if account.losses else "it was never recorded"
     for name in account.never_recorded:
         if name not in account.topics:
-            print(f"{KNOWN[name].ros_name:{WIDTH}} not compared: it was never recorded")
+            print(f"{KNOWN[name].ros_name:{WIDTH}} not compared: {lacking}")
     others = sorted(map(one_line, account.others))
     if others:
         more = f" and {len(others) - MAX_OTHERS} more" if len(others) > MAX_OTHERS else ""

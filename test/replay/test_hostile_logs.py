@@ -131,7 +131,7 @@ def test_a_kick_that_cannot_be_read_is_a_change_of_the_motion_in_the_page(text, 
 
 # what is in no log of ours
 
-DAMAGED = "a chunk is damaged: all messages of"
+DAMAGED = "a chunk is damaged: its messages, of "
 
 
 def write_record(record):

@@ -17,7 +17,14 @@ from symtop_ros.base.arrays import Places, Stamps
 from symtop_ros.run.log.checksums import find_damage
 from symtop_ros.run.log.chronicle import Ordered, order_events
 from symtop_ros.run.log.contents import Contents, read_contents
-from symtop_ros.run.log.grid import Gap, Grid, GridFindings, Recording, list_recordings
+from symtop_ros.run.log.grid import (
+    Gap,
+    Grid,
+    GridFindings,
+    Recording,
+    list_absent_files,
+    list_recordings,
+)
 from symtop_ros.run.log.names import KNOWN, TELLING, Names, read_names
 from symtop_ros.run.log.reader import list_problems
 from symtop_ros.run.log.source import Loss, MessageSource
@@ -281,11 +288,15 @@ class _Conclusions:
         if not len(own):
             found = [stamps]
         else:
-            around = ((places < own[0], own_stamps[0]), (places > own[-1], own_stamps[-1]))
+            if (np.diff(stamps) > 0).all():  # places are those of a grid, and stamps are exact
+                before, after = stamps < own_stamps.min(), stamps > own_stamps.max()
+            else:
+                before, after = places < own[0], places > own[-1]
+            around = ((before, own_stamps[0]), (after, own_stamps[-1]))
             found = [stamps[a][np.abs(stamps[a] - s) > ROUNDING] for a, s in around]
         for absent in map(np.unique, found):
-            # A file may begin and end within a sample.
-            if (missing := len(absent) - bool(len(own))) > 0:
+            if len(absent):  # a file may begin and end within a sample
+                missing = len(absent) - bool(len(own))
                 yield Gap(int(absent[0]), int(absent[-1]), NOWHERE, missing)
 
     @cached_property
@@ -344,23 +355,40 @@ class _Conclusions:
         lines: dict[str, list[str]] = {}
         for name, topic in self._topics.items():
             if topic.missing:
-                widest = max(self._list_gaps(name), key=lambda gap: gap.after - gap.before)
-                text = (
-                    f"{topic.missing} samples are missing, most of them between {widest.before} "
-                    f"and {widest.after} ns; the node has counted {self._counted} as missed"
-                )
+                text = self._describe_missing(name, topic.missing)
                 lines.setdefault(text, []).append(name)
             if topic.repeated:
-                text = (
-                    f"{topic.repeated} samples are repeated: their stamps are not later than before"
-                )
+                count = _count_samples(topic.repeated)
+                text = f"{count} repeated: their stamps are not later than before"
                 lines.setdefault(text, []).append(name)
         yield from (f"{', '.join(names)}: {text}" for text, names in lines.items())
+
+    def _describe_missing(self, name: str, missing: int) -> str:
+        """Return how many samples of a topic are missing, at least, and where."""
+        found = self._list_gaps(name)
+        gaps = [gap for gap in found if gap.missing]
+        widest = max(gaps, key=lambda gap: gap.missing)
+        where = f"between {widest.before} and {widest.after} ns"
+        if 2 * widest.missing <= missing:
+            begin, end = min(gap.before for gap in gaps), max(gap.after for gap in gaps)
+            where = f"in {len(gaps)} gaps between {begin} and {end} ns"
+        elif len(gaps) > 1:
+            where = f"most of them {where}"
+        # Others may be at an event, in a gap that an event explains, or at an end of a file.
+        in_grid = self._found.get(name, GridFindings()).missing
+        is_open = any(gap.has_event or gap.place == NOWHERE for gap in found)
+        is_least = is_open or missing != in_grid
+        count = ("at least " if is_least else "") + _count_samples(missing)
+        return f"{count} missing, {where}; the node has counted {self._counted} as missed"
 
     def _list_notes(self, lacking: Sequence[str]) -> Iterator[str]:
         names = self._names
         if not any(self._contents.counts[name] for name in TELLING):
             return
+        if absent := list_absent_files(self._file):
+            what = "files" if len(absent) > 1 else "file"
+            are = "are" if len(absent) > 1 else "is"
+            yield f"{what} {', '.join(map(str, absent))} of the recording {are} not in the log"
         stated = [each for each in lacking if each in STATE_TOPICS or names.find_given(each)]
         if stated:
             yield f"the log has no {', no '.join(stated)}"
@@ -371,6 +399,11 @@ class _Conclusions:
             )
         missing = find_missing(self._ordered, self._proofs).values()
         yield from (each.describe() for each in missing if each.is_off)
+
+
+def _count_samples(count: int) -> str:
+    """Return a number of samples as the subject of a sentence, with its verb."""
+    return f"{count} sample{'s are' if count > 1 else ' is'}"
 
 
 def _cut(stamps: Stamps, places: Places, begin: int, end: int) -> tuple[Stamps, Places]:

@@ -22,6 +22,7 @@ from symtop_ros.run.log.writer import BEGUN_ENTRY, FILE_ENTRY, METADATA
 
 MCAP, SQLITE, ZSTD = ".mcap", ".db3", ".zstd"
 SUFFIXES = (MCAP, SQLITE, f"{MCAP}{ZSTD}", f"{SQLITE}{ZSTD}")
+MALFORMED = "malformed"  # in what SQLite says of a database that is damaged
 MAX_FILES = 10_000  # of one run
 
 
@@ -115,7 +116,10 @@ class SqliteBag(MessageSource):
         except OSError as error:
             raise LogError(f"cannot open {path}: {error.strerror}") from None
         except (sqlite3.Error, ValueError) as error:
-            kind = name_kind(path, f"not a bag of rosbag2 ({error})")
+            is_damaged = MALFORMED in str(error)
+            kind = name_kind(
+                path, "the bag is damaged" if is_damaged else f"not a bag of rosbag2 ({error})"
+            )
             raise LogError(f"cannot open {path}: {kind}") from None
 
     def _read(self) -> Iterator[list[Message]]:
@@ -123,18 +127,33 @@ class SqliteBag(MessageSource):
         messages: list[Message] = []
         # In the order in which they arrived: simulated times may go back.
         query = "SELECT topic_id, timestamp, data FROM messages ORDER BY id"
+        lost = 0
         try:
             for number, time, data in self._rows(query):
-                messages.append(Message(number, time, bytes(data), time, 0))
-                if len(messages) == MAX_MESSAGES:
+                is_readable = type(number) is type(time) is int and type(data) is bytes
+                if len(messages) == MAX_MESSAGES or (lost and is_readable):
                     yield messages
                     messages = []
-        except (sqlite3.Error, ValueError, TypeError) as error:
+                    lost = self._report_rows(lost)
+                if is_readable:
+                    messages.append(Message(number, time, data, time, 0))
+                lost += not is_readable
+        except (sqlite3.Error, ValueError) as error:
             yield messages
             messages = []
+            lost = self._report_rows(lost)
             self.report(f"the bag is damaged after the messages that were read: {error}")
         self.offset = self.size
         yield messages
+        self._report_rows(lost)
+
+    def _report_rows(self, lost: int) -> int:
+        """Report rows without a readable message; return 0, those that are left to report."""
+        if lost:
+            self.report(
+                f"{lost} row{'s' if lost > 1 else ''} without a message: the bag is damaged"
+            )
+        return 0
 
     def _rows(self, query: str) -> Iterator[tuple[Any, ...]]:
         # Immutable: without locks and files next to the bag, whose disk may be read-only. But a

@@ -16,16 +16,15 @@ from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Chunk, DataEnd, Footer
 
+from symtop_ros.run.log.message_index import Entry, read_entries
 from symtop_ros.run.log.reader import (
     CHECKSUM,
     DAMAGE,
     HELD,
-    INDEX_HEAD,
     MAGIC,
     MESSAGE_START,
     PIECE,
     RECORD_START,
-    DamageError,
     McapFile,
     RecordPlaces,
     fits,
@@ -36,8 +35,7 @@ from symtop_ros.run.log.reader import (
 )
 from symtop_ros.run.log.source import MessageSource
 
-Index = dict[int, list[tuple[int, int]]]  # log time and offset of each message, by channel
-ENTRY = struct.Struct("<QQ")  # of an index: log time and offset
+Index = dict[int, list[Entry]]  # log time and offset of each message, by channel
 FOOTER_HEAD = struct.Struct("<BQQQ")  # of which the checksum of the summary is taken, too
 
 
@@ -66,7 +64,7 @@ def read_damage(path: Path) -> list[str]:
             else:
                 found.pass_over(opcode, head, file, length)
             if opcode == Opcode.FOOTER:
-                found.end(file.read())
+                found.end(file.read(len(MAGIC)), size - file.tell())
     if found.in_summary:  # a damaged length leads past the footer, or past the end of the file
         found.problems.append("the summary is damaged: it has no end")
     return found.problems
@@ -130,11 +128,8 @@ class Walk:
                 self._found = {}
                 self._expected = _index(data)
             case Opcode.MESSAGE_INDEX:
-                channel, size = INDEX_HEAD.unpack_from(data)
-                if size > len(data) - INDEX_HEAD.size:
-                    raise DamageError("the entries are more than the record has")
-                entries = memoryview(data)[INDEX_HEAD.size : INDEX_HEAD.size + size]
-                self._found[channel] = [*ENTRY.iter_unpack(entries)]
+                channel, entries = read_entries(data)
+                self._found[channel] = entries
             case Opcode.ATTACHMENT:
                 read_attachment(data)
             case Opcode.DATA_END:
@@ -160,11 +155,13 @@ class Walk:
         if footer.summary_crc and footer.summary_crc != zlib.crc32(head, self.checksum):
             self.problems.append("the checksum of the summary is not that of its bytes")
 
-    def end(self, rest: bytes) -> None:
-        """Take what follows the footer."""
+    def end(self, last: bytes, more: int) -> None:
+        """Take what follows the footer, and the number of bytes behind it."""
         self.in_summary = False
-        if rest != MAGIC:
+        if last != MAGIC:
             self.problems.append("the last bytes are not those of an MCAP file")
+        elif more:
+            self.problems.append(f"{more} bytes behind the end of the log are not read")
 
 
 def _index(data: bytes) -> Index | None:

@@ -18,14 +18,16 @@ from symtop_ros.run.log.batch import TF
 from symtop_ros.run.log.chronicle import Chronicle, Ordered
 from symtop_ros.run.log.source import MessageSource
 from symtop_ros.run.log.stamps import StampRows
-from symtop_ros.run.log.writer import BEGUN_ENTRY, METADATA
+from symtop_ros.run.log.writer import BEGUN_ENTRY, FILE_ENTRY, METADATA
 from symtop_ros.run.simulation.events import MAX_STAMP, WHOLE, Event
 from symtop_ros.run.wire.layout import NANOSECONDS
 
 Empty = tuple[int, int, int]  # number of an event, and two stamps in ns
 MIN_RATE, MAX_RATE = 1e-3, 1e6  # Hz; a log may be hostile
 RATE, TF_SWITCH, OWN_TIME = "publish_rate", "publish_tf", "publish_clock"
+OFF_GRID = "clock", "pause", "resume", "step", "record"  # events
 BEGUN = "begun"  # the outcome of an event with which a recording begins
+MAX_FILES = 1000  # of a recording whose numbers are compared
 WIDE = 1.5  # periods: neighbours that are further apart have lost samples
 
 
@@ -37,6 +39,7 @@ class Gap:
     after: int
     place: int  # in the log, right behind the earlier one
     missing: int  # samples
+    has_event: bool = False  # True if an event in it may have had samples off the grid
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +83,17 @@ def list_recordings(file: MessageSource) -> list[Recording]:
     return list(found.values())
 
 
+def list_absent_files(file: MessageSource) -> list[int]:
+    """Return the numbers of files of a recording that are not there, but for those after all."""
+    found: dict[str, set[int]] = {}
+    for each in file.files:
+        values = each.metadata.get(METADATA, {})
+        number = values.get(FILE_ENTRY, "")
+        if BEGUN_ENTRY in values and WHOLE.fullmatch(number) and int(number) <= MAX_FILES:
+            found.setdefault(values[BEGUN_ENTRY], set()).add(int(number))
+    return sorted({n for there in found.values() for n in {*range(1, max(there))} - there})
+
+
 class Grid:
     """The grid of stamps of a log."""
 
@@ -96,6 +110,7 @@ class Grid:
         self._jumps = _find_jumps(ordered)
         # Of each event, and at the end, for owner -1, of what is before all of them.
         self._runs = np.array([*ordered.runs, *ordered.runs[:1]], dtype=np.int64)
+        self._changes = {k for k, event in enumerate(ordered.events) if _changes_grid(event)}
         self._empty = sorted(empty)
         self._empty_of_tf = sorted([*empty, *_list_times_without_tf(ordered.events)])
 
@@ -155,7 +170,13 @@ class Grid:
             numbers = slice(*(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, last)))
             lost = end - begin - _measure(empty[numbers], begin, end)
             if (missing := round(lost / step) - 1) > 0:
-                yield Gap(begin, end, place, missing)
+                has_event = any(number in self._changes for number in range(owner + 1, last + 1))
+                yield Gap(begin, end, place, missing, has_event)
+
+
+def _changes_grid(event: Event) -> bool:
+    """Return True if samples may be off the grid at an event."""
+    return event.name in OFF_GRID or RATE in event.request
 
 
 def _measure(intervals: Iterable[Empty], begin: int, end: int) -> int:

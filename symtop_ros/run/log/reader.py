@@ -8,7 +8,7 @@ import json
 import struct
 import zlib
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -35,9 +35,11 @@ from mcap.records import (
     Metadata,
     MetadataIndex,
     Schema,
+    Statistics,
 )
 
 from symtop_ros.base.refusals import one_line
+from symtop_ros.run.log.message_index import INDEX_HEAD, DamagedChunk, DamageError
 from symtop_ros.run.log.source import Loss, MessageSource, decompress, name_kind
 from symtop_ros.run.log.writer import ENDING, METADATA, REPAIR, REPAIR_LOSSES
 
@@ -56,23 +58,25 @@ Span = tuple[int, int, int]
 Contents = tuple[list[Description], Iterator[Message]]  # of a record
 PARSED_IN_CHUNK: dict[int, Parse] = {Opcode.SCHEMA: Schema.read, Opcode.CHANNEL: Channel.read}
 PARSED: dict[int, Parse] = {**PARSED_IN_CHUNK, Opcode.METADATA: Metadata.read}
-SUMMARY = (Opcode.SCHEMA, Opcode.CHANNEL, Opcode.CHUNK_INDEX, Opcode.METADATA_INDEX)
+SUMMARY = (
+    Opcode.SCHEMA,
+    Opcode.CHANNEL,
+    Opcode.STATISTICS,
+    Opcode.CHUNK_INDEX,
+    Opcode.METADATA_INDEX,
+)
 # Records whose content is read; the others may have any length that the file has.
 HELD = frozenset((*PARSED, Opcode.MESSAGE, Opcode.MESSAGE_INDEX, Opcode.CHUNK))
-ENDS = (Opcode.DATA_END, Opcode.FOOTER)
+END_SIZE = 4  # bytes of the record at the end of the data: their checksum
 CHECKSUM = struct.Struct("<I")  # behind the bytes of an attachment; 0: without it
-INDEX_HEAD = struct.Struct("<HI")  # channel, and bytes of the entries of 16 bytes each
 MAX_DESCRIPTIONS = 64 * 2**20  # bytes of schemas, channels and metadata in memory
 MAX_PROBLEMS = 20  # problems that are listed
+NOT_FINISHED = "the recording was not finished"
 LOST_BEFORE = "lost before a repair: "
 
 
 class LogError(ValueError):
     """A log that cannot be read or written; the text says why."""
-
-
-class DamageError(Exception):
-    """A record that contradicts itself."""
 
 
 # What reading a damaged record can raise: mcap and `struct` for one that is cut, a text that is not
@@ -120,8 +124,13 @@ class McapFile(MessageSource):
         super().__init__(path)
         self.profile = ""  # "ros2" for logs of ROS 2
         self._span: tuple[int, int] | None = None  # log times of the first and latest message
-        self._chunk_offsets: list[int] = []  # as the index has them
-        self._chunks: list[int] = []  # those at which a chunk begins, in their order
+        self._index: dict[int, ChunkIndex] = {}  # by the offsets of the chunks, as the file has it
+        self._chunks: list[int] = []  # offsets at which a chunk begins, in their order
+        self._footer: Footer | None = None  # None: the file has no end
+        self._counted = 0  # messages, as the index counts them
+        self._found = 0  # messages that were read
+        self._data_end = 0  # offset of the index, by reading up to it; 0: it was not reached
+        self._damaged: DamagedChunk | None = None  # the latest chunk, if it has no messages
         self._described = 0  # bytes of all descriptions, about
         with log_errors("open", path), path.open("rb") as file:
             self.size = file.seek(0, 2)
@@ -133,48 +142,84 @@ class McapFile(MessageSource):
     def attachments(self) -> Iterator[Attachment]:
         """Yield the attachments that can be read, one at a time in memory."""
         with log_errors("read", self.path), self.path.open("rb") as file:
-            for record in self._records_at(file, len(MAGIC), Opcode.ATTACHMENT):
-                with suppress(*DAMAGE):
-                    yield read_attachment(record.data)
+            for record in self._records(file, {Opcode.ATTACHMENT}):
+                if record.opcode == Opcode.ATTACHMENT:
+                    with suppress(*DAMAGE):
+                        yield read_attachment(record.data)
+
+    def list_metadata(self) -> Iterator[tuple[str, dict[str, str]]]:
+        """Yield the name and the values of each metadata record; names may be there twice."""
+        names = set()
+        with log_errors("read", self.path), self.path.open("rb") as file:
+            for record in self._records(file, {Opcode.METADATA}):
+                if record.opcode == Opcode.METADATA:
+                    with suppress(*DAMAGE):
+                        found: Metadata = Metadata.read(open_stream(record.data))
+                        names.add(found.name)
+                        yield found.name, found.metadata
+        # in bytes that are damaged, found by the index
+        yield from (each for each in self.metadata.items() if each[0] not in names)
 
     def _read(self) -> Iterator[list[Message]]:
         """Yield messages in the order of the file, those of a chunk together."""
         with log_errors("read", self.path), self.path.open("rb") as file:
-            file.seek(len(MAGIC))
-            damaged: list[Chunk] = []
-            lost = 0
-            for record in self._records(file):
+            self._damaged = None
+            self._found = self._data_end = 0
+            for record in self._records(file, HELD, self._report_gap):
                 self.offset = record.end
-                if damaged and record.opcode == Opcode.MESSAGE_INDEX:
-                    lost += max(0, len(record.data) - INDEX_HEAD.size) // 16
+                if self._damaged and record.opcode == Opcode.MESSAGE_INDEX:
+                    self._damaged.add(record.data, record.end - record.start)
                     continue
-                self._report_damage(damaged, lost)
-                lost = 0
-                if problem := self._find_fault(record):
-                    self.report(problem)
-                    continue
-                try:
-                    descriptions, messages = _contents(record)
-                except DAMAGE:
-                    chunk = _chunk_of(record)
-                    damaged += chunk
-                    if not chunk:  # its times are not readable either
-                        self.report(f"the record before byte {record.end} is damaged")
-                    continue
-                self._describe(descriptions)
-                yield from self._runs(messages)
-            self._report_damage(damaged, lost)
+                self._report_damage()
+                yield from self._read_record(record)
+            self._report_damage()
         self._report_ending()
 
-    def _find_fault(self, record: FileRecord) -> str:
-        """Return what is wrong in a record whose type a flipped bit may have changed."""
-        if record.opcode != Opcode.CHUNK and record.start in self._chunk_offsets:
-            # Readers would pass over it.
-            return f"the chunk before byte {record.end} is damaged"
-        is_between = record.opcode == Opcode.MESSAGE and self._chunk_offsets
-        if is_between and not self._is_message(record.data):
-            return "a record between chunks is damaged"
-        return ""
+    def _read_record(self, record: FileRecord) -> Iterator[list[Message]]:
+        """Yield the messages of a record, and report or note its damage."""
+        is_of_index = self._is_chunk_of_index(record)
+        if record.opcode == Opcode.CHUNK or is_of_index:
+            # Until its messages are found: readers pass over another opcode, and a head of zeros
+            # is that of an empty chunk. The indexes behind it tell.
+            index = self._index.get(record.start)
+            self._damaged = DamagedChunk(_chunk_of(record), index, self._has_messages(index))
+        try:
+            descriptions, messages = self._parse_record(record, is_of_index)
+        except DAMAGE:
+            self._note_damage(record, is_of_index)
+            return
+        self._describe(descriptions)
+        found = self._found
+        yield from self._runs(messages)
+        if self._found > found:
+            self._damaged = None
+
+    def _parse_record(self, record: FileRecord, is_of_index: bool) -> Contents:
+        """Return the contents; DamageError for a record whose kind a flipped bit has changed."""
+        if is_of_index and record.opcode != Opcode.CHUNK:
+            raise DamageError("not a chunk")
+        if record.opcode == Opcode.MESSAGE and self._index and not self._is_message(record.data):
+            raise DamageError("not a message")
+        return _contents(record)
+
+    def _note_damage(self, record: FileRecord, is_of_index: bool) -> None:
+        if self._damaged and (is_of_index or not self._index):
+            self._damaged.is_certain = True
+            return
+        self._damaged = None  # a flipped bit makes a chunk of the index behind one
+        self.report(f"the record before byte {record.end} is damaged")
+
+    def _has_messages(self, chunk: ChunkIndex | None) -> bool:
+        """Return False if a chunk has no messages, as far as the index of the file says."""
+        if not chunk or chunk.message_index_length or chunk.message_end_time:
+            return True
+        # A message may have the time 0, and not all writers write indexes of messages.
+        return not any(each.message_index_length for each in self._index.values())
+
+    def _is_chunk_of_index(self, record: FileRecord) -> bool:
+        """Return True for a record that the index has as a chunk."""
+        index = self._index.get(record.start)
+        return index is not None and index.chunk_length == record.end - record.start
 
     def _is_message(self, data: bytes) -> bool:
         """Return False for a record between chunks that is no message for certain.
@@ -194,7 +239,10 @@ class McapFile(MessageSource):
             for record in self._records_at(file, len(MAGIC), Opcode.DATA_END):
                 with suppress(*DAMAGE):
                     checksum = DataEnd.read(open_stream(record.data)).data_section_crc
-                    return checksum in _checksums(file, record.start) if checksum else None
+                    # Writers differ in whether the first bytes of the file belong to the data.
+                    starts = (0, zlib.crc32(MAGIC))
+                    sums = (_sum_up(file, len(MAGIC), record.start, each) for each in starts)
+                    return checksum in sums if checksum else None
         return None
 
     def since_start(self, log_time: int) -> float:
@@ -209,8 +257,9 @@ class McapFile(MessageSource):
         with suppress(*DAMAGE):
             place = max(len(MAGIC), self.size - FOOTER_SIZE)
             for footer in islice(self._records_at(file, place, Opcode.FOOTER), 1):
-                self._read_index(file, Footer.read(open_stream(footer.data)).summary_start)
-        self._chunks = sorted(each for each in self._chunk_offsets if self._has_chunk(file, each))
+                self._footer = Footer.read(open_stream(footer.data))
+                self._read_index(file, self._footer.summary_start)
+        self._chunks = sorted(each for each in self._index if self._has_chunk(file, each))
 
     def _read_index(self, file: BinaryIO, start: int) -> None:
         """Read descriptions and places of chunks from an offset on; 0: the file lacks them."""
@@ -219,7 +268,10 @@ class McapFile(MessageSource):
             for record in self._records_at(file, start, *SUMMARY):
                 stream = open_stream(record.data)
                 if record.opcode == Opcode.CHUNK_INDEX:
-                    self._chunk_offsets.append(ChunkIndex.read(stream).chunk_start_offset)
+                    index = ChunkIndex.read(stream)
+                    self._index[index.chunk_start_offset] = index
+                elif record.opcode == Opcode.STATISTICS:
+                    self._counted = Statistics.read(stream).message_count
                 elif record.opcode == Opcode.METADATA_INDEX:
                     metadata.append(MetadataIndex.read(stream).offset)
                 else:
@@ -246,26 +298,41 @@ class McapFile(MessageSource):
             if opcode in wanted:
                 yield FileRecord(opcode, file.read(length), start, place)
 
-    def _records(self, file: BinaryIO) -> Iterator[FileRecord]:
+    def _records(
+        self,
+        file: BinaryIO,
+        held: Container[int],  # the kinds of which the content is read
+        report: Callable[..., None] = lambda *_: None,
+    ) -> Iterator[FileRecord]:
         """Yield all records of the data; damaged bytes are skipped with the help of the index."""
+        file.seek(len(MAGIC))
         while True:
             start = file.tell()
             opcode, length = _read_head(file)
             following = self._list_following(start)
             # Damaged bytes may have any opcode, but no end is at or before a chunk of the index.
-            is_end = opcode in ENDS and start not in self._chunk_offsets
+            is_end = start not in self._index and self._is_end(opcode, length, file.tell())
             if is_end and not following:
+                self._data_end = file.tell() + length
                 return
             if is_end or not opcode or not self._fits(opcode, length, file.tell()):
-                self._report_gap(start, *following)
+                report(start, *following)
                 if not following:
                     return
                 file.seek(following[0])
             else:
                 end = file.tell() + length
-                data = file.read(length) if opcode in HELD else b""
+                data = file.read(length) if opcode in held else b""
                 file.seek(end)
                 yield FileRecord(opcode, data, start, end)
+
+    def _is_end(self, opcode: int, length: int, begin: int) -> bool:
+        """Return True for the end of the data, whose content begins at an offset."""
+        if opcode == Opcode.FOOTER:
+            return begin + length == self.size - len(MAGIC)
+        starts = (self.size - FOOTER_SIZE, self._footer.summary_start) if self._footer else ()
+        # A record may have further bytes.
+        return opcode == Opcode.DATA_END and (length == END_SIZE or begin + length in starts)
 
     def _fits(self, opcode: int, length: int, begin: int) -> bool:
         """Return True if a record of a length in bytes may begin at an offset with its content."""
@@ -300,42 +367,109 @@ class McapFile(MessageSource):
     def _runs(self, messages: Iterator[Message]) -> Iterator[list[Message]]:
         while run := list(islice(messages, MAX_MESSAGES)):
             self._span = self._span[0] if self._span else run[0].log_time, run[-1].log_time
+            self._found += len(run)
             yield run
 
-    def _report_damage(self, damaged: list[Chunk], lost: int) -> None:
-        """Report the time range of chunks that cannot be decompressed, and forget them."""
-        for chunk in damaged:
-            if self._span is None:
-                self._span = chunk.message_start_time, chunk.message_start_time
-            first, last = map(self.since_start, (chunk.message_start_time, chunk.message_end_time))
-            count = f"{lost} messages" if lost else "all messages"
-            self.report(f"a chunk is damaged: {count} of {first:.3f} .. {last:.3f} s are lost")
-        damaged.clear()
+    def _report_damage(self) -> None:
+        """Report the latest chunk if its messages are lost, and forget it."""
+        chunk, self._damaged = self._damaged, None
+        if chunk and (chunk.is_certain or chunk.count):
+            self._begin_time(chunk.find_span())
+            text = chunk.describe(self.since_start)
+            self.report(text, is_place=chunk.has_messages)
+
+    def _begin_time(self, span: tuple[int, int] | None) -> None:
+        """Let the time of the log begin with messages that are lost if they are the first ones."""
+        if self._span is None and span:
+            self._span = span[0], span[0]
 
     def _report_gap(self, start: int, onward: int | None = None) -> None:
         """Report bytes that cannot be read, up to the next chunk or to the end of the file."""
-        latest = self.since_start(self._span[1]) if self._span else 0.0
-        if onward is None:
+        if self._damaged:
+            self._damaged.is_cut = True
+            self._report_damage()
+        summary = self._footer.summary_start if self._footer else 0
+        if onward is None and not self._has_sound_index:
             where = f"the file ends or is unreadable at byte {start} of {self.size}"
-            self.report(f"{where}: messages after {latest:.3f} s are lost")
+            self.report(f"{where}: {self._doubt_end()}")
             return
-        lost = sum(start <= each < onward for each in self._chunk_offsets)
-        chunks = "a chunk" if lost == 1 else f"{lost} chunks"
-        what = f": after {latest:.3f} s the messages of {chunks} are lost" if lost else ""
-        self.report(f"bytes {start} to {onward} are damaged{what}")
+        end = onward or (summary if start < summary else self.size)
+        lost = [
+            each
+            for offset, each in self._index.items()
+            if start <= offset < end and self._has_messages(each)
+        ]
+        damage = f"bytes {start} to {end} are damaged"
+        self.report(damage + self._describe_lost(lost), is_place=bool(lost))
+
+    def _doubt_end(self) -> str:
+        """Return that the log may have had further messages."""
+        if self._span is None:
+            return "all messages may be lost"
+        latest = self.since_start(self._span[1])
+        return f"messages after the last one, at {latest:.3f} s, may be lost"
+
+    def _describe_lost(self, chunks: Sequence[ChunkIndex]) -> str:
+        """Return that chunks of the index are lost, with their times; nothing without any."""
+        if not chunks:
+            return ""
+        first = min(each.message_start_time for each in chunks)
+        last = max(each.message_end_time for each in chunks)
+        self._begin_time((first, last))
+        times = f"{self.since_start(first):.3f} .. {self.since_start(last):.3f} s"
+        are = "a chunk is" if len(chunks) == 1 else f"{len(chunks)} chunks are"
+        return f": {are} lost, with messages of {times}"
 
     def _report_ending(self) -> None:
         """Report what the recorder noted itself, if symtop_ros wrote the log, and what a repair."""
         ending = self.metadata.get(ENDING, {})
         dropped = ending.get("dropped", "0")
         if dropped != "0":
-            self.report(f"{dropped} messages were dropped: the disk was too slow", is_place=False)
+            self.report(self._describe_dropped(dropped), is_place=False)
         self.losses += _read_repair(self.metadata.get(REPAIR, {}))
-        if METADATA in self.metadata and not ending and not self.losses:
-            latest = self.since_start(self._span[1]) if self._span else 0.0
-            self.report(
-                f"the recording was not finished: messages after {latest:.3f} s are missing"
-            )
+        if self.losses:
+            return
+        if self._found < self._counted and self._has_sound_index:
+            missing = self._counted - self._found
+            self.report(f"{missing} of {self._counted} messages that the index counts are missing")
+        elif shift := self._find_shift():
+            lost = f"{shift} bytes before the index are missing: messages may be lost"
+            self.report(lost if shift > 0 else f"{-shift} bytes were inserted before the index")
+        elif METADATA in self.metadata and not ending:
+            has_index = self._footer and self._footer.summary_start
+            what = "the log has no record of its end" if has_index else NOT_FINISHED
+            self.report(f"{what}: {self._doubt_end()}")
+
+    def _describe_dropped(self, count: str) -> str:
+        """Return what the record of the end says, which may be damaged."""
+        if not count.isdecimal():
+            return "the record of the end of the log is damaged"
+        text = f"{count} messages were dropped: the disk was too slow"
+        is_doubtful = self._is_sound is False
+        return f"{text}, if the record of the end is not damaged" if is_doubtful else text
+
+    def _find_shift(self) -> int:
+        """Return how far the index is before its place; 0: no checksum proves it."""
+        if not self._footer or not self._footer.summary_start or not self._data_end:
+            return 0
+        shift = self._footer.summary_start - self._data_end
+        return shift if shift and self._verify_index(self._data_end) else 0
+
+    @cached_property
+    def _has_sound_index(self) -> bool:
+        """True if the file has an index, with the checksum of its bytes if it has one."""
+        begin = self._footer.summary_start if self._footer else 0
+        is_unsigned = self._footer and not self._footer.summary_crc
+        return bool(self._index) and bool(is_unsigned or self._verify_index(begin))
+
+    def _verify_index(self, begin: int) -> bool:
+        """Return True if the bytes from an offset on are those of the checksum of the index."""
+        if self._footer is None:
+            return False
+        with self.path.open("rb") as file:
+            # The checksum is taken of the footer, too, up to itself.
+            end = self.size - len(MAGIC) - CHECKSUM.size
+            return self._footer.summary_crc == _sum_up(file, begin, end)
 
 
 def _read_repair(values: Mapping[str, str]) -> list[Loss]:
@@ -347,18 +481,12 @@ def _read_repair(values: Mapping[str, str]) -> list[Loss]:
     return []
 
 
-def _checksums(file: BinaryIO, end: int) -> tuple[int, int]:
-    """Return the checksums of the bytes before an offset, with and without the first of the file.
-
-    Writers differ in whether the first bytes of the file belong to the data.
-    """
-    file.seek(0)
-    head = file.read(len(MAGIC))
-    whole = zlib.crc32(head)
-    rest = 0
-    while part := file.read(min(PIECE, end - file.tell())):
-        whole, rest = zlib.crc32(part, whole), zlib.crc32(part, rest)
-    return whole, rest
+def _sum_up(file: BinaryIO, begin: int, end: int, checksum: int = 0) -> int:
+    """Return the checksum of bytes of a file, continued from one of bytes before them."""
+    file.seek(begin)
+    while part := file.read(max(0, min(PIECE, end - file.tell()))):
+        checksum = zlib.crc32(part, checksum)
+    return checksum
 
 
 def open_stream(data: bytes) -> ReadDataStream:
@@ -384,12 +512,13 @@ def _size(description: Description) -> int:
     return 500 + sum(len(key) + len(value) for key, value in description.metadata.items())
 
 
-def _chunk_of(record: FileRecord) -> list[Chunk]:
-    """Return the chunk in a list, for its times, or an empty list for another record."""
+def _chunk_of(record: FileRecord) -> Chunk | None:
+    """Return the chunk of a record, for its times; None if they cannot be read."""
     with suppress(*DAMAGE):
         if record.opcode == Opcode.CHUNK:
-            return [Chunk.read(open_stream(record.data))]
-    return []
+            chunk: Chunk = Chunk.read(open_stream(record.data))
+            return chunk
+    return None
 
 
 def _contents(record: FileRecord) -> Contents:

@@ -69,8 +69,8 @@ def _copy(file: McapFile, writer: Writer, losses: Sequence[Loss]) -> Repaired:
         writer.add_attachment(
             each.create_time, each.log_time, each.name, each.media_type, each.data
         )
-    metadata = {name: values for name, values in file.metadata.items() if name != REPAIR}
-    for name, values in metadata.items():
+    metadata = [each for each in file.list_metadata() if each[0] != REPAIR]
+    for name, values in metadata:
         writer.add_metadata(name, values)
     if losses:
         lost = json.dumps([asdict(_move(each, left_out)) for each in losses])

@@ -161,7 +161,7 @@ def test_samples_that_the_node_has_counted_as_missed_are_no_error(memory, counte
     last = memory.messages[memory.places("/diagnostics")[-1]]
     last.data = set_missed(last.data, counted)
     memory.messages = [each for k, each in enumerate(memory.messages) if k not in lost]
-    expected = "orientation: 20 samples are missing, most of them between "
+    expected = "orientation: 20 samples are missing, between "
     expected += f"{before - PERIOD} and {after + PERIOD} ns; the node has counted 19 as missed"
     assert judge(memory)[0].problems == ((expected,) if counted == 19 else ())
 

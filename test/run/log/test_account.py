@@ -1,9 +1,12 @@
 """The account of logs of other writers, and of logs that are odd and sound."""
 
+import random
+import re
 import struct
 from dataclasses import replace
 
 import pytest
+from log_files import list_records
 from mcap.data_stream import RecordBuilder
 from mcap.opcode import Opcode
 from mcap.reader import make_reader
@@ -11,11 +14,12 @@ from mcap.records import Attachment, Message, Metadata
 from mcap.writer import Writer
 from run.log.damaged import Log, Recorded, zero_chunk
 from run.log.variants import INPUTS, list_variants, write_variant
+from trials import seeds
 
 from symtop_ros.run.log.account import read_account
 from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.log.names import Names
-from symtop_ros.run.log.reader import LogError, McapFile
+from symtop_ros.run.log.reader import RECORD_START, LogError, McapFile
 from symtop_ros.run.log.repair import repair
 from symtop_ros.run.log.top_log import TopLog
 
@@ -217,3 +221,84 @@ def test_diagnostics_after_a_loss_prove_that_no_event_was_lost(log, tmp_path):
     assert account.stretches[-1].end == account.end + 1 == 2_500_000_001
     assert 0 <= account.stretches[0].begin < account.stretches[0].end == 1_210_000_000
     assert account.topics["orientation"].rate == 100.0
+
+
+MISSING = re.compile(
+    r"(.*): (at least )?(\d+) samples? (?:is|are) missing, (most of them |in (\d+) gaps )?"
+    r"between (\d+) and (\d+) ns; the node has counted 0 as missed"
+)
+
+
+@pytest.mark.parametrize("seed", seeds(2, 100))
+def test_samples_are_said_to_be_missing_where_they_are(seed, log, tmp_path):
+    rng = random.Random(seed)
+    topic = rng.choice(("orientation", "torque"))
+    places = log.places(f"/{topic}")
+    lost = set()
+    for _ in range(rng.randrange(1, 6)):
+        begin = rng.randrange(len(places))
+        lost |= {*places[begin : begin + rng.choice((1, 2, 10, 40))]}
+    _, account = account_of(log.without(lost).write(tmp_path / "run.mcap"))
+    stamps = [log.messages[k].log_time for k in sorted(lost)]
+    if not account.problems:  # the first sample, the last one or both may never have been recorded
+        assert lost <= {places[0], places[-1]}
+        return
+    name, is_least, count, way, gaps, *ends = MISSING.fullmatch(*account.problems).groups()
+    first, last = map(int, ends)
+    inside = sum(first <= each <= last for each in stamps)
+    at_an_end = bool(lost & {places[0], places[-1]})
+    assert name == topic
+    assert bool(is_least) == at_an_end
+    assert int(count) in range(len(lost) - 2 * at_an_end, len(lost) + 1)
+    if gaps:
+        assert int(gaps) > 1
+    assert (2 * inside > int(count)) if way == "most of them " else (inside >= int(count))
+
+
+def test_attachments_behind_damage_are_repaired(log, tmp_path):
+    path = tmp_path / "run.mcap"
+    note = Attachment(
+        create_time=0, log_time=0, name="note", media_type="text/plain", data=b"hello"
+    )
+    replace(log, attachments=[note]).write(path)
+    data = bytearray(path.read_bytes())
+    begin = [begin for kind, begin, _ in list_records(data) if kind == Opcode.CHUNK][2]
+    data[begin - RECORD_START.size] = 0
+    path.write_bytes(data)
+    file, account = account_of(path)
+    assert "a chunk is lost" in account.problems[0]
+    assert repair(file, tmp_path / "whole.mcap", account).attachments == 1
+    assert [each.data for each in McapFile(tmp_path / "whole.mcap").attachments()] == [b"hello"]
+
+
+def test_metadata_of_one_name_are_repaired_one_and_all(log, tmp_path):
+    path = tmp_path / "run.mcap"
+    with path.open("xb") as stream:
+        writer = Writer(stream)
+        writer.start("ros2")
+        numbers = {n: log.register(writer, each) for n, each in log.channels.items()}
+        for value in ("one", "other"):
+            writer.add_metadata("notes", {"note": value})
+        for each in log.messages:
+            writer.add_message(numbers[each.channel_id], each.log_time, each.data, 0)
+        writer.finish()
+    file, account = account_of(path)
+    repair(file, tmp_path / "whole.mcap", account)
+    found = [*McapFile(tmp_path / "whole.mcap").list_metadata()]
+    assert found == [("notes", {"note": "one"}), ("notes", {"note": "other"})]
+
+
+@pytest.mark.parametrize("lost", [0, 1, 2, None])
+def test_a_file_of_a_recording_that_is_not_there_is_named(lost, log, tmp_path):
+    third = len(log.messages) // 3
+    paths = []
+    for number in {0, 1, 2} - {lost}:
+        about = log.metadata | {
+            "symtop_ros": log.metadata["symtop_ros"] | {"file": f"{number + 1}"}
+        }
+        part = replace(log, messages=log.messages[number * third :][:third], metadata=about)
+        paths.append(part.write(tmp_path / f"{number}.mcap"))
+    account = TopLog(open_run(paths)).account
+    # The last one may never have been.
+    expected = [] if lost in (2, None) else [f"file {lost + 1} of the recording is not in the log"]
+    assert [each for each in account.notes if each.startswith("file")] == expected

@@ -5,6 +5,7 @@ import itertools
 import shutil
 import sqlite3
 import tempfile
+from contextlib import closing
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -13,7 +14,7 @@ import pytest
 import yaml
 import zstandard
 from exact_log import assert_agrees, compare_samples
-from log_files import BEGIN, Run, topic
+from log_files import BEGIN, Run, topic, write_mcap
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
@@ -96,6 +97,18 @@ def test_topics_that_were_never_recorded_are_named_and_only_strict_readers_mind(
     assert "/diagnostics                 not compared: it was never recorded\n" in out
     said = "topics are recognised by their types and the ends of their names: "
     assert f"top_replay: {said}" in err
+
+
+def test_a_topic_of_which_a_cut_log_has_nothing_is_not_said_to_be_never_recorded(tmp_path, capsys):
+    topics = [(topic(n), TYPES[n], [m[1:] for m in RUN.messages if m[0] == n]) for n in TYPES]
+    path = write_mcap(tmp_path / "run.mcap", topics, chunk_size=20_000)
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    assert module.main([str(path), "--check"]) == 1
+    out, _ = capsys.readouterr()
+    assert "the log ends early\n" in out
+    assert (
+        "/diagnostics                 not compared: it is not in what is left of the log\n" in out
+    )
 
 
 def test_damage_is_reported_with_the_name_of_its_file(tmp_path):
@@ -400,3 +413,26 @@ def test_a_wrong_number_is_found_although_the_clock_went_back(late, tmp_path, ca
     assert "the samples DO NOT agree" in capsys.readouterr().out
     deviations = compare_samples(TopLog(open_run([folder])))
     assert [name for name, each in deviations.items() if each.differing] == ["orientation"]
+
+
+def test_rows_of_a_bag_without_a_message_lose_those_messages_and_no_others(tmp_path):
+    (file,) = parts(tmp_path, 1, StoragePlugin.SQLITE3)
+    whole = TopLog(open_run([file])).file
+    count = sum(map(len, whole.chunks()))
+    with closing(sqlite3.connect(file)) as database:
+        database.execute("UPDATE messages SET data = 'text' WHERE id IN (100, 101, 300)")
+        database.commit()
+    damaged = open_run([file])
+    assert sum(map(len, damaged.chunks())) == count - 3
+    said = [(each.text, each.place) for each in damaged.losses]
+    assert said == [
+        ("2 rows without a message: the bag is damaged", 99),
+        ("1 row without a message: the bag is damaged", 297),
+    ]
+
+
+def test_a_bag_of_which_the_end_is_cut_is_damaged(tmp_path):
+    (file,) = parts(tmp_path, 1, StoragePlugin.SQLITE3)
+    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    with pytest.raises(LogError, match=f"cannot open {file}: the bag is damaged"):
+        open_run([file])
