@@ -1,13 +1,13 @@
 """Kicks of a session without a middleware: how long the first sample and the whole request take.
 
-Code that has not run for a while is no longer in the caches of the processor, so kicks that follow
-each other at once are told from those after a pause in which samples are published.
+Code that has not run for a while is no longer in the caches of the processor. So there are two
+series: kicks that follow each other at once, and kicks after a pause with samples in it.
 """
 
 import time
 from statistics import median
 
-from symtop_ros.run.session.run_log import Silent
+from symtop_ros.run.session.run_log import SetClock, Silent
 from symtop_ros.run.session.session import Session
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS, Topic
@@ -18,10 +18,9 @@ PERIOD = 1_000_000  # ns
 PAUSE = 14  # periods
 
 
-class Clock:
-    """The time of the session, which goes on by one period after the other."""
+class Clock(SetClock):
+    """The time of the session, which advances period by period."""
 
-    now = steady = 0
     is_simulated = False
 
 

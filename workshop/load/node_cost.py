@@ -141,8 +141,12 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     runs: Runs = facts["runs"]
     nodes = tuple(dict.fromkeys(node for row in runs.values() for node in row))
     rows = [[row, *(_format_cell(row, of.get(node)) for node in nodes)] for row, of in runs.items()]
-    rates = ", ".join(f"{rate:g}" for rate in RATES)
-    values = {"messages": len(TOPICS), "alone": alone.KICKS, "rates": rates}
+    values = {
+        "messages": len(TOPICS),
+        "rates": ", ".join(f"{rate:g}" for rate in RATES),
+        "alone": alone.KICKS,
+        "pause": alone.PAUSE,
+    }
     return {NAME: write_chapter(NAME, **facts, **values, table=format_tables(["", *nodes], rows))}
 
 

@@ -8,7 +8,7 @@ that threads may use one motion together. The library is loaded when it is first
 import ctypes
 import hashlib
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Container, Iterable, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint8
 from functools import cache, wraps
 from pathlib import Path
@@ -136,18 +136,28 @@ def digest_sources() -> str:
 
 
 @cache
-def open_door(for_few: bool = False) -> SimpleNamespace:
-    """Return the functions of the library, which is loaded at the first call, by their names.
+def open_door() -> SimpleNamespace:
+    """Return the functions of the library, which is loaded at the first call, by their names."""
+    return _make_door(LONG)
 
-    `for_few`: for calls of one element, none of which releases the interpreter's lock. A thread
-    that gives the lock away may wait for it longer than such a call takes.
+
+@cache
+def open_door_of_one() -> SimpleNamespace:
+    """Return the same functions for calls of one element, which keep the interpreter's lock.
+
+    A thread that releases the lock may wait for it longer than such a call takes.
     """
+    return _make_door(())
+
+
+def _make_door(releasing: Container[str]) -> SimpleNamespace:
+    """Return the functions, of which some release the interpreter's lock in their calls."""
     released = _load()
     locked = ctypes.PyDLL(str(FILE))
     door = SimpleNamespace()
     for name, (result, arguments) in FUNCTIONS.items():
         # By index: a function object that belongs to this door alone.
-        function = (released if name in LONG and not for_few else locked)[f"symtop_{name}"]
+        function = (released if name in releasing else locked)[f"symtop_{name}"]
         function.argtypes, function.restype = arguments, result
         setattr(door, name, function)
     return door
@@ -219,7 +229,7 @@ class KernelMotion:
         self.start, self._pushes, self._is_clamped = start, pushes, is_clamped
         self._door = open_door()
         # Of a motion with pushes one state may take those of all pieces before it.
-        self._door_of_one = open_door(for_few=not pushes)
+        self._door_of_one = self._door if pushes else open_door_of_one()
         if len(start) != 8 * START:
             raise ValueError(f"start must have {START} numbers, got {len(start) / 8:g}")
         special = bool(pushes) or is_clamped
@@ -433,7 +443,7 @@ def kick(
     count = omega.size // 3
     state = map(read_from, (tops, orientation, omega))
     to = write_to(kicked, 3 * count)
-    door = open_door(for_few=count == 1)
+    door = open_door_of_one() if count == 1 else open_door()
     status = door.kick(*state, kind, hold, read_from(amounts), count, to, done)
     return kicked, done.value, status
 

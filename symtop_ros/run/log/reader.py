@@ -180,7 +180,7 @@ class McapFile(MessageSource):
         is_of_index = self._is_chunk_of_index(record)
         if record.opcode == Opcode.CHUNK or is_of_index:
             # Until its messages are found: readers pass over another opcode, and a head of zeros
-            # is that of an empty chunk. The indexes behind it tell.
+            # is that of an empty chunk. The indexes behind it decide.
             index = self._index.get(record.start)
             self._damaged = DamagedChunk(_chunk_of(record), index, self._has_messages(index))
         try:

@@ -185,7 +185,7 @@ def test_a_bag_of_compressed_messages_is_read(storage, tmp_path):
 
 
 def restarted(pause, first=RUN.messages):
-    """What a recorder gets that runs on while the node is ended and started again."""
+    """The messages of a recorder that keeps running while the node is ended and started again."""
     later = round(RUN.seconds * SECOND) + pause
     second = Run(seconds=RUN.seconds, begin=BEGIN + later)
     return [*first, *second.messages]

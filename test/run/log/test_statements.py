@@ -1,4 +1,4 @@
-"""What is said to be lost of a file that is damaged at random, compared with what is lost."""
+"""Files that are damaged at random: the reported losses are compared with what is lost."""
 
 import random
 import re
