@@ -17,7 +17,7 @@ import numpy as np
 
 from workshop.load import alone
 from workshop.load.bare import TOPICS
-from workshop.load.listener import Listener, Traffic
+from workshop.load.listener import LOOK, Listener, Traffic
 from workshop.load.processes import DOCS, domain, run_program, running, script, top_node
 from workshop.speed.conditions import describe_conditions
 from workshop.speed.publish import format_tables, publish, write_chapter
@@ -26,7 +26,8 @@ COST_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, tried for the highest one without late samples
 LATE = 1e-3  # fraction of late samples below which a rate counts as reached
 KICKS = 100
-PAUSE = 0.0137  # s between kicks; no multiple of a period
+PAUSE = 0.013  # s between kicks at least
+GOLDEN = 0.6180339887498949  # its multiples are spread evenly modulo 1
 TOP, RECORDING, BARE, PREPARED = "top_node", "top_node, recording", "bare rclpy", "prepared bytes"
 TOP_FIFO, BARE_FIFO = "top_node, SCHED_FIFO", "bare rclpy, SCHED_FIFO"
 PRIORITY = 50
@@ -97,9 +98,18 @@ def summarize(traffic: Traffic, rate: float, seconds: float) -> dict[str, float]
 def measure_kicks(command: Command, rate: float) -> tuple[float, float]:
     """Return p50 and p99, in ms, of the time from a request to the first sample after it."""
     with running(command(rate)), closing(Listener(domain())) as listener:
-        latencies = [listener.kick(PAUSE) * 1e3 for _ in range(KICKS)]
+        latencies = [listener.kick(pause) * 1e3 for pause in list_pauses(rate)]
     p50, p99 = np.percentile(latencies, [50, 99])
     return float(p50), float(p99)
+
+
+def list_pauses(rate: float) -> list[float]:
+    """Return the pauses in s before each kick, so that they come at all phases of a period.
+
+    A pause begins with a sample: after equal ones half of the kicks of a bare node came within a
+    fifth of its period.
+    """
+    return [PAUSE + (k * GOLDEN % 1) / rate for k in range(KICKS)]
 
 
 def find_highest_rate(command: Command, seconds: float) -> float:
@@ -143,6 +153,7 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
     rows = [[row, *(_format_cell(row, of.get(node)) for node in nodes)] for row, of in runs.items()]
     values = {
         "messages": len(TOPICS),
+        "look": LOOK,
         "rates": ", ".join(f"{rate:g}" for rate in RATES),
         "alone": alone.KICKS,
         "pause": alone.PAUSE,
