@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 QUEUE_LENGTH = 60_000  # messages: about ten seconds at 1 kHz
 # s between two writes. Short, so that each takes little time: ticks wait for the interpreter.
-WRITE_PERIOD = 0.02
+WRITE_PERIOD = 0.005
 FLUSH_PERIOD = 0.4  # s; at most half a second is promised
 Queued = tuple[int, int, bytes]  # channel, stamp in ns, message
 
