@@ -38,6 +38,7 @@ JUDGE = ("test/truth/judge", "test/truth/imu", "test/run/check")
 NUMBERS = ("test/physics", "test/run/simulation", "test/run/check")
 NOT_TWICE = (
     "test/physics/kernel",
+    "test/physics/gpu",
     "test/physics/reference",
     "test/physics/test_jacobian.py",
     "test/physics/test_exact_motions.py",
