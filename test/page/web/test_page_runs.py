@@ -63,6 +63,7 @@ def test_hostile_runs_are_refused_as_by_python_and_the_present_run_stays(opened,
         assert find_refusal(run).startswith("events[1]: ")
 
 
+@pytest.mark.long
 def test_a_run_of_most_events_is_reloaded_and_takes_no_more(opened):
     most = 10_000
     opened.drop({**change(1), "events": change(1)["events"][:1] * most})
