@@ -30,11 +30,10 @@ def check(log: TopLog, strict: bool = False) -> int:
         raise LogError("nothing can be checked: no sample follows an event")
     for line in list_problems([_describe(account, each) for each in found.mismatches]):
         _print_problem(line)
-    is_whole = not account.problems and not found.unjudged
+    is_whole = not (account.problems or account.doubts or found.unjudged)
     _print_verdict(found)
     if found.samples_agree and not is_whole:
-        ends_early = account.lacks_only_its_end and not found.unjudged
-        print("the log ends early" if ends_early else "the log is damaged or incomplete")
+        print(_describe_damage(account, found))
     _print_topics(account, found)
     lacks = strict and bool(account.never_recorded)
     return 0 if found.samples_agree and not found.mismatches and is_whole and not lacks else 1
@@ -54,6 +53,15 @@ def _print_verdict(found: Findings) -> None:
     if found.foreign:
         by = f"symtop_ros {', '.join(found.versions)}" if found.versions else "another engine"
         print(f"{found.foreign} events are of {by}: their words and verdicts are not judged")
+
+
+def _describe_damage(account: Account, found: Findings) -> str:
+    """Return what kind of damage a log has, or may have."""
+    if found.unjudged or (account.problems and not account.lacks_only_its_end):
+        return "the log is damaged or incomplete"
+    if not account.problems:
+        return "the log may be incomplete"
+    return "the log ends early" + ", and samples before its end may be lost" * bool(account.doubts)
 
 
 def _describe(account: Account, mismatch: Mismatch) -> str:

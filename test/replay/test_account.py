@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
-from run.log.damaged import CHUNK, SECOND, Log, Recorded, zero, zero_chunk
+from run.log.damaged import CHUNK, SECOND, Log, Recorded, cut_end, zero, zero_chunk
 
 from symtop_ros.replay.main import main as replay
 from symtop_ros.truth.judge.main import main as judge
@@ -149,6 +149,16 @@ def move_clock(_, folder):
     recorded.close()
 
 
+def kill(_, folder):
+    """A node is killed before it has counted what it missed."""
+    recorded = Recorded(folder)
+    recorded.run(1.2)
+    recorded.stop(1.5)
+    recorded.run(0.15)
+    (path,) = recorded.close()
+    cut_end(path)
+
+
 CHUNK_LOST, EVENT_LOST = "a chunk is damaged: ", "is missing, "
 BEGINNING, NOTHING = "the beginning is missing: ", ""
 
@@ -183,6 +193,12 @@ CASES = {
     ),
     "the index damaged": Case(damage_index, ("the summary is damaged",), check=1),
     "the end cut": broken(cut, "the file ends or is unreadable"),
+    "killed after a stop": broken(
+        kill,
+        "the file ends or is unreadable",
+        "from 1200000001 ns on the motion is not known: ",
+        "tf: 49 samples are missing, between 1200000000 and 1700000000 ns; no count of the node",
+    ),
     "split": Case(split),
     "a file of a split missing": broken(lose_file, "samples are missing"),
     "messages doubled": broken(double, "3 events are repeated", "451 samples are repeated"),
@@ -193,6 +209,10 @@ CASES = {
         lose_after_a_change_of_rate, "10 samples are missing"
     ),
     "the clock goes forth and back": Case(move_clock),
+}
+EARLY = {  # what else is said of logs that only end early
+    "the end cut": "",
+    "killed after a stop": ", and samples before its end may be lost",
 }
 READERS = "check", "judge", "clock", "replay", "save", "repair"
 
@@ -233,8 +253,9 @@ def test_each_reader_says_what_is_wrong_first(name, reader, log, remapped, tmp_p
     assert "DO NOT agree" not in out
     if reader == "check":
         assert ("not compared: the motion is not known" in out) == case.unjudged
-        assert ("the log ends early\n" in out) == (name == "the end cut")
-        assert ("the log is damaged or incomplete\n" in out) == (status and name != "the end cut")
+        early = EARLY.get(name)
+        assert (f"the log ends early{early}\n" in out) == (early is not None)
+        assert ("the log is damaged or incomplete\n" in out) == (status and early is None)
     if reader == "judge" and (case.unjudged or BEGINNING in case.says):
         assert "cannot be judged: the motion is not known there" in err
     if reader in ("judge", "clock"):

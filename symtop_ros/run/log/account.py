@@ -1,11 +1,11 @@
 """The account of a log: all that is known of it, found out once, for everything that reads it.
 
 For each stretch of time it has the motion that is known, or why none is; for each topic its name,
-its rate and its count; and what is damaged, missing or there twice.
+its rate and its count; what is damaged, missing or there twice; and what the log leaves open.
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby, pairwise
@@ -57,6 +57,7 @@ class TopicAccount:
     count: int  # messages
     rate: float | None  # samples per s, of the first ones; None for topics without samples
     missing: int  # samples, beyond those that the node has counted as missed
+    uncounted: int  # samples that are missing where the node has not counted any more
     repeated: int  # samples
     unreadable: str  # why messages cannot be read; empty: all can
 
@@ -77,6 +78,7 @@ class Account:
     losses: tuple[Loss, ...]  # as reading the files has found them
     never_recorded: tuple[str, ...]  # topics that the node has and the log lacks, by our names
     problems: tuple[str, ...]  # everything that is damaged, missing or there twice
+    doubts: tuple[str, ...]  # what may be lost: the log ends before the node has counted again
     notes: tuple[str, ...]  # what else a reader should know
 
     @property
@@ -121,13 +123,13 @@ class Account:
 
     @property
     def lines(self) -> list[str]:
-        """The problems, then notes, each in one line: what a program prints first."""
+        """Problems and doubts, then notes, each in one line: what a program prints first."""
         return [*self.problem_lines, *list_problems(self.notes), *filter(None, [self.guess])]
 
     @property
     def problem_lines(self) -> list[str]:
-        """The first problems, each in one line, and the number of the others."""
-        return list_problems(self.problems)
+        """The first problems and doubts, each in one line, and the number of the others."""
+        return list_problems([*self.problems, *self.doubts])
 
     def find_topic(self, full: str) -> TopicAccount | None:
         """Return what the log has of a topic of the top, by its full name."""
@@ -162,7 +164,9 @@ class _Conclusions:
         )
         self._rows = contents.rows.get(self._main, StampRows())
         self._counted = self._count_missed()
-        self._proofs = Proofs(self._ordered, [*contents.marks, *self._list_repeated()])
+        marks = [*contents.marks, *self._list_repeated()]
+        self._proofs = Proofs(self._ordered, marks, bool(contents.counts[DIAGNOSTICS.name]))
+        self._uncounted = self._find_uncounted()
         ends = [row.last for rows in contents.rows.values() for row in rows.rows]
         self._end = max(ends, default=None)
         breaks = [*self._list_breaks()]
@@ -192,6 +196,7 @@ class _Conclusions:
             losses=tuple(file.losses),
             never_recorded=lacking,
             problems=tuple(self._list_problems()),
+            doubts=tuple(self._list_doubts()),
             notes=tuple(self._list_notes(lacking)),
         )
 
@@ -204,17 +209,43 @@ class _Conclusions:
         return sum(map(self._count_in_recording, self._recordings, begins, ends))
 
     def _count_in_recording(self, recording: Recording, begin: int, end: int) -> int:
-        counts = [count for place, count in self._contents.missed if begin <= place < end]
-        first = counts[0] if counts else 0
-        for place, each in zip(self._file.begins, self._file.files, strict=False):
-            text = each.metadata.get(ENDING, {}).get("missed", "")
-            counts += [int(text)] if begin <= place < end and WHOLE.fullmatch(text) else []
+        shown = [count for place, count in self._contents.missed if begin <= place < end]
+        at_ends = [count for place, count in self._list_counts_at_ends() if begin <= place < end]
         if WHOLE.fullmatch(recording.missed):
             at_begin = int(recording.missed)
         else:
             begins_later = any(event.number > 1 for event in self._ordered.events[:1])
-            at_begin = first if begins_later else 0
-        return max(0, max(counts, default=0) - at_begin)
+            at_begin = shown[0] if shown and begins_later else 0
+        return max(0, max([*shown, *at_ends], default=0) - at_begin)
+
+    def _list_counts_at_ends(self) -> Iterator[tuple[int, int]]:
+        """Yield the counts in the records of the ends of files, with the last place of each."""
+        begins = [*self._file.begins, self._file.count]
+        for file, (begin, end) in zip(self._file.files, pairwise(begins), strict=False):
+            text = file.metadata.get(ENDING, {}).get("missed", "")
+            if begin < end and WHOLE.fullmatch(text):
+                yield end - 1, int(text)
+
+    def _find_uncounted(self) -> frozenset[tuple[int, int]]:
+        """Return the gaps of all topics that no count of the node follows, by their stamps.
+
+        The node may have missed these samples, or they are lost from the log.
+        """
+        found = self._found.get(self._main, GridFindings())
+        if found.missing <= self._counted:
+            return frozenset()
+        lost = [each.place for each in self._file.losses if each.place is not None]
+        without_loss = (
+            gap for gap in found.gaps if not any(gap.place <= k <= gap.until for k in lost)
+        )
+        return frozenset(each.stamps for each in without_loss if self._precedes_no_count(each))
+
+    def _precedes_no_count(self, gap: Gap) -> bool:
+        """Return True if no count follows a gap, up to the next recording or run of the node."""
+        begins = (*(each.place for each in self._recordings), *self._proofs.begins)
+        end = min((each for each in begins if each >= gap.place), default=NOWHERE)
+        counts = (*self._contents.missed, *self._list_counts_at_ends())
+        return gap.until < end and not any(gap.until <= place < end for place, _ in counts)
 
     def _list_repeated(self) -> Iterator[Mark]:
         """Yield what events show that a recorder has repeated at the beginning of a file."""
@@ -226,7 +257,9 @@ class _Conclusions:
         """Yield the places at which an event may have been lost without a trace."""
         found = self._found.get(self._main, GridFindings())
         if found.missing > self._counted:
-            yield from (gap.place for gap in found.gaps)
+            in_doubt = [gap for gap in found.gaps if gap.stamps in self._uncounted]
+            is_rest_counted = found.missing - _count_missing(in_doubt) <= self._counted
+            yield from (gap.place for gap in (in_doubt if is_rest_counted else found.gaps))
         yield from found.returns
         places = (each.place for each in self._file.losses if each.place is not None)
         # after the last message nothing is judged
@@ -250,25 +283,35 @@ class _Conclusions:
 
     def _describe_topic(self, name: str, full: str) -> TopicAccount:
         found = self._found.get(name, GridFindings())
-        missing = sum(gap.missing for gap in self._list_gaps(name))
+        missing = _count_missing(self._list_gaps(name))
         return TopicAccount(
             name=full,
             type=KNOWN[name].type,
             count=self._contents.counts[name],
             rate=found.rate,
             missing=missing if missing > self._counted else 0,
+            uncounted=_count_missing(self._list_uncounted(name)),
             repeated=found.repeated,
             unreadable=self._contents.unreadable.get(name, ""),
         )
 
     def _list_gaps(self, name: str) -> list[Gap]:
         """Return the gaps of a topic, but for those that an event may explain that is lost."""
-        gaps = self._found.get(name, GridFindings()).gaps
-        unknown = [each.places for each in self._stretches if each.event is None]
+        found = self._found.get(name, GridFindings()).gaps
+        gaps = (gap for gap in found if gap.stamps not in self._uncounted)
+        # After a gap that is not counted, what one topic alone lacks is no event's.
+        passed = {gap.place for gap in self._list_uncounted(self._main)}
+        stretches = (each.places for each in self._stretches if each.event is None)
+        unknown = [places for places in stretches if places[0] not in passed]
         return [
             *(g for g in gaps if not any(begin <= g.place <= end for begin, end in unknown)),
             *self._list_absent(name),
         ]
+
+    def _list_uncounted(self, name: str) -> list[Gap]:
+        """Return the gaps of a topic that no count of the node follows."""
+        gaps = self._found.get(name, GridFindings()).gaps
+        return [gap for gap in gaps if gap.stamps in self._uncounted]
 
     def _list_absent(self, name: str) -> Iterator[Gap]:
         """Yield the gaps at the begin and the end of each file of the node.
@@ -328,6 +371,15 @@ class _Conclusions:
         yield from self._describe_events()
         yield from self._describe_samples()
 
+    def _list_doubts(self) -> Iterator[str]:
+        places = {gap.place for gap in self._list_uncounted(self._main)}
+        yield from self._describe_unproved(lambda place: place in places)
+        lines: dict[str, list[str]] = {}
+        for name in self._topics:
+            if gaps := self._list_uncounted(name):
+                lines.setdefault(_describe_uncounted(gaps), []).append(name)
+        yield from _join(lines)
+
     def _describe_events(self) -> Iterator[str]:
         """Yield what is said of a beginning that is missing, and of events that are there twice."""
         ordered = self._ordered
@@ -345,10 +397,16 @@ class _Conclusions:
                     f"the beginning is missing: {early} samples are before the first event, "
                     f"which is number {ordered.events[0].number}"
                 )
+        places = {gap.place for gap in self._list_uncounted(self._main)}
+        yield from self._describe_unproved(lambda place: place not in places)
+
+    def _describe_unproved(self, chosen: Callable[[int], bool]) -> Iterator[str]:
+        """Yield from when on the motion is not known for want of a proof, by the first place."""
         unproved = (each for each in self._stretches if each.reason.startswith(NO_PROOF))
-        for _, parts in groupby(unproved, key=lambda each: each.places):
+        for (place, _), parts in groupby(unproved, key=lambda each: each.places):
             first = next(parts)
-            yield f"from {first.begin} ns on the motion is not known: {first.reason}"
+            if chosen(place):
+                yield f"from {first.begin} ns on the motion is not known: {first.reason}"
 
     def _describe_samples(self) -> Iterator[str]:
         """Yield what is missing and repeated; topics of which the same is said share a line."""
@@ -361,24 +419,18 @@ class _Conclusions:
                 count = _count_samples(topic.repeated)
                 text = f"{count} repeated: their stamps are not later than before"
                 lines.setdefault(text, []).append(name)
-        yield from (f"{', '.join(names)}: {text}" for text, names in lines.items())
+        yield from _join(lines)
 
     def _describe_missing(self, name: str, missing: int) -> str:
         """Return how many samples of a topic are missing, at least, and where."""
         found = self._list_gaps(name)
-        gaps = [gap for gap in found if gap.missing]
-        widest = max(gaps, key=lambda gap: gap.missing)
-        where = f"between {widest.before} and {widest.after} ns"
-        if 2 * widest.missing <= missing:
-            begin, end = min(gap.before for gap in gaps), max(gap.after for gap in gaps)
-            where = f"in {len(gaps)} gaps between {begin} and {end} ns"
-        elif len(gaps) > 1:
-            where = f"most of them {where}"
         # Others may be at an event, in a gap that an event explains, or at an end of a file.
         in_grid = self._found.get(name, GridFindings()).missing
+        in_grid -= _count_missing(self._list_uncounted(name))
         is_open = any(gap.has_event or gap.place == NOWHERE for gap in found)
         is_least = is_open or missing != in_grid
         count = ("at least " if is_least else "") + _count_samples(missing)
+        where = _describe_where(found)
         return f"{count} missing, {where}; the node has counted {self._counted} as missed"
 
     def _list_notes(self, lacking: Sequence[str]) -> Iterator[str]:
@@ -399,6 +451,35 @@ class _Conclusions:
             )
         missing = find_missing(self._ordered, self._proofs).values()
         yield from (each.describe() for each in missing if each.is_off)
+
+
+def _join(lines: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """Yield what is said of some topics, after their names."""
+    yield from (f"{', '.join(names)}: {text}" for text, names in lines.items())
+
+
+def _count_missing(gaps: Iterable[Gap]) -> int:
+    return sum(gap.missing for gap in gaps)
+
+
+def _describe_uncounted(gaps: Sequence[Gap]) -> str:
+    """Return how many samples are missing, and where, and that it is open why."""
+    least = "at least " if any(gap.has_event for gap in gaps) else ""
+    return (
+        f"{least}{_count_samples(_count_missing(gaps))} missing, {_describe_where(gaps)}; no count "
+        "of the node follows in the log: it may have missed them, or they are lost"
+    )
+
+
+def _describe_where(found: Iterable[Gap]) -> str:
+    """Return where samples are missing: in the widest gap if it has most of them."""
+    gaps = [gap for gap in found if gap.missing]
+    widest = max(gaps, key=lambda gap: gap.missing)
+    if 2 * widest.missing <= _count_missing(gaps):
+        begin, end = min(gap.before for gap in gaps), max(gap.after for gap in gaps)
+        return f"in {len(gaps)} gaps between {begin} and {end} ns"
+    most = "most of them " if len(gaps) > 1 else ""
+    return f"{most}between {widest.before} and {widest.after} ns"
 
 
 def _count_samples(count: int) -> str:

@@ -40,6 +40,12 @@ class Gap:
     place: int  # in the log, right behind the earlier one
     missing: int  # samples
     has_event: bool = False  # True if an event in it may have had samples off the grid
+    until: int = 0  # in the log: place of the later one
+
+    @property
+    def stamps(self) -> tuple[int, int]:
+        """The stamps of both neighbours."""
+        return self.before, self.after
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,8 +166,8 @@ class Grid:
         # Between two runs no node published. A run begins like a log: with its first sample.
         is_one_run = self._runs[owners[:-1]] == self._runs[owners[1:]] if len(self._runs) else True
         wide = np.flatnonzero((period > 0) & (after - before > WIDE * period) & is_one_run)
-        columns = before, after, owners[:-1], owners[1:], period, places[:-1] + 1
-        for begin, end, owner, next_owner, step, place in zip(
+        columns = before, after, owners[:-1], owners[1:], period, places[:-1] + 1, places[1:]
+        for begin, end, owner, next_owner, step, place, until in zip(
             *(each[wide].tolist() for each in columns), strict=True
         ):
             # An event that came late is the next one.
@@ -171,7 +177,7 @@ class Grid:
             lost = end - begin - _measure(empty[numbers], begin, end)
             if (missing := round(lost / step) - 1) > 0:
                 has_event = any(number in self._changes for number in range(owner + 1, last + 1))
-                yield Gap(begin, end, place, missing, has_event)
+                yield Gap(begin, end, place, missing, has_event, until)
 
 
 def _changes_grid(event: Event) -> bool:

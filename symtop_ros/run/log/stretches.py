@@ -78,14 +78,16 @@ class MissingEvents:
 class Proofs:
     """Numbers of the latest event that diagnostics and repeated events show at their places."""
 
-    def __init__(self, ordered: Ordered, marks: Sequence[Mark]) -> None:
+    def __init__(
+        self, ordered: Ordered, marks: Sequence[Mark], has_diagnostics: bool = True
+    ) -> None:
         self._ordered = ordered
-        self.has_numbers = bool(marks)
-        self._begins = _find_begins(ordered)
+        self.lacks_numbers = has_diagnostics and not marks
+        self.begins = _find_begins(ordered)  # the first place of each run
         self._highest: dict[int, int] = {}  # numbers by runs
         self._latest: dict[tuple[int, int], Mark] = {}  # marks by runs and numbers
         for mark in marks:
-            run = max(0, bisect_right(self._begins, mark.place) - 1)
+            run = max(0, bisect_right(self.begins, mark.place) - 1)
             self._highest[run] = max(self._highest.get(run, 0), mark.number)
             self._latest[run, mark.number] = mark
 
@@ -179,7 +181,7 @@ class Finder:
     def _explain(self, gap: MissingEvents | None) -> str:
         if gap:
             return NOT_RECORDED if gap.is_off else gap.describe()
-        return NO_PROOF if self._proofs.has_numbers else f"{NO_PROOF}: {NO_NUMBERS}"
+        return f"{NO_PROOF}: {NO_NUMBERS}" if self._proofs.lacks_numbers else NO_PROOF
 
 
 def _list_pieces(

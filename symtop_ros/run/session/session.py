@@ -104,6 +104,7 @@ class Session:
 
     def _keep_up(self) -> None:
         own = self._host.update_statuses()
+        self.simulation.measure_pace()
         self.simulation.speed_up()
         self.recording.report_failure()
         if not self.simulation.segment.running:

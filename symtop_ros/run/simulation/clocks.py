@@ -51,6 +51,10 @@ class HostClock:
     def hold_back(self, stamp: int) -> None:
         """Do nothing: this time does not wait for the sample of a stamp."""
 
+    def take_waits(self) -> tuple[int, int]:
+        """Return (0, 0): this time does not wait."""
+        return 0, 0
+
     def set_factor(self, factor: float) -> None:
         """Do nothing: the segments have the factor."""
 
@@ -82,13 +86,19 @@ class RunClock:
         self.is_running = True
         self._time = 0  # ns of the run
         self._since = real.now  # the real time at which it was so
+        self._waited, self._ran = 0, 0  # ns of real time, up to then; see `take_waits`
+        self._taken = 0, 0  # the same at the last call of `take_waits`
         self.pace = factor  # seconds of the run per second of real time
 
     @property
     def now(self) -> int:
         """Current time in ns."""
-        passed = self._real.now - self._since if self.is_running else 0
-        return self._time + int(passed * self.pace)
+        return self._time + int(self._passed * self.pace)
+
+    @property
+    def _passed(self) -> int:
+        """Real time (ns) for which it has run since it was set."""
+        return self._real.now - self._since if self.is_running else 0
 
     @property
     def steady(self) -> int:
@@ -108,7 +118,20 @@ class RunClock:
         """Wait for the sample of a stamp: the process may have been stopped."""
         latest = stamp + round(GAP * self.pace * NANOSECONDS)
         if self.now > latest:
-            self.set(latest)
+            self.wait_at(latest)
+
+    def wait_at(self, time: int) -> None:
+        """Continue from a time (ns) that has passed, before which the samples are late."""
+        self._waited += round((self.now - time) / self.pace)
+        self.set(time)
+
+    def take_waits(self) -> tuple[int, int]:
+        """Return how long this time waited since the last call, and how long it waited or ran.
+
+        Both are in ns of real time. This time has advanced by the difference times its pace.
+        """
+        (waited, ran), self._taken = self._taken, (self._waited, self._ran + self._passed)
+        return self._taken[0] - waited, self._taken[1] - ran
 
     def set_factor(self, factor: float) -> None:
         """Continue at another pace."""
@@ -123,6 +146,7 @@ class RunClock:
 
     def set(self, time: int) -> None:
         """Continue from a time (ns); one that precedes the last stamp is a jump back."""
+        self._ran += self._passed
         self._time = time
         self._since = self._real.now
 

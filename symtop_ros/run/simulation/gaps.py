@@ -1,10 +1,11 @@
-"""Samples that were missed, and when and how the user is warned of them."""
+"""Samples that were missed, or for which the time waited; when and how the user is warned."""
 
 from symtop_ros.run.simulation.block import GAP, Ticker
 from symtop_ros.run.simulation.clocks import HostClock, RunClock
 from symtop_ros.run.wire.layout import NANOSECONDS
 
 PERIOD = 60 * NANOSECONDS  # between two warnings
+WHY_LATE = "the process was stopped, lacked CPU time or waited for its middleware"
 
 
 class Gaps:
@@ -44,4 +45,49 @@ class Gaps:
         step = (self._clock.now - before - (self._clock.steady - steady)) / NANOSECONDS
         if step > GAP and not self._clock.is_simulated:
             return f"the clock of the system was set forward by {step:.3g} s"
-        return "the process was stopped, lacked CPU time or waited for its middleware"
+        return WHY_LATE
+
+
+class Waits:
+    """Waits of the time of a run for late samples: it is then slower than it was asked to be."""
+
+    def __init__(self, clock: HostClock | RunClock) -> None:
+        self._clock = clock
+        self.total = self.latest = 0.0  # s of real time: in all, and before the last measurement
+        self.share = 0.0  # of the real time between the last two measurements
+        self._quiet = 0  # ns without another warning
+        self._begin_count()
+
+    def _begin_count(self) -> None:
+        """Begin to count what the next warning says: from the next wait on."""
+        self._waited = self._ran = 0  # ns of real time
+        self._advance = 0.0  # ns of the run
+
+    def measure(self, kept: float, asked: float) -> str | None:
+        """Measure since the last call; return a warning of what the waits amount to.
+
+        `kept` is the real-time factor but for waits, `asked` that of the settings. None: the waits
+        are shorter than `GAP`, or the last warning is too recent.
+        """
+        waited, ran = self._clock.take_waits()
+        self.latest = waited / NANOSECONDS
+        self.total += self.latest
+        self.share = min(1.0, waited / ran) if waited else 0.0
+        self._quiet -= ran
+        if waited or self._waited:
+            self._waited += waited
+            self._ran += ran
+            self._advance += kept * max(0, ran - waited)
+        return None if self._quiet > 0 else self._explain(asked)
+
+    def _explain(self, asked: float) -> str | None:
+        if self._waited < GAP * NANOSECONDS:
+            return None
+        seconds, whole = self._waited / NANOSECONDS, self._ran / NANOSECONDS
+        text = (
+            f"the time waited for late samples, {seconds:.3g} of the last {whole:.3g} s: {WHY_LATE}"
+            f"; real-time factor {self._advance / self._ran:.3g} instead of {asked:.3g}"
+        )
+        self._quiet = PERIOD
+        self._begin_count()
+        return text

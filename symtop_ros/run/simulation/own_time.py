@@ -72,7 +72,7 @@ class OwnTimeSimulation(Simulation):
         if stamp < self.stamp:
             self.restart_grid(stamp)
             if self.now > stamp:
-                self._clock.set(stamp)
+                self._clock.wait_at(stamp)
 
     def pause(self, paused: bool) -> str:
         """Stop the motion and its time, or continue both."""

@@ -18,7 +18,7 @@ from symtop_ros.run.simulation.changes.outcomes import Failure, Outcome
 from symtop_ros.run.simulation.changes.timeline import Timeline
 from symtop_ros.run.simulation.clocks import HostClock, RunClock
 from symtop_ros.run.simulation.events import Event, do_nothing
-from symtop_ros.run.simulation.gaps import Gaps
+from symtop_ros.run.simulation.gaps import Gaps, Waits
 from symtop_ros.run.simulation.host import Host, Sink
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import Settings
@@ -48,6 +48,7 @@ class Simulation:
         self.budget = ComputeBudget()
         self._spent = 0.0
         self._gaps = Gaps(clock)
+        self.waits = Waits(clock)
         self._blocks = Blocks(self.segment, sink.encode)
         sink.send_description(self.stamp, settings)
 
@@ -73,8 +74,13 @@ class Simulation:
 
     @property
     def factor(self) -> float:
-        """The real-time factor that is kept when the motion runs."""
+        """The real-time factor that is kept when the motion runs, and its time does not wait."""
         return self.segment.factor * self._clock.pace
+
+    @property
+    def achieved(self) -> float:
+        """The real-time factor of the motion as last measured; 0 in a pause."""
+        return self.factor * (1 - self.waits.share) if self.segment.running else 0.0
 
     @property
     def state(self) -> State:
@@ -240,6 +246,12 @@ class Simulation:
             if self.segment.motion.is_driven:
                 factor = min(factor, 2 * current)
             self._set_pace(factor)
+
+    def measure_pace(self) -> None:
+        """Measure how fast the time was since the last call; warn if it waited for samples."""
+        self._clock.hold_back(self.stamp)
+        if warning := self.waits.measure(self.factor, self.settings.real_time_factor):
+            self.host.warn(warning)
 
     def _set_pace(self, factor: float) -> str:
         """Continue at another real-time factor; return the verdict."""

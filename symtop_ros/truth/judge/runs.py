@@ -114,9 +114,13 @@ def _list_faults(source: Source, run: Run) -> Iterator[str]:
     if estimates.unreadable:
         yield f"{estimates.unreadable} estimates cannot be read"
     if account and account.losses:
-        yield "estimates may be missing: the log is damaged"
+        how = "ends early" if account.lacks_only_its_end else "is damaged"
+        yield f"estimates may be missing: the log {how}"
     topic = account.find_topic(source.name) if account else None
     if topic and topic.missing:
         yield f"{topic.missing} estimates are missing"
+    if topic and topic.uncounted:
+        why = "the node may have missed them, or they are lost"
+        yield f"{topic.uncounted} estimates are missing: {why}"
     if topic and topic.repeated:
         yield f"{topic.repeated} estimates are repeated"

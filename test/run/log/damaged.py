@@ -61,6 +61,10 @@ class Recorded:
         self.session.simulation.end_jump(True)
         advance(self.session, self.clock, 0.0)
 
+    def stop(self, seconds: float) -> None:
+        """Let the clock run while the process is stopped: samples are missed."""
+        advance(self.session, self.clock, seconds)
+
     def close(self) -> list[Path]:
         """End the recording; return the files in the order of their names."""
         self.session.close()
@@ -134,6 +138,12 @@ class Log:
         return writer.register_channel(
             channel.topic, channel.message_encoding, number, channel.metadata
         )
+
+
+def cut_end(path: Path) -> Path:
+    """Cut a file behind its last chunk, as the end of the process leaves it."""
+    path.write_bytes(path.read_bytes()[: list_chunks(path)[-1][1]])
+    return path
 
 
 def list_chunks(path: Path) -> list[tuple[int, int, int, int]]:

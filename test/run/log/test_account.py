@@ -12,10 +12,11 @@ from mcap.opcode import Opcode
 from mcap.reader import make_reader
 from mcap.records import Attachment, Message, Metadata
 from mcap.writer import Writer
-from run.log.damaged import Log, Recorded, zero_chunk
+from run.log.damaged import Log, Recorded, cut_end, zero_chunk
 from run.log.variants import INPUTS, list_variants, write_variant
 from trials import seeds
 
+from symtop_ros.run.check.run import check_run
 from symtop_ros.run.log.account import read_account
 from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.log.names import Names
@@ -253,6 +254,55 @@ def test_samples_are_said_to_be_missing_where_they_are(seed, log, tmp_path):
     if gaps:
         assert int(gaps) > 1
     assert (2 * inside > int(count)) if way == "most of them " else (inside >= int(count))
+
+
+def record_a_stop(folder, seconds, *, is_kicked=False):
+    """Record a node that misses 49 samples; return the log."""
+    recorded = Recorded(folder)
+    recorded.run(1.2)
+    recorded.stop(1.5)
+    if is_kicked:
+        recorded.kick()
+    recorded.run(seconds)
+    (path,) = recorded.close()
+    return Log.read(path)
+
+
+@pytest.mark.parametrize(("seconds", "count"), [(0.2, 49), (0.5, 0)])
+def test_samples_behind_the_last_count_of_the_node_are_an_open_question(seconds, count, tmp_path):
+    """The node counts once a second: the second log has its count, the first one ends before."""
+    path = cut_end(record_a_stop(tmp_path, seconds).write(tmp_path / "run.mcap"))
+    _, account = account_of(path)
+    assert account.lacks_only_its_end
+    assert len(account.doubts) == (2 if count else 0)
+    found = {(each.missing, each.uncounted) for each in account.topics.values() if each.rate}
+    assert found == {(0, count)}
+
+
+def test_a_topic_that_lacks_more_than_the_others_has_lost_it(tmp_path):
+    log = record_a_stop(tmp_path, 0.2)
+    lost = [
+        k for k in log.places("/torque") if 1_600_000_000 < log.messages[k].log_time < 18 * 10**8
+    ]
+    _, account = account_of(cut_end(log.without(lost).write(tmp_path / "run.mcap")))
+    assert not account.lacks_only_its_end
+    assert account.topics["torque"].missing == 49 + len(lost) > 49
+    assert account.topics["orientation"].uncounted == 49
+
+
+def test_an_event_that_is_lost_behind_the_last_count_is_found_by_its_samples(tmp_path):
+    log = record_a_stop(tmp_path, 0.2, is_kicked=True)
+    lost = log.places("/events")[1:]
+    assert lost
+    path = cut_end(log.without(lost).write(tmp_path / "run.mcap"))
+    assert check_run(TopLog(McapFile(path))).unjudged > 0
+
+
+def test_a_log_of_another_recorder_without_a_later_count_leaves_it_open(tmp_path):
+    foreign = replace(record_a_stop(tmp_path, 0.2), metadata={})
+    _, account = account_of(foreign.write(tmp_path / "run.mcap"))
+    assert account.problems == ()
+    assert "; no count of the node follows in the log: it may have missed" in account.doubts[1]
 
 
 def test_attachments_behind_damage_are_repaired(log, tmp_path):

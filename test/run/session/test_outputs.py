@@ -254,6 +254,23 @@ def test_a_slower_pace_and_missed_ticks_are_a_warning(kept, missed, level, text)
         session.answer("pause", lambda: True)
 
 
+def test_a_time_that_waits_for_late_samples_is_a_warning_with_the_pace_that_is_reached():
+    session, clock = start(Program(), publish_clock=True, real_time_factor=2.0)
+    clock.is_simulated = False
+    clock.now += SECOND
+    session.keep_up()
+    status = pace_status(session.simulation)
+    assert status.level == WARN
+    said = "the time waited 0.9 s for late samples: real-time factor 0.2 instead of 2"
+    assert status.message == said
+    assert float(status.values["waited"]) == 0.9
+    assert float(status.values["real_time_factor.achieved"]) == pytest.approx(0.2, rel=1e-15)
+    for _ in range(20):
+        advance(session, clock, 0.05)
+    session.keep_up()
+    assert pace_status(session.simulation).level == OK
+
+
 RECORDINGS = [(7, "a: no space", ERROR), (7, "", WARN), (0, "", OK)]
 
 

@@ -83,6 +83,45 @@ def test_the_time_waits_for_a_process_that_was_stopped():
     assert run.simulation.ticker.missed == 0
 
 
+def test_the_pace_that_is_reached_is_measured_and_waits_are_warned_of_once_a_minute():
+    run = start(publish_rate=100.0, real_time_factor=2.0, seconds=1.0)
+    run.simulation.measure_pace()
+    assert (run.simulation.achieved, run.sink.warnings) == (2.0, [])
+    before = run.simulation.now
+    for waits in range(1, 3):  # twice, of which the second one is not warned of
+        # The next sample is due in 5 ms; 0.1 s after it the time waits.
+        run.clock.now += 3005 * MS
+        run.tick()
+        run.advance(1.0)
+        run.simulation.measure_pace()
+        assert run.simulation.now - before == waits * 2 * 1105 * MS
+        assert run.simulation.waits.total == pytest.approx(waits * 2.9, rel=1e-15)
+        assert run.simulation.achieved == pytest.approx(2 * 1.105 / 4.005, rel=1e-15)
+    (warning,) = run.sink.warnings
+    assert warning.startswith("the time waited for late samples, 2.9 of the last 4 s: the process ")
+    assert warning.endswith("; real-time factor 0.552 instead of 2")
+    run.advance(60.0)
+    run.simulation.measure_pace()
+    assert "2.9 of the last 64 s" in run.sink.warnings[1]
+    assert run.simulation.achieved == 2.0
+
+
+def test_pauses_steps_and_resets_of_the_time_are_no_waits():
+    run = start(seconds=0.5)
+    for request, argument in (("pause", True), ("step", {"duration": 3.0})):
+        assert run.ask(request, argument)[0]
+        run.advance(5.0)
+    run.simulation.measure_pace()
+    assert run.simulation.achieved == 0.0
+    assert run.ask("pause", False)[0]
+    run.advance(0.5)
+    run.simulation.take_turn("reset", lambda: run.simulation.reset_time(True))
+    run.advance(0.5)
+    run.simulation.measure_pace()
+    assert (run.simulation.achieved, run.simulation.waits.total) == (1.0, 0.0)
+    assert run.sink.warnings == []
+
+
 def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered():
     # ten million steps for each second
     sphere = {"top__Ix": 1e-4, "top__Iz": 1e-4, "friction__transverse": 1e-6}
