@@ -116,9 +116,7 @@ class Grid:
         # Places at which recordings begin, and events that say so.
         self._recordings = [each.place for each in recordings[1:]]
         self._begun = {
-            k
-            for k, event in enumerate(ordered.events)
-            if event.values.get("outcome.kind") == BEGUN
+            k for k, event in enumerate(ordered.events) if event.values.get("outcome.kind") == BEGUN
         }
         self._changes = {k for k, event in enumerate(ordered.events) if _changes_grid(event)}
         self._empty = sorted(empty)
@@ -201,7 +199,6 @@ class Grid:
                 # The first sample of a pass is at the stamp at which it begins.
                 if (missing := round(lost / step) - is_first) > 0:
                     yield Gap(first, last, place, missing, has_event)
-
 
     def _is_unsaid(self, places: Places, owners: Places) -> Mask:
         """Return the mask of the gaps (n - 1,) between two recordings, if no event says so."""

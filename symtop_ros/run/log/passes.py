@@ -5,7 +5,6 @@ place in the log: that at which time goes back, near the event that says so.
 """
 
 from collections.abc import Iterator
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -48,8 +47,9 @@ class Passes:
         if self._agrees(stamps, passes) and _measure_disorder(stamps, passes) == 0:
             return passes
         usual = float(np.median(np.abs(np.diff(stamps)))) if len(stamps) > 1 else 0.0
-        find = partial(self._find_later, stamps, usual)
-        passes = sum(map(find, self._begins, own.tolist()), 0 * passes)
+        passes[:] = 0
+        for number, begin in zip(self._begins, own.tolist(), strict=True):
+            passes += self._find_later(stamps, usual, number, begin)
         is_near = _measure_disorder(stamps, passes) <= NEAR * usual
         return passes if is_near and self._agrees(stamps, passes) else None
 

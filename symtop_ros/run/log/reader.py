@@ -72,6 +72,7 @@ END_SIZE = 4  # bytes of the record at the end of the data: their checksum
 CHECKSUM = struct.Struct("<I")  # behind the bytes of an attachment; 0: without it
 MAX_DESCRIPTIONS = 64 * 2**20  # bytes of schemas, channels and metadata in memory
 MAX_PROBLEMS = 20  # problems that are listed
+MAX_COUNT = 19  # digits of a number of messages
 NOT_FINISHED = "the recording was not finished"
 LOST_BEFORE = "lost before a repair: "
 
@@ -447,9 +448,9 @@ class McapFile(MessageSource):
 
     def _describe_dropped(self, count: str) -> str:
         """Return what the record of the end says, which may be damaged."""
-        if not count.isdecimal():
+        if not count.isdecimal() or len(count) > MAX_COUNT:
             return "the record of the end of the log is damaged"
-        dropped = write_count(int(count), "message", "were") if len(count) < 20 else f"{count} messages were"
+        dropped = write_count(int(count), "message", "were")
         text = f"{dropped} dropped: the disk was too slow"
         is_doubtful = self._is_sound is False
         return f"{text}, if the record of the end is not damaged" if is_doubtful else text

@@ -137,7 +137,8 @@ def log_status(recorder: Recorder) -> Status:
     if recorder.failure:
         level, message = ERROR, recorder.failure
     elif recorder.dropped:
-        level, message = WARN, f"{write_count(recorder.dropped, 'message')} dropped: the disk is too slow"
+        dropped = write_count(recorder.dropped, "message")
+        level, message = WARN, f"{dropped} dropped: the disk is too slow"
     return make_status(
         "log", level, message, {"file": recorder.path or "", "dropped": recorder.dropped}
     )

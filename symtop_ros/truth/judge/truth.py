@@ -63,9 +63,12 @@ class Truth:
     def of(cls, account: Account) -> Truth:
         """Return what the account of a log knows, up to its last sample."""
         truth = cls(end=account.end)
+        segments = {
+            id(each.event): cache(each.event.segment) for each in account.stretches if each.event
+        }
         for begin, holding in partition(account.stretches):
             event = holding[0].event if len(holding) == 1 else None
-            truth._add(begin, cache(event.segment) if event else None, len(holding) > 1)
+            truth._add(begin, segments[id(event)] if event else None, len(holding) > 1)
         return truth
 
     @property
@@ -74,10 +77,15 @@ class Truth:
         return self._begins[0] if self._begins else None
 
     @property
+    def latest(self) -> int | None:
+        """Stamp in ns of the latest event, or None."""
+        return self._begins[-1] if self._begins else None
+
+    @property
     def _only(self) -> Segment | None:
-        """The segment of a run of one motion; None for several."""
-        first = self._segments[0] if len(self._segments) == 1 else None
-        return first() if first else None
+        """The segment of a run of one motion, all of which may not be known; None for several."""
+        known = {*filter(None, self._segments)}
+        return known.pop()() if len(known) == 1 else None
 
     @property
     def is_driven(self) -> bool:
