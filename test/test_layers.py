@@ -10,7 +10,7 @@ from documents import ROOT
 PACKAGE = ROOT / "symtop_ros"
 # Files next to the rooms, and what every folder may use of the ground floor.
 TOP = {"__init__", "__main__", "programs"}
-GROUND = {"base/arrays", "base/refusals", "base/units"}
+GROUND = {"base/arrays", "base/counts", "base/refusals", "base/units"}
 # Rooms of several folders.
 DIVIDED = ("run", "ros", "page", "truth")
 # Folder -> folders of the package, and files of `base` | other packages. Each entry is exact: an

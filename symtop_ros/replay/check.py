@@ -2,6 +2,7 @@
 
 import sys
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import one_line
 from symtop_ros.run.check.mismatch import Mismatch
 from symtop_ros.run.check.run import Findings, check_run
@@ -23,7 +24,7 @@ def check(log: TopLog, strict: bool = False) -> int:
     unreached = sum(each.unreached for each in found.deviations.values())
     if unreached:
         _print_problem(
-            f"{unreached} samples cannot be checked: "
+            f"{write_count(unreached, 'sample')} cannot be checked: "
             "the motion is too fast or too long to integrate"
         )
     elif not any(each.samples for each in found.deviations.values()):
@@ -52,7 +53,9 @@ def _print_verdict(found: Findings) -> None:
         print(f"the log begins with event {found.first} of the run")
     if found.foreign:
         by = f"symtop_ros {', '.join(found.versions)}" if found.versions else "another engine"
-        print(f"{found.foreign} events are of {by}: their words and verdicts are not judged")
+        events = write_count(found.foreign, "event", "are")
+        their = "its" if found.foreign == 1 else "their"
+        print(f"{events} of {by}: {their} words and verdicts are not judged")
 
 
 def _describe_damage(account: Account, found: Findings) -> str:
@@ -78,7 +81,7 @@ def _print_topics(account: Account, found: Findings) -> None:
             print(_row(topic.name, found.deviations[name]))
         else:
             print(f"{one_line(topic.name):{WIDTH}}{_describe_text(name, topic.count, found)}")
-    lacking = "it is not in what is left of the log" if account.losses else "it was never recorded"
+    lacking = "it is not in what is left of the log" if account.losses else "it is not in the log"
     for name in account.never_recorded:
         if name not in account.topics:
             print(f"{KNOWN[name].ros_name:{WIDTH}} not compared: {lacking}")
@@ -97,11 +100,13 @@ def _describe_text(name: str, count: int, found: Findings) -> str:
     if not compared:
         return f" not compared: {reason or 'no message is of this node'}"
     left = f"; {count - compared} not compared: {reason}" if reason and count > compared else ""
-    return f"{compared:9} messages compared{left}"
+    what = "message" if compared == 1 else "messages"
+    return f"{compared:9} {what} compared{left}"
 
 
 def _row(topic: str, deviation: Deviation) -> str:
-    row = f"{topic:{WIDTH}}{deviation.samples:9} samples, largest difference {deviation.largest:g}"
+    what = "sample" if deviation.samples == 1 else "samples"
+    row = f"{topic:{WIDTH}}{deviation.samples:9} {what}, largest difference {deviation.largest:g}"
     if deviation.largest:
         row += f" ({deviation.relative:.1e} of its size)"
     notes = {

@@ -208,7 +208,7 @@ CASES = {
     "samples lost after a change of rate": broken(
         lose_after_a_change_of_rate, "10 samples are missing"
     ),
-    "the clock goes forth and back": Case(move_clock),
+    "the clock goes forth and back": Case(move_clock, judge=1),
 }
 EARLY = {  # what else is said of logs that only end early
     "the end cut": "",
@@ -247,7 +247,7 @@ def test_each_reader_says_what_is_wrong_first(name, reader, log, remapped, tmp_p
     lines = err.splitlines()
     if reader == "repair" and len(paths) > 1:
         return  # each file is repaired alone, and says nothing of the others
-    assert bool(lines) == bool(case.says), err
+    assert bool(lines) == bool(case.says or status), err
     for says in case.says:
         assert any(says in line for line in lines), (says, err)
     assert "DO NOT agree" not in out

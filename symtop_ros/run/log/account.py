@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from symtop_ros.base.arrays import Places, Stamps
+from symtop_ros.base.counts import write_count
 from symtop_ros.run.log.checksums import find_damage
 from symtop_ros.run.log.chronicle import Ordered, order_events
 from symtop_ros.run.log.contents import Contents, read_contents
@@ -30,6 +31,7 @@ from symtop_ros.run.log.reader import list_problems
 from symtop_ros.run.log.source import Loss, MessageSource
 from symtop_ros.run.log.stamps import ROUNDING, StampRows
 from symtop_ros.run.log.stretches import (
+    NO_BEGINNING,
     NO_PROOF,
     NOWHERE,
     Finder,
@@ -57,8 +59,11 @@ class TopicAccount:
     count: int  # messages
     rate: float | None  # samples per s, of the first ones; None for topics without samples
     missing: int  # samples, beyond those that the node has counted as missed
+    is_least: bool  # True if more of them may be missing
     uncounted: int  # samples that are missing where the node has not counted any more
-    repeated: int  # samples
+    repeated: int  # samples with the stamp of another one
+    has_more: bool  # True if more of them may be repeated
+    is_repeat: bool  # False if the clock may have gone back, so that they are others
     unreadable: str  # why messages cannot be read; empty: all can
 
 
@@ -112,9 +117,19 @@ class Account:
         return found
 
     @property
+    def lacks_messages(self) -> bool:
+        """True if messages are lost, or may be, as far as reading the files has found."""
+        return any(each.place is not None for each in self.losses)
+
+    @property
+    def lacks_its_end(self) -> bool:
+        """True if messages after the last one are lost, or may be."""
+        return any(each.place == self.count for each in self.losses)
+
+    @property
     def lacks_only_its_end(self) -> bool:
         """True if nothing but the end of the log is lost, as after `kill -9`."""
-        return len(self.problems) == len(self.losses) == 1 and self.losses[0].place == self.count
+        return len(self.problems) == len(self.losses) == 1 and self.lacks_its_end
 
     @property
     def has_top(self) -> bool:
@@ -169,8 +184,8 @@ class _Conclusions:
         self._uncounted = self._find_uncounted()
         ends = [row.last for rows in contents.rows.values() for row in rows.rows]
         self._end = max(ends, default=None)
-        breaks = [*self._list_breaks()]
-        finder = Finder(self._ordered, self._proofs, breaks, self._rows, self._end)
+        losses, doubts = self._list_losses(), self._list_doubtful_places()
+        finder = Finder(self._ordered, self._proofs, losses, self._rows, self._end, doubts)
         self._stretches = tuple(finder.list_stretches())
         self._topics = self._list_topics()
 
@@ -253,14 +268,17 @@ class _Conclusions:
             stamp = self._rows.find_stamp(0, place)
             yield Mark(place, event.stamp if stamp is None else stamp + 1, event.number)
 
-    def _list_breaks(self) -> Iterator[int]:
-        """Yield the places at which an event may have been lost without a trace."""
+    def _list_doubtful_places(self) -> Iterator[int]:
+        """Yield the places at which samples show that an event may have been lost."""
         found = self._found.get(self._main, GridFindings())
         if found.missing > self._counted:
             in_doubt = [gap for gap in found.gaps if gap.stamps in self._uncounted]
             is_rest_counted = found.missing - _count_missing(in_doubt) <= self._counted
             yield from (gap.place for gap in (in_doubt if is_rest_counted else found.gaps))
         yield from found.returns
+
+    def _list_losses(self) -> Iterator[int]:
+        """Yield the places at which messages of any topic are lost, or an event."""
         places = (each.place for each in self._file.losses if each.place is not None)
         # after the last message nothing is judged
         yield from (place for place in places if place < self._file.count)
@@ -283,17 +301,33 @@ class _Conclusions:
 
     def _describe_topic(self, name: str, full: str) -> TopicAccount:
         found = self._found.get(name, GridFindings())
-        missing = _count_missing(self._list_gaps(name))
+        gaps = self._list_gaps(name)
+        missing = _count_missing(gaps)
+        uncounted = _count_missing(self._list_uncounted(name))
+        # Others may be at an event, in a gap that an event explains, or at an end of a file.
+        is_open = any(gap.has_event or gap.place == NOWHERE for gap in gaps)
+        is_open |= any(loss.place in (0, self._file.count) for loss in self._file.losses)
+        is_open |= any(each.reason == NO_BEGINNING for each in self._stretches)
         return TopicAccount(
             name=full,
             type=KNOWN[name].type,
             count=self._contents.counts[name],
             rate=found.rate,
             missing=missing if missing > self._counted else 0,
-            uncounted=_count_missing(self._list_uncounted(name)),
+            is_least=is_open or missing != found.missing - uncounted,
+            uncounted=uncounted,
             repeated=found.repeated,
+            has_more=found.is_least,
+            is_repeat=not (found.returns or self._lacks_events),
             unreadable=self._contents.unreadable.get(name, ""),
         )
+
+    @cached_property
+    def _lacks_events(self) -> bool:
+        """True if events are lost, of which one may have set the clock."""
+        missing = find_missing(self._ordered, self._proofs).values()
+        is_begun = all(event.number == 1 for event in self._ordered.events[:1])
+        return not (is_begun and self._ordered.events) or not all(each.is_off for each in missing)
 
     def _list_gaps(self, name: str) -> list[Gap]:
         """Return the gaps of a topic, but for those that an event may explain that is lost."""
@@ -386,7 +420,7 @@ class _Conclusions:
         if not ordered.events and self._rows.count:
             yield f"the log has no {EVENTS.name}: the motion is not known"
         if ordered.doubled:
-            yield f"{ordered.doubled} events are repeated"
+            yield f"{write_count(ordered.doubled, 'event', 'are')} repeated"
         for event in ordered.contradicting:
             yield f"event {event.number} at {event.stamp} ns is there twice, and the two differ"
         begin = min((event.stamp for event in ordered.events), default=None)
@@ -394,7 +428,7 @@ class _Conclusions:
             rows = self._contents.rows.values()
             if early := max((_count_before(each, begin) for each in rows), default=0):
                 yield (
-                    f"the beginning is missing: {early} samples are before the first event, "
+                    f"the beginning is missing: {_count_samples(early)} before the first event, "
                     f"which is number {ordered.events[0].number}"
                 )
         places = {gap.place for gap in self._list_uncounted(self._main)}
@@ -413,24 +447,17 @@ class _Conclusions:
         lines: dict[str, list[str]] = {}
         for name, topic in self._topics.items():
             if topic.missing:
-                text = self._describe_missing(name, topic.missing)
+                text = self._describe_missing(name, topic)
                 lines.setdefault(text, []).append(name)
             if topic.repeated:
-                count = _count_samples(topic.repeated)
-                text = f"{count} repeated: their stamps are not later than before"
+                text = _describe_repeated(topic)
                 lines.setdefault(text, []).append(name)
         yield from _join(lines)
 
-    def _describe_missing(self, name: str, missing: int) -> str:
+    def _describe_missing(self, name: str, topic: TopicAccount) -> str:
         """Return how many samples of a topic are missing, at least, and where."""
-        found = self._list_gaps(name)
-        # Others may be at an event, in a gap that an event explains, or at an end of a file.
-        in_grid = self._found.get(name, GridFindings()).missing
-        in_grid -= _count_missing(self._list_uncounted(name))
-        is_open = any(gap.has_event or gap.place == NOWHERE for gap in found)
-        is_least = is_open or missing != in_grid
-        count = ("at least " if is_least else "") + _count_samples(missing)
-        where = _describe_where(found)
+        count = ("at least " if topic.is_least else "") + _count_samples(topic.missing)
+        where = _describe_where(self._list_gaps(name))
         return f"{count} missing, {where}; the node has counted {self._counted} as missed"
 
     def _list_notes(self, lacking: Sequence[str]) -> Iterator[str]:
@@ -482,9 +509,17 @@ def _describe_where(found: Iterable[Gap]) -> str:
     return f"{most}between {widest.before} and {widest.after} ns"
 
 
+def _describe_repeated(topic: TopicAccount) -> str:
+    least = "at least " if topic.has_more else ""
+    if topic.is_repeat:
+        return f"{least}{_count_samples(topic.repeated)} repeated, at the stamps of others"
+    count = write_count(topic.repeated, "sample", "have")
+    return f"{least}{count} the stamps of others: repeated, or an event that set the clock is lost"
+
+
 def _count_samples(count: int) -> str:
     """Return a number of samples as the subject of a sentence, with its verb."""
-    return f"{count} sample{'s are' if count > 1 else ' is'}"
+    return write_count(count, "sample", "are")
 
 
 def _cut(stamps: Stamps, places: Places, begin: int, end: int) -> tuple[Stamps, Places]:

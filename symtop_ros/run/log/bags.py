@@ -16,6 +16,7 @@ from typing import Any
 import zstandard
 from mcap.records import Channel, Message, Schema
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.run.log.reader import MAX_MESSAGES, PIECE, LogError, McapFile
 from symtop_ros.run.log.source import ZSTD_START, Loss, MessageSource, name_kind
 from symtop_ros.run.log.writer import BEGUN_ENTRY, FILE_ENTRY, METADATA
@@ -150,9 +151,7 @@ class SqliteBag(MessageSource):
     def _report_rows(self, lost: int) -> int:
         """Report rows without a readable message; return 0, those that are left to report."""
         if lost:
-            self.report(
-                f"{lost} row{'s' if lost > 1 else ''} without a message: the bag is damaged"
-            )
+            self.report(f"{write_count(lost, 'row')} without a message: the bag is damaged")
         return 0
 
     def _rows(self, query: str) -> Iterator[tuple[Any, ...]]:

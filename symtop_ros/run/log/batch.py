@@ -1,11 +1,13 @@
 """Messages of a top, from a log or a running node, decoded into arrays and events."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import one_line
 from symtop_ros.run.simulation.events import Event, decode_events
 from symtop_ros.run.simulation.topics import EVENTS, SAMPLE_TOPICS
@@ -70,6 +72,9 @@ class BatchReader:
     def __init__(self) -> None:
         # reason why messages of a topic could not be decoded, by the name of the topic
         self.unreadable: dict[str, str] = {}
+        # Their numbers and what is said of them, by topics and verbs.
+        self._counts: Counter[tuple[str, str]] = Counter()
+        self._texts: dict[tuple[str, str], str] = {}
         self.lost_events: list[int] = []  # places of messages whose events could not be decoded
         self.frame: str | None = None  # child frame of the top on /tf, if it is known
         self._names: dict[str, tuple[str, ...]] = {}  # frames or joints of each topic
@@ -95,7 +100,7 @@ class BatchReader:
     def _samples(self, batch: Batch, name: str, data: list[bytes], where: list[int]) -> None:
         parts, refused = decode_messages(SAMPLE_TOPICS[name].format, data)
         if refused:
-            self.unreadable[name] = f"{len(refused)} messages: {refused[0]}"
+            self._note(name, "", len(refused), f": {refused[0]}")
         if name == TF:
             parts = self._select_frame(parts)
         self._check_names(name, parts)
@@ -108,9 +113,18 @@ class BatchReader:
             expected = self._names.setdefault(topic, part.names)
             if part.names != expected:
                 got, wanted = (one_line(", ".join(names), 100) for names in (part.names, expected))
-                self.unreadable.setdefault(
-                    topic, f"{len(part.indices)} messages name {got}, not {wanted}"
-                )
+                said = f" not name {wanted}; the first has {got}"
+                self._note(topic, "do", len(part.indices), said)
+
+    def _note(self, topic: str, verb: str, count: int, text: str) -> None:
+        """Count messages of a topic with one kind of fault, whose first text is said."""
+        self._counts[topic, verb] += count
+        self._texts.setdefault((topic, verb), text)
+        self.unreadable[topic] = "; ".join(
+            f"{write_count(number, 'message', key[1])}{self._texts[key]}"
+            for key, number in self._counts.items()
+            if key[0] == topic
+        )
 
     def _events(self, data: list[bytes], where: list[int]) -> list[tuple[int, Event]]:
         found = []

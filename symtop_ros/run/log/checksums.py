@@ -16,6 +16,7 @@ from mcap.data_stream import ReadDataStream
 from mcap.opcode import Opcode
 from mcap.records import Chunk, DataEnd, Footer
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.run.log.message_index import Entry, read_entries
 from symtop_ros.run.log.reader import (
     CHECKSUM,
@@ -161,7 +162,9 @@ class Walk:
         if last != MAGIC:
             self.problems.append("the last bytes are not those of an MCAP file")
         elif more:
-            self.problems.append(f"{more} bytes behind the end of the log are not read")
+            are = "is" if more == 1 else "are"
+            behind = write_count(more, "byte")
+            self.problems.append(f"{behind} behind the end of the log {are} not read")
 
 
 def _index(data: bytes) -> Index | None:

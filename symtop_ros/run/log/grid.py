@@ -13,9 +13,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from symtop_ros.base.arrays import Places, Real, Stamps
+from symtop_ros.base.arrays import Mask, Places, Real, Stamps
 from symtop_ros.run.log.batch import TF
 from symtop_ros.run.log.chronicle import Chronicle, Ordered
+from symtop_ros.run.log.passes import Passes
 from symtop_ros.run.log.source import MessageSource
 from symtop_ros.run.log.stamps import StampRows
 from symtop_ros.run.log.writer import BEGUN_ENTRY, FILE_ENTRY, METADATA
@@ -57,6 +58,7 @@ class GridFindings:
     # places in the log at which time goes back without an event that says so
     returns: tuple[int, ...] = ()
     rate: float | None = None  # samples per s, of the first ones
+    is_least: bool = False  # True if more may be missing, and repeated
 
     @property
     def missing(self) -> int:
@@ -107,15 +109,21 @@ class Grid:
         self._chronicle = Chronicle(ordered.events, ordered.places)
         self._periods = np.array([*_list_periods(ordered, recordings)])  # first before all events
         is_own_time = any(each.is_own_time for each in recordings)
+        self._passes = Passes(ordered)
         # Times without samples, each with the number of the event that says so.
         empty = [
             *_list_jumps(ordered.events),
-            *_list_pauses(ordered.events),
+            *_list_pauses(ordered.events, self._passes),
             *(_list_resumptions(ordered.events, self._periods[1:]) if is_own_time else ()),
         ]
         self._jumps = _find_jumps(ordered)
         # Of each event, and at the end, for owner -1, of what is before all of them.
         self._runs = np.array([*ordered.runs, *ordered.runs[:1]], dtype=np.int64)
+        # Places at which recordings begin, and events that say so.
+        self._recordings = [each.place for each in recordings[1:]]
+        self._begun = {
+            k for k, event in enumerate(ordered.events) if event.values.get("outcome.kind") == BEGUN
+        }
         self._changes = {k for k, event in enumerate(ordered.events) if _changes_grid(event)}
         self._empty = sorted(empty)
         self._empty_of_tf = sorted([*empty, *_list_times_without_tf(ordered.events)])
@@ -125,16 +133,32 @@ class Grid:
         if not rows.rows:
             return GridFindings()
         stamps, places = samples = rows.expand()
-        # In time that went back, a stamp may be there once for each event that holds at it.
-        repeated = rows.count_repeated(self._chronicle.count_holding)
-        if self._chronicle.is_ordered:  # whatever the order of the chunks of a file is
-            order = np.argsort(stamps, kind="stable")
-            stamps, places = stamps[order], places[order]
+        returns = tuple(self._list_returns(*samples))
+        passes = self._passes.find(stamps, places)
+        if passes is None:
+            # Which samples are neighbours is not known, and what is there too often is.
+            repeated = self._count_too_many(stamps)
+            return GridFindings((), repeated, returns, self._find_rate(rows), is_least=True)
+        repeated = rows.count_repeated(passes)
+        order = np.lexsort((stamps, passes))  # whatever the order of the chunks of a file is
+        stamps, places, passes = stamps[order], places[order], passes[order]
+        owners = self._passes.find_owners(stamps, passes)
+        gaps = self._find_gaps(name, (stamps, places, owners, passes), _find_usual_period(rows))
+        return GridFindings(tuple(gaps), repeated, returns, self._find_rate(rows))
+
+    def _count_too_many(self, stamps: Stamps) -> int:
+        """Return how many samples are there beyond one for each event that holds at their stamp."""
+        times, counts = np.unique(stamps, return_counts=True)
+        allowed = np.maximum(self._chronicle.count_holding(times), 1)
+        return int(np.maximum(counts - allowed, 0).sum())
+
+    def _find_rate(self, rows: StampRows) -> float | None:
+        """Return the samples per s of the first ones."""
+        stamps = np.array([row.first for row in rows.rows[:1]], dtype=np.int64)
+        places = np.array([row.first_place for row in rows.rows[:1]], dtype=np.int64)
         owners = self._chronicle.find_owners(stamps, places)
-        periods = self._find_periods(owners, _find_usual_period(rows))
-        gaps = self._find_gaps(name, (stamps, places, owners), periods)
-        rate = float(NANOSECONDS / periods[0]) if periods[0] else None
-        return GridFindings(tuple(gaps), repeated, tuple(self._list_returns(*samples)), rate)
+        (period,) = self._find_periods(owners, _find_usual_period(rows)).tolist()
+        return NANOSECONDS / period if period else None
 
     def _list_returns(self, stamps: Stamps, places: Places) -> Iterator[int]:
         if not self._chronicle.is_in_log_order:  # chunks or messages are in another order
@@ -152,32 +176,41 @@ class Grid:
     def _find_periods(self, owners: Places, usual: float) -> Real:
         """Return the period (ns) of the grid at each sample, of which the owners are the events."""
         periods = self._periods[owners + 1]
-        if not self._chronicle.is_ordered:  # the next event may have come late
-            following = np.minimum(owners + 2, len(self._periods) - 1)
-            periods = np.fmax(periods, self._periods[following])
         return np.where(np.isnan(periods), usual, periods)
 
     def _find_gaps(
-        self, name: str, samples: tuple[Stamps, Places, Places], periods: Real
+        self, name: str, samples: tuple[Stamps, Places, Places, Places], usual: float
     ) -> Iterator[Gap]:
-        stamps, places, owners = samples
+        stamps, places, owners, passes = samples
+        periods = self._find_periods(owners, usual)
         before, after = stamps[:-1], stamps[1:]
         period = np.maximum(periods[:-1], periods[1:])
         # Between two runs no node published. A run begins like a log: with its first sample.
         is_one_run = self._runs[owners[:-1]] == self._runs[owners[1:]] if len(self._runs) else True
-        wide = np.flatnonzero((period > 0) & (after - before > WIDE * period) & is_one_run)
+        is_wide = (after - before > WIDE * period) | (np.diff(passes) > 0)
+        # Before the first event one that is lost may explain it.
+        is_wide &= ~self._is_unsaid(places, owners) & (owners[:-1] >= 0)
+        wide = np.flatnonzero((period > 0) & is_wide & is_one_run)
         columns = before, after, owners[:-1], owners[1:], period, places[:-1] + 1, places[1:]
         for begin, end, owner, next_owner, step, place, until in zip(
             *(each[wide].tolist() for each in columns), strict=True
         ):
-            # An event that came late is the next one.
-            last = next_owner + (not self._chronicle.is_ordered)
             empty = self._empty_of_tf if name == TF else self._empty
-            numbers = slice(*(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, last)))
-            lost = end - begin - _measure(empty[numbers], begin, end)
-            if (missing := round(lost / step) - 1) > 0:
-                has_event = any(number in self._changes for number in range(owner + 1, last + 1))
-                yield Gap(begin, end, place, missing, has_event, until)
+            numbers = slice(
+                *(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, next_owner))
+            )
+            has_event = any(number in self._changes for number in range(owner + 1, next_owner + 1))
+            for first, last, is_first in self._passes.cut(owner, next_owner, begin, end):
+                lost = last - first - _measure(empty[numbers], first, last)
+                # The first sample of a pass is at the stamp at which it begins.
+                if (missing := round(lost / step) - is_first) > 0:
+                    yield Gap(first, last, place, missing, has_event, until)
+
+    def _is_unsaid(self, places: Places, owners: Places) -> Mask:
+        """Return the mask of the gaps (n - 1,) between two recordings, if no event says so."""
+        recordings = np.searchsorted(self._recordings, places, side="right")
+        begun = np.searchsorted(sorted(self._begun), owners, side="right")
+        return np.asarray((np.diff(recordings) > 0) & (np.diff(begun) == 0))
 
 
 def _changes_grid(event: Event) -> bool:
@@ -244,12 +277,12 @@ def _list_jumps(events: Sequence[Event]) -> Iterator[Empty]:
             yield number, event.stamp, min(int(to), MAX_STAMP)
 
 
-def _list_pauses(events: Sequence[Event]) -> Iterator[Empty]:
+def _list_pauses(events: Sequence[Event], passes: Passes) -> Iterator[Empty]:
     """Yield the pauses of a recording."""
-    records = ((number, event) for number, event in enumerate(events) if event.name == "record")
-    for (_, before), (number, after) in pairwise(records):
-        if after.values.get("outcome.kind") == BEGUN:
-            yield number, before.stamp, after.stamp
+    records = (number for number, event in enumerate(events) if event.name == "record")
+    for before, after in pairwise(records):
+        if events[after].values.get("outcome.kind") == BEGUN:
+            yield from ((after, *span) for span in passes.list_spans(before, after))
 
 
 def _list_resumptions(events: Sequence[Event], periods: Real) -> Iterator[Empty]:

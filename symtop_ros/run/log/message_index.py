@@ -5,6 +5,8 @@ from collections.abc import Callable
 
 from mcap.records import Chunk, ChunkIndex
 
+from symtop_ros.base.counts import write_count
+
 Entry = tuple[int, int]  # log time in ns, and offset in the chunk
 INDEX_HEAD = struct.Struct("<HI")  # channel, and bytes of the entries
 ENTRY = struct.Struct("<QQ")
@@ -68,7 +70,9 @@ class DamagedChunk:
         is_counted = self.count and self._is_complete() and span == self._list_spans()[0]
         times = f"of {since_start(span[0]):.3f} .. {since_start(span[1]):.3f} s" if span else ""
         if is_counted:
-            return f"a chunk is damaged: {self.count} messages {times} are lost"
+            are = "is" if self.count == 1 else "are"
+            lost = write_count(self.count, "message")
+            return f"a chunk is damaged: {lost} {times} {are} lost"
         return f"a chunk is damaged: its messages{f', {times},' if times else ''} are lost"
 
     def _list_spans(self) -> list[tuple[int, int]]:

@@ -38,6 +38,7 @@ from mcap.records import (
     Statistics,
 )
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import one_line
 from symtop_ros.run.log.message_index import INDEX_HEAD, DamagedChunk, DamageError
 from symtop_ros.run.log.source import Loss, MessageSource, decompress, name_kind
@@ -71,6 +72,7 @@ END_SIZE = 4  # bytes of the record at the end of the data: their checksum
 CHECKSUM = struct.Struct("<I")  # behind the bytes of an attachment; 0: without it
 MAX_DESCRIPTIONS = 64 * 2**20  # bytes of schemas, channels and metadata in memory
 MAX_PROBLEMS = 20  # problems that are listed
+MAX_COUNT = 19  # digits of a number of messages
 NOT_FINISHED = "the recording was not finished"
 LOST_BEFORE = "lost before a repair: "
 
@@ -104,7 +106,7 @@ class FileRecord(NamedTuple):
 def list_problems(problems: Sequence[str]) -> list[str]:
     """Return the first problems, each in one line, and the number of the others."""
     more = len(problems) - MAX_PROBLEMS
-    rest = [f"{more} more problems"] if more > 0 else []
+    rest = [write_count(more, "more problem")] if more > 0 else []
     return [one_line(each) for each in problems[:MAX_PROBLEMS]] + rest
 
 
@@ -425,16 +427,20 @@ class McapFile(MessageSource):
         ending = self.metadata.get(ENDING, {})
         dropped = ending.get("dropped", "0")
         if dropped != "0":
-            self.report(self._describe_dropped(dropped), is_place=False)
+            self.losses.append(Loss(self._describe_dropped(dropped), 0))
         self.losses += _read_repair(self.metadata.get(REPAIR, {}))
         if self.losses:
             return
         if self._found < self._counted and self._has_sound_index:
             missing = self._counted - self._found
-            self.report(f"{missing} of {self._counted} messages that the index counts are missing")
+            are = "is" if missing == 1 else "are"
+            counted = write_count(self._counted, "message")
+            self.report(f"{missing} of {counted} that the index counts {are} missing")
         elif shift := self._find_shift():
-            lost = f"{shift} bytes before the index are missing: messages may be lost"
-            self.report(lost if shift > 0 else f"{-shift} bytes were inserted before the index")
+            what = write_count(abs(shift), "byte")
+            were, are = ("was", "is") if abs(shift) == 1 else ("were", "are")
+            lost = f"{what} before the index {are} missing: messages may be lost"
+            self.report(lost if shift > 0 else f"{what} {were} inserted before the index")
         elif METADATA in self.metadata and not ending:
             has_index = self._footer and self._footer.summary_start
             what = "the log has no record of its end" if has_index else NOT_FINISHED
@@ -442,9 +448,10 @@ class McapFile(MessageSource):
 
     def _describe_dropped(self, count: str) -> str:
         """Return what the record of the end says, which may be damaged."""
-        if not count.isdecimal():
+        if not count.isdecimal() or len(count) > MAX_COUNT:
             return "the record of the end of the log is damaged"
-        text = f"{count} messages were dropped: the disk was too slow"
+        dropped = write_count(int(count), "message", "were")
+        text = f"{dropped} dropped: the disk was too slow"
         is_doubtful = self._is_sound is False
         return f"{text}, if the record of the end is not damaged" if is_doubtful else text
 

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from mcap.writer import CompressionType, Writer
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.reader import LOST_BEFORE, LogError, McapFile, log_errors
 from symtop_ros.run.log.source import Loss
@@ -33,8 +34,8 @@ class Repaired:
         counts = {"attachment": self.attachments}
         if not self.messages:
             counts["metadata record"] = self.metadata
-        some = [f"{n} {name}{'s' if n > 1 else ''}" for name, n in counts.items() if n]
-        return ", ".join([f"{self.messages} messages", *some])
+        some = [write_count(n, name) for name, n in counts.items() if n]
+        return ", ".join([write_count(self.messages, "message"), *some])
 
 
 def repair(file: McapFile, target: Path, account: Account) -> Repaired:

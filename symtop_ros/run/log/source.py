@@ -31,7 +31,8 @@ class Loss:
     """Something of a log that is damaged or lost."""
 
     text: str
-    place: int | None = None  # messages of the log before it; None: no message is lost there
+    # messages of the log before it, 0 if that is not known; None: no message is lost
+    place: int | None = None
 
 
 class MessageSource(ABC):

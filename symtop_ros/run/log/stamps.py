@@ -2,7 +2,6 @@
 
 import itertools
 from bisect import bisect_left
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -80,8 +79,8 @@ class StampRows:
 
         return spread(first, last), spread(at, until)
 
-    def count_repeated(self, count_allowed: Callable[[Stamps], Places]) -> int:
-        """Return how many stamps are there more often than a function of them allows.
+    def count_repeated(self, passes: Places) -> int:
+        """Return how many samples have the stamp of another one in the same pass (n,) of time.
 
         Two neighbours may be 1 ns apart. Within a row that is the rounding of a grid, by which one
         stamp may be in two rows.
@@ -90,11 +89,11 @@ class StampRows:
         counts = np.array([row.samples for row in self.rows], dtype=np.int64)
         is_end = np.zeros(len(stamps), dtype=np.bool_)
         is_end[np.cumsum(counts) - 1] = is_end[np.cumsum(counts) - counts] = True
-        order = np.argsort(stamps, kind="stable")
-        stamps, is_end = stamps[order], is_end[order]
+        order = np.lexsort((stamps, passes))
+        stamps, is_end, passes = stamps[order], is_end[order], passes[order]
         steps = np.diff(stamps)
         again = (steps == 0) | ((steps <= ROUNDING) & ~(is_end[1:] & is_end[:-1]))
-        return int((count_allowed(stamps[1:][again]) < 2).sum())
+        return int((again & (np.diff(passes) == 0)).sum())
 
     def find_stamp(self, since: int, place: int) -> int | None:
         """Return the stamp (ns) of the last sample between two places of the log; None if none is.

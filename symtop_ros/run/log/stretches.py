@@ -8,6 +8,7 @@ number of the latest one: they prove that none was lost, or that one was.
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -133,9 +134,14 @@ class Finder:
         breaks: Iterable[int],
         rows: StampRows,
         end: int | None = None,  # stamp (ns) of the last sample
+        doubts: Iterable[int] = (),
     ) -> None:
         self._ordered, self._proofs, self._rows = ordered, proofs, rows
-        self._breaks = sorted(breaks)  # places of the log at which messages are lost
+        # Places of the log at which messages are lost, of all topics or of some; at the latter an
+        # event that is missing need not be among them.
+        losses = set(breaks)
+        self._doubts = {*doubts} - losses
+        self._breaks = sorted(losses | self._doubts)
         self._missing = find_missing(ordered, proofs)
         self._begin = min((row.first for row in rows.rows), default=None)
         self._end = MAX_STAMP if end is None else end + 1
@@ -147,15 +153,28 @@ class Finder:
         if self._begin is not None and self._begin < first:
             reason, place = (NO_BEGINNING, 0) if events else (NO_EVENTS, NOWHERE)
             yield Stretch(self._begin, first, None, reason, (0, place))
+        if events and (end := self._find_end_before()) > first:
+            yield Stretch(first, end, None, NO_BEGINNING)
         for k in range(len(events)):
             yield from self._list_parts(k)
+
+    def _find_end_before(self) -> int:
+        """Return the stamp (ns) before which samples may be those of events before all of them.
+
+        If the clock has gone back since, stamps after the first event are among them.
+        """
+        event, place = self._ordered.events[0], self._ordered.places[0]
+        rows = [row for row in self._rows.rows if row.first_place < place]
+        lasts = [before.last + 1 for before, after in pairwise(rows) if after.first <= before.last]
+        lasts += [event.previous_end] if rows else []
+        return max(lasts, default=event.stamp) if event.number != 1 else event.stamp
 
     def _list_parts(self, k: int) -> Iterator[Stretch]:
         """Yield the stretches between an event and the next one."""
         events, places = self._ordered.events, self._ordered.places
         event = events[k]
         has_next = k + 1 < len(events)
-        end = events[k + 1].previous_end if has_next else max(self._end, event.stamp)
+        end = self._find_end(k)
         proof, gap = self._proofs.find_last(k), self._missing.get(k)
         until = places[k + 1] if has_next else NOWHERE
         lost = self._find_break(proof.place, until)
@@ -164,7 +183,8 @@ class Finder:
             return
         begin = proof.stamp
         unknown = (proof.place + 1, until)
-        if lost is not None:
+        # An event that is missing may have been lost alone, before the samples of a gap.
+        if lost is not None and (gap is None or lost not in self._doubts):
             last = self._rows.find_stamp(proof.place, lost)
             begin = proof.stamp if last is None else last + 1
             unknown = (lost, until)
@@ -172,6 +192,26 @@ class Finder:
         yield Stretch(event.stamp, begin, event)
         for first, last in _list_pieces(self._rows, unknown, begin, end):
             yield Stretch(first, last, None, self._explain(gap), unknown)
+
+    def _find_end(self, k: int) -> int:
+        """Return the stamp (ns) before which the motion after an event holds."""
+        events, places = self._ordered.events, self._ordered.places
+        if k + 1 == len(events):
+            return max(self._end, events[k].stamp)
+        following = events[k + 1]
+        if _next_of_run(self._ordered, k):
+            return following.previous_end
+        # Between two runs no node was there: the samples show how long the one before was.
+        first = places[self._ordered.runs.index(self._ordered.runs[k])]
+        is_later = following.stamp > events[k].stamp
+        lasts = [
+            row.last
+            for row in self._rows.rows
+            if first < row.last_place and row.first_place < places[k + 1]
+            if not is_later or row.last < following.stamp
+        ]
+        none = following.stamp if is_later else MAX_STAMP
+        return max([events[k].stamp, *(last + 1 for last in lasts)]) if self._rows.count else none
 
     def _find_break(self, after: int, until: int) -> int | None:
         place = bisect_right(self._breaks, after)

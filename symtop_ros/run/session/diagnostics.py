@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from typing import Any
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import (
     Ledger,
@@ -139,7 +140,8 @@ def log_status(recorder: Recorder) -> Status:
     if recorder.failure:
         level, message = ERROR, recorder.failure
     elif recorder.dropped:
-        level, message = WARN, f"{recorder.dropped} messages dropped: the disk is too slow"
+        dropped = write_count(recorder.dropped, "message")
+        level, message = WARN, f"{dropped} dropped: the disk is too slow"
     return make_status(
         "log", level, message, {"file": recorder.path or "", "dropped": recorder.dropped}
     )

@@ -72,7 +72,7 @@ def measure_clock(estimates: Estimates, truth: Truth, source: str, model: str = 
 
 def _demand_enough(count: int, source: str) -> None:
     if count < FEWEST:
-        raise RefusedError(f"{source} must have {FEWEST} estimates within the run, got {count}")
+        raise RefusedError(f"{source} must have {FEWEST} estimates that can be judged, got {count}")
 
 
 def _find_left(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symtop_ros.base.arrays import Mask, Real, Stamps
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError, one_line
 from symtop_ros.run.wire.layout import (
     NANOSECONDS,
@@ -112,8 +113,9 @@ def _describe_norms(norms: Real) -> Iterator[str]:
     wrong = int((np.abs(norms - 1) > ODD_NORM).sum())
     if wrong:
         ends = dict.fromkeys(f"{float(each):.3g}" for each in (norms.min(), norms.max()))
-        counted = f"{wrong} of {len(norms)} quaternions"
-        yield f"{counted} had another norm than 1, and were divided by it: {' to '.join(ends)}"
+        counted = f"{wrong} of {write_count(len(norms), 'quaternion')}"
+        were = "was" if wrong == 1 else "were"
+        yield f"{counted} had another norm than 1, and {were} divided by it: {' to '.join(ends)}"
 
 
 POSE = {"position": 3, "orientation": 4}

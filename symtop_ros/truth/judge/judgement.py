@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.causes import Cause, Finding
@@ -70,7 +71,8 @@ class Judgement:
         removed = f", {' and '.join(self.removed)} removed" if self.removed else ""
         growth = [x for x in facts["growth_rms"] if x is not None]
         lines = [
-            f"{self.source}: {facts['estimates']} estimates in {facts['seconds']:.6g} s{removed}",
+            f"{self.source}: {write_count(facts['estimates'], 'estimate')} in "
+            f"{facts['seconds']:.6g} s{removed}",
             _head(18),
             *(_row(QUANTITIES[name], 18, facts[name]) for name in QUANTITIES if name in facts),
             f"attitude, rms: {growth[0]:.2e} rad in the first tenth, {growth[-1]:.2e} in the last",
@@ -104,13 +106,17 @@ class Judgement:
 
     def _remarks(self) -> list[str]:
         counts = (
-            (self.errors.early, "before the run"),
+            (self.errors.early, "before what is known of the run"),
             (self.errors.unjudged, "where the log does not say which motion holds"),
             (self.errors.unknown, "out of reach of the integration of the run"),
-            (self.errors.late, "after the last sample of the run"),
+            (self.errors.late, "after what is known of the run"),
             (self.left_out, "without a readable attitude"),
         )
-        left_out = [f"left out: {number} estimates {what}" for number, what in counts if number]
+        left_out = [
+            f"left out: {write_count(number, 'estimate')} {what}"
+            for number, what in counts
+            if number
+        ]
         return left_out + [f"note: {note}" for note in self.notes]
 
 
@@ -252,6 +258,11 @@ def _describe_absence(estimates: Estimates, truth: Truth, source: str) -> str:
         return (
             f"{source} must have estimates where the log says which motion holds, got {unjudged} "
             f"where it does not{notes}"
+        )
+    if unreached := len(estimates) - sum(truth.count_outside(estimates.stamps)):
+        return (
+            f"{source} must have estimates of a motion that can be integrated, got "
+            f"{unreached} of one that takes too long{notes}"
         )
     times = [estimates.stamps[0], estimates.stamps[-1], truth.begin or 0, truth.end]
     first, last, begin, end = (

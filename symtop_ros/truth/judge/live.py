@@ -4,12 +4,14 @@ import argparse
 import json
 import sys
 import time
+from dataclasses import dataclass
 
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSDurabilityPolicy, QoSProfile, QoSReliabilityPolicy
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError, one_line
 from symtop_ros.base.shutdown import describe_failure, ros_context, spin_until
 from symtop_ros.run.simulation.events import decode_events
@@ -27,6 +29,40 @@ LATCHED = QoSProfile(depth=EVENTS.depth, durability=QoSDurabilityPolicy.TRANSIEN
 BEST_EFFORT = QoSProfile(depth=2000, reliability=QoSReliabilityPolicy.BEST_EFFORT)
 
 
+NO_EVENTS = "no events of the top"
+
+
+@dataclass(frozen=True, eq=False)
+class Second:
+    """The estimates of a second: those that are left out and why, and errors of the others."""
+
+    left_out: int
+    reason: str
+    errors: Errors | None = None  # None: there is none
+
+    def dump(self) -> str:
+        """Return the figures as a line of JSON."""
+        values = self.errors.quantities if self.errors else {}
+        facts = {name: summarize(each) for name, each in values.items() if name != "heading"}
+        count = len(self.errors.total) if self.errors else 0
+        return json.dumps({"estimates": count, "left_out": self.left_out, **facts})
+
+    def format(self) -> str:
+        """Return the figures as a line of text."""
+        if self.errors is None:
+            left_out = f"{write_count(self.left_out, 'estimate')} left out: {self.reason}"
+            return left_out if self.left_out else self.reason
+        errors = self.errors
+        rms = summarize(errors.total)["rms"]
+        rate = errors.rate
+        more = f" ({self.left_out} left out)" if self.left_out else ""
+        return (
+            f"{write_count(len(errors.total), 'estimate')}{more}: attitude {rms:.2e} rad rms, "
+            f"{errors.total.max():.2e} at most, tilt {errors.tilt.max():.2e}"
+            f"{'' if rate is None else f', angular velocity {rate.max():.2e} rad/s'}"
+        )
+
+
 class Court:
     """Collects the events of a top and the estimates, and compares them."""
 
@@ -35,27 +71,41 @@ class Court:
         self._kind, self._frame = kind, frame
         self._new: list[bytes] = []
         self._waiting: list[bytes] = []
+        self._has_gone_back = False  # True if the clock of the run has, since the last line
         node.create_subscription(
             EVENTS.load_message_class(), EVENTS.resolve(top), self._hear, LATCHED, raw=True
         )
         message_class = Topic(topic, kind).load_message_class()
         node.create_subscription(message_class, topic, self._new.append, BEST_EFFORT, raw=True)
 
-    def judge(self) -> Errors | None:
-        """Return the errors of the estimates of the second before the last; None without any.
+    def judge(self) -> Second:
+        """Return what is known of the estimates of the second before the last.
 
         They wait for a second because the event of a kick may arrive after the estimates of the
-        motion that follows from it.
+        motion that follows from it. When the clock goes back, those of that second and of the one
+        before it may be of any of two motions.
         """
         due, self._waiting = self._waiting, self._new[:]
         self._new.clear()
-        if not due or self.truth.begin is None:
-            return None
-        errors = compare(decode_estimates(self._kind, due, self._frame), self.truth)
-        return errors if len(errors.total) else None
+        if self._has_gone_back:
+            due, self._waiting = due + self._waiting, []
+        found = decode_estimates(self._kind, due, self._frame)
+        count = len(found) + found.left_out
+        if self._has_gone_back:
+            self._has_gone_back = False
+            return Second(count, "the clock of the run went back")
+        if not count or self.truth.begin is None:
+            return Second(0, "no estimates" if self.truth.begin is not None else NO_EVENTS)
+        errors = compare(found, self.truth)
+        if len(errors.total):
+            return Second(count - len(errors.total), "", errors)
+        return Second(count, "their stamps are not within the run, or they have no attitude")
 
     def _hear(self, data: bytes) -> None:
         for event in decode_events(data):
+            latest = self.truth.latest
+            is_back = latest is not None and event.stamp < max(latest, event.previous_end)
+            self._has_gone_back |= is_back
             self.truth.add(event)
 
 
@@ -77,9 +127,9 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
             end = time.monotonic() + (seconds or float("inf"))
             while time.monotonic() < end:
                 spin_until(executor, min(end, time.monotonic() + PERIOD))
-                errors = court.judge()
-                worst = max(worst, float(errors.total.max()) if errors else 0.0)
-                print(_dump(errors) if options.json else _format(errors, court.truth), flush=True)
+                found = court.judge()
+                worst = max(worst, float(found.errors.total.max()) if found.errors else 0.0)
+                print(found.dump() if options.json else found.format(), flush=True)
     except ExternalShutdownException:
         pass
     except RefusedError:
@@ -97,22 +147,3 @@ def _find_type(executor: SingleThreadedExecutor, node: Node, topic: str) -> str:
             return str(found[0])
         spin_until(executor, time.monotonic() + 0.1)
     raise RefusedError(f"--topic must be a topic that is published, got {one_line(topic)}")
-
-
-def _dump(errors: Errors | None) -> str:
-    """Return the figures of a second as a line of JSON."""
-    values = errors.quantities if errors else {}
-    facts = {name: summarize(each) for name, each in values.items() if name != "heading"}
-    return json.dumps({"estimates": len(errors.total) if errors else 0, **facts})
-
-
-def _format(errors: Errors | None, truth: Truth) -> str:
-    if errors is None:
-        return "no estimates" if truth.begin is not None else "no events of the top"
-    rms = summarize(errors.total)["rms"]
-    rate = errors.rate
-    return (
-        f"{len(errors.total)} estimates: attitude {rms:.2e} rad rms, "
-        f"{errors.total.max():.2e} at most, tilt {errors.tilt.max():.2e}"
-        f"{'' if rate is None else f', angular velocity {rate.max():.2e} rad/s'}"
-    )

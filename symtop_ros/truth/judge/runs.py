@@ -13,14 +13,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
+from symtop_ros.run.wire.messages import TRANSFORM
 from symtop_ros.truth.judge.estimates import Estimates, read_topic
 from symtop_ros.truth.judge.tables import TABLES, read_table
 from symtop_ros.truth.judge.times import read_times
 from symtop_ros.truth.judge.truth import Truth, read_events, scene_truth
 
 if TYPE_CHECKING:  # logs need mcap
-    from symtop_ros.run.log.account import Account
+    from symtop_ros.run.log.account import Account, TopicAccount
 
 BODY, SENSOR = ATTITUDES = "body", "sensor"
 
@@ -40,6 +42,7 @@ class Source:
     name: str
     estimates: Estimates
     account: Account | None = None
+    topic: TopicAccount | None = None  # if they are those of a top of this log
 
 
 def read_run(options: argparse.Namespace) -> Run:
@@ -75,7 +78,22 @@ def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
     if account and other:
         print_problems(account)
     found = ((topic, read_topic(file, topic, options.frame)) for topic in options.topic)
-    return [Source(n, _choose_frame(each, options.attitude_of), account) for n, each in found]
+    return [
+        Source(
+            name,
+            _choose_frame(each, options.attitude_of),
+            account,
+            _find_topic(account, name, options.frame),
+        )
+        for name, each in found
+    ]
+
+
+def _find_topic(account: Account | None, name: str, frame: str | None) -> TopicAccount | None:
+    """Return what is known of a topic of the top; on /tf other frames are not of it."""
+    is_other = account is not None and frame is not None and frame != account.frame
+    topic = account.find_topic(name) if account else None
+    return None if topic and is_other and topic.type == TRANSFORM.type else topic
 
 
 def _choose_frame(estimates: Estimates, attitude_of: str | None) -> Estimates:
@@ -99,28 +117,36 @@ def report_faults(run: Run, sources: list[Source]) -> int:
 
 def _list_faults(source: Source, run: Run) -> Iterator[str]:
     """Yield why estimates of a source are damaged, missing or cannot be judged."""
-    estimates, account = source.estimates, source.account
-    stamps = estimates.stamps
-    unjudged = run.truth.find_unjudged(stamps)
-    if unjudged.any():
-        yield f"{unjudged.sum()} estimates cannot be judged: the motion is not known there"
-    within = estimates.select(~unjudged)
-    inside = len(within) - sum(run.truth.count_outside(within.stamps))
-    if unreached := inside - len(run.truth.select(within)):
-        yield f"{unreached} estimates cannot be judged: the motion takes too long to integrate"
-    late = run.truth.count_outside(stamps)[1]
-    if late and run.account and run.account.losses:
-        yield f"{late} estimates cannot be judged: they are after the part of the log that is left"
+    estimates, account, topic = source.estimates, source.account, source.topic
+    for number, reason in _count_unjudged(estimates, run):
+        if number:
+            yield f"{write_count(number, 'estimate')} cannot be judged: {reason}"
     if estimates.unreadable:
-        yield f"{estimates.unreadable} estimates cannot be read"
-    if account and account.losses:
+        yield f"{write_count(estimates.unreadable, 'message')} cannot be read"
+    if account and account.lacks_messages:
         how = "ends early" if account.lacks_only_its_end else "is damaged"
         yield f"estimates may be missing: the log {how}"
-    topic = account.find_topic(source.name) if account else None
     if topic and topic.missing:
-        yield f"{topic.missing} estimates are missing"
+        least = "at least " if topic.is_least else ""
+        yield f"{least}{write_count(topic.missing, 'estimate', 'are')} missing"
     if topic and topic.uncounted:
         why = "the node may have missed them, or they are lost"
-        yield f"{topic.uncounted} estimates are missing: {why}"
+        yield f"{write_count(topic.uncounted, 'estimate', 'are')} missing: {why}"
     if topic and topic.repeated:
-        yield f"{topic.repeated} estimates are repeated"
+        least = "at least " if topic.has_more else ""
+        repeated = write_count(topic.repeated, "estimate", "are" if topic.is_repeat else "have")
+        yield f"{least}{repeated} {'repeated' if topic.is_repeat else 'the stamps of others'}"
+
+
+def _count_unjudged(estimates: Estimates, run: Run) -> Iterator[tuple[int, str]]:
+    """Yield numbers of estimates that cannot be judged, and why."""
+    truth, stamps = run.truth, estimates.stamps
+    unjudged, repeated = truth.find_unjudged(stamps), truth.find_repeated(stamps)
+    yield int((unjudged & ~repeated).sum()), "the motion is not known there"
+    yield int(repeated.sum()), "more than one motion may hold there, as the clock went back"
+    within = estimates.select(~unjudged)
+    inside = len(within) - sum(truth.count_outside(within.stamps))
+    yield inside - len(truth.select(within)), "the motion takes too long to integrate"
+    if run.account and run.account.lacks_its_end:
+        late = truth.count_outside(stamps)[1]
+        yield late, "they are after the part of the log that is left"

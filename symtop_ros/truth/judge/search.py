@@ -59,7 +59,10 @@ class Search:
         self.tables = Tables(truth, self.fit.fastest)
         self.hidden = HIDDEN.get(truth.kind, ())
         steps = int(np.ptp(self.some.stamps)) // STEP + len(self.some)
-        self.names = [name for name in PARAMETERS if name != "scale" or steps <= MOST_STEPS]
+        # In a sleeping top a delay is a heading, and any number of turns of it are as good.
+        is_delay_heading = "rotations" in self.hidden
+        left_out = {"scale": steps > MOST_STEPS, "delay": is_delay_heading}
+        self.names = [name for name in PARAMETERS if not left_out.get(name)]
 
     def find(self) -> Finding:
         """Return the simplest of all explanations, with what it leaves of all estimates."""

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError, one_line, plain
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.estimates import MAX_STAMP, Estimates
@@ -216,7 +217,7 @@ def _read_rows(
     table = np.array(numbers, dtype=float).reshape(-1, len(columns.numbers))
     bad = np.flatnonzero(~np.isfinite(table).all(axis=1))
     infinite = [
-        f"{len(bad)} rows have nan or infinity, the first in line {lines[place]}"
+        f"{write_count(len(bad), 'row', 'have')} nan or infinity, the first in line {lines[place]}"
         for place in bad[:1]
     ]
     unit = columns.unit or ("s" if any("." in time for time in times) else "ns")
@@ -250,7 +251,8 @@ def _describe_times(stamps: Sequence[int], unit: str, times: Row) -> Iterator[st
         counts[stamp] = counts.get(stamp, 0) + 1
     if repeated := len(stamps) - len(counts):
         first = max(counts, key=lambda each: counts[each]) / NANOSECONDS
-        yield f"{repeated} rows repeat a time, among them {first:.9g} s"
+        rows = "row repeats" if repeated == 1 else "rows repeat"
+        yield f"{repeated} {rows} a time, among them {first:.9g} s"
     decimals = max((len(time.partition(".")[2]) for time in times), default=0)
     latest = max(stamps, default=0)
     if unit == "s" and EPOCH < latest <= MAX_STAMP and decimals < DIGITS:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
+from itertools import groupby, islice
+from operator import itemgetter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,14 +23,16 @@ from symtop_ros.truth.judge.estimates import Estimates
 
 if TYPE_CHECKING:  # logs need mcap
     from symtop_ros.run.log.account import Account
+    from symtop_ros.run.log.stretches import Stretch
 
 
 class Truth:
     """The exact states of a run.
 
     Each stamp belongs to the last event up to it, so that kicks, pauses and changes of the
-    real-time factor are followed at their very instants. If the clock of the run jumped back, the
-    later run replaces what it repeats. Where events are lost no state is known.
+    real-time factor are followed at their very instants. No state is known where events are lost,
+    and at stamps that a log has twice, as a clock that goes back leaves them. An event that is
+    added to a run that is under way replaces what it repeats.
     """
 
     def __init__(self, events: Sequence[Event] = (), end: int | None = None) -> None:
@@ -36,6 +40,7 @@ class Truth:
         self._begins: list[int] = []  # stamps in ns from which on each of the following holds
         # the motion after an event; None where it is not known
         self._segments: list[Callable[[], Segment] | None] = []
+        self._is_repeated: list[bool] = []  # True if more than one motion may hold
         self._budget = StepBudget(SPARE_STEPS)
         for event in events:
             self.add(event)
@@ -44,19 +49,26 @@ class Truth:
         """Add the next event of the run."""
         self._add(event.stamp, cache(event.segment))
 
-    def _add(self, begin: int, segment: Callable[[], Segment] | None) -> None:
+    def _add(
+        self, begin: int, segment: Callable[[], Segment] | None, is_repeated: bool = False
+    ) -> None:
+        columns: tuple[list[Any], ...] = self._begins, self._segments, self._is_repeated
         while self._begins and self._begins[-1] > begin:
-            self._begins.pop()
-            self._segments.pop()
-        self._begins.append(begin)
-        self._segments.append(segment)
+            for column in columns:
+                column.pop()
+        for column, value in zip(columns, (begin, segment, is_repeated), strict=True):
+            column.append(value)
 
     @classmethod
     def of(cls, account: Account) -> Truth:
         """Return what the account of a log knows, up to its last sample."""
         truth = cls(end=account.end)
-        for each in account.stretches:
-            truth._add(each.begin, cache(each.event.segment) if each.event else None)
+        segments = {
+            id(each.event): cache(each.event.segment) for each in account.stretches if each.event
+        }
+        for begin, holding in partition(account.stretches):
+            event = holding[0].event if len(holding) == 1 else None
+            truth._add(begin, segments[id(event)] if event else None, len(holding) > 1)
         return truth
 
     @property
@@ -65,10 +77,15 @@ class Truth:
         return self._begins[0] if self._begins else None
 
     @property
+    def latest(self) -> int | None:
+        """Stamp in ns of the latest event, or None."""
+        return self._begins[-1] if self._begins else None
+
+    @property
     def _only(self) -> Segment | None:
-        """The segment of a run of one motion; None for several."""
-        first = self._segments[0] if len(self._segments) == 1 else None
-        return first() if first else None
+        """The segment of a run of one motion, all of which may not be known; None for several."""
+        known = {*filter(None, self._segments)}
+        return known.pop()() if len(known) == 1 else None
 
     @property
     def is_driven(self) -> bool:
@@ -92,10 +109,16 @@ class Truth:
 
     def find_unjudged(self, stamps: Stamps) -> Mask:
         """Return the mask of the stamps within the run at which the motion is not known."""
+        return self._find(stamps, [each is None for each in self._segments])
+
+    def find_repeated(self, stamps: Stamps) -> Mask:
+        """Return the mask of those of them at which more than one motion may hold."""
+        return self._find(stamps, self._is_repeated)
+
+    def _find(self, stamps: Stamps, wanted: Sequence[bool]) -> Mask:
         owners = self._find_owners(stamps)
-        unknown = np.array([each is None for each in self._segments], dtype=bool)
         is_there = owners >= 0
-        is_there[is_there] = unknown[owners[is_there]]
+        is_there[is_there] = np.array(wanted, dtype=bool)[owners[is_there]]
         return is_there
 
     def _find_owners(self, stamps: Stamps) -> Places:
@@ -134,6 +157,21 @@ class Truth:
     def select(self, estimates: Estimates) -> Estimates:
         """Return the estimates at stamps of which the exact motion is known."""
         return estimates.select(self.states_at(estimates.stamps, estimates.of_sensor)[2])
+
+
+def partition(stretches: Sequence[Stretch]) -> Iterator[tuple[int, list[Stretch]]]:
+    """Yield the stamps at which other stretches hold, and these: none, one, or several."""
+    spans = [each for each in stretches if each.begin < each.end]
+    changes = [(each.begin, True, k) for k, each in enumerate(spans)]
+    changes += [(each.end, False, k) for k, each in enumerate(spans)]
+    holding: dict[int, Stretch] = {}
+    for stamp, group in groupby(sorted(changes), key=itemgetter(0)):
+        for _, begins, k in group:
+            if begins:
+                holding[k] = spans[k]
+            else:
+                del holding[k]
+        yield stamp, [*islice(holding.values(), 2)]
 
 
 def scene_truth(name: str) -> Truth:

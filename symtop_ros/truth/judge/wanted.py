@@ -33,7 +33,7 @@ def explain(
     run = truth.select(estimates)
     if len(run) < 2:
         raise RefusedError(
-            f"--remove must have at least 2 estimates within the run, got {len(run)}"
+            f"--remove must have at least 2 estimates that can be judged, got {len(run)}"
         )
     search = Search(run, truth)
     turned = "offset" in removed

@@ -132,7 +132,7 @@ def test_every_message_twice_is_said_of_samples_and_events(memory):
 def test_an_event_twice_is_said(memory, number):
     place = memory.places("/top/events")[number]
     memory.messages.insert(place, replace(memory.messages[place]))
-    assert judge(memory)[0].problems == ("1 events are repeated",)
+    assert judge(memory)[0].problems == ("1 event is repeated",)
 
 
 def test_a_beginning_that_is_missing_is_said_with_its_samples(tmp_path, capsys):

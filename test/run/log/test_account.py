@@ -16,6 +16,7 @@ from run.log.damaged import Log, Recorded, cut_end, zero_chunk
 from run.log.variants import INPUTS, list_variants, write_variant
 from trials import seeds
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.run.check.run import check_run
 from symtop_ros.run.log.account import read_account
 from symtop_ros.run.log.bags import open_run
@@ -150,7 +151,7 @@ def test_events_that_a_recorder_repeats_at_the_begin_of_each_file_are_none_too_m
     assert TopLog(open_run(paths)).account.problems == ()
     twice = replace(whole, messages=whole.messages[:half] + head + whole.messages[half:])
     problems = TopLog(open_run([twice.write(tmp_path / "c.mcap")])).account.problems
-    assert problems == (f"{len(head)} events are repeated",)
+    assert problems == (f"{write_count(len(head), 'event', 'are')} repeated",)
 
 
 def test_an_event_of_another_file_that_differs_is_told(log, tmp_path):

@@ -21,6 +21,7 @@ from mcap.records import Chunk
 from mcap.writer import CompressionType
 from trials import seeds
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.run.log import reader
 from symtop_ros.run.log.checksums import read_damage
 from symtop_ros.run.log.reader import LogError, McapFile
@@ -295,7 +296,7 @@ def test_messages_that_cannot_be_decoded_are_reported_and_the_others_used(cut, t
     log = write(tmp_path, {"/top": run})
     assert len(columns_of(log)["torque"]) == 200 - cut
     (problem,) = log.account.problems
-    assert problem.startswith(f"torque: {cut} messages: ")
+    assert problem.startswith(f"torque: {write_count(cut, 'message')}: ")
     assert "are not a geometry_msgs/msg/WrenchStamped" in problem
 
 

@@ -327,6 +327,6 @@ def test_messages_of_a_channel_without_a_description_are_omitted_and_reported(tm
         writer.finish()
     file = McapFile(path)
     account = account_of(file)
-    assert str(repair(file, tmp_path / "whole.mcap", account)) == "1 messages"
+    assert str(repair(file, tmp_path / "whole.mcap", account)) == "1 message"
     assert account.problems == (f"channel {known + 1} is not described: its messages are lost",)
     assert [data for *_, data in contents(tmp_path / "whole.mcap")] == [b"mine"]

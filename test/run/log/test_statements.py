@@ -14,17 +14,17 @@ from symtop_ros.run.log.reader import McapFile
 
 RUN = Run(seconds=2.0, rate=100.0)
 SIZES = 1, 8, 40, 500, 5000  # bytes that are damaged
-COUNTED = re.compile(r"a chunk is damaged: (\d+) messages of (\S+) \.\. (\S+) s are lost")
+COUNTED = re.compile(r"a chunk is damaged: (\d+) messages? of (\S+) \.\. (\S+) s (?:is|are) lost")
 TIMED = re.compile(r"a chunk is damaged: (its) messages, of (\S+) \.\. (\S+) s, are lost")
 CHUNKS = re.compile(
     r"bytes \d+ to \d+ .*: (.*) (?:is|are) lost, with messages of (\S+) \.\. (\S+) s"
 )
-MISSING = re.compile(r"(\d+) of (\d+) messages that the index counts are missing")
-SHIFTED = re.compile(r"(\d+) bytes before the index are missing: messages may be lost")
-INSERTED = re.compile(r"(\d+) bytes were inserted before the index")
+MISSING = re.compile(r"(\d+) of (\d+) messages that the index counts (?:is|are) missing")
+SHIFTED = re.compile(r"(\d+) bytes? before the index (?:is|are) missing: messages may be lost")
+INSERTED = re.compile(r"(\d+) bytes? (?:was|were) inserted before the index")
 NOTHING_LOST = re.compile(
     r"bytes \d+ to \d+ are damaged|a chunk without messages is damaged|"
-    r"\d+ bytes were inserted before the index"
+    r"\d+ bytes? (?:was|were) inserted before the index"
 )
 MAY_BE_LOST = re.compile(r".*(may be lost|its messages are lost)|the record before .* is damaged")
 
@@ -155,7 +155,7 @@ def test_a_damaged_chunk_with_a_message_at_the_time_0_has_messages(index, tmp_pa
     data = data[: begin + 60] + b"\xff" + data[begin + 61 :]
     problems, found = read(tmp_path, data)
     assert len(found) == 1
-    lost = "its messages, of" if index == IndexType.CHUNK else "1 messages of"
+    lost = "its messages, of" if index == IndexType.CHUNK else "1 message of"
     assert problems[0].startswith(f"a chunk is damaged: {lost} 0.000 .. 0.000 s")
 
 
