@@ -200,6 +200,8 @@ class Grid:
                 *(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, next_owner))
             )
             has_event = any(number in self._changes for number in range(owner + 1, next_owner + 1))
+            # An event between both may have had a slower grid.
+            step = max(step, np.nanmax(self._periods[owner + 1 : next_owner + 2], initial=0.0))
             for first, last, is_first in self._passes.cut(owner, next_owner, begin, end):
                 lost = last - first - _measure(empty[numbers], first, last)
                 # The first sample of a pass is at the stamp at which it begins.
@@ -286,16 +288,18 @@ def _list_pauses(events: Sequence[Event], passes: Passes) -> Iterator[Empty]:
 
 
 def _list_resumptions(events: Sequence[Event], periods: Real) -> Iterator[Empty]:
-    """Yield the times after a pause in which a recording began, of a run in its own time.
+    """Yield the times around the end of a pause that have no samples, of a run in its own time.
 
-    The sample at the beginning of the pause is then not recorded, and the next one comes a period
-    after its end.
+    The grid begins anew a period after the end. An act right before the pause takes the stamp of a
+    sample, which is then not sent. If a recording began in the pause, the sample at its beginning
+    is not recorded.
     """
     is_begun = False
     for number, (event, period) in enumerate(zip(events, periods.tolist(), strict=True)):
         if event.name == "resume":
-            if is_begun and not math.isnan(period):
-                yield number, event.stamp, event.stamp + int(period)
+            if not math.isnan(period):
+                after = int(period) if is_begun else 0
+                yield number, event.stamp - int(period), event.stamp + after
             is_begun = False
         is_begun |= event.values.get("outcome.kind") == BEGUN
 

@@ -177,14 +177,14 @@ class Ticker:
 
         A stamp is taken when it is yielded: those that are not asked for stay due.
         """
-        last = (now - self._start) * self._ticks // self._nanoseconds
+        # The last tick whose stamp is not after `now`: a stamp may be half a nanosecond before or
+        # after its tick.
+        last = ((2 * (now - self._start) + 1) * self._ticks - 1) // (2 * self._nanoseconds)
         oldest = last - int(catch_up * self.rate)
         if oldest > self._next:
             self.missed += oldest - self._next
             self._go_to(oldest)
-        latest = min(now, until)
-        # A stamp is rounded, so the one of tick `last` may be half a nanosecond after `now`.
-        while self._next <= last and self.next_stamp <= latest:
+        while self._next <= last and self.next_stamp <= until:
             stamp = self.next_stamp
             self._go_to(self._next + 1)
             self.late += count_late and (now - stamp) * self._ticks > self._nanoseconds

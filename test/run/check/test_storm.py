@@ -7,6 +7,9 @@ from trials import seeds
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.replay.main import main
+from symtop_ros.run.check.run import check_run
+from symtop_ros.run.log.bags import open_run
+from symtop_ros.run.log.top_log import TopLog
 
 ACTS = 14
 LOOP = 20.0  # s, at which the clock of a bag that is played again and again begins
@@ -74,6 +77,54 @@ def storm(rng, folder):
         recorded.run(0.2)
     recorded.close()
     return folder
+
+
+def stop(rng, recorded):
+    """Let the process lack time, after which a request or the diagnostics may come first."""
+    recorded.clock.now += round(rng.choice((0.05, 0.2, 0.7, 1.5, 3.0)) * SECOND)
+    if rng.random() < 0.3:
+        recorded.session.keep_up()
+
+
+def push(rng, recorded):
+    recorded.session.hold_torque([rng.uniform(-1e-3, 1e-3) for _ in range(3)])
+
+
+@pytest.mark.parametrize("seed", seeds(6, 300))
+def test_a_log_of_a_busy_machine_with_acts_in_quick_succession_is_sound(seed, tmp_path):
+    rng = Numbers(seed)
+    recorded = Recorded(tmp_path, publish_clock=rng.random() < 0.5)
+    recorded.clock.is_simulated = False
+    for _ in range(ACTS):
+        recorded.run(rng.randint(1, 400) / 1024)
+        for _ in range(rng.randint(1, 3)):
+            rng.choice((ask, change, push, stop, stop))(rng, recorded)
+    recorded.run(0.2)
+    assert_sound(recorded)
+
+
+def assert_sound(recorded):
+    log = TopLog(open_run(recorded.close()))
+    assert (log.account.problems, log.account.doubts) == ((), ())
+    found = check_run(log)
+    assert found.samples_agree
+    assert (found.mismatches, found.unjudged) == ([], 0)
+
+
+@pytest.mark.parametrize("is_changed", [False, True])
+def test_acts_within_one_period_leave_no_sample_missing(is_changed, tmp_path):
+    recorded = Recorded(tmp_path, publish_clock=True)
+    recorded.clock.is_simulated = False
+    recorded.run(0.5)
+    recorded.kick()  # which acts with the next sample
+    recorded.ask("pause", True)
+    if is_changed:
+        recorded.session.apply_settings({"publish_rate": 30.0})
+    recorded.ask("pause", False)
+    if is_changed:
+        recorded.session.apply_settings({"publish_rate": 100.0})
+    recorded.run(0.3)
+    assert_sound(recorded)
 
 
 @pytest.mark.parametrize("seed", seeds(6, 300))

@@ -158,6 +158,16 @@ def test_stamps_are_on_the_grid_however_late_the_timer_is(rate, begin, ticks, la
     assert ticker.missed == missed
 
 
+@pytest.mark.parametrize("rate", [30.0, 777.7, 1000.0])
+def test_each_stamp_is_due_at_its_own_nanosecond(rate):
+    """Its tick may be a fraction of a nanosecond later, at which a clock may stand still."""
+    ticker = Ticker(rate, 7)
+    for _ in range(100):
+        stamp = ticker.next_stamp
+        assert due(ticker, stamp - 1) == []
+        assert due(ticker, stamp) == [stamp]
+
+
 def test_the_grid_continues_from_any_of_its_stamps():
     ticker = Ticker(333.0, 7)
     stamps = due(ticker, 7 + 1_000 * MS)
