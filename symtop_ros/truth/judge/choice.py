@@ -42,7 +42,12 @@ def select(found: Sequence[Cause], fits: Mapping[str, Fit], rounding: float) -> 
     left = fits[lowest.change].find_remainder(lowest.offset)
     is_noise = not left.find_fault(lowest.count) and left.has_shape_of_noise
     factor = min(1 + CHANCE / (3 * left.independent), SIMPLER) if is_noise else SIMPLER
-    return [each for each in found if each.cost <= factor * lowest.cost + rounding]
+    most = factor * lowest.cost + rounding
+    known = fits[lowest.change].exact(lowest.offset)[1]
+    if known.all():
+        return [each for each in found if each.cost <= most]
+    # Causes are compared by the estimates that both explain.
+    return [each for each in found if fits[each.change].cost_where(each.offset, known) <= most]
 
 
 def choose(

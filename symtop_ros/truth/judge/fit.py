@@ -78,6 +78,19 @@ class Fit:
         enough = len(q) >= min(len(self.some), max(2, len(self.some) // 2))
         return float((subtract(q, model) ** 2).sum(axis=1).mean()) if enough else np.inf
 
+    def cost_where(self, offset: Offset, known: Mask) -> float:
+        """Return the cost among some estimates, given by a mask (n,).
+
+        Of a late motion the first estimates are not known, so that costs of two offsets are those
+        of different estimates.
+        """
+        exact, own = self.exact(offset)
+        model = compose(offset.turn_world(self.some.stamps), exact)
+        model = compose(model, offset.turn_body(self.some.stamps))
+        both = own & known
+        left = subtract(self.some.orientations[both], model[both])
+        return float((left**2).sum(axis=1).mean()) if both.any() else np.inf
+
     @cached_property
     def fastest(self) -> float:
         """Largest angular velocity of the motion in rad/s."""

@@ -31,10 +31,16 @@ class Named(Program):
 class Recorded:
     """A session that is recorded while its clock is moved."""
 
-    def __init__(self, folder: Path, names: Mapping[str, str] | None = None, **changes: Any):
+    def __init__(
+        self,
+        folder: Path,
+        names: Mapping[str, str] | None = None,
+        scene: str = "hurry_slow",
+        **changes: Any,
+    ) -> None:
         self.folder = folder
         options = {"record__enabled": True, "record__directory": str(folder), "publish_rate": RATE}
-        self.session, self.clock = start(Named(names), "hurry_slow", **{**options, **changes})
+        self.session, self.clock = start(Named(names), scene, **{**options, **changes})
 
     def run(self, seconds: float) -> None:
         """Let the clock run, with diagnostics once a second of it."""

@@ -12,7 +12,7 @@ from mcap.opcode import Opcode
 from mcap.reader import make_reader
 from mcap.records import Attachment, Message, Metadata
 from mcap.writer import Writer
-from run.log.damaged import Log, Recorded, cut_end, zero_chunk
+from run.log.damaged import Log, Recorded, cut_end, list_chunks, zero_chunk
 from run.log.variants import INPUTS, list_variants, write_variant
 from trials import seeds
 
@@ -353,3 +353,34 @@ def test_a_file_of_a_recording_that_is_not_there_is_named(lost, log, tmp_path):
     # The last one may never have been.
     expected = [] if lost in (2, None) else [f"file {lost + 1} of the recording is not in the log"]
     assert [each for each in account.notes if each.startswith("file")] == expected
+
+
+def test_messages_that_cannot_be_read_are_counted_in_all_chunks(log, tmp_path):
+    places = log.places("/torque")[::20]
+    odd = log
+    for place in places:
+        odd = odd.change(place, lambda data: data[:-3])
+    _, account = account_of(odd.write(tmp_path / "run.mcap"))
+    unreadable = account.topics["torque"].unreadable
+    assert unreadable.startswith(f"{len(places)} messages: ")
+    assert len(list_chunks(tmp_path / "run.mcap")) > 3
+
+
+def test_samples_before_and_after_a_jump_back_are_counted_apart(tmp_path):
+    recorded = Recorded(tmp_path)
+    for time in (100.0, 100.6, 100.3):
+        recorded.jump(time)
+        recorded.run(1.0)
+    (path,) = recorded.close()
+    log = Log.read(path)
+    assert account_of(path)[1].problems == ()
+    places = log.places("/torque")
+    again = {places[k] for k in (10, 90, 120, 250)}  # some of them at stamps of two passes
+    pairs = [(each,) * (1 + (k in again)) for k, each in enumerate(log.messages)]
+    twice = replace(log, messages=[each for pair in pairs for each in pair])
+    _, account = account_of(twice.write(tmp_path / "twice.mcap"))
+    assert account.problems == ("torque: 4 samples are repeated, at the stamps of others",)
+    lost = log.without([places[99], places[100], places[150]])
+    _, account = account_of(lost.write(tmp_path / "lost.mcap"))
+    (problem,) = account.problems
+    assert problem.startswith("torque: at least 3 samples are missing, ")

@@ -2,20 +2,25 @@
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from trials import seeds
+from trials import choose, seeds
 from truth.judge.cases import SECOND, TILT, Made, heading, make_estimates, turn_z, write_rows
 
 from symtop_ros.base.arrays import compose, rotate
 from symtop_ros.base.refusals import RefusedError
+from symtop_ros.run.log.stretches import Stretch
+from symtop_ros.run.simulation.changes.requests import start_motion
+from symtop_ros.run.simulation.events import start_event
+from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.truth.judge.clock import measure_clock
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.judgement import judge
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.judge.search import find_causes
-from symtop_ros.truth.judge.truth import scene_truth
+from symtop_ros.truth.judge.truth import Truth, scene_truth
 
 TRUTH = scene_truth("cusps")
 STAMPS = np.arange(SECOND, 6 * SECOND, SECOND // 100)
@@ -27,6 +32,29 @@ def test_a_delay_is_known_up_to_periods_of_the_nutation():
     assert judgement.found.period == pytest.approx(0.15954, abs=1e-5)
     text = judgement.format()
     assert "or plus n x 0.1595 s; for n = 1 with a rotation of the world by " in text
+
+
+@pytest.mark.parametrize("seed", choose(range(40), (1, 20)))
+def test_noise_of_a_short_run_is_no_delay_that_leaves_the_loudest_estimates_out(seed):
+    end = 22 * SECOND // 10
+    whole, truth = scene_truth("disc"), scene_truth("disc")
+    truth.end = end
+    estimates = Made(noise=1e-3).make(whole, np.arange(0, end + 1, SECOND // 100), seed)
+    found = find_causes(estimates, truth)
+    assert (found.explained, found.best.kind) == (True, ("", "none", ()))
+
+
+def test_in_a_sleeping_top_a_delay_is_called_a_heading_whatever_is_lost_of_the_log():
+    truth = scene_truth("sleeping")
+    event = start_event(start_motion(Settings.from_scene("sleeping")))
+    lost = Stretch(3 * SECOND, 4 * SECOND, None, "lost")
+    parts = Stretch(0, 3 * SECOND, event), lost, Stretch(4 * SECOND, 9 * SECOND, event)
+    damaged = Truth.of(SimpleNamespace(end=8 * SECOND, stretches=parts))
+    assert damaged.kind == truth.kind == "sleeping"
+    for each in (truth, damaged):
+        found = find_causes(Made(delay=0.00636, noise=1e-3).make(truth, STAMPS), each)
+        assert found.best.kind == ("", "heading", ())
+        assert "delay" in found.hidden
 
 
 @pytest.mark.parametrize("seed", seeds(1, 2))
@@ -200,10 +228,10 @@ def test_noise_about_one_axis_is_no_jitter(frame, seed):
 
 def test_fewer_than_ten_estimates_are_refused():
     made = Made().make(TRUTH, OFTEN[:9])
-    with pytest.raises(RefusedError, match="must have 10 estimates within the run, got 9"):
+    with pytest.raises(RefusedError, match="must have 10 estimates that can be judged, got 9"):
         measure_clock(made, TRUTH, "file")
     before = replace(made, stamps=made.stamps - 10 * SECOND)
-    with pytest.raises(RefusedError, match="must have 10 estimates within the run, got 0"):
+    with pytest.raises(RefusedError, match="must have 10 estimates that can be judged, got 0"):
         measure_clock(before, TRUTH, "file")
 
 
