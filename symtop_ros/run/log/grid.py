@@ -201,11 +201,11 @@ class Grid:
             )
             has_event = any(number in self._changes for number in range(owner + 1, next_owner + 1))
             # An event between both may have had a slower grid.
-            step = max(step, np.nanmax(self._periods[owner + 1 : next_owner + 2], initial=0.0))
+            slowest = np.nanmax(self._periods[owner + 1 : next_owner + 2], initial=step)
             for first, last, is_first in self._passes.cut(owner, next_owner, begin, end):
                 lost = last - first - _measure(empty[numbers], first, last)
                 # The first sample of a pass is at the stamp at which it begins.
-                if (missing := round(lost / step) - is_first) > 0:
+                if (missing := round(lost / slowest) - is_first) > 0:
                     yield Gap(first, last, place, missing, has_event, until)
 
     def _is_unsaid(self, places: Places, owners: Places) -> Mask:
