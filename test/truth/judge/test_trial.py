@@ -318,7 +318,7 @@ def draw_file(number: int, own: bool) -> File:
 
 
 FILES = 200  # of foreign causes and noise
-SHORT = (*range(0, 34, 3), 47)  # of them those that are tried by every run of the tests
+SHORT = (*range(0, 34, 6), 47)  # of them those that are tried by every run of the tests
 OWN = (4, 8, 13, 29, 34, 40, 41)  # with every change, level and parameter
 OWN_FILES, RIGHT = 130, 124
 
