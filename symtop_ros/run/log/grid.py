@@ -175,9 +175,9 @@ class Grid:
             empty = self._empty_of_tf if name == TF else self._empty
             numbers = slice(*(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, last)))
             lost = end - begin - _measure(empty[numbers], begin, end)
-            # An event between both may have had a slower grid.
-            step = max(step, np.nanmax(self._periods[owner + 1 : last + 2], initial=0.0))
-            if (missing := round(lost / step) - 1) > 0:
+            # An event between both may have had a slower grid; what is not known is nan.
+            slowest = float(np.fmax.reduce(self._periods[owner + 1 : last + 2], initial=step))
+            if (missing := round(lost / slowest) - 1) > 0:
                 has_event = any(number in self._changes for number in range(owner + 1, last + 1))
                 yield Gap(begin, end, place, missing, has_event, until)
 
