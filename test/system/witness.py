@@ -17,26 +17,23 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.parameter import Parameter
-from rclpy.serialization import deserialize_message
-from std_msgs.msg import Header
 
-sys.path.append(str(Path(__file__).parents[1]))
+sys.path += [str(each) for each in Path(__file__).parents[1:3]]
 from ros.node.listener import Listener
 
 from symtop_ros.ros.live.feed import DEPTH, LATCHED
 from symtop_ros.run.simulation.topics import STATE_TOPICS
+from workshop.load.follower import count_lost, read_stamp
 
-SECOND = 1_000_000_000
-PERIOD = SECOND // 200  # of the samples of a top
+PERIOD = 1_000_000_000 // 200  # ns between two samples of a top
 KICK = Parameter("precession_rate", value=9.0).to_parameter_msg()
 
 
 def summarize(samples: list[bytes]) -> dict[str, int]:
     """Count the samples of one topic as they arrived."""
-    stamps = [deserialize_message(data, Header).stamp for data in samples]
-    steps = [(b.sec - a.sec) * SECOND + b.nanosec - a.nanosec for a, b in pairwise(stamps)]
-    lost = sum(step // PERIOD - 1 for step in steps if step > 0)
-    return {"count": len(stamps), "lost": lost, "unordered": sum(step <= 0 for step in steps)}
+    stamps = [*map(read_stamp, samples)]
+    unordered = sum(after <= before for before, after in pairwise(stamps))
+    return {"count": len(stamps), "lost": count_lost(stamps, PERIOD), "unordered": unordered}
 
 
 class Witness(Listener):

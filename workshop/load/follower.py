@@ -5,9 +5,10 @@ One of the subscribers counts the samples that are lost. Each client runs in a s
 
 import struct
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import closing
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,12 @@ def read_stamp(data: bytes) -> int:
     """Return the stamp in ns of a serialised message that begins with a header."""
     seconds, nanoseconds = struct.unpack_from("<iI", data, 4)
     return int(seconds * 1_000_000_000 + nanoseconds)
+
+
+def count_lost(stamps: Iterable[int], period: int) -> int:
+    """Return how many stamps of a grid (period in ns) are missing between those that arrived."""
+    steps = (after - before for before, after in pairwise(sorted(stamps)))
+    return sum(max(0, round(step / period) - 1) for step in steps)
 
 
 def to_nanoseconds(stamp: Any) -> int:

@@ -10,25 +10,18 @@ import sys
 import time
 from contextlib import closing
 from functools import partial
-from itertools import pairwise
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 
 from symtop_ros.ros.client.connection import UnreachableError
 from workshop.load.bare import TOPICS
-from workshop.load.follower import DEPTH, Subscriber, read_stamp
+from workshop.load.follower import DEPTH, Subscriber, count_lost, read_stamp
 
 PAUSE = 0.2  # s between two kicks
 UNDER_WAY = 3.0  # s for what was sent and has not arrived
 
 Received = list[tuple[int, float]]  # stamp in ns, and seconds from it to the arrival
-
-
-def count_lost(received: Received, period: int) -> int:
-    """Return how many stamps of a grid (period in ns) are missing between those that arrived."""
-    stamps = sorted(stamp for stamp, _ in received)
-    return sum(round((after - before) / period) - 1 for before, after in pairwise(stamps))
 
 
 def read_missed(message: DiagnosticArray) -> int:
@@ -57,7 +50,8 @@ def follow(rate: float, seconds: float) -> dict[str, Any]:
         before = missed[-1]
         kicks = _kick(user, seconds)
         user.spin(UNDER_WAY)
-    gaps = sum(count_lost(each, round(1e9 / rate)) for each in received.values())
+    stamps = ([stamp for stamp, _ in each] for each in received.values())
+    gaps = sum(count_lost(each, round(1e9 / rate)) for each in stamps)
     return {
         "lost": max(0, gaps - len(received) * (missed[-1] - before)),
         "count": sum(map(len, received.values())),

@@ -200,8 +200,9 @@ class Grid:
                 *(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, next_owner))
             )
             has_event = any(number in self._changes for number in range(owner + 1, next_owner + 1))
-            # An event between both may have had a slower grid.
-            slowest = np.nanmax(self._periods[owner + 1 : next_owner + 2], initial=step)
+            # An event between both may have had a slower grid; what is not known is nan.
+            between = self._periods[owner + 1 : next_owner + 2]
+            slowest = float(np.fmax.reduce(between, initial=step))
             for first, last, is_first in self._passes.cut(owner, next_owner, begin, end):
                 lost = last - first - _measure(empty[numbers], first, last)
                 # The first sample of a pass is at the stamp at which it begins.

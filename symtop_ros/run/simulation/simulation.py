@@ -50,6 +50,7 @@ class Simulation:
         self._gaps = Gaps(clock)
         self.waits = Waits(clock)
         self._blocks = Blocks(self.segment, sink.encode)
+        self._is_announcing = False  # True while an event is written: no other may precede it
         sink.send_description(self.stamp, settings)
 
     @property
@@ -185,7 +186,7 @@ class Simulation:
         progress = self._prepare(stamps[-1])
         if progress.ready:
             self._blocks.begin(segment, stamps)
-        elif progress.shortfall:
+        elif progress.shortfall and not self._is_announcing:
             self._slow_down(stamps[0], progress.shortfall)
         return progress.ready
 
@@ -217,7 +218,7 @@ class Simulation:
     def _prepare(self, stamp: int) -> Progress:
         """Work towards the state at a stamp; a motion that cannot continue is paused."""
         progress = self.budget.prepare(self.segment, stamp, self._clock.pace)
-        if progress.end is not None:
+        if progress.end is not None and not self._is_announcing:
             self._stop_at(progress.end)
         return progress
 
@@ -273,15 +274,20 @@ class Simulation:
     def apply_at_once(self, timeline: Timeline) -> str:
         """Like `apply`, but publish samples that are due before and while the event is written.
 
-        In the log the event still precedes its samples.
+        In the log the event still precedes its samples. If the motion is too fast to be followed,
+        that is found again, and announced, after it.
         """
         self.timeline = timeline
-        with self._sink.put_events_first():
-            if self.publish():
-                self._prepare_sample()
-            event = self._write_event(timeline, self.publish)
-            self.publish()
-            return self._announce(event)
+        self._is_announcing = True
+        try:
+            with self._sink.put_events_first():
+                if self.publish():
+                    self._prepare_sample()
+                event = self._write_event(timeline, self.publish)
+                self.publish()
+                return self._announce(event)
+        finally:
+            self._is_announcing = False
 
     def _prepare_sample(self) -> None:
         """Compute the next sample before it is due, and publish it on time."""

@@ -1,5 +1,6 @@
 """A run in its own time: its stamps are the elapsed time, and rates are derivatives by them."""
 
+import itertools
 import time
 
 import numpy as np
@@ -8,6 +9,7 @@ from run.simulation.runs import SECOND, Run
 
 from symtop_ros.base.refusals import attempt
 from symtop_ros.run.check.events import find_mismatches
+from symtop_ros.run.simulation.budget import ComputeBudget
 
 MS = SECOND // 1000
 PERIOD = 5 * MS
@@ -145,6 +147,33 @@ def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered
     assert min(np.diff(run.stamps)) > 0
     assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
     run.assert_recomputed()
+
+
+SPHERE = {"top__Ix": 1e-4, "top__Iz": 1e-4, "friction__transverse": 1e-6}
+ROD = {"top__Ix": 1.0, "top__Iz": 1e-22, "top__Mgl": 1.0}
+NESTED = [
+    # on a busy machine, where each call takes 0.1 s
+    (SPHERE, 0.1, ("set_initial_conditions", {"psi_dot": 5e6}), ["start", "pace"]),
+    # too fast for doubles after 1 ms
+    ({**ROD, "steady_torque": [1.0, 1.0, 1.0]}, 0.0, ("reset",), ["reset", "pause"]),
+]
+
+
+@pytest.mark.parametrize("publish_clock", [True, False])
+@pytest.mark.parametrize(("body", "delay", "request_", "names"), NESTED)
+def test_a_restart_is_announced_before_the_motion_is_slowed_down_or_paused(
+    body, delay, request_, names, publish_clock
+):
+    """That it is too fast is found with its first samples, while the restart is written."""
+    run = Run(publish_clock=publish_clock, **body)
+    run.clock.is_simulated = False
+    run.simulation.budget = ComputeBudget(itertools.count(step=delay).__next__)
+    assert run.ask(*request_)[0]
+    run.advance(0.005)
+    events = run.sink.events
+    assert [each.name for each in events[:3]] == ["start", *names]
+    assert [each.number for each in events] == [*range(1, len(events) + 1)]
+    assert [*find_mismatches(events)] == []
 
 
 @pytest.mark.parametrize("publish_clock", [True, False])
