@@ -27,6 +27,7 @@ from symtop_ros.run.log.grid import (
     list_recordings,
 )
 from symtop_ros.run.log.names import KNOWN, TELLING, Names, read_names
+from symtop_ros.run.log.passes import Passes
 from symtop_ros.run.log.reader import list_problems
 from symtop_ros.run.log.source import Loss, MessageSource
 from symtop_ros.run.log.stamps import ROUNDING, StampRows
@@ -167,6 +168,7 @@ class _Conclusions:
         self._file, self._names, self._contents = file, names, contents
         self._ordered = order_events(contents.events, file.begins)
         self._recordings = list_recordings(file)
+        self._passes = Passes(self._ordered)
         grid = Grid(self._ordered, self._recordings)
         self._found = {name: grid.judge(name, rows) for name, rows in contents.rows.items()}
         # the topic with the fewest gaps: where it has one, the others have one too
@@ -296,12 +298,18 @@ class _Conclusions:
 
     def _list_gaps(self, name: str) -> list[Gap]:
         """Return the gaps of a topic, but for those that an event may explain that is lost."""
-        gaps = self._found.get(name, GridFindings()).gaps
-        unknown = [each.places for each in self._stretches if each.event is None]
-        return [
-            *(g for g in gaps if not any(begin <= g.place <= end for begin, end in unknown)),
-            *self._list_absent(name),
+        unknown = [each for each in self._stretches if each.event is None]
+        gaps = [
+            gap
+            for gap in self._found.get(name, GridFindings()).gaps
+            if not any(_may_explain(each, gap) for each in unknown)
         ]
+        # A gap at an end of a file may be seen in both ways.
+        for absent in self._list_absent(name):
+            same = [each for each in gaps if _overlaps(each, absent)]
+            if all(each.missing < absent.missing for each in same):
+                gaps = [*(each for each in gaps if each not in same), absent]
+        return gaps
 
     def _list_absent(self, name: str) -> Iterator[Gap]:
         """Yield the gaps at the begin and the end of each file of the node.
@@ -317,11 +325,13 @@ class _Conclusions:
     def _compare_ends(self, name: str, begin: int, end: int) -> Iterator[Gap]:
         """Yield the gaps of a topic at both ends of a range of places, compared with another."""
         stamps, places = _cut(*self._samples, begin, end)
+        if (np.diff(stamps) <= 0).sum() >= self._passes.count > 1:
+            return  # messages are in another order, and the first may be any
         own_stamps, own = _cut(*self._contents.rows.get(name, StampRows()).expand(), begin, end)
         if not len(own):
             found = [stamps]
         else:
-            if (np.diff(stamps) > 0).all():  # places are those of a grid, and stamps are exact
+            if self._passes.count == 1:  # places are those of a grid, and stamps are exact
                 before, after = stamps < own_stamps.min(), stamps > own_stamps.max()
             else:
                 before, after = places < own[0], places > own[-1]
@@ -427,6 +437,17 @@ class _Conclusions:
             )
         missing = find_missing(self._ordered, self._proofs).values()
         yield from (each.describe() for each in missing if each.is_off)
+
+
+def _may_explain(unknown: Stretch, gap: Gap) -> bool:
+    """Return True if an event that is lost in a stretch may explain a gap."""
+    begin, end = unknown.places
+    is_inside = begin <= gap.place <= end
+    return is_inside or (unknown.begin < gap.after and gap.before < unknown.end)
+
+
+def _overlaps(gap: Gap, absent: Gap) -> bool:
+    return gap.before <= absent.after and absent.before <= gap.after
 
 
 def _describe_repeated(topic: TopicAccount) -> str:
