@@ -80,7 +80,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--strict",
         action="store_true",
-        help="with --check: status 1 as well if topics of the node were never recorded",
+        help="with --check: status 1 as well if the log lacks topics of the node",
     )
     parser.add_argument(
         "--rate", type=decimal, help=f"samples per second for --mcap (default {RATE:g})"

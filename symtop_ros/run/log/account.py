@@ -27,6 +27,7 @@ from symtop_ros.run.log.grid import (
     list_recordings,
 )
 from symtop_ros.run.log.names import KNOWN, TELLING, Names, read_names
+from symtop_ros.run.log.passes import Passes
 from symtop_ros.run.log.reader import list_problems
 from symtop_ros.run.log.source import Loss, MessageSource
 from symtop_ros.run.log.stamps import ROUNDING, StampRows
@@ -169,6 +170,7 @@ class _Conclusions:
         self._file, self._names, self._contents = file, names, contents
         self._ordered = order_events(contents.events, file.begins)
         self._recordings = list_recordings(file)
+        self._passes = Passes(self._ordered)
         grid = Grid(self._ordered, self._recordings)
         self._found = {name: grid.judge(name, rows) for name, rows in contents.rows.items()}
         # the topic with the fewest gaps: where it has one, the others have one too
@@ -331,16 +333,22 @@ class _Conclusions:
 
     def _list_gaps(self, name: str) -> list[Gap]:
         """Return the gaps of a topic, but for those that an event may explain that is lost."""
-        found = self._found.get(name, GridFindings()).gaps
-        gaps = (gap for gap in found if gap.stamps not in self._uncounted)
         # After a gap that is not counted, what one topic alone lacks is no event's.
         passed = {gap.place for gap in self._list_uncounted(self._main)}
-        stretches = (each.places for each in self._stretches if each.event is None)
-        unknown = [places for places in stretches if places[0] not in passed]
-        return [
-            *(g for g in gaps if not any(begin <= g.place <= end for begin, end in unknown)),
-            *self._list_absent(name),
+        stretches = (each for each in self._stretches if each.event is None)
+        unknown = [each for each in stretches if each.places[0] not in passed]
+        gaps = [
+            gap
+            for gap in self._found.get(name, GridFindings()).gaps
+            if gap.stamps not in self._uncounted
+            and not any(_may_explain(each, gap) for each in unknown)
         ]
+        # A gap at an end of a file may be seen in both ways.
+        for absent in self._list_absent(name):
+            same = [each for each in gaps if _overlaps(each, absent)]
+            if all(each.missing < absent.missing for each in same):
+                gaps = [*(each for each in gaps if each not in same), absent]
+        return gaps
 
     def _list_uncounted(self, name: str) -> list[Gap]:
         """Return the gaps of a topic that no count of the node follows."""
@@ -361,11 +369,13 @@ class _Conclusions:
     def _compare_ends(self, name: str, begin: int, end: int) -> Iterator[Gap]:
         """Yield the gaps of a topic at both ends of a range of places, compared with another."""
         stamps, places = _cut(*self._samples, begin, end)
+        if (np.diff(stamps) <= 0).sum() >= self._passes.count > 1:
+            return  # messages are in another order, and the first may be any
         own_stamps, own = _cut(*self._contents.rows.get(name, StampRows()).expand(), begin, end)
         if not len(own):
             found = [stamps]
         else:
-            if (np.diff(stamps) > 0).all():  # places are those of a grid, and stamps are exact
+            if self._passes.count == 1:  # places are those of a grid, and stamps are exact
                 before, after = stamps < own_stamps.min(), stamps > own_stamps.max()
             else:
                 before, after = places < own[0], places > own[-1]
@@ -507,6 +517,17 @@ def _describe_where(found: Iterable[Gap]) -> str:
         return f"in {len(gaps)} gaps between {begin} and {end} ns"
     most = "most of them " if len(gaps) > 1 else ""
     return f"{most}between {widest.before} and {widest.after} ns"
+
+
+def _may_explain(unknown: Stretch, gap: Gap) -> bool:
+    """Return True if an event that is lost in a stretch may explain a gap."""
+    begin, end = unknown.places
+    is_inside = begin <= gap.place <= end
+    return is_inside or (unknown.begin < gap.after and gap.before < unknown.end)
+
+
+def _overlaps(gap: Gap, absent: Gap) -> bool:
+    return gap.before <= absent.after and absent.before <= gap.after
 
 
 def _describe_repeated(topic: TopicAccount) -> str:

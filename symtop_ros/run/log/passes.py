@@ -33,6 +33,11 @@ class Passes:
         if any(event.previous_end > event.stamp for event in ordered.events[:1]):
             self._begins.insert(0, 0)
 
+    @property
+    def count(self) -> int:
+        """Number of passes."""
+        return 1 + len(self._begins)
+
     def find(self, stamps: Stamps, places: Places) -> Places | None:
         """Return the number of the pass of each sample (n,), in the order of the log.
 

@@ -97,6 +97,20 @@ def test_what_a_file_is_said_to_have_lost_is_lost_and_nothing_else(way, seed, go
         assert told or set(found) == set(whole)
 
 
+@pytest.mark.parametrize("part", seeds(1, 20))
+def test_a_flipped_bit_in_the_head_of_a_record_loses_what_is_said_and_nothing_else(
+    part, good, tmp_path
+):
+    _, whole = read(tmp_path, good)
+    heads = [begin - 9 for _, begin, _ in list_records(good)]
+    for place, bit in [(head + k // 8, k % 8) for head in heads for k in range(72)][part::20]:
+        flipped = bytes([good[place] ^ 1 << bit])
+        problems, found = read(tmp_path, good[:place] + flipped + good[place + 1 :])
+        assert_true(problems, Counter(whole) - Counter(found), 0)
+        told = [each for each in problems if not NOTHING_LOST.fullmatch(each)]
+        assert told or found == whole, place
+
+
 def assert_true(problems, lost, longer):
     """Compare sentences with the messages that are lost, and the bytes that a file is longer."""
     counted, is_counted = 0, True
