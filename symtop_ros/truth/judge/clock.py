@@ -128,12 +128,17 @@ def format_clocks(clocks: list[Clock]) -> str:
             "estimates": clock.estimates,
             "delay": _write_measured(clock.delay, clock.delay_deviation),
             "rate": _write_measured(clock.rate, clock.rate_deviation),
-            "fault": {**asdict(clock), "kind": clock.fault} if clock.fault else None,
+            "fault": _write_fault(clock),
             "jitter": {"kind": clock.kind, "value": clock.jitter},
         }
         for clock in clocks
     )
     return "\n".join(write("clock_of_stamps", record) for record in records)
+
+
+def _write_fault(clock: Clock) -> dict[str, Any] | None:
+    counted = {**asdict(clock), "independent": round(clock.independent), "kind": clock.fault}
+    return counted if clock.fault else None
 
 
 def _write_measured(value: float, deviation: float | None) -> dict[str, Any]:

@@ -185,14 +185,20 @@ def _list_parts(cause: Cause) -> list[dict[str, Any]]:
 
 def _write_whole(cause: Cause) -> dict[str, Any]:
     """Return a cause with all that a sentence may say of it."""
-    correlation = vars(cause) if cause.correlation_time else None
+    whole = _write_counted(cause)
+    correlation = whole if cause.correlation_time else None
     parts = _list_parts(cause)
-    return {**vars(cause), "parts": parts, "residual": cause.residual, "correlation": correlation}
+    return {**whole, "parts": parts, "residual": cause.residual, "correlation": correlation}
+
+
+def _write_counted(cause: Cause) -> dict[str, Any]:
+    """Return the fields of a cause, with a whole number of independent estimates."""
+    return {**vars(cause), "independent": round(cause.independent or 0)}
 
 
 def _write_fault(cause: Cause | None) -> dict[str, Any] | None:
     """Return why a cause has no deviations, as a record for a sentence."""
-    return {**vars(cause), "kind": cause.fault} if cause and cause.fault else None
+    return {**_write_counted(cause), "kind": cause.fault} if cause and cause.fault else None
 
 
 def _write_deviation(deviation: float | None, unit: float = 1.0) -> dict[str, Any]:
