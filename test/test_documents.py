@@ -61,7 +61,10 @@ COMMANDS = [
 ]
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+INNER = [*PAGES, *sorted(ROOT.glob("symtop_ros/**/*.md"))]
+
+
+@pytest.mark.parametrize("page", INNER, ids=lambda page: str(page.relative_to(ROOT)))
 def test_links_and_paths_lead_to_files_and_headings(page):
     assert [*broken_links(page)] == []
 
