@@ -12,7 +12,7 @@ import numpy as np
 from symtop_ros.base.arrays import Mask, Places, Stamps
 from symtop_ros.run.log.chronicle import Ordered
 from symtop_ros.run.log.stamps import ROUNDING
-from symtop_ros.run.simulation.events import MAX_STAMP
+from symtop_ros.run.simulation.events import MAX_STAMP, Event
 
 QUARTILES = 0.25, 0.75
 NEAR = 20  # samples of a topic next to a jump: messages may be exchanged
@@ -27,8 +27,7 @@ class Passes:
         self._begins = [
             k + 1
             for k, (before, event) in enumerate(pairwise(ordered.events))
-            if max(before.stamp, event.previous_end) > event.stamp
-            or ordered.runs[k] != ordered.runs[k + 1]
+            if _begins_pass(before, event) or ordered.runs[k] != ordered.runs[k + 1]
         ]
         if any(event.previous_end > event.stamp for event in ordered.events[:1]):
             self._begins.insert(0, 0)
@@ -105,6 +104,8 @@ class Passes:
         for number, (first, last) in enumerate(pairwise(bounds)):
             chosen = passes == number
             begins = np.array([each.stamp for each in self._events[first:last]], dtype=np.int64)
+            # An act holds at no stamp if one that follows it came before its stamp.
+            begins = np.minimum.accumulate(begins[::-1])[::-1]
             owners[chosen] = first - 1 + np.searchsorted(begins, stamps[chosen], side="right")
         return owners
 
@@ -127,6 +128,15 @@ class Passes:
                 yield begin, self._events[number].previous_end, is_sample
                 begin, is_sample = self._events[number].stamp, False
         yield begin, end, is_sample
+
+
+def _begins_pass(before: Event, event: Event) -> bool:
+    """Return True if the clock went back at an event, or may have gone back at one that is lost.
+
+    A run in its own time is paused at once, which may be before the stamp of the act before.
+    """
+    is_next = event.number == before.number + 1
+    return event.previous_end > event.stamp or (before.stamp > event.stamp and not is_next)
 
 
 def _measure_disorder(stamps: Stamps, passes: Places) -> int:
