@@ -112,5 +112,5 @@ def test_a_bag_of_a_log_in_a_loop_is_exact_and_said_to_be_repeated(storage, play
         count = sum(topic == log.account.topics[name].name for topic, _ in player.messages)
         assert each.samples + each.unjudged == LOOPS * count
         assert log.account.topics[name].repeated == (LOOPS - 1) * count
-    (line,) = (each for each in log.account.problems if "have the stamps of others: repeated" in each)
+    (line,) = (each for each in log.account.problems if "the stamps of others: repeated" in each)
     assert all(name in line for name in found.deviations)
