@@ -27,7 +27,6 @@ from symtop_ros.run.log.grid import (
     list_recordings,
 )
 from symtop_ros.run.log.names import KNOWN, TELLING, Names, read_names
-from symtop_ros.run.log.passes import Passes
 from symtop_ros.run.log.reader import list_problems
 from symtop_ros.run.log.source import Loss, MessageSource
 from symtop_ros.run.log.stamps import ROUNDING, StampRows
@@ -170,8 +169,8 @@ class _Conclusions:
         self._file, self._names, self._contents = file, names, contents
         self._ordered = order_events(contents.events, file.begins)
         self._recordings = list_recordings(file)
-        self._passes = Passes(self._ordered)
         grid = Grid(self._ordered, self._recordings)
+        self._passes = grid.passes
         self._found = {name: grid.judge(name, rows) for name, rows in contents.rows.items()}
         # the topic with the fewest gaps: where it has one, the others have one too
         self._main = min(

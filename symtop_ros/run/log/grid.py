@@ -109,11 +109,11 @@ class Grid:
         self._chronicle = Chronicle(ordered.events, ordered.places)
         self._periods = np.array([*_list_periods(ordered, recordings)])  # first before all events
         is_own_time = any(each.is_own_time for each in recordings)
-        self._passes = Passes(ordered)
+        self.passes = Passes(ordered)
         # Times without samples, each with the number of the event that says so.
         empty = [
             *_list_jumps(ordered.events),
-            *_list_pauses(ordered.events, self._passes),
+            *_list_pauses(ordered.events, self.passes),
             *(_list_resumptions(ordered.events, self._periods[1:]) if is_own_time else ()),
         ]
         self._jumps = _find_jumps(ordered)
@@ -134,7 +134,7 @@ class Grid:
             return GridFindings()
         stamps, places = samples = rows.expand()
         returns = tuple(self._list_returns(*samples))
-        passes = self._passes.find(stamps, places)
+        passes = self.passes.find(stamps, places)
         if passes is None:
             # Which samples are neighbours is not known, and what is there too often is.
             repeated = self._count_too_many(stamps)
@@ -142,7 +142,7 @@ class Grid:
         repeated = rows.count_repeated(passes)
         order = np.lexsort((stamps, passes))  # whatever the order of the chunks of a file is
         stamps, places, passes = stamps[order], places[order], passes[order]
-        owners = self._passes.find_owners(stamps, passes)
+        owners = self.passes.find_owners(stamps, passes)
         gaps = self._find_gaps(name, (stamps, places, owners, passes), _find_usual_period(rows))
         return GridFindings(tuple(gaps), repeated, returns, self._find_rate(rows))
 
@@ -203,7 +203,7 @@ class Grid:
             # An event between both may have had a slower grid; what is not known is nan.
             between = self._periods[owner + 1 : next_owner + 2]
             slowest = float(np.fmax.reduce(between, initial=step))
-            for first, last, is_first in self._passes.cut(owner, next_owner, begin, end):
+            for first, last, is_first in self.passes.cut(owner, next_owner, begin, end):
                 lost = last - first - _measure(empty[numbers], first, last)
                 # The first sample of a pass is at the stamp at which it begins.
                 if (missing := round(lost / slowest) - is_first) > 0:

@@ -112,7 +112,7 @@ def pace_status(simulation: Simulation) -> Status:
     ticker, waits = simulation.ticker, simulation.waits
     is_slow = kept < asked or waits.latest >= GAP
     level = WARN if is_slow or ticker.missed >= GAP * ticker.rate else OK
-    message = f"{ticker.missed} ticks missed" if ticker.missed else "on time"
+    message = f"{write_count(ticker.missed, 'tick')} missed" if ticker.missed else "on time"
     if is_slow:
         reason = "the motion is too fast for the compute budget"
         if kept >= asked:

@@ -27,8 +27,6 @@ PATIENCE = 5.0  # s for the topic to be found
 LATCHED = QoSProfile(depth=EVENTS.depth, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
 # Best effort hears every publisher. 2000 messages are a second of the fastest node.
 BEST_EFFORT = QoSProfile(depth=2000, reliability=QoSReliabilityPolicy.BEST_EFFORT)
-
-
 NO_EVENTS = "no events of the top"
 
 
