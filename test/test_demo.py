@@ -21,6 +21,12 @@ BARE = {"HOME": "/dev/null", "PATH": os.defpath, "PYTHONPATH": str(Path(__file__
 BARE |= {name: value for name, value in os.environ.items() if name.startswith("COVERAGE_")}
 
 
+LABELS = [  # of the lines after the first two
+    *("at its lowest point", "the answer", "the motion after it", "the log", "the replay"),
+    *("to open the log", "without a screen", "to check it", "stopped; nothing is left running"),
+]
+
+
 @contextlib.contextmanager
 def running_demo(folder):
     """The demonstration in a folder, with its output in a pipe, and its first lines of output."""
@@ -55,10 +61,11 @@ def test_two_demonstrations_hurry_the_top_log_it_print_the_same_and_leave_nothin
     assert (one.returncode, other_than_delays(errors)) == (0, [])
     assert len(listening) >= 4
     assert {address for address, _ in listening} == {"127.0.0.1"}
-    answer, after, log, recording, *commands, ended = printed.splitlines()[-8:]
+    lines = printed.splitlines()
+    assert [line.partition(":")[0].strip() for line in lines] == LABELS, lines
+    _, answer, after, log, recording, *commands, _ = lines
     assert_rises(answer, after)
     assert [text for text in (answer, after) if text not in same] == []
-    assert ended == "stopped; nothing is left running"
     path, replay = tmp_path / Path(log.split()[-1]), tmp_path / Path(recording.split()[-1])
     assert_no_deviation(path)
     assert replay.stat().st_size > 100_000

@@ -153,11 +153,12 @@ def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) ->
         raise LogError(
             f"cannot write {target}: {getattr(error, 'strerror', None) or error}"
         ) from None
-    view = View(recording, options=options)
+    account = log.account
+    view = View(recording, options=options, unknown=[*account.unknown, *account.undecided])
     for batch in log.batches():
         view.send(batch)
         _show_progress(log.file.offset, log.file.size)
-    for problem in log.account.lines:
+    for problem in account.lines:
         view.log_text(problem)
     recording.flush()
     view.close()

@@ -85,17 +85,9 @@ def reverse_chunks(log, folder):
 
 def split(log, folder, left_out=()):
     """Three files, each of which begins with the latest event, as the recorder leaves them."""
-    latest = []
-    begin = 0
-    for number, end in enumerate((SECOND, 2 * SECOND, 99 * SECOND)):
-        part = [each for each in log.messages if begin <= each.log_time < end]
-        head = [replace(each, log_time=part[0].log_time) for each in latest]
-        file = {"file": str(number + 1)}
-        about = {**log.metadata, "symtop_ros": log.metadata["symtop_ros"] | file}
+    for number, part in enumerate(log.split(map(log.find_time, (SECOND, 2 * SECOND)))):
         if number not in left_out:
-            replace(log, messages=head + part, metadata=about).write(folder / f"{number}.mcap")
-        events = [each for each in part if log.topic(each).endswith(("/events", "/ev"))]
-        latest, begin = events[-1:] or latest, end
+            part.write(folder / f"{number}.mcap")
 
 
 def lose_file(log, folder):

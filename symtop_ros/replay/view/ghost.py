@@ -45,6 +45,11 @@ class GhostView:
             self.segment = _continue(old, after, before)
         self._redraw(old)
 
+    def leave(self) -> None:
+        """Remove it: what happens to the run from the current time on is not known."""
+        old, self.segment = self.segment, None
+        self._redraw(old)
+
     def _redraw(self, old: Segment | None) -> None:
         """Draw the body of another ghost than before, or remove it."""
         if self.segment is None:

@@ -16,7 +16,6 @@ from symtop_ros.run.log.batch import Columns
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
 
-EPS = float(np.finfo(float).eps)
 RATE_OF_DOTS = 125.0  # positions per s of the clock
 DRIFT_INTERVAL = 100_000_000  # ns between two curves of a potential that drifts
 LINES = {
@@ -60,8 +59,12 @@ class Plots:
         if old is None or (old.top, old.friction, old.start) != (new.top, new.friction, new.start):
             self._potential.log_motion(after.final_motion)
 
+    def leave(self) -> None:
+        """Remove what is drawn of a motion: from the current time on it is not known."""
+        self._potential.leave()
+
     def send(self, columns: Mapping[str, Columns], segment: Segment | None) -> None:
-        """Send the samples of a segment; without it (None) the top is unknown."""
+        """Send the samples of a segment; without it (None) the motion is not known."""
         if "euler_angles" in columns:
             euler = columns["euler_angles"]
             for entity, column in (
@@ -86,7 +89,7 @@ class Plots:
             stamps, values = found
             if self._reference is None:
                 self._reference = values[0]
-            scales = EPS * quantities.scales_of_constants(top, self._reference)
+            scales = quantities.EPS * quantities.scales_of_constants(top, self._reference)
             self._stream.send_scalars(entities.DRIFT, stamps, (values - self._reference) / scales)
 
     def _send_constants(self, columns: Mapping[str, Columns], motion: Motion) -> None:
@@ -140,9 +143,20 @@ def describe_motion(
         "Ix, Iz; Mgl": f"{top.Ix:g}, {top.Iz:g} kg m\u00b2; {top.Mgl:g} J",
         **_added_torques(motion),
     }
-    if scales:
-        facts[f"1 unit of {', '.join(scales)}"] = ", ".join(scales.values())
-    rows = (f"| {name} | **{value}** |" for name, value in {**facts, **equations}.items())
+    return _write_table({**facts, **_list_scales(scales), **equations})
+
+
+def describe_nothing(reason: str, scales: dict[str, str]) -> str:
+    """Return the table where the motion is not known, for a reason."""
+    return _write_table({"motion": f"not known: {reason}", **_list_scales(scales)})
+
+
+def _list_scales(scales: dict[str, str]) -> dict[str, str]:
+    return {f"1 unit of {', '.join(scales)}": ", ".join(scales.values())} if scales else {}
+
+
+def _write_table(facts: Mapping[str, str]) -> str:
+    rows = (f"| {name} | **{value}** |" for name, value in facts.items())
     return "\n".join(["| | |", "|---|---|", *rows])
 
 

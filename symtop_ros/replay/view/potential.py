@@ -110,6 +110,12 @@ class PotentialView:
         self._log_cubic(motion, potential, self._charts[1])
         self._potential = potential
 
+    def leave(self) -> None:
+        """Remove the charts: the motion from the current time on is not known."""
+        self._potential = None
+        for entity in (entities.POTENTIAL, entities.CUBIC):
+            self._stream.log(entity, rr.Clear(recursive=True))
+
     def place(self, tilts: Real, energies: Real, squares: Real) -> dict[str, Real]:
         """Return the positions (n, 2) of the dot in each chart, by its entity."""
         chart, cubic = self._charts

@@ -1,5 +1,6 @@
 """Quantities that are drawn but not logged, computed from the logged samples as arrays."""
 
+import math
 from collections.abc import Callable, Mapping
 from functools import reduce
 
@@ -11,6 +12,7 @@ from symtop_ros.run.log.batch import Columns
 from symtop_ros.run.simulation.events import RESTARTS, Event
 from symtop_ros.run.simulation.segment import Segment
 
+EPS = float(np.finfo(float).eps)
 ColumnsByTopic = Mapping[str, Columns]
 
 
@@ -113,10 +115,19 @@ def potentials_at(top: Top, angles: Real) -> list[EffectivePotential]:
 
 
 def scales_of_constants(top: Top, values: Real) -> Real:
-    """Return the sizes (3,) that a drift of the constants is divided by: of the larger term."""
-    energy, axial, vertical = np.abs(values)
-    momentum = max(axial, vertical, 1e-300)
-    return np.array([max(energy, abs(top.Mgl), 1e-300), momentum, momentum])
+    """Return the sizes (3,) that a drift of the constants is divided by: of the terms in each sum.
+
+    These are products of parts of omega and of L, whose rounding is there when their sum is zero,
+    too: of the largest L and omega that the motion can have.
+    """
+    energy, axial = float(values[0]), abs(float(values[1]))
+    depth = abs(top.Mgl)
+    # The kinetic energy without the spin at the lowest point; E itself is known up to rounding.
+    across = max(energy + depth - axial * axial / (2 * top.Iz), EPS * max(abs(energy), depth))
+    turning = math.sqrt(2 * top.Ix * across)
+    momentum = math.hypot(axial, turning)
+    work = momentum * math.hypot(axial / top.Iz, turning / top.Ix) / 2
+    return np.array([max(abs(energy), depth, work) or 1.0, momentum or 1.0, momentum or 1.0])
 
 
 class EnergyBook:

@@ -15,6 +15,7 @@ different depths below the pivot, and their sum above it, so that none hides ano
 from typing import NamedTuple
 
 import numpy as np
+import rerun as rr
 
 from symtop_ros.base.arrays import Real, Stamps
 from symtop_ros.physics import FrameTorques, State, Top, precessing_frame_torques
@@ -136,8 +137,13 @@ class FictitiousView:
         self._scale = find_scale(top, state)
         return {"in the precessing frame": f"{EQUATION}, 1 unit {self._scale:g} N m"}
 
+    def leave(self) -> None:
+        """Remove the arrows: which top moves from the current time on is not known."""
+        self._top = None
+        self._stream.log(entities.FICTITIOUS, rr.Clear(recursive=True))
+
     def send(self, euler: Columns) -> None:
-        """Send the arrows at some of the stamps; before the first event the top is unknown."""
+        """Send the arrows at some of the stamps, if the top is known."""
         if self._top is None:
             return
         step = find_step(euler.stamps, RATE)

@@ -1,6 +1,7 @@
 """The view: batches of a run are sent to a Rerun recording in columns."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,8 +12,9 @@ from symtop_ros.physics import Motion, State, Top
 from symtop_ros.replay.view import entities, quantities, surroundings, torques
 from symtop_ros.replay.view.blueprint import Framing, create_blueprint
 from symtop_ros.replay.view.ghost import GhostView
-from symtop_ros.replay.view.plots import Plots, describe_motion
-from symtop_ros.run.log.batch import Batch, Columns
+from symtop_ros.replay.view.plots import Plots, describe_motion, describe_nothing
+from symtop_ros.run.log.batch import Batch, Columns, choose
+from symtop_ros.run.log.stretches import Stretch, Unknown
 from symtop_ros.run.simulation.events import KICKS, RELEASE, Event
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS
@@ -63,6 +65,7 @@ class View:
         recording: rr.RecordingStream,
         live: bool = False,
         options: ViewOptions = DEFAULT_OPTIONS,
+        unknown: Sequence[Stretch] = (),  # in which the motion is not known, of a log
     ) -> None:
         self._stream = entities.Stream(recording)
         self._live = live
@@ -71,7 +74,9 @@ class View:
         self._ghost = GhostView(self._stream) if options.ghost else None
         self._fictitious = torques.FictitiousView(self._stream) if options.fictitious else None
         self._has_cones = False
-        self._segment: Segment | None = None
+        self._unknown = Unknown(unknown)
+        self._event: Event | None = None  # the last one
+        self._segment: Segment | None = None  # None: the motion is not known
         self._framing: Framing | None = None
         self._top: Top | None = None
         self._scales: dict[str, float] = {}  # of each arrow: value of one scene unit
@@ -91,10 +96,10 @@ class View:
                 self._stream.origin = _first_stamp(event, columns)
             if columns:
                 self._choose_scales(columns)
-            if event:
+            if event and event != self._event:
                 self._send_event(event)
             if columns and self._stream.origin is not None:
-                self._send_samples(columns)
+                self._send_columns(columns)
 
     def log_text(self, sentence: str, level: str = "WARN") -> None:
         """Add a sentence to the list of events at the current time."""
@@ -105,7 +110,8 @@ class View:
         self._stream.recording.disconnect()
 
     def _send_event(self, event: Event) -> None:
-        previous, self._segment = self._segment, event.segment()
+        previous = self._segment if _follows(event, self._event) else None
+        self._event, self._segment = event, event.segment()
         motion = self._segment.final_motion
         framing = Framing.of(self._segment).after(self._framing)
         before, self._framing = self._framing, framing
@@ -123,18 +129,29 @@ class View:
         self._stream.log(entities.CIRCLES, surroundings.turning_circles(motion.turning_angles))
         asked = "; ".join(f"{name}={text}" for name, text in event.request.items())
         self.log_text(f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}", "INFO")
-        scales = {
+        equations = dict(torques.EQUATIONS) if self._options.torques else {}
+        if self._fictitious:
+            equations |= self._fictitious.follow(motion.top, event.state())
+        scales = self._name_scales()
+        self._log_panel(describe_motion(self._segment, event.state(), scales, equations))
+        if event.name in SPOKEN:
+            self._log_sentence(event.verdict)
+        elif previous is None:  # what was said before is of another motion
+            self._log_sentence("")
+
+    def _log_panel(self, text: str) -> None:
+        self._stream.log(entities.PANEL, rr.TextDocument(text, media_type="text/markdown"))
+
+    def _log_sentence(self, text: str) -> None:
+        self._stream.log(entities.SENTENCE, rr.TextDocument(text))
+
+    def _name_scales(self) -> dict[str, str]:
+        """Return what one scene unit is, by the labels of the arrows."""
+        return {
             arrow.label: f"{self._scales[name]:g} {arrow.unit}"
             for name, arrow in ARROWS.items()
             if name in self._scales
         }
-        equations = dict(torques.EQUATIONS) if self._options.torques else {}
-        if self._fictitious:
-            equations |= self._fictitious.follow(motion.top, event.state())
-        text = describe_motion(self._segment, event.state(), scales, equations)
-        self._stream.log(entities.PANEL, rr.TextDocument(text, media_type="text/markdown"))
-        if event.name in SPOKEN:
-            self._stream.log(entities.SENTENCE, rr.TextDocument(event.verdict))
 
     def _send_cones(self, motion: Motion, state: State) -> None:
         """Draw the cones of a free motion; remove them when it ceases to be free."""
@@ -142,10 +159,48 @@ class View:
         if surroundings.has_cones(motion) and scale:
             surroundings.log_cones(self._stream, motion, state, scale)
             self._has_cones = True
-        elif self._has_cones:
+        else:
+            self._remove_cones()
+
+    def _remove_cones(self) -> None:
+        if self._has_cones:
             for entity in (entities.POLHODE, entities.HERPOLHODE):
                 self._stream.log(entity, rr.Clear(recursive=True))
             self._has_cones = False
+
+    def _send_columns(self, columns: Mapping[str, Columns]) -> None:
+        """Send the samples after an event: first those of which the motion is known."""
+        end = min(map(self._find_end, columns.values()))
+        if known := choose(columns, {n: each.stamps < end for n, each in columns.items()}):
+            self._send_samples(known)
+        if others := choose(columns, {n: each.stamps >= end for n, each in columns.items()}):
+            self._leave_motion(others)
+            self._send_samples(others)
+
+    def _find_end(self, columns: Columns) -> float:
+        """Return the first stamp of some samples at which the motion is not known."""
+        unknown = self._unknown.find(columns.stamps, columns.places)
+        return min(columns.stamps[unknown].tolist(), default=math.inf)
+
+    def _leave_motion(self, columns: Mapping[str, Columns]) -> None:
+        """Remove what is drawn of the motion: from these samples on it is not known."""
+        if self._segment is None:
+            return
+        self._segment = None
+        stamp, place = min((int(each.stamps[0]), int(each.places[0])) for each in columns.values())
+        reason = self._unknown.explain(stamp, place)
+        self._stream.set_time(stamp)
+        self._plots.leave()
+        if self._ghost:
+            self._ghost.leave()
+        if self._fictitious:
+            self._fictitious.leave()
+        self._remove_cones()
+        self._stream.log(entities.CIRCLES, rr.Clear(recursive=False))
+        self._log_panel(describe_nothing(reason, self._name_scales()))
+        sentence = f"From here on the motion is not known: {reason}"
+        self._log_sentence(sentence)
+        self.log_text(sentence)
 
     def _send_samples(self, columns: Mapping[str, Columns]) -> None:
         if self._framing is None:  # there was no event: the top is unknown
@@ -196,6 +251,11 @@ class View:
     def _log_body(self, top: Top | None) -> None:
         self._top = top
         self._stream.log_mesh(entities.BODY, entities.create_body(top))
+
+
+def _follows(event: Event, before: Event | None) -> bool:
+    """Return True if no event is missing between two; those of old logs have no numbers."""
+    return before is not None and (not event.number or event.number == before.number + 1)
 
 
 def _find_vectors(topic: str, columns: Columns) -> Real:

@@ -34,11 +34,13 @@ from symtop_ros.run.log.stretches import (
     NO_BEGINNING,
     NO_PROOF,
     NOWHERE,
+    REPEATED,
     Finder,
     Mark,
     Proofs,
     Stretch,
     find_missing,
+    partition,
 )
 from symtop_ros.run.log.writer import ENDING, METADATA
 from symtop_ros.run.simulation.events import MOTION, WHOLE, Event
@@ -78,6 +80,7 @@ class Account:
     others: Mapping[str, str]  # types of the other topics of the log, by their full names
     ordered: Ordered  # its events
     stretches: tuple[Stretch, ...]  # in the order of the run
+    undecided: tuple[Stretch, ...]  # parts of them: which one a sample is of, no order says
     end: int | None  # stamp (ns) of the last sample; None without samples
     count: int  # messages of all topics
     losses: tuple[Loss, ...]  # as reading the files has found them
@@ -207,6 +210,7 @@ class _Conclusions:
             others=others,
             ordered=self._ordered,
             stretches=self._stretches,
+            undecided=tuple(self._list_undecided()),
             end=self._end,
             count=file.count,
             losses=tuple(file.losses),
@@ -289,6 +293,15 @@ class _Conclusions:
         for begin, file in zip(self._file.begins, self._file.files, strict=False):
             if METADATA in file.metadata and begin not in heads:
                 yield begin
+
+    def _list_undecided(self) -> Iterator[Stretch]:
+        """Yield where a clock that went back leaves several motions that may hold at a stamp."""
+        rows = (each.expand() for each in self._contents.rows.values() if each.rows)
+        if all(self._passes.find_by_place(*each) is not None for each in rows):
+            return
+        for (begin, holding), (end, _) in pairwise(partition(self._stretches)):
+            if len(holding) > 1:
+                yield Stretch(begin, end, None, REPEATED)
 
     # Topics
 

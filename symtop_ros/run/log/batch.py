@@ -1,12 +1,13 @@
 """Messages of a top, from a log or a running node, decoded into arrays and events."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.base.arrays import Mask
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import one_line
 from symtop_ros.run.simulation.events import Event, decode_events
@@ -24,7 +25,7 @@ class Columns:
     numbers: NDArray[np.float64]  # the doubles of the messages, as in `simulation.topics`
     places: NDArray[np.int64]  # their places in the log, or among the messages of the batch
 
-    def select(self, chosen: NDArray[np.bool_]) -> "Columns":
+    def select(self, chosen: Mask) -> "Columns":
         """Return the samples for which `chosen` (n,) is True."""
         return Columns(self.stamps[chosen], self.numbers[chosen], self.places[chosen])
 
@@ -41,14 +42,7 @@ class Batch:
         """Yield each event with the samples that follow it; first None with those before all."""
         owners = {name: self._owners(columns) for name, columns in self.columns.items()}
         for number, event in enumerate([None, *(event for _, event in self.events)]):
-            yield (
-                event,
-                {
-                    name: columns.select(owners[name] == number)
-                    for name, columns in self.columns.items()
-                    if (owners[name] == number).any()
-                },
-            )
+            yield event, choose(self.columns, {n: own == number for n, own in owners.items()})
 
     def _owners(self, columns: Columns) -> NDArray[np.intp]:
         """Return the number of the event that each sample belongs to; 0: before all of them.
@@ -64,6 +58,11 @@ class Batch:
         for number, (before, _) in reversed(list(enumerate(bounds, start=1))):
             owners[(owners == number) & (columns.stamps < before)] = number - 1
         return owners
+
+
+def choose(columns: Mapping[str, Columns], masks: Mapping[str, Mask]) -> dict[str, Columns]:
+    """Return the samples of each topic that a mask (n,) chooses, without topics that have none."""
+    return {name: each.select(masks[name]) for name, each in columns.items() if masks[name].any()}
 
 
 class BatchReader:

@@ -42,20 +42,27 @@ class Passes:
 
         None if the order does not show it, as that of a log that was sorted by time.
         """
-        passes = np.zeros(len(stamps), dtype=np.int64)
-        if not self._begins:
-            return passes
-        own = np.searchsorted(places, [self._places[k] for k in self._begins])
-        for begin in own:
-            passes[begin:] += 1
-        if self._agrees(stamps, passes) and _measure_disorder(stamps, passes) == 0:
-            return passes
+        found = self.find_by_place(stamps, places)
+        if found is not None:
+            return found
         usual = float(np.median(np.abs(np.diff(stamps)))) if len(stamps) > 1 else 0.0
-        passes[:] = 0
-        for number, begin in zip(self._begins, own.tolist(), strict=True):
+        passes = np.zeros(len(stamps), dtype=np.int64)
+        for number, begin in zip(self._begins, self._find_begins(places).tolist(), strict=True):
             passes += self._find_later(stamps, usual, number, begin)
         is_near = _measure_disorder(stamps, passes) <= NEAR * usual
         return passes if is_near and self._agrees(stamps, passes) else None
+
+    def find_by_place(self, stamps: Stamps, places: Places) -> Places | None:
+        """Return the same; None if an event is not between the samples of its two passes."""
+        passes = np.zeros(len(stamps), dtype=np.int64)
+        for begin in self._find_begins(places):
+            passes[begin:] += 1
+        is_sound = self._agrees(stamps, passes) and _measure_disorder(stamps, passes) == 0
+        return passes if is_sound or not self._begins else None
+
+    def _find_begins(self, places: Places) -> Places:
+        """Return which of the samples at some places is the first after each begin."""
+        return np.searchsorted(places, [self._places[k] for k in self._begins])
 
     def _find_later(self, stamps: Stamps, period: float, number: int, begin: int) -> Mask:
         """Return the mask of the samples from the begin of a pass on, which is near a place.

@@ -8,7 +8,8 @@ number of the latest one: they prove that none was lost, or that one was.
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, islice, pairwise
+from operator import itemgetter
 
 import numpy as np
 
@@ -22,6 +23,7 @@ NO_BEGINNING = "the beginning is missing"
 NO_PROOF = "nothing that follows proves that no event was lost"
 NO_NUMBERS = "the diagnostics of this log do not number the events"
 NO_EVENTS = "the log has no events"
+REPEATED = "the clock has shown these times more than once, and the log is not in that order"
 NOWHERE = 2**62  # a place after the end of every log
 
 
@@ -35,6 +37,21 @@ class Stretch:
     event: Event | None
     reason: str = ""  # why it is not known
     places: tuple[int, int] = (0, 0)  # of what is not known: the messages from the first to before
+
+
+def partition(stretches: Sequence[Stretch]) -> Iterator[tuple[int, list[Stretch]]]:
+    """Yield the stamps at which other stretches hold, and these: none, one, or several."""
+    spans = [each for each in stretches if each.begin < each.end]
+    changes = [(each.begin, True, k) for k, each in enumerate(spans)]
+    changes += [(each.end, False, k) for k, each in enumerate(spans)]
+    holding: dict[int, Stretch] = {}
+    for stamp, group in groupby(sorted(changes), key=itemgetter(0)):
+        for _, begins, k in group:
+            if begins:
+                holding[k] = spans[k]
+            else:
+                del holding[k]
+        yield stamp, [*islice(holding.values(), 2)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,13 +278,22 @@ class Unknown:
     """Samples of which the motion is not known, by their stamps or by their places in the log."""
 
     def __init__(self, stretches: Iterable[Stretch]) -> None:
-        unknown = [each for each in stretches if each.event is None]
-        self._stamps = _merge([(each.begin, each.end) for each in unknown])
-        self._places = _merge([each.places for each in unknown])
+        self._unknown = [each for each in stretches if each.event is None]
+        self._stamps = _merge([(each.begin, each.end) for each in self._unknown])
+        self._places = _merge([each.places for each in self._unknown])
 
     def find(self, stamps: Stamps, places: Places) -> Mask:
         """Return the mask of some samples, (n,)."""
         return _is_inside(self._stamps, stamps) | _is_inside(self._places, places)
+
+    def explain(self, stamp: int, place: int) -> str:
+        """Return why the motion is not known at one of them; empty if it is."""
+        reasons = (
+            each.reason
+            for each in self._unknown
+            if each.begin <= stamp < each.end or each.places[0] <= place < each.places[1]
+        )
+        return next(reasons, "")
 
 
 def _merge(intervals: Sequence[tuple[int, int]]) -> Stamps:

@@ -4,6 +4,7 @@ Topics that are missing are missing in the batches.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cached_property
 
 from symtop_ros.run.log.account import Account, read_account
@@ -12,6 +13,7 @@ from symtop_ros.run.log.contents import DECODED, Chosen, select
 from symtop_ros.run.log.names import Names
 from symtop_ros.run.log.reader import LogError
 from symtop_ros.run.log.source import MessageSource
+from symtop_ros.run.simulation.events import Event
 
 ROWS = 4096  # samples of a topic in a batch: Rerun's viewer is fastest with columns of this length
 
@@ -36,14 +38,17 @@ class TopLog:
         return found
 
     def batches(self) -> Iterator[Batch]:
-        """Yield the run from its start to its end."""
+        """Yield the run from its start to its end, with the events of the account: each once."""
         reader = BatchReader()
         reader.frame = self.account.frame
+        ordered = self.account.ordered
+        own = {*map(_key, ordered.places, ordered.events)}
         for run in self.list_messages():
             chosen = [each for each in run if each[1] in DECODED]
-            yield reader.read(
+            batch = reader.read(
                 [(name, each.data) for _, name, each in chosen], [place for place, *_ in chosen]
             )
+            yield replace(batch, events=[each for each in batch.events if _key(*each) in own])
 
     def list_messages(self) -> Iterator[list[Chosen]]:
         """Yield the messages of the top in runs that keep the topics of each sample together."""
@@ -67,3 +72,8 @@ class TopLog:
                 yield messages[:cut]
                 messages = messages[cut:]
         yield messages
+
+
+def _key(place: int, event: Event) -> tuple[int, int]:
+    """Return what an event is known by; those of one message have different numbers."""
+    return place, event.number

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
-from itertools import groupby, islice
-from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +12,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Mask, Places, Real, Stamps, compose
 from symtop_ros.base.refusals import RefusedError
+from symtop_ros.run.log.stretches import partition
 from symtop_ros.run.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.events import Event, start_event
@@ -23,7 +22,6 @@ from symtop_ros.truth.judge.estimates import Estimates
 
 if TYPE_CHECKING:  # logs need mcap
     from symtop_ros.run.log.account import Account
-    from symtop_ros.run.log.stretches import Stretch
 
 
 class Truth:
@@ -157,21 +155,6 @@ class Truth:
     def select(self, estimates: Estimates) -> Estimates:
         """Return the estimates at stamps of which the exact motion is known."""
         return estimates.select(self.states_at(estimates.stamps, estimates.of_sensor)[2])
-
-
-def partition(stretches: Sequence[Stretch]) -> Iterator[tuple[int, list[Stretch]]]:
-    """Yield the stamps at which other stretches hold, and these: none, one, or several."""
-    spans = [each for each in stretches if each.begin < each.end]
-    changes = [(each.begin, True, k) for k, each in enumerate(spans)]
-    changes += [(each.end, False, k) for k, each in enumerate(spans)]
-    holding: dict[int, Stretch] = {}
-    for stamp, group in groupby(sorted(changes), key=itemgetter(0)):
-        for _, begins, k in group:
-            if begins:
-                holding[k] = spans[k]
-            else:
-                del holding[k]
-        yield stamp, [*islice(holding.values(), 2)]
 
 
 def scene_truth(name: str) -> Truth:

@@ -13,6 +13,9 @@ from symtop_ros.replay.viewer import replay
 from symtop_ros.run.log.reader import McapFile
 from symtop_ros.run.log.top_log import TopLog
 
+# eps of a drift of constants of motion, the difference of two sums. Of each: two vectors that were
+# rotated (4 eps each), their product (1.5), and the height (3).
+DRIFT = 25
 FLOAT = 4 * float(np.finfo(np.float32).eps)  # of a rotation in single precision
 
 

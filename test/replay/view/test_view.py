@@ -3,13 +3,17 @@
 import numpy as np
 import pytest
 from log_files import ARTICLE, BEGIN, Run
-from replay.view.rows import arrows, entities_of, record, recording_to, rows, strict
+from replay.view.rows import DRIFT, arrows, entities_of, record, recording_to, rows, strict
+from run.log.damaged import SECOND, Log, Recorded
 
 from symtop_ros.physics import ExactTimes, Motion, specific_force
 from symtop_ros.replay.view import entities
-from symtop_ros.replay.view.view import View
+from symtop_ros.replay.view.view import View, ViewOptions
 from symtop_ros.replay.viewer import replay
+from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.log.batch import Batch, BatchReader, Columns
+from symtop_ros.run.log.reader import McapFile
+from symtop_ros.run.log.top_log import TopLog
 from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
@@ -76,8 +80,7 @@ def test_constants_drift_by_rounding_only_and_start_anew_after_a_kick(recording)
     drift = np.array(values)
     assert drift.shape == (400, 3)
     assert drift[0].tolist() == drift[200].tolist() == [0.0, 0.0, 0.0]
-    # in eps: a product of some numbers, each with the rounding of the log's doubles
-    assert np.abs(drift).max() < 16
+    assert np.abs(drift).max() <= DRIFT
 
 
 def test_events_and_turning_circles_are_on_the_time_line(recording):
@@ -156,3 +159,58 @@ def test_what_is_drawn_only_if_asked(option, own, recording, tmp_path):
     assert len(added) > 2
     assert all(each.startswith(own) for each in added), added
     assert not any(each.startswith(own) for each in entities_of(recording))
+
+
+def test_an_event_that_files_repeat_is_drawn_once(tmp_path):
+    recorded = Recorded(tmp_path)
+    recorded.run(1.0)
+    recorded.kick()
+    recorded.run(1.5)
+    log = Log.read(*recorded.close())
+    parts = log.split(map(log.find_time, (SECOND // 2, 3 * SECOND // 2, 2 * SECOND)))
+    paths = [part.write(tmp_path / f"{number}.mcap") for number, part in enumerate(parts)]
+    replay(TopLog(open_run(paths)), tmp_path / "run.rrd")
+    _, texts = rows(tmp_path / "run.rrd", entities.EVENTS, "TextLog:text")
+    assert [text[0].partition(" ")[0] for text in texts] == ["start", "kick"]
+    # The top that was not kicked is another one than the top to the end.
+    found = (
+        rows(tmp_path / "run.rrd", entity, "Transform3D:quaternion")[1]
+        for entity in (entities.BODY, entities.GHOST)
+    )
+    top, ghost = (np.array(values)[-1, 0] for values in found)
+    assert np.abs(top - ghost).max() > 0.01
+
+
+def test_where_an_event_is_lost_the_motion_is_said_to_be_unknown(tmp_path):
+    recorded = Recorded(tmp_path)
+    for _ in range(3):
+        recorded.run(1.3)
+        recorded.kick()
+    recorded.run(1.0)
+    (path,) = recorded.close()
+    whole = Log.read(path)
+    lost = whole.without([whole.places("/events")[2]]).write(tmp_path / "lost.mcap")
+    log = TopLog(McapFile(lost))
+    (unknown,) = log.account.unknown
+    target = tmp_path / "run.rrd"
+    replay(log, target, ViewOptions(fictitious=True))
+    times, texts = rows(target, entities.PANEL, "TextDocument:text")
+    said = [
+        (time, "not known" in text[0]) for time, text in zip(times.tolist(), texts, strict=True)
+    ]
+    first = next(stamp for stamp in range(0, 10**10, 10**7) if stamp >= unknown.begin)
+    last = unknown.end
+    assert (first, True) in said
+    assert (last, False) in said
+    for entity, column in (
+        (entities.DRIFT, "Scalars:scalars"),
+        (entities.ENERGY, "Scalars:scalars"),
+        (entities.GHOST, "Transform3D:quaternion"),
+        (f"{entities.FICTITIOUS}/sum", "Arrows3D:vectors"),
+        (f"{entities.POTENTIAL}/state", "Points2D:positions"),
+    ):
+        drawn = rows(target, entity, column)[0]
+        assert len(drawn)
+        assert not ((drawn >= first) & (drawn < last)).any(), entity
+    bodies = rows(target, entities.BODY, "Transform3D:quaternion")[0]
+    assert ((bodies >= first) & (bodies < last)).sum() > 50

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Self
 
@@ -103,11 +104,30 @@ class Log:
         """Return the full name of the topic of a message."""
         return self.channels[message.channel_id].topic
 
+    def find_time(self, time: int) -> int:
+        """Return the first place that was logged at a time (ns) or later."""
+        return next(k for k, each in enumerate(self.messages) if each.log_time >= time)
+
     def without(self, places: Iterable[int]) -> Self:
         """Return the log without some messages."""
         lost = set(places)
         kept = [each for k, each in enumerate(self.messages) if k not in lost]
         return replace(self, messages=kept)
+
+    def split(self, places: Iterable[int]) -> list[Self]:
+        """Return files that end before places, each with the latest event first, as recorded."""
+        parts: list[Self] = []
+        latest: list[Message] = []
+        ends = pairwise((0, *places, len(self.messages)))
+        for number, (begin, end) in enumerate(ends, start=1):
+            part = self.messages[begin:end]
+            head = [replace(each, log_time=part[0].log_time) for each in latest]
+            file = self.metadata["symtop_ros"] | {"file": str(number)}
+            about = {**self.metadata, "symtop_ros": file}
+            parts.append(replace(self, messages=head + part, metadata=about))
+            events = [each for each in part if self.topic(each).endswith(("/events", "/ev"))]
+            latest = events[-1:] or latest
+        return parts
 
     def change(self, place: int, act: Callable[[bytes], bytes]) -> Self:
         """Return the log with other bytes in a message."""
