@@ -45,7 +45,7 @@ class GhostView:
             self.segment = _continue(old, after, before)
         self._redraw(old)
 
-    def leave(self) -> None:
+    def remove(self) -> None:
         """Remove it: what happens to the run from the current time on is not known."""
         old, self.segment = self.segment, None
         self._redraw(old)

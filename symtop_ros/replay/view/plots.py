@@ -59,9 +59,9 @@ class Plots:
         if old is None or (old.top, old.friction, old.start) != (new.top, new.friction, new.start):
             self._potential.log_motion(after.final_motion)
 
-    def leave(self) -> None:
+    def remove(self) -> None:
         """Remove what is drawn of a motion: from the current time on it is not known."""
-        self._potential.leave()
+        self._potential.remove()
 
     def send(self, columns: Mapping[str, Columns], segment: Segment | None) -> None:
         """Send the samples of a segment; without it (None) the motion is not known."""

@@ -110,7 +110,7 @@ class PotentialView:
         self._log_cubic(motion, potential, self._charts[1])
         self._potential = potential
 
-    def leave(self) -> None:
+    def remove(self) -> None:
         """Remove the charts: the motion from the current time on is not known."""
         self._potential = None
         for entity in (entities.POTENTIAL, entities.CUBIC):

@@ -137,7 +137,7 @@ class FictitiousView:
         self._scale = find_scale(top, state)
         return {"in the precessing frame": f"{EQUATION}, 1 unit {self._scale:g} N m"}
 
-    def leave(self) -> None:
+    def remove(self) -> None:
         """Remove the arrows: which top moves from the current time on is not known."""
         self._top = None
         self._stream.log(entities.FICTITIOUS, rr.Clear(recursive=True))

@@ -174,7 +174,7 @@ class View:
         if known := choose(columns, {n: each.stamps < end for n, each in columns.items()}):
             self._send_samples(known)
         if others := choose(columns, {n: each.stamps >= end for n, each in columns.items()}):
-            self._leave_motion(others)
+            self._remove_motion(others)
             self._send_samples(others)
 
     def _find_end(self, columns: Columns) -> float:
@@ -182,7 +182,7 @@ class View:
         unknown = self._unknown.find(columns.stamps, columns.places)
         return min(columns.stamps[unknown].tolist(), default=math.inf)
 
-    def _leave_motion(self, columns: Mapping[str, Columns]) -> None:
+    def _remove_motion(self, columns: Mapping[str, Columns]) -> None:
         """Remove what is drawn of the motion: from these samples on it is not known."""
         if self._segment is None:
             return
@@ -190,11 +190,11 @@ class View:
         stamp, place = min((int(each.stamps[0]), int(each.places[0])) for each in columns.values())
         reason = self._unknown.explain(stamp, place)
         self._stream.set_time(stamp)
-        self._plots.leave()
+        self._plots.remove()
         if self._ghost:
-            self._ghost.leave()
+            self._ghost.remove()
         if self._fictitious:
-            self._fictitious.leave()
+            self._fictitious.remove()
         self._remove_cones()
         self._stream.log(entities.CIRCLES, rr.Clear(recursive=False))
         self._log_panel(describe_nothing(reason, self._name_scales()))

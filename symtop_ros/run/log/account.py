@@ -297,7 +297,8 @@ class _Conclusions:
     def _list_undecided(self) -> Iterator[Stretch]:
         """Yield where a clock that went back leaves several motions that may hold at a stamp."""
         rows = (each.expand() for each in self._contents.rows.values() if each.rows)
-        if all(self._passes.find_by_place(*each) is not None for each in rows):
+        passes = self._passes
+        if passes.count == 1 or all(passes.find_by_place(*each) is not None for each in rows):
             return
         for (begin, holding), (end, _) in pairwise(partition(self._stretches)):
             if len(holding) > 1:
