@@ -10,7 +10,7 @@ from symtop_ros.run.simulation.run_file import RATE
 def add_view_options(parser: argparse.ArgumentParser) -> None:
     """Add the options for parts of the scene: those of `ViewOptions`, which needs Rerun."""
     for option, text in (
-        ("--no-ghost", "do not draw the top that was not kicked"),
+        ("--no-ghost", "do not draw the top without its last kick or clamp"),
         ("--angles", "draw both frames and Euler's angles phi, theta, psi"),
         (
             "--torques",

@@ -1,8 +1,8 @@
-"""The ghost: the top that was not kicked, next to the one that was, translucent.
+"""The ghost: the top that was not kicked or clamped, next to the one that was, translucent.
 
-Would the top have risen anyway? The motion just before the last kick continues, exactly, at the
-same stamps. Whatever else happens to the run (parameters, torques, pauses, steps, another real-time
-factor) happens to both.
+Would the top have risen anyway? The motion just before the last kick or clamp continues, exactly,
+at the same stamps. Whatever else happens to the run (parameters, torques, pauses, steps, another
+real-time factor) happens to both.
 """
 
 from dataclasses import replace
@@ -20,14 +20,15 @@ from symtop_ros.run.simulation.segment import Segment
 
 RATE = 125.0  # states per s of the clock; more would not be seen
 OPACITY = 90  # of 255
+LEFT_OUT = (*KICKS, "clamp")  # events that the ghost does without
 MOST_STEPS = 3000  # of an integration, for one batch; a log may ask for years
 
 
 class GhostView:
-    """The motion without the last kick, drawn with its trace."""
+    """The motion without the last kick or clamp, drawn with its trace."""
 
     def __init__(self, stream: Stream) -> None:
-        # the run without the last kick; None before the first kick and after a restart
+        # the run without it; None before the first one and after a restart
         self.segment: Segment | None = None
         self._stream = stream
         self._trace = Trace()
@@ -38,7 +39,7 @@ class GhostView:
         old = self.segment
         if name in RESTARTS or before is None:
             self.segment = None
-        elif name in KICKS:
+        elif name in LEFT_OUT:
             self.segment = before
             self._trace = Trace()
         elif old is not None:

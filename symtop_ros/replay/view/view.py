@@ -48,7 +48,7 @@ ARROWS = {
 class ViewOptions:
     """Parts of the scene that can be left out. One that is off costs nothing."""
 
-    ghost: bool = True  # the top that was not kicked
+    ghost: bool = True  # the top without the last kick or clamp
     angles: bool = False  # both frames, the line of nodes, and the arcs of phi, theta and psi
     torques: bool = False  # arrows of dL/dt and of the inertial torque in two frames
     fictitious: bool = False  # arrows of the torques that an observer sees who precesses along

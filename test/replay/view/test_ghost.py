@@ -8,8 +8,7 @@ from log_files import ARTICLE, CUSPS
 from physics.tops import EPS
 
 from symtop_ros.physics import Friction, Motion, Top, hurry
-from symtop_ros.replay.view.ghost import GhostView
-from symtop_ros.run.simulation.events import KICKS
+from symtop_ros.replay.view.ghost import LEFT_OUT, GhostView
 from symtop_ros.run.simulation.segment import Segment
 
 SECOND = 1_000_000_000
@@ -38,7 +37,7 @@ def test_it_continues_the_motion_before_the_kick_to_the_last_bit(ghost):
     assert np.array_equal(quaternions, expected)
 
 
-@pytest.mark.parametrize("name", KICKS)
+@pytest.mark.parametrize("name", LEFT_OUT)
 def test_a_second_kick_replaces_it_by_the_motion_just_before(ghost, name):
     ghost, after = ghost
     ghost.follow(name, after, kicked(after, 2 * SECOND))
