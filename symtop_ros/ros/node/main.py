@@ -31,8 +31,8 @@ def main(args: list[str] | None = None) -> int:
 
 def _run(_: argparse.Namespace, listen: Callable[[], None]) -> int:
     """Spin until shutdown; return 1 if a tick or the recording failed (both were reported)."""
-    # Not rclpy's EventsExecutor: as it waits, other threads stand still (rclpy 9.1, Kilted). It is
-    # created before a signal can shut ROS down, as the node is.
+    # Not rclpy's EventsExecutor, under which no request is answered (rclpy 7.1 and 9.1): other
+    # threads stand still as it waits. It is created before a signal can shut ROS down, as the node.
     executor = SingleThreadedExecutor()
     top = TopNode()
     gc.freeze()  # collecting garbage among the objects of the start would delay ticks
