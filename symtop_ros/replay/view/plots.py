@@ -55,8 +55,15 @@ class Plots:
         """Take over an event; a new motion has another potential."""
         self._reference = None
         self._energy.follow(event, before, after)
-        old, new = before.motion if before else None, after.motion
-        if old is None or (old.top, old.friction, old.start) != (new.top, new.friction, new.start):
+        old, new = (
+            (each.motion.top, each.motion.friction, each.motion.start, each.motion.clamped)
+            if each
+            else None
+            for each in (before, after)
+        )
+        if after.motion.clamped:  # the hand changes p_phi, and with it the potential, all the time
+            self._potential.remove()
+        elif old != new:
             self._potential.log_motion(after.final_motion)
 
     def remove(self) -> None:
@@ -94,7 +101,7 @@ class Plots:
 
     def _send_constants(self, columns: Mapping[str, Columns], motion: Motion) -> None:
         """Send the moving dots of the potential, the energies and the inertial torque."""
-        if "euler_angles" in columns:
+        if "euler_angles" in columns and not motion.clamped:
             euler = columns["euler_angles"]
             step = quantities.find_step(euler.stamps, RATE_OF_DOTS)
             heights = quantities.heights_of_dots(motion.top, euler.numbers[::step])
@@ -102,7 +109,7 @@ class Plots:
                 self._stream.send(
                     f"{entity}/state", euler.stamps[::step], rr.Points2D.columns(positions=points)
                 )
-            if motion.is_driven or motion.clamped:
+            if motion.is_driven:
                 self._send_drifting_curves(euler, motion)
         parts = Torques.of(columns)
         for entity, found in (
@@ -128,10 +135,31 @@ def describe_motion(
     motion = segment.final_motion
     top = motion.top
     low, high = motion.turning_angles
-    rates = ", ".join(f"{rate:.4g}" for rate in perrys_rule(top, state).regular_rates) or "no"
+    condition = _name_condition(segment)
     facts = {
         "motion": f"{motion.kind}, {f'speed {segment.factor:g}' if segment.running else 'paused'}",
+        **({"angles and rates": condition} if condition else {}),
         "theta": f"{low:.4f} .. {high:.4f} rad",
+        **({"precession": "held by hand"} if motion.clamped else _list_rates(motion, state)),
+        "Ix, Iz; Mgl": f"{top.Ix:g}, {top.Iz:g} kg m\u00b2; {top.Mgl:g} J",
+        **_added_torques(motion),
+    }
+    return _write_table({**facts, **_list_scales(scales), **equations})
+
+
+def _name_condition(segment: Segment) -> str:
+    """Return what angles and rates leave out, or when they hold; empty if they hold now."""
+    motion = segment.motion
+    if motion.is_driven:
+        torque = any(motion.applied_torque)
+        left_out = ["friction"] * bool(motion.friction) + ["the applied torque"] * torque
+        return f"without {' and '.join(left_out)}"
+    return "after the last push" if motion.pushes else ""
+
+
+def _list_rates(motion: Motion, state: State) -> dict[str, str]:
+    rates = ", ".join(f"{rate:.4g}" for rate in perrys_rule(motion.top, state).regular_rates)
+    return {
         "nutation": f"{_number(motion.nutation_period, 's')}, "
         f"{_number(motion.nutation_rate, 'rad/s')} "
         f"(p_psi/Ix: {_number(motion.fast_top_nutation_rate)})",
@@ -139,11 +167,8 @@ def describe_motion(
         f"(Mgl/p_psi: {_number(motion.fast_top_precession_rate)})",
         "in a nutation": f"{_number(motion.precession_per_nutation, 'turns')}"
         + (", psi' changes sign" if motion.spin_reverses else ""),
-        "regular precession": f"{rates} rad/s",
-        "Ix, Iz; Mgl": f"{top.Ix:g}, {top.Iz:g} kg m\u00b2; {top.Mgl:g} J",
-        **_added_torques(motion),
+        "regular precession": f"{rates or 'no'} rad/s",
     }
-    return _write_table({**facts, **_list_scales(scales), **equations})
 
 
 def describe_nothing(reason: str, scales: dict[str, str]) -> str:
@@ -161,9 +186,7 @@ def _write_table(facts: Mapping[str, str]) -> str:
 
 
 def _added_torques(motion: Motion) -> dict[str, str]:
-    """Return friction and applied torque; angles, period and rates then hold at the event only."""
-    if motion.clamped:
-        return {"precession": "held by hand"}
+    """Return friction and applied torque."""
     if not motion.is_driven:
         return {}
     friction = asdict(motion.friction)

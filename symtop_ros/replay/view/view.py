@@ -15,11 +15,9 @@ from symtop_ros.replay.view.ghost import GhostView
 from symtop_ros.replay.view.plots import Plots, describe_motion, describe_nothing
 from symtop_ros.run.log.batch import Batch, Columns, choose
 from symtop_ros.run.log.stretches import Stretch, Unknown
-from symtop_ros.run.simulation.events import KICKS, RELEASE, Event
+from symtop_ros.run.simulation.events import RESTARTS, Event
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS
-
-SPOKEN = ("start", "reset", *KICKS, RELEASE)  # events whose verdict is shown
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +109,7 @@ class View:
 
     def _send_event(self, event: Event) -> None:
         previous = self._segment if _follows(event, self._event) else None
-        self._event, self._segment = event, event.segment()
+        last, self._event, self._segment = self._event, event, event.segment()
         motion = self._segment.final_motion
         framing = Framing.of(self._segment).after(self._framing)
         before, self._framing = self._framing, framing
@@ -134,10 +132,9 @@ class View:
             equations |= self._fictitious.follow(motion.top, event.state())
         scales = self._name_scales()
         self._log_panel(describe_motion(self._segment, event.state(), scales, equations))
-        if event.name in SPOKEN:
+        # Else what was said before still holds.
+        if event.name in RESTARTS or previous is None or not event.has_motion_of(last):
             self._log_sentence(event.verdict)
-        elif previous is None:  # what was said before is of another motion
-            self._log_sentence("")
 
     def _log_panel(self, text: str) -> None:
         self._stream.log(entities.PANEL, rr.TextDocument(text, media_type="text/markdown"))

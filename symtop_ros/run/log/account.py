@@ -43,7 +43,7 @@ from symtop_ros.run.log.stretches import (
     partition,
 )
 from symtop_ros.run.log.writer import ENDING, METADATA
-from symtop_ros.run.simulation.events import MOTION, WHOLE, Event
+from symtop_ros.run.simulation.events import WHOLE, Event
 from symtop_ros.run.simulation.topics import DESCRIPTION, DIAGNOSTICS, EVENTS, STATE_TOPICS
 
 GUESSED = (
@@ -113,7 +113,7 @@ class Account:
         found: list[Stretch] = []
         is_open = False  # True after a stretch of which the motion is not known
         for each in self.stretches:
-            if each.event and is_open and found and not _is_same(found[-1].event, each.event):
+            if each.event and is_open and found and not each.event.has_motion_of(found[-1].event):
                 break
             is_open = each.event is None
             found += [each] if each.event else []
@@ -152,11 +152,6 @@ class Account:
     def find_topic(self, full: str) -> TopicAccount | None:
         """Return what the log has of a topic of the top, by its full name."""
         return next((each for each in self.topics.values() if each.name == full), None)
-
-
-def _is_same(before: Event | None, after: Event) -> bool:
-    """Return True if two events say the same of the motion itself."""
-    return before is not None and all(before.values.get(k) == after.values.get(k) for k in MOTION)
 
 
 def read_account(file: MessageSource, names: Names) -> Account:

@@ -136,6 +136,12 @@ class Event:
             node,
         )
 
+    def has_motion_of(self, other: "Event | None") -> bool:
+        """Return True if it says the same of the motion itself as another event."""
+        return other is not None and all(
+            self.values.get(name) == other.values.get(name) for name in MOTION
+        )
+
     @property
     def has_fields(self) -> bool:
         """False for an event of a log without numbers, requests and outcomes as fields."""

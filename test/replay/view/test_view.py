@@ -214,3 +214,44 @@ def test_where_an_event_is_lost_the_motion_is_said_to_be_unknown(tmp_path):
         assert not ((drawn >= first) & (drawn < last)).any(), entity
     bodies = rows(target, entities.BODY, "Transform3D:quaternion")[0]
     assert ((bodies >= first) & (bodies < last)).sum() > 50
+
+
+def test_the_sentence_is_that_of_the_last_event_that_changed_the_motion(tmp_path):
+    recorded = Recorded(tmp_path)
+    for service, value in (
+        ("kick", {"precession_rate_factor": 1.2}),
+        ("clamp", True),
+        ("pause", True),
+        ("pause", False),
+        ("clamp", False),
+    ):
+        recorded.run(0.5)
+        recorded.ask(service, value)
+    recorded.run(0.5)
+    log = TopLog(McapFile(*recorded.close()))
+    target = tmp_path / "run.rrd"
+    replay(log, target)
+    said = [text[0] for text in rows(target, entities.SENTENCE, "TextDocument:text")[1]]
+    events = {event.name: event for event in log.account.events}
+    names = "start", "kick", "clamp", "unclamp"
+    assert said == [events[name].verdict for name in names]
+    # A hand that holds the precession changes p_phi: there is no effective potential.
+    drawn = rows(target, f"{entities.POTENTIAL}/state", "Points2D:positions")[0]
+    first, last = (events[name].stamp - events["start"].stamp for name in names[2:])
+    assert (drawn < first).any()
+    assert (drawn > last).any()
+    assert not ((drawn > first) & (drawn < last)).any()
+
+
+@pytest.mark.parametrize(
+    ("scene", "condition"),
+    [("hurry_slow", ""), ("friction", "without friction"), ("pushed", "after the last push")],
+)
+def test_the_table_says_when_its_angles_and_rates_hold(scene, condition, tmp_path):
+    recorded = Recorded(tmp_path, scene="hurry_slow" if scene == "pushed" else scene)
+    if scene == "pushed":
+        recorded.ask("kick", {"axle_impulse": 1e-5, "rate": 5.0, "number": 3})
+    recorded.run(0.5)
+    replay(TopLog(McapFile(*recorded.close())), tmp_path / "run.rrd")
+    *_, (table,) = rows(tmp_path / "run.rrd", entities.PANEL, "TextDocument:text")[1]
+    assert (f"| angles and rates | **{condition}** |" in table) == bool(condition)
