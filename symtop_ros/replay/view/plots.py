@@ -51,19 +51,13 @@ class Plots:
                 static=True,
             )
 
-    def follow(self, event: Event, before: Segment | None, after: Segment) -> None:
+    def follow(self, event: Event, before: Segment | None, after: Segment, *, is_new: bool) -> None:
         """Take over an event; a new motion has another potential."""
         self._reference = None
         self._energy.follow(event, before, after)
-        old, new = (
-            (each.motion.top, each.motion.friction, each.motion.start, each.motion.clamped)
-            if each
-            else None
-            for each in (before, after)
-        )
         if after.motion.clamped:  # the hand changes p_phi, and with it the potential, all the time
             self._potential.remove()
-        elif old != new:
+        elif is_new:
             self._potential.log_motion(after.final_motion)
 
     def remove(self) -> None:
@@ -151,9 +145,12 @@ def _name_condition(segment: Segment) -> str:
     """Return what angles and rates leave out, or when they hold; empty if they hold now."""
     motion = segment.motion
     if motion.is_driven:
-        torque = any(motion.applied_torque)
-        left_out = ["friction"] * bool(motion.friction) + ["the applied torque"] * torque
-        return f"without {' and '.join(left_out)}"
+        acting = {
+            "friction": motion.friction,
+            "the applied torque": any(motion.applied_torque),
+            "later pushes": motion.pushes,
+        }
+        return f"without {' and '.join(name for name, acts in acting.items() if acts)}"
     return "after the last push" if motion.pushes else ""
 
 

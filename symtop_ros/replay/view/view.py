@@ -94,7 +94,7 @@ class View:
                 self._stream.origin = _first_stamp(event, columns)
             if columns:
                 self._choose_scales(columns)
-            if event and event != self._event:
+            if event:
                 self._send_event(event)
             if columns and self._stream.origin is not None:
                 self._send_columns(columns)
@@ -109,7 +109,8 @@ class View:
 
     def _send_event(self, event: Event) -> None:
         previous = self._segment if _follows(event, self._event) else None
-        last, self._event, self._segment = self._event, event, event.segment()
+        is_new = event.name in RESTARTS or not (previous and event.has_motion_of(self._event))
+        self._event, self._segment = event, event.segment()
         motion = self._segment.final_motion
         framing = Framing.of(self._segment).after(self._framing)
         before, self._framing = self._framing, framing
@@ -123,7 +124,7 @@ class View:
         if self._ghost:
             self._ghost.follow(event.name, previous, self._segment)
         self._send_cones(motion, event.state())
-        self._plots.follow(event, previous, self._segment)
+        self._plots.follow(event, previous, self._segment, is_new=is_new)
         self._stream.log(entities.CIRCLES, surroundings.turning_circles(motion.turning_angles))
         asked = "; ".join(f"{name}={text}" for name, text in event.request.items())
         self.log_text(f"{event.name}{f' ({asked})' if asked else ''}: {event.verdict}", "INFO")
@@ -132,8 +133,7 @@ class View:
             equations |= self._fictitious.follow(motion.top, event.state())
         scales = self._name_scales()
         self._log_panel(describe_motion(self._segment, event.state(), scales, equations))
-        # Else what was said before still holds.
-        if event.name in RESTARTS or previous is None or not event.has_motion_of(last):
+        if is_new:  # else what was said before still holds
             self._log_sentence(event.verdict)
 
     def _log_panel(self, text: str) -> None:

@@ -80,7 +80,7 @@ class Account:
     others: Mapping[str, str]  # types of the other topics of the log, by their full names
     ordered: Ordered  # its events
     stretches: tuple[Stretch, ...]  # in the order of the run
-    undecided: tuple[Stretch, ...]  # parts of them: which one a sample is of, no order says
+    undecided: tuple[Stretch, ...]  # in which the order does not show to which a sample belongs
     end: int | None  # stamp (ns) of the last sample; None without samples
     count: int  # messages of all topics
     losses: tuple[Loss, ...]  # as reading the files has found them
@@ -290,7 +290,7 @@ class _Conclusions:
                 yield begin
 
     def _list_undecided(self) -> Iterator[Stretch]:
-        """Yield where a clock that went back leaves several motions that may hold at a stamp."""
+        """Yield stretches that a clock which went back repeats, if the log is not in that order."""
         rows = (each.expand() for each in self._contents.rows.values() if each.rows)
         passes = self._passes
         if passes.count == 1 or all(passes.find_by_place(*each) is not None for each in rows):

@@ -1,7 +1,7 @@
 """Recordings of damaged logs: nothing is drawn of a motion that is not known.
 
 Criteria are those of the run before it was damaged: its constants of motion do not change between
-its events, and the top that was not kicked is that of its own events.
+its events, and each ghost continues a motion of its events.
 """
 
 from functools import cache
@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from replay.view.rows import DRIFT, FLOAT, rows, strict
 from run.log.damaged import Log, Recorded
-from run.log.ways import OF_BYTES, OF_MESSAGES, RUNS
+from run.log.ways import OF_BYTES, OF_MESSAGES, RUNS, write_damaged
 from trials import seeds
 
 from symtop_ros.replay.view import entities
@@ -41,18 +41,6 @@ def record(tmp_path_factory):
     return record
 
 
-def damage(logs, rng, folder):
-    """Write the files of a run, of which one is damaged; return their paths."""
-    paths = [folder / f"{number}.mcap" for number in range(len(logs))]
-    which, way = rng.randrange(len(paths)), rng.choice((*OF_MESSAGES, *OF_BYTES))
-    for number, (log, path) in enumerate(zip(logs, paths, strict=True)):
-        chosen = way if number == which else None
-        (chosen(log, rng) if chosen in OF_MESSAGES else log).write(path)
-        if chosen in OF_BYTES:
-            path.write_bytes(chosen(path.read_bytes(), rng))
-    return paths
-
-
 def read_events(logs, folder):
     """The events of a run that is not damaged."""
     folder.mkdir()
@@ -61,7 +49,7 @@ def read_events(logs, folder):
 
 
 def list_ghosts(events):
-    """What holds without the last kick from each event on: a segment and a shift of its stamps."""
+    """The ghost from each event on: its segment and the shift of its stamps (ns), or None."""
     ghosts, ghost = [], None
     for before, event in zip((None, *events), events, strict=False):
         if event.name in RESTARTS:
@@ -92,7 +80,7 @@ def test_nothing_is_drawn_of_a_motion_that_is_not_known(seed, record, tmp_path):
         # each run of the tests takes two runs of the top only: to record them takes a while
         name = rng.choice(list(RUNS) if seed > 1 else ["kicked", "back"])
         logs = record(name, rng.random() < 0.5)
-        paths = damage(logs, rng, folder)
+        paths = write_damaged(logs, rng.choice((*OF_MESSAGES, *OF_BYTES)), rng, folder)
         target = folder / "run.rrd"
         try:
             log = TopLog(open_run(paths))

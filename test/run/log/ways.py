@@ -159,3 +159,15 @@ OF_MESSAGES = (
     *(double, double_stretch, exchange, sort, delay_event, lose_nothing),
 )
 OF_BYTES = flip, cut, zero, take_out
+
+
+def write_damaged(logs, way, rng, folder):
+    """Write the files of a run, of which one is damaged; return their paths."""
+    paths = [folder / f"{number}.mcap" for number in range(len(logs))]
+    which = rng.randrange(len(paths))
+    for number, (log, path) in enumerate(zip(logs, paths, strict=True)):
+        is_damaged = number == which
+        (way(log, rng) if is_damaged and way in OF_MESSAGES else log).write(path)
+        if is_damaged and way in OF_BYTES:
+            path.write_bytes(way(path.read_bytes(), rng))
+    return paths

@@ -15,7 +15,7 @@ import pytest
 from drawn import Numbers, normalize
 from mcap.records import Channel, Message, Schema
 from run.log.damaged import SECOND, Log, Recorded, zero_chunk
-from run.log.ways import FILTER, OF_BYTES, OF_MESSAGES, OWN, RUNS, TF
+from run.log.ways import FILTER, OF_BYTES, OF_MESSAGES, OWN, RUNS, TF, write_damaged
 from trials import seeds
 
 from symtop_ros.base.arrays import compose, find_rotation_vectors, invert
@@ -86,18 +86,6 @@ def add_estimates(log, errors):
     )
 
 
-def write_damaged(made, way, rng, folder):
-    """Write the files of a run, of which one is damaged; return their paths."""
-    paths = [folder / f"{number}.mcap" for number in range(len(made.logs))]
-    which = rng.randrange(len(paths))
-    for number, (log, path) in enumerate(zip(made.logs, paths, strict=True)):
-        is_damaged = number == which
-        (way(log, rng) if is_damaged and way in OF_MESSAGES else log).write(path)
-        if is_damaged and way in OF_BYTES:
-            path.write_bytes(way(path.read_bytes(), rng))
-    return paths
-
-
 def repair(paths):
     """Return the paths of repaired files."""
     found = [path.with_suffix(".repaired.mcap") for path in paths]
@@ -143,7 +131,7 @@ def test_what_is_judged_is_right_and_what_is_counted_is_there(seed, make, tmp_pa
         # each run of the tests takes two runs of the top only: to record them takes a while
         made = make(rng.choice(list(RUNS) if seed > 1 else ["kicked", "back"]))
         way = rng.choice((*OF_MESSAGES, *OF_BYTES))
-        paths = write_damaged(made, way, rng, folder)
+        paths = write_damaged(made.logs, way, rng, folder)
         if rng.random() < 0.2 and way in OF_BYTES:
             paths = repair(paths)
         topic = rng.choice((FILTER, OWN, TF))
