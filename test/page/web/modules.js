@@ -83,6 +83,31 @@ window.sayStarts = async (starts) => {
   });
 };
 
+/**
+ * What the page says of kicks, in both units, and the levels that its scene marks in the end; with the
+ * doubles before and after.
+ */
+window.sayKicks = async (cases) => {
+  const { Course } = await import("/physics/course.js");
+  const { State } = await import("/physics/state.js");
+  const { findOutcome } = await import("/words/headline.js");
+  const { findPush, listReached } = await import("/scene/push.js");
+  return cases.map(({ top, angles, rates, kick: { kind, value, hold } }) => {
+    const before = State.fromEuler(kernel, angles, rates);
+    const course = new Course(kernel, top, before.kick(top, kind, [value].flat(), hold));
+    const moment = { kind: "kick", time: 0, asked: { hold }, course, before };
+    const { headline } = findOutcome(moment, course);
+    const levels = listReached(findPush(moment), Infinity, []);
+    const write = (variant) => phrase("headline", headline, variant);
+    return {
+      states: [before, course.start].map((each) => [[...each.orientation], [...each.omega]]),
+      texts: { radians: write("radians"), degrees: write("degrees") },
+      labels: levels.map((each) => [each.from, each.to, phrase("moved", each)]),
+      happened: phrase("guess", { kind: "right", seen: headline.seen }),
+    };
+  });
+};
+
 /** The impulses of starts since them: at times, and the texts that the page shows at half a nutation. */
 window.findImpulses = async (cases) => {
   const { Course } = await import("/physics/course.js");

@@ -28,7 +28,7 @@ def _answer(route):
         route.fulfill(status=404)
 
 
-def load_kernel(tab):
-    """Have the tab keep the kernel and the English texts as `kernel` and `phrase`."""
+def load_kernel(tab, language="en"):
+    """Have the tab keep the kernel and the texts of a language as `kernel` and `phrase`."""
     kernel = base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode()
-    tab.evaluate("loadKernel", [kernel, read_texts("en"), "en"])
+    tab.evaluate("loadKernel", [kernel, read_texts(language), language])

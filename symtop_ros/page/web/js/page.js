@@ -274,6 +274,8 @@ export class Page {
 
   showUnit() {
     this.fields.showUnit();
+    this.seen.showUnit();
+    this.lesson?.showUnit();
     if (this.facts) this.showFacts(this.facts);
   }
 }

@@ -5,7 +5,7 @@ import { nameQuantity, QUANTITIES } from "./axes_list.js";
 import { keepChoice } from "../controls/choices.js";
 import { find, make, write } from "../controls/document.js";
 import { draw, findSpan, Frame, WIDE } from "./plot.js";
-import { angleUnit, shorten, toUnit } from "../words/quantities.js";
+import { nameUnit, shorten, toUnit } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Sample } from "../run/telling.js" */
@@ -31,9 +31,6 @@ const measure = ({ pick, unit }, { time, course, kept, ...states }, whose) => {
   const value = pick(time, from.state, from.course);
   return unit === "rad" ? toUnit(value) : value;
 };
-
-/** @param {Quantity} quantity */
-const nameUnit = ({ unit }) => (unit === "rad" ? angleUnit() : unit);
 
 export class FreeChart {
   /** @param {(isKept: boolean) => void} keep the present run, or let the kept one go */
@@ -101,7 +98,7 @@ export class FreeChart {
       HEIGHT,
       `${frame.axes}${paths.join("")}
       ${frame.dot(own[this.findShown(samples)], 'fill="var(--theta)"')}
-      ${frame.nameVertical(nameUnit(vertical))}${frame.nameHorizontal(nameUnit(horizontal))}`,
+      ${frame.nameVertical(nameUnit(vertical.unit))}${frame.nameHorizontal(nameUnit(horizontal.unit))}`,
       phrase("chart.free", { up: nameQuantity(this.y.value), over: nameQuantity(this.x.value) }),
     );
   }
@@ -117,7 +114,7 @@ export class FreeChart {
     const texts = [this.x, this.y].map((list) => {
       const quantity = QUANTITIES[list.value];
       const value = measure(quantity, sample, "state");
-      return `${nameQuantity(list.value)} ${shorten(value, 5)} ${nameUnit(quantity)}`;
+      return `${nameQuantity(list.value)} ${shorten(value, 5)} ${nameUnit(quantity.unit)}`;
     });
     write(find("free-values"), texts.join(", "));
     this.place.setAttribute("aria-valuetext", texts.join(", "));

@@ -5,8 +5,15 @@
 
 import { NAMES } from "../physics/records.js";
 import { findAll, make, whenReleased, write } from "./document.js";
-import { refuse } from "./notices.js";
-import { angleUnit, findReadings, inDegrees, parseQuantity, shorten } from "../words/quantities.js";
+import { acceptField, refuse, refuseField } from "./notices.js";
+import {
+  addUnit,
+  findReadings,
+  inDegrees,
+  parseQuantity,
+  shorten,
+  writeLimit,
+} from "../words/quantities.js";
 import { UNITS } from "../words/units.js";
 import { phrase } from "../words/wording.js";
 
@@ -116,8 +123,7 @@ class Entry {
     if (!refusal) this.fields.change(this.name, value);
     else {
       const got = typed || phrase("nothing");
-      refuse(phrase("refused", { name: this.title, ...refusal, got }));
-      this.text.setAttribute("aria-invalid", "true");
+      refuseField(this.text, phrase("refused", { name: this.title, ...refusal, got }));
     }
   }
 
@@ -126,7 +132,7 @@ class Entry {
     const { isAngle, isPositive, isNotNegative } = this.field;
     if (!Number.isFinite(value)) return { kind: "number" };
     if (isAngle && !(value >= 0 && value <= Math.PI))
-      return { kind: "angle", most: inDegrees() ? "180\u00b0" : "pi rad" };
+      return { kind: "angle", most: writeLimit(Math.PI, -1, "rad") };
     if (isPositive && !(value > 0)) return { kind: "positive" };
     return isNotNegative && value < 0 ? { kind: "not_negative" } : null;
   }
@@ -189,7 +195,7 @@ class Entry {
 
   showUnit() {
     if (!this.field.isAngle) return;
-    const text = `${this.title} (${angleUnit()})`;
+    const text = addUnit(this.title, "rad");
     write(this.label, text);
     this.text.setAttribute("aria-label", text);
     this.slider?.setAttribute("aria-label", text);
@@ -225,7 +231,7 @@ export class Fields {
   change(name, value) {
     this.asked = this.entries[name];
     this.asked.value = value;
-    this.asked.text.removeAttribute("aria-invalid");
+    acceptField(this.asked.text);
     if (name === "factor") {
       this.values.factor = value;
       this.asked.write();

@@ -2,9 +2,10 @@
 
 import { find, findAll, make, say, write } from "./document.js";
 import { keep, read } from "./choices.js";
+import { convertTyped } from "./typed.js";
 import { recall, remember } from "../run/memory.js";
 import { writeNumber } from "../words/numbers.js";
-import { parseQuantity } from "../words/quantities.js";
+import { parseQuantity, writeLimit } from "../words/quantities.js";
 import { UNITS } from "../words/units.js";
 import { isKnown, phrase } from "../words/wording.js";
 
@@ -23,6 +24,7 @@ import { isKnown, phrase } from "../words/wording.js";
  */
 /** @typedef {(message: Message) => void} Send */
 
+const WITHIN_DIGITS = 3;
 const PREDICTIONS = "predictions"; // as the browser keeps them
 
 /** What was predicted, by the number of the step. @returns {{[step: number]: string}} */
@@ -80,12 +82,17 @@ const makeCell = (tag, text) => {
  * How near a number that was typed is to the one that is asked for.
  * @param {Ask} ask @param {string} typed
  */
-export const checkNumber = ({ value, within }, typed) => {
+export const checkNumber = (ask, typed) => {
   if (!typed.trim()) return "";
-  const number = parseQuantity(typed, { ...UNITS.rad }); // in rad, whatever the fields are in
+  const number = parseQuantity(typed, UNITS.rad);
   if (Number.isNaN(number)) return phrase("asked", { kind: "none" });
-  return phrase("asked", { kind: Math.abs(number - value) <= within ? "near" : "far", within });
+  const within = writeWithin(ask);
+  const isNear = Math.abs(number - ask.value) <= parseQuantity(within, UNITS.rad);
+  return phrase("asked", { kind: isNear ? "near" : "far", within });
 };
+
+/** How near a number is to be, in the unit of the page: what is written is what holds. @param {Ask} ask */
+const writeWithin = ({ within }) => writeLimit(within, -1, "rad", WITHIN_DIGITS);
 
 const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
 
@@ -184,9 +191,21 @@ export class Lesson {
   /** Ask for the number of a step, if it has one. @param {Step} step */
   ask({ name, ask }) {
     find("lesson-number").hidden = !ask;
-    say("lesson-ask", ask ? phrase(`lesson.${name}.ask`, ask) : "");
     this.number.value = "";
+    this.showAsked({ name, ask });
+  }
+
+  /** @param {Pick<Step, "name" | "ask">} step */
+  showAsked({ name, ask }) {
+    say("lesson-ask", ask ? phrase(`lesson.${name}.ask`, { within: writeWithin(ask) }) : "");
     say("lesson-checked", "");
+  }
+
+  /** The number is asked for in the unit of the page. */
+  showUnit() {
+    if (this.shown === null) return;
+    convertTyped(this.number);
+    this.showAsked(this.steps[this.shown - 1]);
   }
 
   check() {

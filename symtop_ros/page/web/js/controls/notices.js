@@ -5,13 +5,31 @@ import { find, write } from "./document.js";
 import { typesetSymbols } from "../words/typeset.js";
 import { phrase } from "../words/wording.js";
 
+/** The field whose text is refused. @type {HTMLInputElement | null} */
+let refused = null;
+
 /**
  * A refusal or a notice stands until the next act; an empty one takes it away. It has no words of
  * arrows: what was got may be another page's.
  * @param {string} text @param {boolean} isOfData whose names are shown as they are typed
  */
-export const refuse = (text, isOfData = false) =>
+export const refuse = (text, isOfData = false) => {
+  refused = null;
   show("refusal", text, isOfData ? (plain) => [plain] : typesetSymbols);
+};
+
+/** Refuse the text of a field. @param {HTMLInputElement} field @param {string} text */
+export const refuseField = (field, text) => {
+  refuse(text);
+  refused = field;
+  field.setAttribute("aria-invalid", "true");
+};
+
+/** A field has become good: what was said of it no longer holds. @param {HTMLInputElement} field */
+export const acceptField = (field) => {
+  field.removeAttribute("aria-invalid");
+  if (refused === field) refuse("");
+};
 
 /** A refusal can be put away. */
 export const dismissRefusals = () => {

@@ -3,7 +3,7 @@
 
 import { find, make, write } from "./document.js";
 import { refuse } from "./notices.js";
-import { readTyped } from "./typed.js";
+import { makeInput, readTyped } from "./typed.js";
 import { NAMES } from "../physics/records.js";
 import { shorten } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
@@ -31,12 +31,7 @@ class Row {
     this.inputs = COLUMNS.map(([name]) => {
       const shown = shorten(part[name], DIGITS);
       const label = phrase(`part.${name}`);
-      return make("input", {
-        type: "text",
-        autocomplete: "off",
-        value: shown,
-        "aria-label": label,
-      });
+      return makeInput({ value: shown, "aria-label": label });
     });
     const words = { className: "remove", "aria-label": phrase("part.remove") };
     const remove = make("button", words, "\u00d7");

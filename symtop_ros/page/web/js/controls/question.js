@@ -9,8 +9,8 @@ import { phrase } from "../words/wording.js";
 /** @import { Facts } from "../words/facts.js" */
 
 const KEPT = "answer"; // as the browser keeps it: who comes again is not asked
-/** The kind of headline that an answer foretells. @type {{[answer: string]: string}} */
-const MEANT = { rises: "higher", falls: "lower" };
+/** The change that an answer foretells, and the one against it. @type {{[answer: string]: string[]}} */
+const MEANT = { rises: ["higher", "lower"], falls: ["lower", "higher"] };
 const FAST = "fast_precession"; // the scene of the second question
 
 /** What was answered, by this visitor or an earlier one of the browser. @returns {string | null} */
@@ -68,7 +68,9 @@ export class Question {
     if (this.answer === null || half === null || this.end < Infinity) this.leave();
     else {
       this.end = half;
-      const kind = MEANT[this.answer] === seen ? "right" : "other";
+      const [meant, opposite] = MEANT[this.answer];
+      const isRight = seen?.includes(meant) && !seen.includes(opposite);
+      const kind = isRight ? "right" : "other";
       say("compared", phrase("guess", { kind, answer: this.answer, seen }));
       this.enter("watch");
     }

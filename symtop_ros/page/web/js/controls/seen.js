@@ -2,10 +2,10 @@
 // that have it are buttons.
 
 import { find, make, say, write } from "./document.js";
-import { refuse } from "./notices.js";
-import { readTyped } from "./typed.js";
+import { refuse, refuseField } from "./notices.js";
+import { convertTyped, makeInput, readTyped } from "./typed.js";
 import { NAMES } from "../physics/records.js";
-import { inDegrees } from "../words/quantities.js";
+import { addUnit, inDegrees, writeLimit } from "../words/quantities.js";
 import { QUANTITIES } from "../words/units.js";
 import { phrase } from "../words/wording.js";
 
@@ -13,24 +13,12 @@ import { phrase } from "../words/wording.js";
 /** @typedef {{theta: number, theta_dot: number, phi_dot: number, psi_dot: number}} Solution */
 
 const PER_MINUTE = 30 / Math.PI; // turns, of rad/s
-const DIGITS = 5; // of a limit
 
 /** @param {Solution} start */
 const describe = (start) => {
   const variant = inDegrees() ? "degrees" : "radians";
   const turns = { spin: start.psi_dot * PER_MINUTE, theta_dot: start.theta_dot || null };
   return phrase("solution", { ...start, ...turns }, variant);
-};
-
-/**
- * A limit in few digits, rounded to the side that is allowed: one that is typed in again is not refused.
- * @param {number} limit @param {1 | -1} side of what is allowed
- */
-const roundInwards = (limit, side) => {
-  const near = Number(limit.toPrecision(DIGITS));
-  if (!Number.isFinite(near) || side * (near - limit) >= 0) return near;
-  const place = Math.floor(Math.log10(Math.abs(near))) - DIGITS + 1;
-  return Number((near + side * 10 ** place).toPrecision(DIGITS));
 };
 
 export class Seen {
@@ -42,6 +30,8 @@ export class Seen {
       this.list.append(new Option(phrase(`question.${question}`), question));
     /** @type {HTMLInputElement[]} */
     this.inputs = [];
+    /** @type {HTMLElement[]} */
+    this.labels = [];
     this.list.addEventListener("change", () => this.ask());
     find("solve").addEventListener("click", () => this.solve());
     find("known").addEventListener("keydown", ({ key }) => {
@@ -57,15 +47,29 @@ export class Seen {
   /** Offer a field for each number of the question. */
   ask() {
     const rows = this.names.map((name) => {
-      const text = phrase(`known.${name}`);
-      const input = make("input", { type: "text", autocomplete: "off", id: `known-${name}` });
-      input.ariaLabel = text;
+      const input = makeInput({ id: `known-${name}` });
       const label = make("label", { htmlFor: input.id });
-      write(label, text);
-      return { input, row: make("div", { className: "field" }, label, input) };
+      return { input, label, row: make("div", { className: "field" }, label, input) };
     });
     this.inputs = rows.map(({ input }) => input);
+    this.labels = rows.map(({ label }) => label);
     find("known").replaceChildren(...rows.map(({ row }) => row));
+    this.writeLabels();
+    this.clear();
+  }
+
+  writeLabels() {
+    this.names.forEach((name, k) => {
+      const text = addUnit(phrase(`known.${name}`), QUANTITIES[name]);
+      write(this.labels[k], text);
+      this.inputs[k].ariaLabel = text;
+    });
+  }
+
+  showUnit() {
+    this.writeLabels();
+    for (const [k, input] of this.inputs.entries())
+      if (QUANTITIES[this.names[k]] === "rad") convertTyped(input);
     this.clear();
   }
 
@@ -85,12 +89,12 @@ export class Seen {
   /** Show all starts as buttons, or say what a number would have to be. @param {Found} found */
   show({ demand, which, least, most, starts }) {
     if (demand) {
-      const name = this.inputs[which]?.ariaLabel;
-      const isBounded = demand === "positive" && Number.isFinite(most);
-      const [unit, got] = [QUANTITIES[this.names[which]], this.inputs[which]?.value];
-      const kind = isBounded ? "most" : demand;
-      const limits = { least: roundInwards(least, 1), most: roundInwards(most, -1) };
-      refuse(phrase("demand", { kind, name, ...limits, unit, got }));
+      const input = this.inputs[which];
+      const unit = QUANTITIES[this.names[which]];
+      const kind = demand === "positive" && Number.isFinite(most) ? "most" : demand;
+      const limits = { least: writeLimit(least, 1, unit), most: writeLimit(most, -1, unit) };
+      const name = phrase(`known.${this.names[which]}`);
+      refuseField(input, phrase("demand", { kind, name, ...limits, got: input.value }));
       return;
     }
     say("solutions-text", phrase("page.solutions"));

@@ -1,9 +1,33 @@
 // Numbers that are typed into a list or a form, and read when its button is pressed.
 
-import { refuse } from "./notices.js";
-import { findReadings, parseQuantity } from "../words/quantities.js";
+import { acceptField, refuseField } from "./notices.js";
+import { make } from "./document.js";
+import { findReadings, inDegrees, parseQuantity, shorten, toUnit } from "../words/quantities.js";
 import { UNITS } from "../words/units.js";
 import { phrase } from "../words/wording.js";
+
+const DIGITS = 15; // of an angle that is written in another unit
+
+/**
+ * An input for a number; what was said of its text is no longer so when the text has changed.
+ * @param {{[name: string]: any}} properties
+ */
+export const makeInput = (properties) => {
+  const input = make("input", { type: "text", autocomplete: "off", ...properties });
+  input.addEventListener("input", () => acceptField(input));
+  return input;
+};
+
+/**
+ * An angle that was typed without a unit is kept when another unit is chosen, and written in it.
+ * @param {HTMLInputElement} input
+ */
+export const convertTyped = (input) => {
+  const [is, was] = [inDegrees(), !inDegrees()].map((unit) =>
+    parseQuantity(input.value, UNITS.rad, unit),
+  );
+  if (Number.isFinite(was) && is !== was) input.value = shorten(toUnit(was), DIGITS);
+};
 
 /**
  * The number in an input, in its unit of SI; null for a text that is none, which is refused.
@@ -18,9 +42,9 @@ export const readTyped = (input, unit, isPositive = false) => {
   const value = parseQuantity(typed, UNITS[unit] ?? {});
   const kind = readings ? "clear" : Number.isFinite(value) ? null : "number";
   const refusal = kind ?? (isPositive && !(value > 0) ? "positive" : null);
-  input.setAttribute("aria-invalid", String(Boolean(refusal))); // empty it would mean false
+  acceptField(input);
   if (!refusal) return value;
   const got = typed || phrase("nothing");
-  refuse(phrase("refused", { kind: refusal, name: input.ariaLabel, ...readings, got }));
+  refuseField(input, phrase("refused", { kind: refusal, name: input.ariaLabel, ...readings, got }));
   return null;
 };

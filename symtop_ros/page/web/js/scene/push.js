@@ -3,18 +3,18 @@
 
 import { spread } from "../physics/spread.js";
 import { NANO } from "../physics/course.js";
-import { findLift } from "../words/headline.js";
+import { findLifts } from "../words/headline.js";
 import { findPoint, listPieces } from "./curves.js";
 import { cross, findSize, normalize, subtract } from "./matrices.js";
 
 /** @import { Vector } from "../physics/kernel.js" */
 /** @import { State } from "../physics/state.js" */
 /** @import { Moment } from "../run/run.js" */
-/** @typedef {NonNullable<ReturnType<typeof findLift>>} Lift */
+/** @typedef {ReturnType<typeof findLifts>[number]} Lift */
 /**
  * The end of the axle at a kick, and the direction in which it was pushed, if it was; the times in ns of
- * the kick and of the end of its first nutation; the level that it moved.
- * @typedef {{tip: Vector, way: Vector | null, begin: number, end: number, lift: Lift | null}} Push
+ * the kick and of the end of its first nutation; the levels that it moved.
+ * @typedef {{tip: Vector, way: Vector | null, begin: number, end: number, lifts: Lift[]}} Push
  */
 
 export const BRACKET = 1.14; // its distance from the pivot
@@ -32,21 +32,22 @@ export const findPush = (moment) => {
   const isPushed = findSize(change) > ROUNDING * findSize(start.omega);
   const end = time + free.motion.nutation_period * NANO;
   const way = isPushed ? normalize(change) : null;
-  return { tip, way, begin: time, end, lift: findLift(moment) };
+  return { tip, way, begin: time, end, lifts: findLifts(moment) };
 };
 
 /**
- * The level that has been reached since a kick, and by how much it has moved.
+ * The levels that have been reached since a kick, and by how much they have moved. What lies less far
+ * than without the kick is known when the first nutation has ended.
  * @param {Push} push @param {number} time ns @param {State[]} states since the kick
  */
-export const findReached = ({ lift, end }, time, states) => {
-  if (!lift) return null;
-  const { kind, place, from } = lift;
+export const listReached = ({ lifts, end }, time, states) => {
   const tilts = states.map((each) => each.angles.theta);
-  const reached = place ? Math.max(...tilts) : Math.min(...tilts);
-  const to = time < end ? reached : lift.to;
-  const amount = kind === "higher" ? from - to : to - from;
-  return amount > 0 ? { kind, from, to, amount } : null;
+  return lifts.flatMap(({ kind, place, isFurther, from, to }) => {
+    if (time >= end) return [{ kind, from, to, amount: Math.abs(to - from) }];
+    const reached = place ? Math.max(...tilts) : Math.min(...tilts);
+    const amount = place ? reached - from : from - reached;
+    return isFurther && amount > 0 ? [{ kind, from, to: reached, amount }] : [];
+  });
 };
 
 /**

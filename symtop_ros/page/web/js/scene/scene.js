@@ -16,7 +16,7 @@ import { COLORS, FICTITIOUS, readColor } from "./colors.js";
 import { Grip } from "./grip.js";
 import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
-import { BRACKET, findPush, findReached, listBracket } from "./push.js";
+import { BRACKET, findPush, listReached, listBracket } from "./push.js";
 import { findTorques, findVectors } from "./vectors.js";
 import { NANO } from "../physics/course.js";
 import { inDegrees } from "../words/quantities.js";
@@ -194,7 +194,7 @@ export class Scene {
   }
 
   /**
-   * The push where it was, and the bracket from the old height to the new one.
+   * The push where it was, and the brackets from the old heights to the new ones.
    * @param {State} state @param {State[]} states
    */
   drawPush(state, states) {
@@ -209,14 +209,16 @@ export class Scene {
     }
     const { window, points } = top.trace;
     const past = states.slice(-Math.ceil(((time - push.begin) / (window * NANO)) * points));
-    const lift = findReached(push, time, past);
-    if (!lift) return;
-    const { phi } = state.angles;
+    for (const lift of listReached(push, time, past)) this.drawBracket(lift, state.angles.phi);
+  }
+
+  /** @param {ReturnType<typeof listReached>[number]} lift @param {number} phi */
+  drawBracket(lift, phi) {
     this.painter.loadLines(listBracket(lift, phi), this.models.bracket);
     this.painter.drawLines(this.models.bracket, paint("lift"), 3, STILL);
-    const text = phrase("scene", lift, inDegrees() ? "degrees" : "radians");
+    const text = phrase("moved", lift, inDegrees() ? "degrees" : "radians");
     const at = findPoint((lift.from + lift.to) / 2, phi, BRACKET);
-    this.labels.put("bracket", COLORS.lift, at, scale(at, 0.9), text);
+    this.labels.put(`bracket-${lift.kind}`, COLORS.lift, at, scale(at, 0.9), text);
   }
 
   /** The top on its stand, with its shadow and its ball. @param {State} state */

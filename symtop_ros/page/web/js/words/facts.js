@@ -146,7 +146,7 @@ export const describeMotion = (run, time, free) => {
     table: listRates(free, (forces ? time : moment.time) / NANO, apart),
     apart,
     turning: findTurning(free),
-    seen: name === "kick" ? headline.kind : null,
+    seen: name === "kick" && "seen" in headline ? headline.seen : null,
   };
 };
 

@@ -8,8 +8,17 @@ import { judge, judgeClamp, judgeKick } from "./verdict.js";
 
 const SEEN = 5e-4; // rad; a tilt that differs by less looks the same, and reads the same with 3 decimals
 
-/** @type {{[kind: string]: string}} */
-const OPPOSITE = { higher: "falls", lower: "rises" };
+/**
+ * What a kick changed at one turning point: further than without it, less far, or no longer reached.
+ * @typedef {"higher" | "less_high" | "no_rise" | "lower" | "less_far" | "no_fall"} Name
+ * @typedef {{kind: Name, place: number, amount: number}} Change place 0 is the highest point, 1 the lowest
+ */
+/** The names of a place; its points lie further on if they are the first. @type {[Name, Name, Name][]} */
+const NAMES = [
+  ["higher", "less_high", "no_rise"],
+  ["lower", "less_far", "no_fall"],
+];
+const WAYS = ["rises", "falls"]; // to the points of a place
 const WAVES = ["cusps", "looping", "unidirectional"];
 /** @type {{[kind: string]: string}} */
 const KINDS = { start: "start", change: "changed", torque: "released", unclamp: "let_go" };
@@ -23,51 +32,73 @@ export const findForces = ({ friction, torque }) => {
 };
 
 /**
- * What a kick changed at the highest and the lowest point together, as far as it is seen.
- * @param {import("./verdict.js").Lift} highest @param {import("./verdict.js").Lift} lowest
+ * What a kick changed at each turning point, as far as it is seen. A point that is reached from the tilt
+ * of now is compared with the former one; one that is not, although the axis would have moved to it, is
+ * named as lost.
+ * @param {ReturnType<typeof judgeKick>} verdict @param {number} theta at the kick
+ * @returns {Change[]}
  */
-const findSwing = (highest, lowest) => {
-  const lifts = [highest, lowest].filter(({ kind }) => kind !== "unchanged");
-  const kinds = new Set(lifts.filter(({ amount }) => amount > SEEN).map(({ kind }) => kind));
-  if (kinds.size === 2) return highest.kind === "higher" ? "wider" : "narrower";
-  return [...kinds][0] ?? (lifts.length ? "hidden" : "same");
-};
+const listChanges = ({ highest, lowest, turning_angles }, theta) =>
+  [highest, lowest].flatMap(({ kind, amount }, place) => {
+    if (kind === "unchanged" || amount <= SEEN) return [];
+    const [further, less, lost] = NAMES[place];
+    const isReached = Math.abs(turning_angles[place] - theta) > SEEN;
+    return [{ kind: kind === further ? further : isReached ? less : lost, place, amount }];
+  });
+
+/** @param {Change} change */
+const isLost = ({ kind, place }) => kind === NAMES[place][2];
 
 /**
- * The level that a kick has moved, of the highest or of the lowest point, in rad: where it was and where
- * it is. Null where it moves none to the eye, or friction or a torque acts.
- * @param {Moment} moment
- */
-export const findLift = ({ kind, asked, course, before }) => {
-  if (kind !== "kick" || !before || findForces(course)) return null;
-  const { outcome, swing } = findKick(course, before, asked.hold ?? null);
-  if (swing.kind !== "higher" && swing.kind !== "lower") return null;
-  const place = outcome.highest.amount < outcome.lowest.amount ? 1 : 0;
-  const from = course.continueFree(before).motion.turning_angles[place];
-  return { kind: swing.kind, place, from, to: outcome.turning_angles[place] };
-};
-
-/**
- * The verdict on a kick, and what its headline adds: the direction in which the top moves at first,
- * where that is not the one in which it ends, and it is seen.
+ * The verdict on a kick, and what it changed.
  * @param {Course} course
  * @param {import("../physics/state.js").State} before
  * @param {import("../physics/kernel.js").Hold | null} hold
  */
 const findKick = (course, before, hold) => {
-  const verdict = judgeKick(course, before, hold);
-  const kind = findSwing(verdict.highest, verdict.lowest);
-  const { direction, turning_angles } = verdict;
-  const { theta } = course.start.angles;
-  const way = direction === "rises" ? theta - turning_angles[0] : turning_angles[1] - theta;
-  return {
-    outcome: verdict,
-    swing: {
-      kind,
-      first: OPPOSITE[kind] === direction && way > SEEN ? direction : null,
-      most: Math.max(verdict.highest.amount, verdict.lowest.amount),
-    },
-  };
+  const outcome = judgeKick(course, before, hold);
+  return { outcome, changes: listChanges(outcome, course.start.angles.theta) };
+};
+
+/**
+ * The levels that a kick has moved, in rad: where each was and where it is. None where it moves none to
+ * the eye, or friction or a torque acts.
+ * @param {Moment} moment
+ */
+export const findLifts = ({ kind, asked, course, before }) => {
+  if (kind !== "kick" || !before || findForces(course)) return [];
+  const { outcome, changes } = findKick(course, before, asked.hold ?? null);
+  const former = course.continueFree(before).motion.turning_angles;
+  return changes.map(({ kind, place }) => ({
+    ...{ kind, place, isFurther: kind === NAMES[place][0] },
+    ...{ from: former[place], to: outcome.turning_angles[place] },
+  }));
+};
+
+/**
+ * The direction in which the top moves at first, where the headline names the other one alone, and it is
+ * seen.
+ * @param {ReturnType<typeof judgeKick>} verdict @param {Change[]} changes @param {number} theta
+ */
+const findFirst = ({ direction, turning_angles }, changes, theta) => {
+  const place = WAYS.indexOf(direction);
+  if (place < 0 || changes.some((each) => each.place === place)) return null;
+  return Math.abs(turning_angles[place] - theta) > SEEN ? direction : null;
+};
+
+/**
+ * What the headline says of a kick, and what of it the answer to the first question names.
+ * @param {ReturnType<typeof findKick>} found @param {number} theta at the kick
+ */
+const describeKick = ({ outcome, changes }, theta) => {
+  const isChanged = [outcome.highest, outcome.lowest].some(({ kind }) => kind !== "unchanged");
+  const same = isChanged ? "hidden" : "same";
+  if (!changes.length) return { kind: same, seen: [same] };
+  const [lost, compared] = [true, false].map((is) => changes.filter((each) => isLost(each) === is));
+  const ended = lost.length === 2 ? "neither" : (lost[0]?.kind ?? null);
+  const seen = changes.map(({ kind }) => kind);
+  if (!compared.length) return { kind: "ended", ended, seen };
+  return { kind: "kicked", first: findFirst(outcome, changes, theta), compared, ended, seen };
 };
 
 /**
@@ -91,10 +122,9 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
   const subject = course.top.Mgl < 0 ? "axis" : "top";
   const headline = { subject, forces };
   if (kind === "kick" && before) {
-    const { outcome, swing } = findKick(course, before, asked.hold ?? null);
-    // With friction or a torque the angles of the kick do not hold for long.
-    const turning_angles = forces ? null : outcome.turning_angles;
-    const kicked = { ...headline, turning_angles, ...swing };
+    const found = findKick(course, before, asked.hold ?? null);
+    const { outcome } = found;
+    const kicked = { ...headline, ...describeKick(found, course.start.angles.theta) };
     // What the kick began says enough; what holds for the motion is said if there is no more.
     const { cause } = outcome;
     const because = cause.turn ? { ...cause, explanation: null } : cause;

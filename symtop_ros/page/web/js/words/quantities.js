@@ -11,6 +11,12 @@ export const toUnit = (value) => (inDegrees() ? (value * 180) / Math.PI : value)
 
 export const angleUnit = () => (inDegrees() ? "\u00b0" : "rad");
 
+/** The unit in which the page shows a quantity. @param {string} unit of SI */
+export const nameUnit = (unit) => (unit === "rad" ? angleUnit() : unit);
+
+/** A name with the unit of its field, unless it has it. @param {string} name @param {string} unit of SI */
+export const addUnit = (name, unit) => (unit === "rad" ? `${name} (${angleUnit()})` : name);
+
 /**
  * A number with some significant digits, without zeros at its end.
  * @param {number | null | undefined} value @param {number} digits
@@ -27,6 +33,7 @@ export const writeAngle = (value) => {
 };
 
 const DEGREE = Math.PI / 180;
+const LIMIT_DIGITS = 5;
 /** @typedef {{[unit: string]: number}} Units that may be typed, each in that of the field */
 const QUOTIENT = /^([+-]?)([^/]*?)(?:\s*\/\s*(\d+\.?\d*))?$/;
 const FACTOR = /^(\d+\.?\d*(?:e[+-]?\d+)?|\.\d+(?:e[+-]?\d+)?)?\s*(pi)?$/;
@@ -53,12 +60,28 @@ const parseFactor = (text) => {
 const convert = (value, size) => (size >= 1 || (1 / size) % 1 ? value * size : value / (1 / size));
 
 /**
+ * A limit in the unit of the field that it bounds, in few digits, rounded to the side that is allowed:
+ * one that is typed in again is not refused.
+ * @param {number} limit in SI @param {1 | -1} side of what is allowed
+ * @param {string} unit of SI @param {number} digits
+ */
+export const writeLimit = (limit, side, unit, digits = LIMIT_DIGITS) => {
+  const size = unit === "rad" && inDegrees() ? DEGREE : 1;
+  const near = Number(convert(limit, 1 / size).toPrecision(digits));
+  const place = Math.floor(Math.log10(Math.abs(near))) - digits + 1;
+  const isAllowed = !Number.isFinite(near) || side * (convert(near, size) - limit) >= 0;
+  const kept = isAllowed ? near : Number((near + side * 10 ** place).toPrecision(digits));
+  const shown = nameUnit(unit);
+  return `${localize(String(kept))}${shown === "\u00b0" ? "" : " "}${shown}`;
+};
+
+/**
  * A number as it is typed, with a unit or without: 0.5, 1e-3, pi/4, 45*2*pi, 30°, 0.6 rad, 2700 rpm,
  * 2e-4 kg m^2; NaN if it is none. An angle without a unit is in that of the page; a multiple of pi is
  * in rad.
- * @param {string} text @param {Units} units
+ * @param {string} text @param {Units} units @param {boolean} isInDegrees an angle without a unit
  */
-export const parseQuantity = (text, units) => {
+export const parseQuantity = (text, units, isInDegrees = inDegrees()) => {
   const write = (/** @type {string} */ each) => each.toLowerCase().replace("^2", "\u00b2");
   const plain = write(text.trim())
     .replace("\u2212", "-")
@@ -71,5 +94,5 @@ export const parseQuantity = (text, units) => {
   const size = factors.split("*").reduce((product, each) => product * parseFactor(each), 1);
   const value = (sign === "-" ? -size : size) / Number(part);
   if (unit) return convert(value, units[unit]);
-  return units === UNITS.rad && inDegrees() && !factors.includes("pi") ? value * DEGREE : value;
+  return units === UNITS.rad && isInDegrees && !factors.includes("pi") ? value * DEGREE : value;
 };
