@@ -151,6 +151,22 @@ class Opened:
         field.fill(text)
         field.press("Enter")
 
+    def ask(self, question, *texts):
+        """Choose a question of what is seen, type what is known, and press the button."""
+        self.open_tab("start")
+        self.tab.evaluate("() => { document.getElementById('seen').open = true; }")
+        self.tab.select_option("#questions", question)
+        for name, text in zip(question.split(), texts, strict=True):
+            self.tab.fill(f"#known-{name}", text)
+        self.tab.click("#solve")
+
+    def list_solutions(self):
+        return self.tab.locator("#solutions button").all_inner_texts()
+
+    def choose_unit(self, unit):
+        self.open_tab("view")
+        self.tab.select_option("#unit", unit)
+
     def drag(self, x, y, right, down):
         """Move the pointer to a place, and with its button held by some pixels."""
         self.tab.mouse.move(x, y)

@@ -122,7 +122,9 @@ HEADLINE = re.compile(
     rf"((?:{PARTS})(?: and (?:{PARTS}))?) than without the push(?:, and no longer (rises|falls))?\."
 )
 LOST = re.compile(r"The (top|axis) no longer (rises|falls|rises or falls)\.")
-SAME = re.compile(r"(To the eye, t|T)he (top|axis) reaches the same highest and lowest points as .*\.")
+SAME = re.compile(
+    r"(To the eye, t|T)he (top|axis) reaches the same highest and lowest points as .*\."
+)
 
 
 def read(headline):
@@ -214,9 +216,7 @@ def check_labels(labels, changes, lost, with_it, without):
     for begin, end, text in labels:
         way = re.match("no longer (rises|falls)|(rises|falls)", text)
         name = way[1] or way[2]
-        places = (
-            (without.top, with_it.top) if name == "rises" else (without.bottom, with_it.bottom)
-        )
+        places = (without.top, with_it.top) if name == "rises" else (without.bottom, with_it.bottom)
         assert (begin, end) == pytest.approx(places, abs=off), (text, places)
         seen |= {f"no longer {name}": ""} if way[1] else dict([read_part(text)])
     assert seen == changes | {f"no longer {way}": "" for way in lost}

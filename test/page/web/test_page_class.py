@@ -25,19 +25,6 @@ def wait_for_table(opened, words):
     opened.until(lambda: words in opened.say("constants"))
 
 
-def ask(opened, question, *texts):
-    """Choose a question, type what is known, and press the button."""
-    opened.tab.evaluate("() => { document.getElementById('seen').open = true; }")
-    opened.tab.select_option("#questions", question)
-    for name, text in zip(question.split(), texts, strict=True):
-        opened.tab.fill(f"#known-{name}", text)
-    opened.tab.click("#solve")
-
-
-def list_solutions(opened):
-    return opened.tab.locator("#solutions button").all_inner_texts()
-
-
 def test_the_list_shows_the_disc_that_moves_as_the_top_does(opened):
     opened.open_tab("start")
     shown = opened.tab.locator("#parts .part input")
@@ -111,10 +98,10 @@ QUESTIONS = {
 def test_starts_from_what_is_seen_are_those_of_python(opened, question):
     opened.open_tab("start")
     texts, numbers = QUESTIONS[question]
-    ask(opened, question, *texts)
+    opened.ask(question, *texts)
     top = Top(*read_top(opened))
     expected = solve_start(top, **dict(zip(question.split(), numbers, strict=True)))
-    assert len(list_solutions(opened)) == len(expected)
+    assert len(opened.list_solutions()) == len(expected)
     for k, solution in enumerate(expected):
         opened.tab.locator("#solutions button").nth(k).click()
         start = opened.read_last()
@@ -128,12 +115,12 @@ def test_what_no_motion_has_is_refused_in_words(opened):
     for question, texts, refusal in (
         ("theta dip", ("0.5", "3"), "dip must be positive and at most 2.6415 rad, got 3"),
         ("theta psi_dot", ("0.5", "9"), "spin psi' (rad/s) must be at least 111.63 rad/s in size"),
-        ("theta psi_dot", ("0", "9"), "tilt theta must lie between 0.0 and 3.1415 rad, got 0"),
+        ("theta psi_dot", ("0", "9"), "tilt theta must lie above 0 rad and below 3.1415 rad, got 0"),
         ("theta dip", ("0.5", "x"), "dip must be a number, got x"),
     ):
-        ask(opened, question, *texts)
+        opened.ask(question, *texts)
         assert opened.say("refusal").startswith(refusal)
-        assert not list_solutions(opened)
+        assert not opened.list_solutions()
     assert opened.read_events() == events
 
 
