@@ -115,8 +115,12 @@ def test_what_no_motion_has_is_refused_in_words(opened):
     for question, texts, refusal in (
         ("theta dip", ("0.5", "3"), "dip must be positive and at most 2.6415 rad, got 3"),
         ("theta psi_dot", ("0.5", "9"), "spin psi' (rad/s) must be at least 111.63 rad/s in size"),
-        ("theta psi_dot", ("0", "9"), "tilt theta must lie above 0 rad and below 3.1415 rad, got 0"),
-        ("theta dip", ("0.5", "x"), "dip must be a number, got x"),
+        (
+            "theta psi_dot",
+            ("0", "9"),
+            "tilt theta must lie above 0 rad and below 3.1415 rad, got 0",
+        ),
+        ("theta dip", ("0.5", "x"), "dip (rad) must be a number, got x"),
     ):
         opened.ask(question, *texts)
         assert opened.say("refusal").startswith(refusal)

@@ -33,7 +33,7 @@ def test_in_degrees_numbers_and_refusals_are_in_degrees(opened):
 def test_a_refusal_says_what_was_wrong_and_loses_nothing(opened):
     events = opened.read_events()
     for field, text, refusal in (
-        ("theta", "4", "tilt theta must be 0 to pi rad, got 4"),
+        ("theta", "4", "tilt theta must be 0 to 3.1415 rad, got 4"),
         ("theta", "abc", "tilt theta must be a number, got abc"),
         ("top.Iz", "1", "Ix, Iz and Mgl must be finite"),
         ("top.Ix", "0", "Ix, across the axis (kg m²) must be positive, got 0"),
