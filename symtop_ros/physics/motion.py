@@ -641,6 +641,25 @@ class Motion:
         return float(self._rates.precession_per_nutation)
 
     @property
+    def mean_cosine(self) -> float:
+        """Mean of cos(theta) in time over a nutation: Mgl times it is the mean potential energy.
+
+        The axis is longer near its upper turning point than near its lower one, so it exceeds the
+        middle of both heights (docs/derivation.md, section 7). For an asymptotic motion it is that
+        of the pole. Of a driven motion it is that without friction, torque and pushes.
+
+        Examples
+        --------
+        >>> import math
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> motion = Motion(Top(1.0, 0.5, 1.0), State.from_euler(theta=0.5, psi_dot=5.0))
+        >>> low, high = motion.turning_angles
+        >>> round(motion.mean_cosine, 6), round((math.cos(low) + math.cos(high)) / 2, 6)
+        (0.813284, 0.811538)
+        """
+        return float(self._rates.mean_cosine)
+
+    @property
     def spin_reverses(self) -> bool:
         """True if psi' takes both signs in a nutation, although L_z is constant.
 

@@ -357,6 +357,11 @@ class Motions:
         return self._find_rates("precession_per_nutation")
 
     @property
+    def mean_cosine(self) -> Real:
+        """Means of cos(theta) over a nutation, as in `Motion.mean_cosine`."""
+        return self._find_rates("mean_cosine")
+
+    @property
     def spin_reverses(self) -> NDArray[np.bool_]:
         """True where psi' takes both signs in a nutation."""
         return np.asarray(self._find_rates("spin_reverses") != 0)

@@ -33,6 +33,7 @@ PROPERTIES = (
     "mean_spin_rate",
     "nutation_rate",
     "precession_per_nutation",
+    "mean_cosine",
     "spin_reverses",
     "fast_top_precession_rate",
     "fast_top_nutation_rate",

@@ -8,7 +8,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from mpmath import agm, conj, cos, elliprf, exp, expj, inf, mp, mpc, mpf, nan, nint, pi, sin, sqrt
+from mpmath import agm, conj, cos, ellipe, ellipk, elliprf, exp, expj, inf, mp, mpc, mpf, nan, nint, pi, sin, sqrt
 
 from symtop_ros.physics.reference import Inputs
 from workshop.digits.state import ExactState, Number
@@ -65,6 +65,17 @@ class ClosedForm:
             return -precession if self._is_turned else precession, of_A - of_B + 2 * share
 
 
+    @property
+    def mean_cosine(self) -> Number:
+        """Mean of cos(theta) in time [7]; nan without nutation, or if theta does not return."""
+        if not self._nutation or not self._nutation.k:
+            return nan
+        with mp.workdps(self.digits):
+            n = self._nutation
+            mean = n.u + n.s[2] - n.s31 * ellipe(n.m) / ellipk(n.m)
+            return -mean if self._is_turned else mean
+
+
 class KleinStart(NamedTuple):
     """The start in Cayley-Klein parameters, and the constants [1]."""
 
@@ -117,6 +128,7 @@ class Nutation:
         g = 2 * (x * z - w * y) / square, 2 * (w * x + y * z) / square
         below, above = 2 * (w * w + z * z) / square, 2 * (x * x + y * y) / square  # 1 + u, 1 - u
         u = below - 1
+        self.u = mpf(u)
         a = wz * Iz / Ix
         beta = 2 * Mgl / Ix
         lift = wx * g[0] + wy * g[1]  # b - a u

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "blocks.hpp"
+#include "exact/mean_cosine.hpp"
 #include "exact/mean_rates.hpp"
 #include "exact/spin.hpp"
 #include "lock.hpp"
@@ -12,7 +13,7 @@
 namespace symtop {
 
 struct Rates {
-  double nutation_period, mean_precession_rate, mean_spin_rate, precession_per_nutation;
+  double nutation_period, mean_precession_rate, mean_spin_rate, precession_per_nutation, mean_cosine;
   bool spin_reverses;
 };
 
@@ -81,6 +82,7 @@ class GravityMotion {
     if (is_turned_over_) {
       rates.mean_precession_rate = -rates.mean_precession_rate;
       rates.precession_per_nutation = -rates.precession_per_nutation;
+      rates.mean_cosine = -rates.mean_cosine;
     }
     if (!has_means)
       rates.mean_precession_rate = rates.mean_spin_rate = rates.precession_per_nutation = NAN;
@@ -130,7 +132,7 @@ class GravityMotion {
     const double turns =
         closed_.nutation_rate.sign ? (mean.precession / closed_.nutation_rate).to_double() : NAN;
     return {rate ? 2 * PI / rate : INFINITY, mean.precession.to_double(), mean.spin.to_double(),
-            turns, symtop::spin_reverses(closed_)};
+            turns, find_mean_cosine(closed_), symtop::spin_reverses(closed_)};
   }
 
   // Of a motion without a torque: the means are whole half turns of arg A and arg B about L.
@@ -142,7 +144,7 @@ class GravityMotion {
     const Precise precession = Precise(double(upper + lower)) * half;
     const Precise spin = Precise(double(upper - lower)) * half + free_.turning_rate;
     return {returns ? 2 * PI / rate : INFINITY, precession.to_double(), spin.to_double(),
-            free_.nutation_rate.sign ? (upper + lower) / 2.0 : NAN,
+            free_.nutation_rate.sign ? (upper + lower) / 2.0 : NAN, free_.find_mean_cosine(),
             free_.kind != SLEEPING &&
                 spin_reverses_free(free_.tilt, free_.cone, rate, free_.start.wz)};
   }

@@ -141,6 +141,9 @@ ReasonKind = Literal[
 ]
 REASON_KINDS: tuple[ReasonKind, ...] = get_args(ReasonKind)
 
+Effect = Literal["up", "down"]
+EFFECTS: tuple[Effect | None, ...] = (None, "up", "down")
+
 Explanation = Literal[
     "fixed",
     "free",
@@ -165,8 +168,8 @@ EXPLANATIONS: tuple[Explanation | None, ...] = (
     "swings",
 )
 
-Turn = Literal["faster", "slower", "rests", "against"]
-TURNS: tuple[Turn | None, ...] = (None, "faster", "slower", "rests", "against")
+Turn = Literal["faster", "slower", "rests", "vertical", "against"]
+TURNS: tuple[Turn | None, ...] = (None, "faster", "slower", "rests", "vertical", "against")
 
 Pace = Literal["speeds", "slows"]
 PACES: tuple[Pace | None, ...] = (None, "speeds", "slows")
@@ -224,6 +227,7 @@ class RatesRecord(Structure):
         ("mean_precession_rate", c_double),
         ("mean_spin_rate", c_double),
         ("precession_per_nutation", c_double),
+        ("mean_cosine", c_double),
         ("spin_reverses", c_int),
     ]
 
@@ -297,6 +301,7 @@ class ReasonRecord(Structure):
         ("after", c_double),
         ("theta_ddot_without", c_double),
         ("theta_ddot", c_double),
+        ("effect", c_int),
         ("place", PlaceRecord),
     ]
 

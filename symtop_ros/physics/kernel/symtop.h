@@ -205,6 +205,7 @@ typedef struct {
   double mean_precession_rate;    /* mean phi' in rad/s; NaN if the axis meets the vertical */
   double mean_spin_rate;          /* mean psi' in rad/s; NaN there as well */
   double precession_per_nutation; /* in turns; NaN there, and if theta does not return */
+  double mean_cosine;             /* mean of cos(theta); that of the pole which theta approaches for ever */
   int spin_reverses;              /* 1 if psi' takes both signs */
 } symtop_rates;
 
@@ -438,12 +439,20 @@ typedef enum {
   SYMTOP_VERTICAL_UNSTABLE   /* "unstable" */
 } symtop_reason_kind;
 
+/* How far a kick gets that changes theta'' in one direction, where the rule holds or fails. */
+typedef enum {
+  SYMTOP_EFFECT_ENOUGH, /* "": theta'' is 0 with it, or has the sign of the change; or the rule is silent */
+  SYMTOP_EFFECT_UP,     /* it acts upwards, and not enough: theta'' stays positive */
+  SYMTOP_EFFECT_DOWN    /* it acts downwards, and not enough: theta'' stays negative */
+} symtop_effect;
+
 /* Why Perry's rule holds, fails or says nothing. On the vertical the numbers are NaN. */
 typedef struct {
   symtop_reason_kind kind;
   symtop_rule rule;
   double before, after;                   /* phi' without the kick and with it */
   double theta_ddot_without, theta_ddot; /* theta'' in rad/s^2 */
+  symtop_effect effect;
   symtop_place place;                     /* of phi' with a kick, or of phi' now if it is considered */
 } symtop_reason;
 
@@ -452,7 +461,8 @@ typedef struct {
   double precession_period; /* s, of one turn at that rate; infinite if it is 0 */
   double turns;         /* precession in a nutation */
   double fast_top_rate; /* Mgl/p_psi; NaN if p_psi = 0 */
-  int is_fast;          /* 1 if p_psi^2 > 4 Ix |Mgl|, Mgl not 0, and that is within 30 % of rate */
+  int is_fast;          /* 1 if p_psi^2 > 4 Ix |Mgl|, Mgl not 0, that is within 30 % of rate, and the top
+                           spins faster than it precesses, in the mean */
   int spin_reverses;
 } symtop_average;
 
@@ -477,12 +487,13 @@ typedef enum {
   SYMTOP_TURN_FASTER, /* the torque does not suffice: the weight rises */
   SYMTOP_TURN_SLOWER, /* some of the torque is left, and lowers the weight */
   SYMTOP_TURN_RESTS,  /* phi' = 0: all of it is left */
+  SYMTOP_TURN_VERTICAL, /* L is vertical, and the axis goes round it without a torque: all of it is left */
   SYMTOP_TURN_AGAINST /* it goes round in the other direction: the weight falls */
 } symtop_turn;
 
-/* What |phi'| does on all of the way to the next turning angle. */
+/* What |phi'| does on all of the way to the next turning angle, if it changes by more than 5 %. */
 typedef enum {
-  SYMTOP_PACE_UNSAID, /* "": one after the other */
+  SYMTOP_PACE_UNSAID, /* "": less, or one after the other */
   SYMTOP_PACE_SPEEDS,
   SYMTOP_PACE_SLOWS
 } symtop_pace;

@@ -39,11 +39,13 @@ class Cause:
         vertical, and the axle goes round it. "with_momentum": L stays within 30 degrees of the
         line of the axle, and the axle goes round with it. "swings": the torque comes more than 30
         degrees from perpendicular to L.
-    turn : {"faster", "slower", "rests", "against"} or None
+    turn : {"faster", "slower", "rests", "vertical", "against"} or None
         phi' compared with the rate at which gravity's torque would turn L, if the axis leaves its
         tilt with theta' = 0: the weight rises if phi' is faster, and falls in the other cases.
+        "vertical": L is vertical, and the axis goes round it without a torque.
     pace : {"speeds", "slows"} or None
-        Change of |phi'| on the whole way to the next turning angle, in these cases.
+        Change of |phi'| on the whole way to the next turning angle, in these cases, if it is more
+        than 5 %.
     torque_share : float or None
         The share of gravity's torque that it takes to turn L as fast as the axle goes round now.
     rate_about_momentum : float or None

@@ -33,6 +33,7 @@ from typing import Literal
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import (
     DIRECTIONS,
+    EFFECTS,
     FACTS,
     HOLDS,
     KINDS,
@@ -43,6 +44,7 @@ from symtop_ros.physics.kernel.records import (
     SUBJECTS,
     AverageRecord,
     Direction,
+    Effect,
     Fact,
     Hold,
     Kind,
@@ -104,6 +106,10 @@ class Reason:
         phi' without the kick and with it, in rad/s; None on the vertical.
     theta_ddot_without, theta_ddot : float or None
         theta'' without the kick and with it, in rad/s^2; None on the vertical.
+    effect : {"up", "down"} or None
+        "up": the kick lowers theta'', which stays positive: it acts upwards, and not enough to lift
+        the axis. "down": it raises theta'', which stays negative. None if theta'' with the kick is
+        zero or has the sign of its change, and if the rule says nothing.
     place : Place or None
         Place of phi' with a kick, or of the present phi' for a verdict; None on the vertical.
     """
@@ -115,6 +121,7 @@ class Reason:
     after: float | None = None
     theta_ddot_without: float | None = None
     theta_ddot: float | None = None
+    effect: Effect | None = None
     place: Place | None = None
 
     def __str__(self) -> str:
@@ -135,8 +142,8 @@ class Average:
     turns : float
         Turns of the precession in a nutation.
     speed : {"fast", "slow"}
-        "fast" if the approximation is meant for this top, p_psi^2 > 4 Ix |Mgl| and Mgl not 0, and
-        the mean is within 30 % of it.
+        "fast" if the approximation is meant for this top, p_psi^2 > 4 Ix |Mgl| and Mgl not 0, the
+        mean is within 30 % of it, and the top spins faster than it precesses, in the mean.
     fast_top_rate : float
         Mgl/p_psi in rad/s.
     spin_reverses : bool
@@ -300,6 +307,7 @@ def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
         found.after,
         found.theta_ddot_without,
         found.theta_ddot,
+        EFFECTS[found.effect],
         Place(PLACE_KINDS[found.place.kind], found.place.rate, rates, held),
     )
 

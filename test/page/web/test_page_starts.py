@@ -94,6 +94,19 @@ def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, count
         assert read_link(other) == link
 
 
+def test_a_link_is_the_whole_start_whatever_was_there_before(opened):
+    """Friction, a torque and another body of the motion before are not those of a link."""
+    opened.follow("theta=0.75&psi_dot=150")
+    expected = get_motion(opened.read_events()[-1])
+    for before in ("scene=friction", "scene=vertical_torque", "Mgl=-0.05&clamped=true&theta=1"):
+        opened.follow(before)
+        assert get_motion(opened.read_events()[-1]) != expected
+        opened.follow("theta=0.75&psi_dot=150")
+        event = opened.read_events()[-1]
+        assert get_motion(event) == expected
+        assert not event.get("clamped", False)
+
+
 def test_a_reset_of_a_loaded_run_keeps_its_torque(opened):
     run = change(0, torque=[0.0, 0.0, 5e-4])
     run["events"] = run["events"][:1]

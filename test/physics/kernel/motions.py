@@ -33,6 +33,7 @@ NAMES = {
     "places": records.PLACE_KINDS,
     "explanations": records.EXPLANATIONS,
     "turns": records.TURNS,
+    "effects": records.EFFECTS,
     "paces": records.PACES,
     "parts": records.PARTS,
     "reasons": records.REASON_KINDS,

@@ -43,7 +43,7 @@ static void write_states(const double* orientation, const double* omega, size_t 
 
 static void print_constants(symtop_motion* motion) {
   symtop_rates rates;
-  double numbers[8];
+  double numbers[9];
   symtop_find_rates(motion, &rates);
   numbers[0] = symtop_find_kind(motion);
   symtop_find_turning_angles(motion, numbers + 1);
@@ -51,8 +51,9 @@ static void print_constants(symtop_motion* motion) {
   numbers[4] = rates.mean_precession_rate;
   numbers[5] = rates.mean_spin_rate;
   numbers[6] = rates.precession_per_nutation;
-  numbers[7] = rates.spin_reverses;
-  write_all(numbers, 8);
+  numbers[7] = rates.mean_cosine;
+  numbers[8] = rates.spin_reverses;
+  write_all(numbers, 9);
 }
 
 /* The number of times, and the times: at each of them alone, and all of them together. */
@@ -103,6 +104,7 @@ static void print_verdict(const symtop_verdict* v) {
   const double numbers[] = {
       v->subject, v->direction, v->turning_angles[0], v->turning_angles[1], v->motion,
       r->kind, r->rule, r->before, r->after, r->theta_ddot_without, r->theta_ddot,
+      r->effect,
       r->place.kind, r->place.rate, r->place.regular_rates[0], r->place.regular_rates[1],
       v->average.rate, v->average.precession_period, v->average.turns, v->average.fast_top_rate, v->average.is_fast,
       v->average.spin_reverses, c->explanation, c->turn, c->pace, c->torque_share,

@@ -38,6 +38,7 @@ function* list_rows({ orientation, angular_velocity }) {
 function* flatten(names, record) {
   const lists = { subject: "subjects", direction: "directions", motion: "kinds", rule: "rules" };
   Object.assign(lists, { explanation: "explanations", turn: "turns", pace: "paces" });
+  lists.effect = "effects";
   const bits = { contrary_facts: "facts", constant: "parts" };
   for (const [field, value] of Object.entries(record)) {
     if (field in bits) {
@@ -101,6 +102,7 @@ function* describe(kernel, names, pack, reader) {
   yield* motion.turning_angles;
   yield motion.nutation_period;
   yield* [rates.mean_precession_rate, rates.mean_spin_rate, rates.precession_per_nutation];
+  yield rates.mean_cosine;
   yield Number(rates.spin_reverses);
   yield* describe_start(kernel, names, pack, start);
   const times = reader.numbers(reader.number());

@@ -42,7 +42,7 @@ int main(int count, char** words) {
   const symtop_clock clock = {1.0, {0}};
   symtop_piece piece = {{0}, -7.0, -7.0};
   symtop_verdict verdict;
-  symtop_rates found = {-7.0, -7.0, -7.0, -7.0, 0};
+  symtop_rates found = {-7.0, -7.0, -7.0, -7.0, -7.0, 0};
   double q[4], omega[3], few[4];
   size_t done;
   unsigned char rule;

@@ -24,6 +24,7 @@ FOUND = (
     "mean_precession_rate",
     "mean_spin_rate",
     "precession_per_nutation",
+    "mean_cosine",
     "spin_reverses",
     "farthest_time",
     "fast_top_precession_rate",

@@ -213,13 +213,16 @@ CLAIMS = {
 def demand_turn(seen, turn):
     """phi' against the rate at which the torque turns L, and where the weight goes from there."""
     L, torque, phi_dot = seen.L[0], seen.torque[0], seen.phi_dot[0]
+    rate = 0.0
     if turn == "rests":
-        rate = 0.0
         assert abs(phi_dot) <= TINY * abs(seen.omega).max()
-    else:
+    elif turn != "vertical":
         rate = np.cross(L, torque)[2] / (L[0] ** 2 + L[1] ** 2)
     if turn == "against":
         assert phi_dot * rate < 0
+    elif turn == "vertical":  # L has no horizontal part that could be turned
+        assert from_line(L[None], np.array([[0.0, 0.0, 1.0]])) <= 2e-7
+        assert abs(phi_dot) > TINY * abs(seen.omega).max()
     elif turn != "rests":
         assert phi_dot * rate > 0
         assert (abs(phi_dot) > abs(rate)) == (turn == "faster")
@@ -235,7 +238,8 @@ def demand_pace(seen, pace):
     # phi' is a quotient: next to the vertical it has lost the digits of sin^2
     rounding = 1e-15 * np.abs(seen.omega).max() / seen.sine.min() ** 2
     assert np.all(change >= -TINY * rates.max() - rounding)
-    assert np.sum(change) > 0
+    # a person sees it: one in twenty, but for the sample next to the turning point
+    assert np.sum(change) >= 0.049 * rates.max()
 
 
 def demand_numbers(seen, cause):
@@ -298,6 +302,31 @@ def test_what_is_said_of_a_start_and_of_a_kick_is_true_of_the_motion(family, cou
         for each in (cause, kicked):
             said.update([each.explanation, each.turn, each.pace and f"{each.turn} {each.pace}"])
     assert sum(said[each] for each in CLAIMS) > count / 4  # of both, most can be explained
+
+
+@pytest.mark.parametrize("count", trials(100, 3000))
+def test_of_a_sphere_whose_momentum_is_vertical_all_of_the_torque_is_left(count):
+    """Its L is that of omega: along the vertical if the axis only precesses, but for rounding."""
+    rng = Numbers("spheres")
+    for _ in range(count):
+        Ix, unit = rng.power(-4, 0), rng.power(0, 1.5)
+        top = Top(Ix, Ix, rng.choice([1, -1]) * Ix * unit * unit)
+        rate = rng.choice([-1, 1]) * rng.power(-1, 1) * unit
+        start = State.from_euler(theta=rng.uniform(0.05, 3.1), phi=rng.uniform(-3, 3), phi_dot=rate)
+        cause = perrys_rule(top, start).cause
+        assert cause.turn == "vertical"
+        demand(top, start, cause)
+
+
+@pytest.mark.parametrize("rate", [3.0, -0.5])
+def test_a_level_axis_without_spin_goes_round_faster_and_faster(rate):
+    """The change of phi' with the height is zero there, and nowhere on the way."""
+    half = math.sqrt(0.5)
+    top = Top(1.0, 0.25, 8.0)
+    start = State((half, half, 0.0, 0.0), (0.0, rate, 0.0))
+    cause = perrys_rule(top, start).cause
+    assert (cause.explanation, cause.pace) == ("no_spin", "speeds")
+    demand(top, start, cause)
 
 
 @pytest.mark.parametrize("is_hanging", [False, True])

@@ -106,6 +106,9 @@ struct FreeMotion {
     angles[0] = low <= high ? low : high, angles[1] = low <= high ? high : low;
   }
 
+  // The part of the axis along L is all that is left of it in a turn about L.
+  double find_mean_cosine() const { return cosine_and_sine(tilt).x * cosine_and_sine(cone).x; }
+
   // Half turns of arg A and arg B in a turn about L: whether the circle encloses a pole.
   int upper_turns() const { return tilt + cone <= PI ? 1 : -1; }
   int lower_turns() const { return cone >= tilt ? 1 : -1; }

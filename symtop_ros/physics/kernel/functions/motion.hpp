@@ -150,7 +150,7 @@ symtop_status symtop_find_rates(symtop_motion* motion, symtop_rates* rates) {
   if (status != SYMTOP_OK) return status;
   const symtop::Rates found = motion->first.gravity.find_rates();
   *rates = {found.nutation_period, found.mean_precession_rate, found.mean_spin_rate,
-            found.precession_per_nutation, found.spin_reverses};
+            found.precession_per_nutation, found.mean_cosine, found.spin_reverses};
   return SYMTOP_OK;
 }
 

@@ -16,6 +16,8 @@ namespace symtop {
 // Sentences say how large an angle is; beyond these limits they are not made. The torque that stays
 // within 30 degrees of perpendicular to L changes its direction more than its length.
 const double NEAR_PERPENDICULAR = PI / 6, NEAR_THE_AXLE = PI / 6, NEAR_THE_VERTICAL = PI / 18;
+// The change of a rate that one sees, as a share of the larger one.
+const double SEEN_CHANGE = 0.05;
 // The share of its terms below which a sum in doubles has no sign. The turning angles are some EPS
 // of 1, or the square root of it where two roots nearly meet.
 const double SURE = 1e-7;
@@ -54,6 +56,12 @@ class Momentum {
 
   // |omega_xy|^2, of which rounding leaves some EPS where the axis is at rest.
   double square_at(double theta) const { return std::fmax(0.0, squared_ + beta * fall_to(theta)); }
+
+  // phi', where the axis is not vertical.
+  double rate_at(double theta) const {
+    const double sine = cosine_and_sine(theta).y;
+    return turning_at(theta) / sine / sine;
+  }
 
   // Between L, or omega, and the line of the axle.
   double momentum_from_axle(double theta) const {
@@ -97,11 +105,12 @@ class Momentum {
 
   double size_now() const { return find_modulus({a, std::sqrt(squared_)}) * unit; }
   double theta() const { return theta_; }
-  // The change of phi' with the height: (1 - u^2)^2 dphi'/du = 2 u (b - a u) - a (1 - u^2).
+  // The change of phi' with the height, (1 - u^2)^2 dphi'/du = 2 u (b - a u) - a (1 - u^2), and the
+  // size of its terms: next to the horizontal u is what rounding has left of 1.
   Pair slope_at(double theta) const {
     const Pair tilt = cosine_and_sine(theta);
-    const double first = 2 * tilt.x * turning_at(theta), second = a * tilt.y * tilt.y;
-    return {first - second, std::fabs(first) + std::fabs(second)};
+    const double first = 2 * turning_at(theta), second = a * tilt.y * tilt.y;
+    return {tilt.x * first - second, std::fabs(first) + std::fabs(second)};
   }
   double turning_terms(double theta) const {
     return std::fabs(along_) + std::fabs(a * fall_to(theta));
@@ -138,18 +147,23 @@ inline int find_sign(double sum, double terms) {
   return std::fabs(sum) <= SURE * terms ? 0 : sum > 0 ? 1 : -1;
 }
 
-// How |phi'| changes on the way to a turning angle, if it does so in one direction all the way. In
-// (-1, 1) phi' has at most one zero, u = b/a, and one extreme: the product of the roots of a u^2 - 2 b
-// u + a is 1. So the signs at both ends say whether one of them lies between.
+// How |phi'| changes on the way to a turning angle, if it does so in one direction all the way, and so
+// much that it is seen. In (-1, 1) phi' has at most one zero, u = b/a, and one extreme: the product of
+// the roots of a u^2 - 2 b u + a is 1. So the signs at both ends say whether one of them lies between. An
+// extreme at an end itself, as that of a spherical pendulum at the horizontal, lies not between.
 inline symtop_pace find_pace(const Momentum& L, double end) {
   const double begin = L.theta();
   const int turns[] = {find_sign(L.turning_at(begin), L.turning_terms(begin)),
                        find_sign(L.turning_at(end), L.turning_terms(end))};
   const Pair first = L.slope_at(begin), last = L.slope_at(end);
-  const int slope = find_sign(first.x, first.y);
-  if (!slope || slope != find_sign(last.x, last.y)) return SYMTOP_PACE_UNSAID;
+  const int slopes[] = {find_sign(first.x, first.y), find_sign(last.x, last.y)};
+  const int slope = slopes[0] ? slopes[0] : slopes[1];
+  if (!slope || slopes[0] * slopes[1] < 0) return SYMTOP_PACE_UNSAID;
   const int turn = turns[0] ? turns[0] : turns[1];
   if (!turn || turns[0] * turns[1] < 0) return SYMTOP_PACE_UNSAID;
+  const double rates[] = {std::fabs(L.rate_at(begin)), std::fabs(L.rate_at(end))};
+  if (!(std::fabs(rates[1] - rates[0]) > SEEN_CHANGE * std::fmax(rates[0], rates[1])))
+    return SYMTOP_PACE_UNSAID;
   const int height = end < begin ? 1 : -1;  // of du
   return turn * slope * height > 0 ? SYMTOP_PACE_SPEEDS : SYMTOP_PACE_SLOWS;
 }
@@ -157,12 +171,14 @@ inline symtop_pace find_pace(const Momentum& L, double end) {
 // phi' compared with the rate at which gravity's torque would turn L, where theta' = 0. To turn L with
 // the axis takes the torque phi' (p_psi - Ix phi' cos(theta)) sin(theta); a share of gravity's torque
 // is left, which is Ix theta''. More than all of it is needed for the weight to rise, for both signs
-// of Mgl.
-inline symtop_turn find_turn(double share, double phi_dot) {
+// of Mgl. None is needed where L is vertical, as that of a sphere which turns about the vertical, or
+// where the axis hardly goes round.
+inline symtop_turn find_turn(double share, double phi_dot, double momentum_from_vertical) {
   if (phi_dot == 0) return SYMTOP_TURN_RESTS;
   if (share < -SURE) return SYMTOP_TURN_AGAINST;
   if (share > 1) return SYMTOP_TURN_FASTER;
-  return share > 0 ? SYMTOP_TURN_SLOWER : SYMTOP_TURN_UNSAID;
+  if (share > SURE) return SYMTOP_TURN_SLOWER;
+  return momentum_from_vertical <= SURE ? SYMTOP_TURN_VERTICAL : SYMTOP_TURN_UNSAID;
 }
 
 inline bool is_swinging(const Instant& now) {
@@ -294,7 +310,7 @@ class CauseFinder {
     const bool rises = share > 1, axis_rises = rises == (now_.top.Mgl > 0);
     // At a turning point that rounding has moved the axis may go the other way.
     if (axis_rises != (verdict_.direction == SYMTOP_RISES)) return;
-    cause.turn = find_turn(share, phi_dot);
+    cause.turn = find_turn(share, phi_dot, cause.momentum_from_vertical[0]);
     if (cause.turn == SYMTOP_TURN_UNSAID) return;
     cause.torque_share = share;
     // phi' is undefined where the way ends at a pole, or never ends.

@@ -70,7 +70,7 @@ inline symtop_reason explain_vertical(const Instant& now) {
   const symtop_reason_kind kind = is_moving               ? SYMTOP_VERTICAL_UNDEFINED
                                   : is_sleeping_stable(now) ? SYMTOP_VERTICAL_STABLE
                                                             : SYMTOP_VERTICAL_UNSTABLE;
-  return {kind, SYMTOP_RULE_SAYS_NOTHING, NAN, NAN, NAN, NAN,
+  return {kind, SYMTOP_RULE_SAYS_NOTHING, NAN, NAN, NAN, NAN, SYMTOP_EFFECT_ENOUGH,
           {SYMTOP_NO_REGULAR_RATE, NAN, {NAN, NAN}}};
 }
 
@@ -100,10 +100,24 @@ inline symtop_rule judge_change(const PrecessionChange& by, int change) {
   return (change < 0) == (by.factor > 1) ? SYMTOP_RULE_HOLDS : SYMTOP_RULE_FAILS;
 }
 
+// `theta_ddot` is 0 where it vanishes up to rounding.
+inline symtop_effect find_effect(int change, double theta_ddot) {
+  if (change < 0 && theta_ddot > 0) return SYMTOP_EFFECT_UP;
+  return change > 0 && theta_ddot < 0 ? SYMTOP_EFFECT_DOWN : SYMTOP_EFFECT_ENOUGH;
+}
+
 inline symtop_reason explain_change(const TiltAcceleration& tilt, const PrecessionChange& by) {
   const int change = tilt.quadratic.change(by.before, by.after).sign;
-  return {by.find_kind(change != 0), judge_change(by, change), by.before, by.after,
-          tilt.at(by.before), tilt.at(by.after), tilt.place(by.is_done ? by.after : by.before)};
+  const double theta_ddot = tilt.at(by.after);
+  const symtop_rule rule = judge_change(by, change);
+  return {by.find_kind(change != 0),
+          rule,
+          by.before,
+          by.after,
+          tilt.at(by.before),
+          theta_ddot,
+          rule == SYMTOP_RULE_SAYS_NOTHING ? SYMTOP_EFFECT_ENOUGH : find_effect(change, theta_ddot),
+          tilt.place(by.is_done ? by.after : by.before)};
 }
 
 // The kick that leads from one state to another of the same attitude. It has rounded the angular
@@ -139,11 +153,12 @@ inline symtop_average find_average(const symtop_start& s, GravityMotion& motion)
   const Rates rates = motion.find_rates();
   const double p_psi = s.Iz * s.angular_velocity[2];
   // Mgl/p_psi is meant for p_psi^2 >> 4 Ix |Mgl|, and for starts near the slow precession: of another
-  // one it can be the wrong sign.
+  // one it can be the wrong sign. A thin rod may have that p_psi and spin more slowly than it precesses.
   const double least = 2 * std::sqrt(s.Ix) * std::sqrt(std::fabs(s.Mgl)) / s.Iz;
   const double rate = rates.mean_precession_rate, slow = p_psi != 0 ? s.Mgl / p_psi : NAN;
   const bool is_fast = s.Mgl != 0 && std::fabs(s.angular_velocity[2]) > least &&
-                       std::fabs(rate - slow) <= LIKE_A_FAST_TOP * std::fabs(slow);
+                       std::fabs(rate - slow) <= LIKE_A_FAST_TOP * std::fabs(slow) &&
+                       std::fabs(rate) < std::fabs(rates.mean_spin_rate);
   const double turn = rate != 0 ? 2 * PI / std::fabs(rate) : INFINITY;
   return {rate, turn, rates.precession_per_nutation, slow, is_fast, rates.spin_reverses};
 }

@@ -70,7 +70,7 @@ class Means:
 
 @dataclass(frozen=True, slots=True)
 class Gain:
-    """Gain or loss (mJ) of the potential energy halfway between the turning points."""
+    """Gain or loss (mJ) of the mean potential energy in time over a nutation."""
 
     kind: Literal["gained", "lost", "kept"]
     amount: float
@@ -110,7 +110,7 @@ class Pushed:
             former.turning_angles,
             None if any(map(math.isnan, rates)) else Means(*rates),
             MILLI * float(top.energy(last.start) - top.energy(before)),
-            _find_gain(top.Mgl, former.turning_angles, last.turning_angles),
+            _find_gain(top.Mgl * (last.mean_cosine - former.mean_cosine), top.Mgl),
         )
 
     @classmethod
@@ -119,12 +119,11 @@ class Pushed:
         return cls.of(motion, pushes, push_axle(motion.top, motion.start, -pushes.impulse))
 
 
-def _find_gain(Mgl: float, before: tuple[float, float], after: tuple[float, float]) -> Gain:
-    heights = [(math.cos(low) + math.cos(high)) / 2 for low, high in (before, after)]
-    change = MILLI * Mgl * (heights[1] - heights[0])
-    if abs(change) <= ROUNDING * MILLI * abs(Mgl):
-        return Gain("kept", abs(change))
-    return Gain("gained" if change > 0 else "lost", abs(change))
+def _find_gain(change: float, Mgl: float) -> Gain:
+    amount = MILLI * abs(change)
+    if abs(change) <= ROUNDING * abs(Mgl):
+        return Gain("kept", amount)
+    return Gain("gained" if change > 0 else "lost", amount)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 import { draw, findSpan, Frame } from "./plot.js";
 import { spread } from "../physics/spread.js";
 import { findTiltAcceleration } from "../physics/formulas.js";
+import { nameSubject } from "../words/verdict.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Facts } from "../words/facts.js" */
@@ -21,6 +22,7 @@ const keepShown = (rates) => rates.filter((rate) => Math.abs(rate) < LARGEST);
  */
 export const drawRule = ({ body, start, roots: first }, state, factor) => {
   const { theta } = state.angles;
+  const subject = nameSubject(body);
   const { phi: rate, psi: spin } = state.rates;
   const at = (/** @type {number} */ each) => findTiltAcceleration(body, theta, each, spin);
   const roots = keepShown(state.kernel.findRegularRates(body, theta, spin));
@@ -40,8 +42,8 @@ export const drawRule = ({ body, start, roots: first }, state, factor) => {
     ${roots.map(mark).join("")}
     ${Math.abs(rate) > 1e-9 ? frame.dot(place(hurried), 'fill="none" stroke="var(--theta)" stroke-width="2" id="hurried"') : ""}
     ${frame.dot(place(rate), 'fill="var(--theta)" id="now"')}
-    ${frame.nameVertical(phrase("axis.rises"))}
-    <text x="4" y="${frame.bottom + 24}">${phrase("axis.falls")}</text>
+    ${frame.nameVertical(phrase("axis.rises", { subject }))}
+    <text x="4" y="${frame.bottom + 24}">${phrase("axis.falls", { subject })}</text>
     ${frame.nameHorizontal(phrase("axis.phi_dot"))}`,
   );
 };

@@ -3,8 +3,10 @@
 import { draw, findSpan, Frame } from "./plot.js";
 import { NANO } from "../physics/course.js";
 import { angleUnit, toUnit } from "../words/quantities.js";
+import { nameSubject } from "../words/verdict.js";
 import { phrase } from "../words/wording.js";
 
+/** @import { Top } from "../physics/kernel.js" */
 /** @import { State } from "../physics/state.js" */
 /** @import { Sample } from "../run/telling.js" */
 /** @import { Pair } from "./plot.js" */
@@ -50,7 +52,7 @@ const findRange = (first, now, { window, marks }) => {
 /**
  * @param {"theta" | "phi_dot" | "psi_dot"} id
  * @param {Sample[]} samples
- * @param {{window: number, marks: number[]}} facts
+ * @param {{window: number, marks: number[], body: Top}} facts
  */
 export const drawOneSeries = (id, samples, facts) => {
   const { pick, color, isTilt } = SERIES[id];
@@ -71,7 +73,7 @@ export const drawOneSeries = (id, samples, facts) => {
     `${frame.axes}${kicks.map(mark).join("")}
     ${frame.curve(ghost, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"')}
     ${frame.curve(own, `stroke="${color}" stroke-width="1.8"`)}
-    ${frame.nameVertical(isTilt ? phrase("axis.tilt", { unit: angleUnit() }) : "rad/s")}
+    ${frame.nameVertical(isTilt ? phrase("axis.tilt", { unit: angleUnit(), subject: nameSubject(facts.body) }) : "rad/s")}
     ${frame.nameHorizontal(phrase("axis.time"))}`,
   );
 };

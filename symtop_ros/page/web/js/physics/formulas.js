@@ -43,6 +43,18 @@ export const findConstants = ({ Ix, Iz, Mgl }, state) => {
   };
 };
 
+/**
+ * phi' where the axis of a motion has a tilt, from the state at another one: sin^2(theta) phi' changes by
+ * p_psi/Ix times the change of height, which is a product.
+ * @param {Top} top @param {State} state @param {number} theta not 0 or pi
+ */
+export const findPrecession = ({ Ix, Iz }, { omega, vertical, angles }, theta) => {
+  const [[x, y, z], [gx, gy]] = [omega, vertical];
+  const halves = [theta + angles.theta, theta - angles.theta].map((each) => Math.sin(each / 2));
+  const sine = Math.sin(theta);
+  return (x * gx + y * gy + (Iz / Ix) * z * 2 * halves[0] * halves[1]) / (sine * sine);
+};
+
 /** The sizes of the parts that add up to each of them. @param {Top} top @param {State} state */
 export const findSizes = ({ Ix, Iz, Mgl }, state) => {
   const [x, y, z] = state.omega;

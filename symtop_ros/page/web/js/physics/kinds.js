@@ -3,7 +3,7 @@
 // phi' = (p_phi - p_psi u)/(Ix (1 - u^2)) vanishes at u = cos(theta) = p_phi/p_psi only, and the axis
 // gets there if the height there costs less than E'.
 
-import { findConstants } from "./formulas.js";
+import { findPrecession } from "./formulas.js";
 
 /** @import { Top } from "../physics/kernel.js" */
 /** @import { Course } from "./course.js" */
@@ -65,9 +65,8 @@ export const findTurning = ({ kernel, top, start, free, clamped }) => {
   const theta = isAtRest ? tilt : tilt - low < high - tilt ? low : high;
   const [u, sine] = [Math.cos(theta), Math.sin(theta)];
   if (sine < 1e-6) return null;
-  const { L_z, "L_z'": vertical } = findConstants(top, start);
-  const phi_dot = isAtRest ? rates.phi : (vertical - L_z * u) / (top.Ix * sine * sine);
-  const psi_dot = isAtRest ? rates.psi : L_z / top.Iz - phi_dot * u;
+  const phi_dot = isAtRest ? rates.phi : findPrecession(top, start, theta);
+  const psi_dot = isAtRest ? rates.psi : start.omega[2] - phi_dot * u;
   return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
 };
 

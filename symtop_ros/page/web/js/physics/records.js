@@ -93,6 +93,7 @@ export const NAMES = {
     "stable",
     "unstable",
   ],
+  effect: [null, "up", "down"],
   explanation: [
     null,
     "fixed",
@@ -105,7 +106,7 @@ export const NAMES = {
     "with_momentum",
     "swings",
   ],
-  turn: [null, "faster", "slower", "rests", "against"],
+  turn: [null, "faster", "slower", "rests", "vertical", "against"],
   pace: [null, "speeds", "slows"],
   part: ["size", "direction", "tilt"],
   lift_kind: ["unchanged", "higher", "lower"],
@@ -146,6 +147,7 @@ export const RECORDS = {
     ["double", "mean_precession_rate"],
     ["double", "mean_spin_rate"],
     ["double", "precession_per_nutation"],
+    ["double", "mean_cosine"],
     ["flag", "spin_reverses"],
   ],
   constants: [
@@ -196,6 +198,7 @@ export const RECORDS = {
     ["double", "after"],
     ["double", "theta_ddot_without"],
     ["double", "theta_ddot"],
+    ["effect", "effect"],
     ["place", "place"],
   ],
   average: [

@@ -177,7 +177,7 @@ const grasp = (top) => {
 };
 
 /** The present motion, without the torque of a button. @param {LocalTop} top @returns {Beginning} */
-const present = ({ course: { top, friction, start }, steady }) => ({
+export const present = ({ course: { top, friction, start }, steady }) => ({
   top,
   friction,
   start,
@@ -216,7 +216,7 @@ const chooseScene = (top, { name }) => {
 const followLink = (top, { link: { scene: name, ...texts } }) => {
   const scene = name === undefined ? null : findScene(top.content.scenes, name);
   const { event } = top.content.run_fields;
-  const given = scene ? readScene(top.kernel, scene) : present(top);
+  const given = scene ? readScene(top.kernel, scene) : top.unnamed;
   const beginning = readLink(top.kernel, texts, given, event);
   const isWhole = scene && !Object.keys(texts).length;
   begin(top, beginning, isWhole ? { made_by: { kind: "scene", name } } : {});

@@ -25,6 +25,8 @@ const FRICTION = NAMES.friction_kind;
 const SINGLE = [...TOP_NAMES, ...FRICTION, ...ANGLES];
 const PRECESSIONS = ["slow", "fast"];
 
+export const OPENING = "hurry_slow"; // the scene with which the page opens
+
 /** A number as a refusal or a request writes it. @param {number} x */
 export const writeShort = (x) => String(Number(Number(x).toPrecision(4)));
 
@@ -126,7 +128,7 @@ const readState = (kernel, { orientation, angular_velocity }, isNamed) => {
 
 /**
  * The beginning that a link names: parameters of the top and initial conditions, and what it does
- * not name from a scene or from the present motion.
+ * not name from a scene or another beginning.
  * @param {Kernel} kernel
  * @param {{[name: string]: string}} texts without the name of a scene
  * @param {Beginning} given

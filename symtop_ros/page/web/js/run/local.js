@@ -5,6 +5,7 @@ import { holdTorque, perform } from "./acts.js";
 import { MOST_STEPS, NANO } from "../physics/course.js";
 import { phrase } from "../words/wording.js";
 import { nameError } from "./errors.js";
+import { findScene, OPENING, readScene } from "./links.js";
 import { Frames } from "./frames.js";
 import { Hold } from "./hold.js";
 import { recall, remember, rememberRun } from "./memory.js";
@@ -62,7 +63,7 @@ export class LocalTop {
   open() {
     const { run } = this.content;
     const { run: last, speed = SPEED, isRunning = false } = recall();
-    perform(this, { act: "scene", name: "hurry_slow" });
+    perform(this, { act: "scene", name: OPENING });
     const isKept = Boolean(last) && this.take({ act: "load", run: last });
     if (isKept) Object.assign(this, { speed, isRunning });
     else {
@@ -71,6 +72,15 @@ export class LocalTop {
     }
     rememberRun(this);
     this.present();
+  }
+
+  /**
+   * What a link without a scene leaves open is as on a page that was just opened, whatever runs now: a
+   * link is the whole start. @returns {import("./links.js").Beginning}
+   */
+  get unnamed() {
+    const scene = readScene(this.kernel, findScene(this.content.scenes, OPENING));
+    return { ...scene, initial: undefined };
   }
 
   /** Show the top to the page from now on. */

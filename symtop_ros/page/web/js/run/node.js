@@ -1,7 +1,7 @@
 // A running node as the top of the page: its events and its attitude come from the server of the
 // page, and what the page asks for goes to the services of the node.
 
-import { findTorque, perform } from "./acts.js";
+import { findTorque, perform, present } from "./acts.js";
 import { NANO } from "../physics/course.js";
 import { nameError } from "./errors.js";
 import { LocalTop } from "./local.js";
@@ -98,6 +98,11 @@ export class NodeTop extends LocalTop {
   get steady() {
     const { moments } = this.run;
     return (moments.findLast(({ kind }) => kind !== "torque") ?? moments[0]).course.torque;
+  }
+
+  /** The body is that of the node. @returns {import("./links.js").Beginning} */
+  get unnamed() {
+    return present(this);
   }
 
   /** The published attitude; all else follows from the events. */

@@ -22,7 +22,6 @@ export const createShoot =
   (scene, kernel, content) =>
   (/** @type {Shot} */ { messages, layers }) => {
     const top = new LocalTop(kernel, content);
-    top.take({ act: "scene", name: "cusps" }); // a link changes a run that is there
     for (const message of messages) {
       top.take(message);
       watch(top);

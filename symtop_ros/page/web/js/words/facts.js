@@ -7,6 +7,7 @@ import { findLedger, nameLedger } from "./ledger.js";
 import { describeOutlooks } from "./outlooks.js";
 import { describePushes } from "./pushes.js";
 import { findTurning, nameHalf } from "../physics/kinds.js";
+import { nameSubject } from "./verdict.js";
 import { describeStart, writeLink } from "../run/links.js";
 import { findCriticalSpin, findHeldPotential, findPotential } from "../physics/formulas.js";
 import { spread } from "../physics/spread.js";
@@ -179,7 +180,7 @@ export const describe = (run, time) => {
     ledger: findLedger(announced),
     energies: phrase("ledger", nameLedger(announced)),
     body: course.top,
-    impulses: phrase("impulses", { kind: nameHalf(course) }),
+    impulses: phrase("impulses", { kind: nameHalf(course), subject: nameSubject(course.top) }),
     outlooks: describeOutlooks(HELD.includes(kind) || course.clamped ? null : course),
     isHeld: course.clamped,
     isFresh: kind === "start",

@@ -1,6 +1,7 @@
 // What an event led to, as records: for the headline of the page, and for the reason below it.
 
-import { judge, judgeClamp, judgeKick } from "./verdict.js";
+import { findPrecession } from "../physics/formulas.js";
+import { judge, judgeClamp, judgeKick, nameSubject } from "./verdict.js";
 
 /** @import { Course } from "../physics/course.js" */
 /** @import { Moment } from "../run/run.js" */
@@ -19,6 +20,9 @@ const NAMES = [
   ["lower", "less_far", "no_fall"],
 ];
 const WAYS = ["rises", "falls"]; // to the points of a place
+// Of the largest phi': where the smallest one is less, loops are as narrow as a line (their width goes as
+// its power of 3/2, a thousandth of that of the nutation), and no phi' is told from a stop.
+const SEEN_RATE = 0.01;
 const WAVES = ["cusps", "looping", "unidirectional"];
 /** @type {{[kind: string]: string}} */
 const KINDS = { start: "start", change: "changed", torque: "released", unclamp: "let_go" };
@@ -102,14 +106,19 @@ const describeKick = ({ outcome, changes }, theta) => {
 };
 
 /**
- * How a top moves, as far as it differs from a top that stays at its tilt.
- * @param {string} kind of the motion
+ * How a top moves, as far as it is seen: a tilt that stays, or loops and waves that are cusps to the eye.
+ * @param {Course} free
  * @param {[number, number]} turning_angles
  * @param {string} reason of a verdict
  */
-const findMoves = (kind, [low, high], reason) => {
+const findMoves = ({ motion: { kind }, top, start }, turning_angles, reason) => {
   if (kind === "regular") return reason === "no_precession" ? "still" : kind;
-  return WAVES.includes(kind) && low === high ? "hardly" : kind;
+  if (!WAVES.includes(kind)) return kind;
+  const [low, high] = turning_angles;
+  if (low === high) return "hardly";
+  const rates = turning_angles.map((theta) => Math.abs(findPrecession(top, start, theta)));
+  const isSeen = Math.min(...rates) > SEEN_RATE * Math.max(...rates);
+  return kind === "cusps" || isSeen ? kind : "nearly";
 };
 
 /**
@@ -119,7 +128,7 @@ const findMoves = (kind, [low, high], reason) => {
  */
 export const findOutcome = ({ kind, asked, course, before }, free) => {
   const forces = findForces(course);
-  const subject = course.top.Mgl < 0 ? "axis" : "top";
+  const subject = nameSubject(course.top);
   const headline = { subject, forces };
   if (kind === "kick" && before) {
     const found = findKick(course, before, asked.hold ?? null);
@@ -143,16 +152,16 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
   }
   const verdict = judge(free);
   const { turning_angles } = verdict;
-  const moves = free.motion.kind;
+  const { kind: motion } = free.motion;
   return {
     headline: {
       ...headline,
       turning_angles,
       kind: forces ? "driven" : (KINDS[kind] ?? "start"),
-      motion: findMoves(moves, turning_angles, verdict.reason.kind),
+      motion: findMoves(free, turning_angles, verdict.reason.kind),
     },
     name: forces ? "driven" : "start",
-    outcome: { motion: moves, neglected: forces && { forces }, verdict, clamp: null },
+    outcome: { motion, neglected: forces && { forces }, verdict, clamp: null },
     because: forces ? null : verdict.cause,
   };
 };

@@ -9,14 +9,11 @@ import { judge } from "./verdict.js";
 /** @import { Run, Moment } from "../run/run.js" */
 /** @import { Course } from "../physics/course.js" */
 
-/** Halfway between the turning points. @param {Course} course */
-const findHeight = ({ motion: { turning_angles } }) =>
-  turning_angles.reduce((sum, angle) => sum + Math.cos(angle), 0) / 2;
-
-/** Mean phi' and the height of the weight, before and after. @param {Course} former @param {Course} free */
+/** Means of phi' and of the potential energy, before and after. @param {Course} former @param {Course} free */
 export const compareMeans = (former, free) => {
-  const [was, is] = [former, free].map((each) => each.motion.rates.mean_precession_rate);
-  const weight = MILLI * free.top.Mgl * (findHeight(free) - findHeight(former));
+  const [before, after] = [former, free].map((each) => each.motion.rates);
+  const [was, is] = [before, after].map((each) => each.mean_precession_rate);
+  const weight = MILLI * free.top.Mgl * (after.mean_cosine - before.mean_cosine);
   return {
     means: Number.isNaN(was + is) ? null : { before: was, after: is },
     weight: nameGain(weight, { weight: MILLI * free.top.Mgl, precession: 0 }),

@@ -6,16 +6,20 @@
 
 const ON_THE_VERTICAL = ["undefined", "stable", "unstable"];
 
+/** What a sentence is about: below its pivot a weight rises where its axis falls. @param {{Mgl: number}} top */
+export const nameSubject = ({ Mgl }) => (Mgl < 0 ? "axis" : "top");
+
 /** @param {number[]} rates */
 const keepDefined = (rates) => rates.filter((rate) => !Number.isNaN(rate));
 
 /** Why Perry's rule holds, fails or says nothing. @param {Found} verdict @param {Hold} held */
-const readReason = ({ subject, reason: { kind, rule, place, ...numbers } }, held) => {
+const readReason = ({ subject, reason: { kind, rule, place, ...found } }, held) => {
   if (!ON_THE_VERTICAL.includes(kind)) {
     const regular_rates = keepDefined(place.regular_rates);
-    return { kind, rule, subject, ...numbers, place: { ...place, regular_rates, held } };
+    return { kind, rule, subject, ...found, place: { ...place, regular_rates, held } };
   }
-  const nothing = { before: null, after: null, theta_ddot_without: null, theta_ddot: null };
+  const numbers = { before: null, after: null, theta_ddot_without: null, theta_ddot: null };
+  const nothing = { ...numbers, effect: null };
   return { kind, rule, subject, ...nothing, place: null };
 };
 
