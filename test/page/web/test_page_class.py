@@ -137,11 +137,8 @@ def test_the_table_says_which_way_round_and_from_which_spin_the_top_sleeps(opene
 
 
 def test_where_rounding_decides_the_table_says_from_when_on(opened):
-    opened.enter("top.Ix", "1")
-    opened.enter("top.Iz", "1")
-    opened.enter("top.Mgl", "1")
     rate = 2 / math.sqrt(3)
-    opened.follow(f"theta={math.pi / 3!r}&phi_dot={rate!r}&psi_dot={rate!r}")
+    opened.follow(f"Ix=1&Iz=1&Mgl=1&theta={math.pi / 3!r}&phi_dot={rate!r}&psi_dot={rate!r}")
     start = State.from_euler(theta=math.pi / 3, phi_dot=rate, psi_dot=rate)
     shows_at = Motion(Top(1.0, 1.0, 1.0), start).rounding_shows_at
     began = opened.read_events()[-1]["time"]  # s of the run, of which the table speaks

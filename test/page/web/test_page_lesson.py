@@ -153,14 +153,14 @@ def test_a_number_that_is_asked_for_is_checked(open_page, number, near, far):
     assert page.say("lesson-checked") == ""
 
 
-def test_a_number_is_in_radians_on_a_page_in_degrees_and_may_have_a_comma(open_page):
+@pytest.mark.wording
+def test_a_number_is_asked_for_in_the_unit_of_the_page_and_may_have_a_comma(open_page):
     page = open_page("#lesson=13&lang=de")
-    page.open_tab("view")
-    page.tab.select_option("#unit", "deg")
+    page.choose_unit("deg")
     page.open_tab("lesson")
-    page.tab.fill("#predicted-number", "0,39")
+    page.tab.fill("#predicted-number", "22,35")
     page.tab.press("#predicted-number", "Enter")
-    assert page.say("lesson-checked") == "Richtig, auf 0,005 rad genau."
+    assert page.say("lesson-checked") == "Richtig, auf 0,286° genau."
 
 
 def test_the_table_of_a_step_is_behind_its_explanation(open_page):
