@@ -8,7 +8,25 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from mpmath import agm, conj, cos, ellipe, ellipk, elliprf, exp, expj, inf, mp, mpc, mpf, nan, nint, pi, sin, sqrt
+from mpmath import (
+    agm,
+    conj,
+    cos,
+    ellipe,
+    ellipk,
+    elliprf,
+    exp,
+    expj,
+    inf,
+    mp,
+    mpc,
+    mpf,
+    nan,
+    nint,
+    pi,
+    sin,
+    sqrt,
+)
 
 from symtop_ros.physics.reference import Inputs
 from workshop.digits.state import ExactState, Number
@@ -63,7 +81,6 @@ class ClosedForm:
             (of_A, share), (of_B, _) = ((each.mean, each.share) for each in self._factors[:2])
             precession = of_A + of_B
             return -precession if self._is_turned else precession, of_A - of_B + 2 * share
-
 
     @property
     def mean_cosine(self) -> Number:

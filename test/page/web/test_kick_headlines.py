@@ -1,8 +1,8 @@
 """What the page says of a kick, read as a person would, is what the two sampled motions do.
 
 The words and numbers of the headline, of the labels at the brackets and of the answer to the first
-question are held against the tilts of the motion with the kick and of the one without it. Nothing is
-taken from the records of which they are made.
+question are held against the tilts of the motion with the kick and of the one without it. Nothing
+is taken from the records of which they are made.
 """
 
 import math
@@ -22,13 +22,13 @@ from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 SEEN = 5e-4
 SAMPLES = 257  # of a nutation
 FINER = 33  # between the neighbours of the extreme sample, three times
-# Times end up 1/256/16^3 = 1e-6 of a nutation apart. Through the vertical the tilt is |x|, which is
-# missed by half of that times its slope: a range of tilts in an eighth of a nutation at the fastest.
+# Times end up 1/256/16^3 = 1e-6 of a nutation apart. Through the vertical the tilt is |x|, which
+# is missed by half of that times its slope: a range of tilts in an eighth of a nutation at most.
 SAMPLED = 1e-5
 
 
 def draw_kicks(count):
-    """Kicks of tops of every family: both signs of Mgl, discs, no weight, slow and fast, at roots."""
+    """Kicks of tops of every family: both signs of Mgl, discs, no weight, slow, fast, at roots."""
     rng = Numbers("headlines of kicks")
     for _ in range(count):
         Ix = rng.power(-4, -1)
@@ -58,7 +58,7 @@ def draw_kick(rng, momentum, phi_dot, scale):
 
 @dataclass(frozen=True)
 class Sampled:
-    """Tilts of a motion: now, the smallest and the largest, and which way it leaves the one of now."""
+    """Tilts of a motion: now, the smallest, the largest, and which way it leaves the one of now."""
 
     now: float
     top: float
@@ -235,7 +235,8 @@ HAPPENED = {
 def check_answer(text, changes, lost):
     told = text.removeprefix("You were right: ").removesuffix(".")
     if told.endswith("its height is the same"):
-        assert not changes and not lost
+        assert not changes
+        assert not lost
     else:
         assert {HAPPENED[each] for each in told.split(" and ")} == {*changes, *lost}
 

@@ -11,7 +11,9 @@ from trials import trials
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 
 SAMPLES = 4097  # of a nutation
-SEEN_RATE = 0.01  # of the largest phi': what is called loops or waves has more of it (docs/panel.md)
+SEEN_RATE = (
+    0.01  # of the largest phi': what is called loops or waves has more of it (docs/panel.md)
+)
 # phi' at the turning points is missed by at most its change in half a step: its slope is below
 # pi/SAMPLES of its range, squared, as it is extreme there or next to it; but for narrow loops next to
 # the vertical, which are left out.
