@@ -186,7 +186,8 @@ def check_headline(headline, name, with_it, without):
         assert way in named or abs(change) <= SEEN + off, (way, change)
     only = named if not lost else set()
     if first:
-        assert first == with_it.first and {first}.isdisjoint(named), (first, with_it.first)
+        assert first == with_it.first, (first, with_it)
+        assert first not in named
     elif len(only) == 1 and changes and min(moves.values()) > SEEN + off:
         assert with_it.first in only, (only, with_it.first)
     return subject

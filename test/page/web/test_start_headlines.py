@@ -15,8 +15,8 @@ SEEN_RATE = (
     0.01  # of the largest phi': what is called loops or waves has more of it (docs/panel.md)
 )
 # phi' at the turning points is missed by at most its change in half a step: its slope is below
-# pi/SAMPLES of its range, squared, as it is extreme there or next to it; but for narrow loops next to
-# the vertical, which are left out.
+# pi/SAMPLES of its range, squared, as it is extreme there or next to it; but for narrow loops next
+# to the vertical, which are left out.
 SAMPLED = 1e-3
 MOVES = {
     "to the eye": r"precesses in cusps, to the eye",
@@ -65,19 +65,21 @@ def test_loops_waves_and_cusps_are_what_the_precession_does(tab, count):
         rates, theta = sample_rates(start)
         if np.sin(theta).min() < 0.05:
             continue
-        least, most = rates.min(), rates.max()
-        largest = max(abs(least), abs(most))
-        # of the other sign, or of the same
-        back = min(abs(least), abs(most)) * (1 if least * most < 0 else 0)
-        slowest = 0.0 if least * most < 0 else min(abs(least), abs(most))
-        reverses, slows = back / largest, slowest / largest
-        if name == "steady":
-            assert np.ptp(theta) < 1e-3 and np.ptp(rates) < 1e-3 * largest, start
-        elif name == "loops":
-            assert reverses > SEEN_RATE - SAMPLED, (start, reverses)
-        elif name == "waves":
-            assert reverses == 0 and slows > SEEN_RATE - SAMPLED, (start, slows, reverses)
-        else:
-            assert reverses < SEEN_RATE + SAMPLED and slows < SEEN_RATE + SAMPLED, start
+        check_move(name, rates, theta)
         heard.add(name)
     assert heard == {*MOVES}
+
+
+def check_move(name, rates, theta):
+    """Check how a top is said to move by phi' and theta over a nutation."""
+    slowest, fastest = sorted(map(abs, (rates.min(), rates.max())))
+    share = slowest / fastest  # of phi' at one turning point, in that at the other
+    reverses = rates.min() * rates.max() < 0
+    if name == "steady":
+        assert np.ptp(theta) < 1e-3
+        assert np.ptp(rates) < 1e-3 * fastest
+    elif name in ("loops", "waves"):
+        assert reverses == (name == "loops")
+        assert share > SEEN_RATE - SAMPLED
+    else:
+        assert share < SEEN_RATE + SAMPLED
