@@ -6,7 +6,7 @@ Needs ROS. The page computes all else from the events, as it does for its own to
 import contextlib
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import rclpy
@@ -17,6 +17,7 @@ from rclpy.node import Node
 from rclpy.subscription import Subscription
 
 from symtop_ros.base.refusals import RefusedError, choice, to_double, vector
+from symtop_ros.page.panel.held import HeldTorque
 from symtop_ros.page.panel.news import PERIOD, Message, News, Sample
 from symtop_ros.ros.client.connection import Connection, UnreachableError
 from symtop_ros.ros.live.feed import DEPTH, Feed
@@ -71,6 +72,7 @@ class Bridge:
         self.name = self._connection.name
         self._connection.prepare(*SERVICES)
         self._torque = node.create_publisher(WrenchStamped, f"{self.name}/applied_torque", 10)
+        self._held = HeldTorque()
         self._node = node
         self._feed = Feed(node, self.name, ())
         self._samples: Subscription | None = None
@@ -89,10 +91,10 @@ class Bridge:
         """Do what a page asks for; return the answer of the node."""
         try:
             if "torque" in request:
-                # the node applies it until its time-out
-                x, y, z = vector("torque", request["torque"], 3, MAX_MOMENT, "N m, world frame")
-                wrench = Wrench(torque=Vector3(x=x, y=y, z=z))
-                self._torque.publish(WrenchStamped(wrench=wrench))
+                self._turn(vector("torque", request["torque"], 3, MAX_MOMENT, "N m, world frame"))
+                return {"granted": True, "answer": ""}
+            if "hold" in request:
+                self._held.renew()
                 return {"granted": True, "answer": ""}
             name = choice("service", request.get("service"), SERVICES)
             argument = request.get("argument")
@@ -109,6 +111,15 @@ class Bridge:
             )
         return {"granted": granted, "answer": text}
 
+    def _turn(self, torque: Sequence[float]) -> None:
+        """Apply the torque of a button; zero ends it at once."""
+        self._held.take(torque)
+        self._publish_torque(torque)
+
+    def _publish_torque(self, torque: Sequence[float]) -> None:
+        x, y, z = torque
+        self._torque.publish(WrenchStamped(wrench=Wrench(torque=Vector3(x=x, y=y, z=z))))
+
     # The thread of the node
 
     def _spin(self) -> None:
@@ -117,6 +128,8 @@ class Bridge:
                 self._executor.spin_once(timeout_sec=PERIOD if self.news.pages else IDLE)
                 self._subscribe(self.news.pages > 0)
                 self._take()
+                if torque := self._held.find_due():
+                    self._publish_torque(torque)
 
     def _subscribe(self, wanted: bool) -> None:
         """Subscribe to the samples while a page is open; an unwatched node sends events only."""

@@ -217,7 +217,7 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node, brow
         tab.click("#hurry")
         until(lambda: "without the push" in tab.text_content("#headline"), look)
         act = tab.evaluate("window.symtop.run().events.at(-1).act")
-        assert act == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
+        assert act == {"precession_rate_factor": 1.4, "hold": "spin_momentum"}
         tab.click("#tab-start")
         tab.fill("#field-top\\.Mgl", "0.05")
         tab.press("#field-top\\.Mgl", "Enter")

@@ -64,7 +64,7 @@ def judge_in_python(case):
     start = case["angles"] | {f"{name}_dot": rate for name, rate in case["rates"].items()}
     state = physics.State.from_euler(**start)
     after = kick_in_python(top, state, kick)
-    verdict = physics.perrys_rule(top, state, hold=kick.get("hold", "spin_rate"))
+    verdict = physics.perrys_rule(top, state, hold=kick.get("hold", "spin_momentum"))
     record = physics.kick_verdict(physics.Motion(top, after), state, kick.get("hold"))
     return {
         "start": np.concatenate(state.parts).tolist(),

@@ -95,7 +95,7 @@ def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened, tmp_path):
     assert json.loads(saved)["events"] == events
     for event in (kick, up, along):
         assert round(event["time"] * 1e9) / 1e9 == event["time"]
-    assert kick["act"] == {"precession_rate_factor": 1.4, "hold": "spin_rate"}
+    assert kick["act"] == {"precession_rate_factor": 1.4, "hold": "spin_momentum"}
     assert along["act"] == {"precession_rate_change": 1, "hold": "spin_momentum"}
     before = read_motion(kick).at(find_time(kick, up))
     after = apply_impulse(Top(*up["top"]), before, up["act"]["angular_impulse"])
@@ -170,14 +170,14 @@ def test_pushes_are_counted_in_words(opened, number, words):
     assert opened.say("why") == write("push", Pushed.of(pushed, pushed.pushes, start.start))
 
 
-def test_an_act_while_a_button_pushes_ends_those_pushes_and_the_hand_goes_on(opened):
+def test_an_act_while_a_button_pushes_ends_those_pushes_and_the_hold_makes_no_others(opened):
     opened.open_tab("push")
     button = opened.tab.locator("[data-hold=press]")
     button.dispatch_event("pointerdown")
     opened.until(lambda: opened.read_events()[-1]["kind"] == "push")
     opened.press("h")
-    kinds = ["start", "push", "kick", "push"]
+    kinds = ["start", "push", "kick"]
     opened.until(lambda: [event["kind"] for event in opened.read_events()] == kinds)
-    opened.until(lambda: opened.read_events()[-1]["act"]["number"] > 1)
+    opened.wait_for_time(opened.read_events()[-1]["time"] + 0.02)
     button.dispatch_event("pointerup")
     assert [event["kind"] for event in opened.read_events()] == kinds

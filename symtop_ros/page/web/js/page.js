@@ -27,9 +27,22 @@ import { typesetSymbols } from "./words/typeset.js";
 import { phrase } from "./words/wording.js";
 
 /** @import { Facts, MotionFacts, Now } from "./words/facts.js" */
-/** @import { Message } from "./run/acts.js" */
+/** @import { Hold } from "./physics/kernel.js" */
+/** @import { Held, Message } from "./run/acts.js" */
 /** @import { LocalTop } from "./run/local.js" */
 /** @import { Frame, Hello, News } from "./run/telling.js" */
+
+/**
+ * Kicks of buttons and keys. A push on the axle has no torque about it: it holds p_psi. What holds psi', as
+ * the article compares, has a name of its own.
+ * @type {{[act: string]: (factor: number) => {factor: number, hold: Hold}}}
+ */
+const KICKS = {
+  hurry: (factor) => ({ factor, hold: "spin_momentum" }),
+  delay: (factor) => ({ factor: 1 / factor, hold: "spin_momentum" }),
+  hurry_held: (factor) => ({ factor, hold: "spin_rate" }),
+  delay_held: (factor) => ({ factor: 1 / factor, hold: "spin_rate" }),
+};
 
 const showLedger = guard("ledger", drawLedger);
 const showKinds = guard("kinds", drawKinds);
@@ -80,10 +93,12 @@ export class Page {
       button.addEventListener("click", () => act(button.dataset.act ?? ""));
     for (const button of findAll("[data-push]"))
       button.addEventListener("click", () => push(button.dataset.push ?? ""));
-    for (const button of findAll("[data-hold]")) {
-      const { hold, sign } = button.dataset;
-      const message = /** @type {Message} */ ({ act: hold, sign: Number(sign) });
-      actWhileHeld(button, () => this.send(message));
+    for (const button of /** @type {HTMLButtonElement[]} */ (findAll("[data-hold]"))) {
+      const hold = /** @type {Held} */ (button.dataset.hold);
+      const message = /** @type {Message} */ ({ act: hold, sign: Number(button.dataset.sign) });
+      const begin = () => this.send(message);
+      // what was refused at the beginning stays to be read
+      actWhileHeld(button, begin, () => this.top?.take({ act: "let_go", hold }));
     }
     listenToKeys(act, push);
   }
@@ -108,8 +123,7 @@ export class Page {
   act(name) {
     const { factor } = this.fields.values;
     if (name === "projector") choose("size", find("size", HTMLSelectElement).value ? "" : name);
-    else if (name === "hurry") this.send({ act: "kick", factor });
-    else if (name === "delay") this.send({ act: "kick", factor: 1 / factor });
+    else if (name in KICKS) this.send({ act: "kick", ...KICKS[name](factor) });
     else this.send(/** @type {Message} */ ({ act: name })); // an act of a button needs no more
   }
 

@@ -23,8 +23,7 @@ const TURNS = {
 };
 /** @type {{[key: string]: number}} */
 const DISTANCES = { "+": 1 / 1.1, "-": 1.1 };
-const PERIOD = 50; // ms between two messages
-const ENDS = ["pointerup", "pointerleave", "pointercancel", "blur", "keyup"];
+const ENDS = ["pointerup", "pointercancel", "lostpointercapture", "blur", "keyup"];
 
 /**
  * The element that has the focus, or null if it or the browser uses all keys itself.
@@ -84,18 +83,39 @@ export const turnByKeys = (camera) => {
   });
 };
 
-/** @param {HTMLElement} button @param {() => void} act */
-export const actWhileHeld = (button, act) => {
-  let timer = 0;
-  const end = () => clearInterval(timer);
-  const begin = () => {
-    end();
-    act();
-    timer = window.setInterval(act, PERIOD);
+/**
+ * One hold of a button is one act: it begins when the button is pressed, and ends with the end of that, not
+ * with a silence, which a slow page has too.
+ * @param {HTMLButtonElement} button @param {() => void} begin @param {() => void} end
+ */
+export const actWhileHeld = (button, begin, end) => {
+  let isHeld = false;
+  const stop = () => {
+    if (isHeld) end();
+    isHeld = false;
   };
-  button.addEventListener("pointerdown", begin);
-  for (const name of ENDS) button.addEventListener(name, end);
-  button.addEventListener("keydown", (event) => {
-    if (event.key === "Enter" && !event.repeat) begin();
+  const start = () => {
+    stop();
+    isHeld = true;
+    begin();
+  };
+  button.addEventListener("pointerdown", ({ isTrusted, button: which, pointerId }) => {
+    if (which || isHeld) return; // another button of the mouse, or a second finger
+    // It is let go wherever that happens, outside the window too; an event that a script has made is of
+    // no pointer which could be captured.
+    if (isTrusted) button.setPointerCapture(pointerId);
+    start();
   });
+  button.addEventListener("keydown", (event) => {
+    if (event.key === "Enter" && !event.repeat) start();
+  });
+  for (const name of ENDS) button.addEventListener(name, stop);
+  for (const name of ["blur", "pagehide"]) addEventListener(name, stop);
+  document.addEventListener("visibilitychange", () => {
+    if (document.hidden) stop();
+  });
+  // A disabled button hears of no end.
+  new MutationObserver(() => {
+    if (button.disabled) stop();
+  }).observe(button, { attributeFilter: ["disabled"] });
 };

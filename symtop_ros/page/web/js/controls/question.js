@@ -26,7 +26,7 @@ export class Question {
     this.acts = null;
     this.isStarting = false; // the motion of the second question
     this.isSecond = false;
-    /** Regular rates of the motion that was pushed. @type {number[]} */
+    /** Regular rates of the motions that were pushed, the first one and the second. @type {number[][]} */
     this.roots = [];
     for (const button of findAll("[data-answer]")) {
       button.addEventListener("click", () => {
@@ -54,19 +54,20 @@ export class Question {
   }
 
   /** The push leads to what is seen, and another act ends the question. @param {Facts} facts */
-  follow({ acts, half, roots, seen, since }) {
+  follow({ acts, half, push_roots: roots, seen, since }) {
     const is = `${since}: ${acts}`; // a start may be at the same time as the one before
     const isNew = this.acts !== null && this.acts !== is;
     this.acts = is;
     if (this.isStarting) {
       this.isStarting = false;
-      this.roots = roots;
+      this.roots.push(roots);
       this.enter("ask");
       return;
     }
     if (!isNew) return;
     if (this.answer === null || half === null || this.end < Infinity) this.leave();
     else {
+      if (!this.isSecond) this.roots = [roots];
       this.end = half;
       const [meant, opposite] = MEANT[this.answer];
       const isRight = seen?.includes(meant) && !seen.includes(opposite);
@@ -90,7 +91,8 @@ export class Question {
     this.enter("");
     find("compared").hidden = false;
     find(this.isSecond ? "between" : "second").hidden = false;
-    const [slow, fast] = this.roots.map((each) => writeNumber(each, "2r"));
-    if (this.isSecond) say("between", phrase("page.between", { slow, fast }));
+    if (!this.isSecond) return;
+    const [slow, fast, low, high] = this.roots.flat().map((each) => writeNumber(each, "2r"));
+    say("between", phrase("page.between", { slow, fast, low, high }));
   }
 }

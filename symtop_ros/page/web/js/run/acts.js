@@ -17,6 +17,7 @@ import { createStart, describeStart, findScene, readLink, readScene } from "./li
  *   precession?: string}} AskedStart
  */
 /** @typedef {{axle_impulse?: number, rate?: number, number?: number}} AskedPushes */
+/** What a button does while it is held. @typedef {"torque" | "press" | "grasp"} Held */
 /**
  * Acts that make an event, each with what it needs: rates and angles in rad, a torque by its sign, the
  * end of a pull in scene units, the place of an event in the run, fields of a link as texts.
@@ -24,7 +25,7 @@ import { createStart, describeStart, findScene, readLink, readScene } from "./li
  *   body: {parts: Part[]},
  *   clamp: {},
  *   grasp: {},
- *   kick: {factor: number, hold?: Hold},
+ *   kick: {factor: number, hold: Hold},
  *   link: {link: {[field: string]: string}},
  *   press: {},
  *   pull: {end: Vector},
@@ -43,6 +44,7 @@ import { createStart, describeStart, findScene, readLink, readScene } from "./li
  * Acts that only change what is shown: times in s of the run, a run as run.json has it.
  * @typedef {{
  *   keep: {kept: boolean},
+ *   let_go: {hold: Held},
  *   load: {run: unknown},
  *   pause: {},
  *   record: {},
@@ -82,7 +84,7 @@ const SIGNS = { up: -1, down: 1, along: 1, back: -1 };
 const addKick = (top, after, asked) => top.add("kick", top.course.continue(after), asked);
 
 /** @param {LocalTop} top @param {EventActs["kick"]} asked */
-const kick = (top, { factor, hold = "spin_rate" }) => {
+const kick = (top, { factor, hold }) => {
   const after = top.state.kick(top.course.top, "factor", [factor], hold);
   addKick(top, after, { act: { precession_rate_factor: factor, hold }, hold });
 };
@@ -126,14 +128,10 @@ const pushAlong = (top, { axle_impulse, rate = PUSH_RATE, number = MOST_PUSHES }
   top.add("push", course.continue(after, { pushes: readPushes(act) }), { act });
 };
 
-/**
- * Push along while a button is held; another act ends those pushes, and the hand begins again.
- * @param {LocalTop} top
- */
+/** Push along while a button is held; another act ends those pushes. @param {LocalTop} top */
 const press = (top) => {
-  const isPushed = top.holds.push.isHeld && top.run.findEvent(top.time).kind === "push";
-  if (!isPushed) pushAlong(top, {});
-  top.holds.push.renew();
+  pushAlong(top, {});
+  top.held.add("press");
 };
 
 /**
@@ -157,8 +155,6 @@ export const holdTorque = (top, sign) => {
   const [x, y, z] = top.steady;
   /** @type {Vector} */
   const torque = [x, y, z + sign * findTorque(top.course)];
-  if (sign) top.holds.torque.renew();
-  else top.holds.torque.end();
   if (top.course.torque[2] === torque[2]) return;
   top.add("torque", top.course.continue(top.state, { torque }));
   top.telling.tellFacts();
@@ -172,8 +168,17 @@ const clamp = (top) => {
 
 /** Hold it while a button is held. @param {LocalTop} top */
 const grasp = (top) => {
-  if (!top.course.clamped) clamp(top);
-  top.holds.grasp.renew();
+  if (top.course.clamped) return;
+  clamp(top);
+  top.held.add("grasp");
+};
+
+/** Let go a button. @param {LocalTop} top @param {ViewActs["let_go"]} asked */
+const letGo = (top, { hold }) => {
+  if (!top.held.delete(hold)) return; // its act was refused, or the motion began anew
+  if (hold === "torque") holdTorque(top, 0);
+  else if (hold === "press") top.release();
+  else if (top.course.clamped) clamp(top);
 };
 
 /** The present motion, without the torque of a button. @param {LocalTop} top @returns {Beginning} */
@@ -187,6 +192,7 @@ export const present = ({ course: { top, friction, start }, steady }) => ({
 /** @param {LocalTop} top @param {Beginning} beginning @param {import("./run.js").Asked} asked */
 const begin = (top, { top: own, friction, torque, start, clamped = false }, asked = {}) => {
   const course = new Course(top.kernel, own, start, friction, torque, null, clamped);
+  top.held.clear(); // a hand that is still there holds nothing of another motion
   top.add("start", course, asked);
   top.initial = { start, clamped };
 };
@@ -285,7 +291,10 @@ const EVENTS = {
   set: setParameter,
   start: startWith,
   tilt,
-  torque: (top, { sign }) => holdTorque(top, sign),
+  torque: (top, { sign }) => {
+    holdTorque(top, sign);
+    top.held.add("torque");
+  },
 };
 
 /** What would act on a precession that a hand holds. */
@@ -296,6 +305,7 @@ const VIEWS = {
   solve,
   step,
   keep: (top, { kept }) => top.keep(kept),
+  let_go: letGo,
   load: (top, { run }) => top.load(run),
   pause: (top) => top.setRunning(!top.isRunning),
   record: (top) => top.record(),

@@ -1,13 +1,12 @@
 // A top that lives in the page: its run, the time of now and its pace. What a page asks for is done by
 // acts.js; what follows is drawn and told.
 
-import { holdTorque, perform } from "./acts.js";
+import { perform } from "./acts.js";
 import { MOST_STEPS, NANO } from "../physics/course.js";
 import { phrase } from "../words/wording.js";
 import { nameError } from "./errors.js";
 import { findScene, OPENING, readScene } from "./links.js";
 import { Frames } from "./frames.js";
-import { Hold } from "./hold.js";
 import { recall, remember, rememberRun } from "./memory.js";
 import { readRun } from "./reader.js";
 import { Run } from "./run.js";
@@ -17,7 +16,7 @@ import { Trace } from "./trace.js";
 
 /** @import { Kernel } from "../physics/kernel.js" */
 /** @import { Course } from "../physics/course.js" */
-/** @import { Message } from "./acts.js" */
+/** @import { Held, Message } from "./acts.js" */
 /** @import { Hello, News } from "./telling.js" */
 
 const LONGEST_FRAME = 100; // ms that a frame may advance the motion: after a sleep nothing jumps
@@ -42,8 +41,8 @@ export class LocalTop {
     this.isRunning = true;
     this.isRecording = false; // a node can record
     this.layers = { ...content.layers };
-    /** What buttons do while they are held: a torque, pushes, and a hand on the precession. */
-    this.holds = { torque: new Hold(), push: new Hold(), grasp: new Hold() };
+    /** What buttons that are held do. @type {Set<Held>} */
+    this.held = new Set();
     this.trace = new Trace(this);
     this.telling = new Telling(this);
     this.frames = new Frames(this);
@@ -93,10 +92,6 @@ export class LocalTop {
 
   /** @param {number} passed ms @param {number} now ms */
   advance(passed, now) {
-    const { torque, push, grasp } = this.holds;
-    if (torque.isOver(now)) holdTorque(this, 0);
-    if (push.isOver(now)) this.release();
-    if (grasp.isOver(now)) this.letGo();
     if (this.isRunning) this.tryToMove(Math.min(passed, LONGEST_FRAME) / 1000);
     this.show(now);
   }
@@ -135,14 +130,7 @@ export class LocalTop {
 
   /** End the pushes of a button. */
   release() {
-    this.holds.push.end();
     this.run.release(this.time);
-  }
-
-  /** Let go the precession that a button has held. */
-  letGo() {
-    this.holds.grasp.end();
-    if (this.course.clamped) this.take({ act: "clamp" });
   }
 
   /** Tell what has changed if the time has come to another motion. @param {Course} course before */
@@ -167,10 +155,9 @@ export class LocalTop {
   /** Refuse an event that no run.json could hold; the end of what is held needs one more. */
   demandRoom() {
     const { most } = this.content.run_fields;
-    const { torque, grasp } = this.holds;
+    const isHeld = this.held.has("torque") || this.held.has("grasp");
     const taken = this.run.findPlace(this.time) + 1;
-    if (taken + (torque.isHeld || grasp.isHeld ? 2 : 1) > most)
-      throw new RangeError(phrase("refused.most", { most }));
+    if (taken + (isHeld ? 2 : 1) > most) throw new RangeError(phrase("refused.most", { most }));
   }
 
   /** @param {boolean} isRunning */
@@ -239,14 +226,14 @@ export class LocalTop {
    */
   take(message) {
     const { time, end, initial, isRunning } = this;
-    const moments = [...this.run.moments];
+    const [moments, held] = [[...this.run.moments], new Set(this.held)];
     try {
       perform(this, message);
       this.telling.tellFacts();
       this.tell({ granted: true });
       return true;
     } catch (error) {
-      Object.assign(this, { time, end, initial, isRunning });
+      Object.assign(this, { time, end, initial, isRunning, held });
       this.run.moments = moments;
       this.changed();
       this.tell({ refused: nameError(error), isOfData: DATA.includes(message.act) });
@@ -261,7 +248,7 @@ export class LocalTop {
   /** What run.json holds. */
   get json() {
     const run = this.run.copy();
-    if (this.holds.push.isHeld) run.release(this.time);
+    if (this.held.has("press")) run.release(this.time);
     const isClamped = run.moments.some(({ course }) => course.clamped);
     const format = this.content.run_fields.formats.at(isClamped ? -1 : -2); // as run_file.py
     return { format, events: run.records, end: this.end / NANO };

@@ -8,11 +8,11 @@ import { LocalTop } from "./local.js";
 import { State } from "../physics/state.js";
 import { phrase } from "../words/wording.js";
 
-/** @import { Message } from "./acts.js" */
+/** @import { Held, Message } from "./acts.js" */
 /** @import { Course } from "../physics/course.js" */
 /** @import { EventRecord } from "./run.js" */
 /** @import { Quaternion } from "../physics/kernel.js" */
-/** @typedef {{service: string, argument?: any} | {torque: number[]}} Request */
+/** @typedef {{service: string, argument?: any} | {torque: number[]} | {hold: Held}} Request */
 /**
  * An event of the node, as the bridge sends it: its stamp in ns, and of one that changes the motion its
  * record. A release is the number of the pushes that were given.
@@ -28,6 +28,7 @@ import { phrase } from "../words/wording.js";
 
 const RELEASE = "release"; // service, and event: pushes have ended
 const CLAMP = "clamp"; // service
+const RENEWED = 500; // ms; the server lets go a torque of which it has not heard for 3 s
 const TOLD = ["record", "failure"]; // events of which the page says what the node said
 
 export class NodeTop extends LocalTop {
@@ -38,6 +39,9 @@ export class NodeTop extends LocalTop {
   stamp = ""; // ns of the node's clock, of the last event
   /** Requests of the act that is performed. @type {Request[]} */
   requests = [];
+  renewal = 0; // timer, while a button holds a torque
+  /** Settled when all that was asked is answered. @type {Promise<void>} */
+  sent = Promise.resolve();
 
   /** Begin: the page is greeted with the first news of the node. */
   open() {
@@ -113,8 +117,6 @@ export class NodeTop extends LocalTop {
 
   /** Show what has come: the node has the time. @param {number} _ ms @param {number} now ms */
   advance(_, now) {
-    if (this.holds.push.isOver(now)) this.release();
-    if (this.holds.grasp.isOver(now)) this.letGo();
     this.show(now);
   }
 
@@ -123,8 +125,8 @@ export class NodeTop extends LocalTop {
     this.requests = [];
     try {
       if (message.act === "reset") this.ask("reset");
-      else if (message.act === "torque")
-        this.requests.push({ torque: [0, 0, message.sign * findTorque(this.course)] });
+      else if (message.act === "torque") this.turn(message.sign);
+      else if (message.act === "let_go") this.letGo(message.hold);
       else perform(this, message);
     } catch (error) {
       this.tell({ refused: nameError(error) });
@@ -138,17 +140,29 @@ export class NodeTop extends LocalTop {
     this.ask("record", !this.isRecording);
   }
 
-  /** End the pushes: those that the node has not given yet. */
-  release() {
-    this.holds.push.end();
-    const { number = 0 } = this.run.find(this.time);
-    const { pushes } = this.run.findEvent(this.time).course;
-    if (pushes && number < pushes.number) this.send([{ service: RELEASE }]);
+  /** Ask for a torque about the vertical; the server repeats it, as long as it hears of the hold. @param {number} sign */
+  turn(sign) {
+    this.requests.push({ torque: [0, 0, sign * findTorque(this.course)] });
+    this.held.add("torque");
+    clearInterval(this.renewal);
+    this.renewal = window.setInterval(() => this.send([{ hold: "torque" }]), RENEWED);
   }
 
-  letGo() {
-    this.holds.grasp.end();
-    this.send([{ service: CLAMP, argument: false }]);
+  /** @param {Held} hold */
+  letGo(hold) {
+    if (!this.held.delete(hold)) return;
+    if (hold === "torque") {
+      clearInterval(this.renewal);
+      this.requests.push({ torque: [0, 0, 0] });
+    } else if (hold === "press") this.release();
+    else this.ask(CLAMP, false);
+  }
+
+  /** End the pushes: those that the node has not given yet. */
+  release() {
+    const { number = 0 } = this.run.find(this.time);
+    const { pushes } = this.run.findEvent(this.time).course;
+    if (pushes && number < pushes.number) this.ask(RELEASE);
   }
 
   /** The node refuses pushes of which one cannot be. */
@@ -210,8 +224,16 @@ export class NodeTop extends LocalTop {
     throw new RangeError(phrase("page.not_with_node"));
   }
 
+  /**
+   * Ask after what was asked before: a hold that is let go soon must not end before it begins.
+   * @param {Request[]} requests
+   */
+  send(requests) {
+    this.sent = this.sent.then(() => this.sendNow(requests));
+  }
+
   /** Ask one after the other, until one is refused. @param {Request[]} requests */
-  async send(requests) {
+  async sendNow(requests) {
     for (const request of requests) {
       const { granted, answer } = await post(request);
       if (!granted) {

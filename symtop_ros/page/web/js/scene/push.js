@@ -12,15 +12,22 @@ import { cross, findSize, normalize, subtract } from "./matrices.js";
 /** @import { Moment } from "../run/run.js" */
 /** @typedef {ReturnType<typeof findLifts>[number]} Lift */
 /**
- * The end of the axle at a kick, and the direction in which it was pushed, if it was; the times in ns of
- * the kick and of the end of its first nutation; the levels that it moved.
- * @typedef {{tip: Vector, way: Vector | null, begin: number, end: number, lifts: Lift[]}} Push
+ * The angular impulse of a kick in N m s, by which it turned the axle round and twisted it, and the arc of
+ * the twist about the axle. @typedef {{across: number, along: number, arc: Vector[]}} Twist
+ */
+/**
+ * The end of the axle at a kick, and the direction in which it was pushed, if it was; its twist, if a push
+ * was not all; the times in ns of the kick and of the end of its first nutation; the levels that it moved.
+ * @typedef {{tip: Vector, way: Vector | null, twist: Twist | null, begin: number, end: number,
+ *   lifts: Lift[]}} Push
  */
 
 export const BRACKET = 1.14; // its distance from the pivot
 const INNER = 1.02; // where its ends begin
 const LEVEL = 0.3; // rad; half of the two levels of the bracket
 const ROUNDING = 1e-9; // of a velocity: less is no push
+// The arc of a twist: its place along the axle, its radius, and its length in rad.
+const ARC = { place: 0.84, radius: 0.17, length: 5 };
 
 /** @param {Moment} moment @returns {Push | null} */
 export const findPush = (moment) => {
@@ -32,7 +39,25 @@ export const findPush = (moment) => {
   const isPushed = findSize(change) > ROUNDING * findSize(start.omega);
   const end = time + free.motion.nutation_period * NANO;
   const way = isPushed ? normalize(change) : null;
-  return { tip, way, begin: time, end, lifts: findLifts(moment) };
+  return { tip, way, twist: findTwist(moment), begin: time, end, lifts: findLifts(moment) };
+};
+
+/**
+ * The twist of a kick that held psi': a push alone holds L_z, and leaves psi' another. Null if the kick was
+ * a push, or on a level axle, where both are the same.
+ * @param {Moment} moment @returns {Twist | null}
+ */
+const findTwist = ({ asked, course, before }) => {
+  if (asked.hold !== "spin_rate" || !before) return null;
+  const { start, top } = course;
+  const [x, y, z] = subtract(start.omega, before.omega);
+  if (Math.abs(z) <= ROUNDING * findSize(start.omega)) return null;
+  const turns = spread(0, Math.sign(z) * ARC.length, 25);
+  const arc = turns.map((angle) => {
+    const [right, up] = [ARC.radius * Math.cos(angle), ARC.radius * Math.sin(angle)];
+    return start.toWorld([right, up, ARC.place]);
+  });
+  return { across: top.Ix * Math.hypot(x, y), along: Math.abs(top.Iz * z), arc };
 };
 
 /**

@@ -24,11 +24,13 @@ import { phrase } from "../words/wording.js";
 
 /** @import { LocalTop } from "../run/local.js" */
 /** @import { State } from "../physics/state.js" */
+/** @import { Twist } from "./push.js" */
 /** @import { Vector } from "../physics/kernel.js" */
 
 const LENGTHS = { L: 1.24, omega: 1.13, torque: 0.55 }; // of the largest at the start of a motion
 const DEPTHS = { gravity: 0.1, Coriolis: 0.2, centrifugal: 0.3, sum: -0.1 }; // below the pivot
 const LONGEST = 2.5; // of a fictitious torque
+const TWIST_HEAD = 0.05; // length of the arrow at the end of a twist
 const SHORTEST = 0.02; // arrows that are shorter have no direction that can be seen
 const GHOST_OPACITY = 0.34;
 const BALL = 0.055;
@@ -109,6 +111,7 @@ export class Scene {
       ghost: painter.loadMesh(createBall(paint("ghost"))),
       disc: painter.loadMesh(createDisc()),
       bracket: painter.loadLines([]),
+      twist: painter.loadLines([]),
       nodes: painter.loadLines([-0.4, 0, 0, 0.4, 0, 0]),
       sphere: painter.loadLines([]),
       circles: painter.loadLines([]),
@@ -205,11 +208,25 @@ export class Scene {
       const arrow = scale(push.way, PUSH);
       const begin = subtract(push.tip, arrow);
       this.drawArrow("ball", arrow, begin, "");
-      this.labels.put("push", COLORS.ball, begin, push.tip, phrase("scene.push"));
+      const { twist } = push;
+      const name = twist ? phrase("scene.push_held", twist) : phrase("scene.push");
+      this.labels.put("push", COLORS.ball, begin, push.tip, name);
+      if (twist) this.drawTwist(twist);
     }
     const { window, points } = top.trace;
     const past = states.slice(-Math.ceil(((time - push.begin) / (window * NANO)) * points));
     for (const lift of listReached(push, time, past)) this.drawBracket(lift, state.angles.phi);
+  }
+
+  /** The twist of a kick, as an arc about the axle with the head of an arrow. @param {Twist} twist */
+  drawTwist(twist) {
+    const { arc } = twist;
+    const [from, to] = arc.slice(-2);
+    this.painter.loadLines(listPieces(arc), this.models.twist);
+    this.painter.drawLines(this.models.twist, paint("ball"), 4, STILL);
+    this.drawArrow("ball", scale(normalize(subtract(to, from)), TWIST_HEAD), to, "");
+    const middle = scale(arc[0], 0.9);
+    this.labels.put("twist", COLORS.ball, to, middle, phrase("scene.twist", twist));
   }
 
   /** @param {ReturnType<typeof listReached>[number]} lift @param {number} phi */

@@ -158,6 +158,10 @@ export const describeNow = ({ kernel, top }, state) => {
   return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
 };
 
+/** The regular rates between which a push leads, which holds L_z. @param {Course} course */
+const findPushRoots = ({ kernel, top, start }) =>
+  kernel.findRegularRates(top, start.angles.theta, start.omega[2], "spin_momentum");
+
 /** What holds after the last event until the next one. @param {Run} run @param {number} time ns */
 export const describe = (run, time) => {
   const { course, kind, time: began } = run.find(time);
@@ -170,6 +174,7 @@ export const describe = (run, time) => {
     disc: run.kernel.findDisc(course.top),
     start,
     roots,
+    push_roots: findPushRoots(course),
     window: chooseWindow(course.free),
     since: run.findStart(time) / NANO,
     marks: run.moments.filter((each) => KICKS.includes(each.kind)).map((each) => each.time / NANO),

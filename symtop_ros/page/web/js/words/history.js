@@ -14,14 +14,14 @@ const LISTED = 10; // entries
  * @param {Asked} asked
  * @param {Course} course that followed
  */
-const findRequest = (kind, { act = {} }, { start }) => {
+const findRequest = (kind, { act = {}, hold }, { start }) => {
   const { phi: phi_dot, psi: psi_dot } = start.rates;
   const { precession_rate_factor: factor, precession_rate_change: change, axle_impulse } = act;
   if (kind === "change") return { kind: "change" };
   if (kind === "clamp" || kind === "unclamp") return { kind };
   if (kind === "push") return { kind: "sideways", rate: act.rate };
   if (kind !== "kick") return { kind: "started", theta: start.angles.theta, phi_dot, psi_dot };
-  if (factor !== undefined) return { kind: factor > 1 ? "hurried" : "delayed", factor };
+  if (factor !== undefined) return { kind: factor > 1 ? "hurried" : "delayed", factor, hold };
   if (axle_impulse !== undefined) return { kind: axle_impulse < 0 ? "back" : "along" };
   if (change !== undefined) return { kind: change > 0 ? "along" : "back" };
   if (act.angular_impulse) return { kind: "impulse" };

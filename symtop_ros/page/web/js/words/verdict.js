@@ -44,10 +44,11 @@ const readCause = ({ torque_share, rate_about_momentum: rate, ...cause }, subjec
 };
 
 /**
- * The verdict on a start under gravity alone, and what Perry's rule says if it is hurried.
+ * The verdict on a start under gravity alone, and what Perry's rule says if it is hurried: by a push on
+ * the axle, as that of the page's button, unless something else is held.
  * @param {Course} course @param {number} factor @param {Hold} hold
  */
-export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_rate") => {
+export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_momentum") => {
   const found = kernel.judge(free.packed, factor, hold);
   const reason = readReason(found, hold);
   return {
