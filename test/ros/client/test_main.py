@@ -49,7 +49,7 @@ def test_hurry_prints_the_verdict(ctl):
     assert ctl("start").returncode == 0
     result = run("top_ctl", *PATIENT, "hurry", domain=DOMAIN)
     assert result.returncode == 0
-    assert "Precession 6.50 -> 9.10 rad/s. The top rises" in result.stdout
+    assert "Precession 6.50 -> 9.10 rad/s, spin rate held. The top rises" in result.stdout
     assert result.stderr == ""
 
 
@@ -163,7 +163,7 @@ def test_each_key_sends_its_request(ctl):
     terminal = Terminal("keys")
     terminal.wait_for("quit")
     for key, answer in (
-        ("h", "h: Precession 6.50 -> 9.10 rad/s. The top rises"),
+        ("h", "h: Precession 6.50 -> 9.10 rad/s, spin rate held. The top rises"),
         ("d", "d: Precession"),
         (" ", "space: paused at"),
         ("r", "r: "),
