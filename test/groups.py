@@ -41,7 +41,16 @@ JUDGE = ("test/truth/judge", "test/truth/imu", "test/run/check")
 NUMBERS = (
     *(
         f"test/physics/test_{name}.py"
-        for name in ("benchmarks", "clamp", "ledger", "motion", "pushes", "starts", "state", "values")
+        for name in (
+            "benchmarks",
+            "clamp",
+            "ledger",
+            "motion",
+            "pushes",
+            "starts",
+            "state",
+            "values",
+        )
     ),
     *(
         f"test/run/simulation/test_{name}.py"
