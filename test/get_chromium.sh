@@ -1,6 +1,7 @@
 #!/bin/sh
-# A Chromium for the tests of the page, unpacked into a folder of its own: nothing is installed.
-# Without one, or apt, those tests are skipped and say so.
+# Chromium for the tests of the page, and its headless shell, which opens a page with less work,
+# unpacked into a folder of their own: nothing is installed. Without the first, or apt, those tests
+# are skipped and say so.
 set -u
 folder=$1
 mkdir -p "$folder" && cd "$folder" || exit 0
@@ -15,6 +16,7 @@ missing=$(apt-get install --simulate --no-install-recommends chromium 2> /dev/nu
   sed -n 's/^Inst \([^ ]*\) .*/\1/p')
 apt-get download chromium $missing > download.log 2>&1 ||
   echo "no Chromium could be fetched ($folder/download.log): the page is not tested in a browser"
+apt-get download chromium-headless-shell >> download.log 2>&1 # Ubuntu has none
 for package in *.deb; do
   [ -e "$package" ] && dpkg -x "$package" . && rm "$package"
 done

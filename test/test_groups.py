@@ -1,11 +1,16 @@
 """The groups of `make test`: all of them run, and the summary says what failed."""
 
+import os
 import shlex
+import shutil
 import sys
+import tempfile
+from multiprocessing.shared_memory import SharedMemory
 from pathlib import Path
 
 import groups
 import pytest
+import traces
 from documents import ROOT
 from programs import execute
 
@@ -26,6 +31,8 @@ def _folder(tmp_path, monkeypatch):
     """A folder for output, in which the groups run."""
     for name in ("OUTPUT", "ROOT"):
         monkeypatch.setattr(groups, name, tmp_path)
+    for name in ("TMPDIR", "PYTEST_DEBUG_TEMPROOT"):  # what `groups` sets is undone
+        monkeypatch.setenv(name, tempfile.gettempdir())
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # half of the time of a short run
     return tmp_path
 
@@ -47,7 +54,7 @@ def test_every_group_runs_and_failures_are_summed_up_at_the_end(monkeypatch, cap
     commands = {"first": [failing, good], **{name: [good] for name in others}}
     assert run(monkeypatch, commands) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert lines[-1] == "5 passed, 1 failed"
+    assert lines[-1] == "6 passed, 1 failed"  # with the check of what is left behind
     assert [line for line in lines if line.endswith("# exit status 3")] == [
         f"  {shlex.join(failing.words)}  # exit status 3"
     ]
@@ -59,12 +66,43 @@ def test_each_failed_test_is_named_with_the_command_that_runs_it_alone(monkeypat
     tests = groups.pytest("test_some.py", options=("-p", "no:cacheprovider"))
     assert run(monkeypatch, {"some": [tests]}) == 1
     printed = capsys.readouterr().out
-    assert printed.splitlines()[-1] == "1 passed, 1 failed, 1 skipped"
+    assert printed.splitlines()[-1] == "2 passed, 1 failed, 1 skipped"
     (again,) = [shlex.split(line) for line in printed.splitlines() if "::" in line and "-m" in line]
     assert again[-1] == "test_some.py::test_one[a - b [c]]"
     alone = [sys.executable, *again[1:]]
     result = execute(alone, cwd=folder)
     assert "1 failed in" in result.stdout
+
+
+LEAVES = {
+    "the temporary folder": "import tempfile; tempfile.mkdtemp(prefix='left-')",
+    "the home": "import pathlib; (pathlib.Path.home() / 'left-here').touch()",
+    "shared memory": "import pathlib; pathlib.Path('/dev/shm/left-{pid}').touch()",
+}
+
+
+@pytest.mark.parametrize("place", LEAVES)
+def test_what_a_test_leaves_behind_is_a_failure(place, monkeypatch, capsys, folder):
+    (folder / "home").mkdir()
+    monkeypatch.setenv("HOME", str(folder / "home"))
+    code = LEAVES[place].replace("{pid}", str(os.getpid()))
+    assert run(monkeypatch, {"some": [script(code)]}) == 1
+    printed = capsys.readouterr().out
+    (line,) = [line for line in printed.splitlines() if "is left by a test" in line]
+    left = Path(line.split()[2])
+    assert left.name.startswith("left-")
+    left.unlink() if left.is_file() else shutil.rmtree(left.parent)
+    assert printed.splitlines()[-1] == "1 passed, 1 failed"
+
+
+def test_shared_memory_of_a_running_program_is_not_left_behind():
+    found = traces.Traces()
+    segment = SharedMemory(create=True, size=4096)
+    left = [*found.find()]
+    segment.close()
+    segment.unlink()
+    found.close()
+    assert left == []
 
 
 def test_make_test_runs_every_test_of_real_time():

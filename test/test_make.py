@@ -72,8 +72,11 @@ def test_help_lists_every_target_of_a_user_and_of_a_change():
 
 @pytest.fixture(name="fresh")
 def _fresh(tmp_path):
-    """A checkout in a path with a blank, with what make needs and a pip that fetches nothing."""
-    folder = tmp_path / "My Größe"
+    return write_checkout(tmp_path / "My Größe")
+
+
+def write_checkout(folder):
+    """Write a checkout with what make needs and a pip that fetches nothing."""
     for name in (*NEEDED, HEADER):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, folder / name)
@@ -83,13 +86,23 @@ def _fresh(tmp_path):
     return folder
 
 
-@pytest.fixture(name="checkout")
-def _checkout(fresh):
-    """The same, set up as `panel` and as `ros`."""
-    done = make(fresh, "set-up-panel", "set-up-ros")
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A path with a blank, and a copy of the checkout that was set up there as `panel` and `ros`."""
+    folder = write_checkout(tmp_path_factory.mktemp("made") / "My Größe")
+    done = make(folder, "set-up-panel", "set-up-ros")
     assert (done.returncode, done.stdout.splitlines()[0]) == (0, "Setting up .venv: Python ...")
-    (fresh / "asked").unlink()
-    return fresh
+    (folder / "asked").unlink()
+    return folder, folder.rename(folder.with_name("copy"))
+
+
+@pytest.fixture(name="checkout")
+def _checkout(made):
+    """The checkout in its place, as after its set-up."""
+    folder, copy = made
+    shutil.copytree(copy, folder, symlinks=True)
+    yield folder
+    shutil.rmtree(folder, ignore_errors=True)  # a test may have moved it
 
 
 def set_up(checkout, *names):
@@ -172,8 +185,8 @@ def test_a_copy_that_pip_has_put_in_its_place_goes(checkout):
     assert len(asked) == 1
 
 
-def test_a_moved_checkout_gets_a_new_environment(checkout):
-    moved = checkout.rename(checkout.with_name("moved"))
+def test_a_moved_checkout_gets_a_new_environment(checkout, tmp_path):
+    moved = checkout.rename(tmp_path / "moved")
     status, printed, _ = set_up(moved, "python")
     assert status == 0
     assert is_anew(printed, f"was made in {checkout}")

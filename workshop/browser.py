@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Playwright
 
 UNPACKED = Path(sys.prefix, "chromium")
+# If it is set, the shell without windows is used, which is the same browser and opens pages with
+# less work; if there is none, the whole one.
+SHELL = "HEADLESS_SHELL"
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 # Software rendering works on machines without a GPU, and gives the same pictures on all others.
 # The layers of a page are joined without OpenGL: that takes a tenth of the time in software. One
@@ -41,12 +44,13 @@ def launch(playwright: Playwright) -> Browser:
 def _find() -> tuple[str, dict[str, str | float | bool]]:
     """Path of the program, and its environment."""
     environment: dict[str, str | float | bool] = {**os.environ}
-    unpacked = UNPACKED / "usr/lib/chromium/chromium"
-    if unpacked.is_file():
+    wanted = ("chromium-headless-shell", "chromium") if os.environ.get(SHELL) else ("chromium",)
+    unpacked = [UNPACKED / "usr/lib/chromium" / name for name in wanted]
+    if found := [path for path in unpacked if path.is_file()]:
         # Debian puts some libraries into subfolders, such as that of pulseaudio.
         libraries = {str(path.parent) for path in UNPACKED.glob("usr/lib/*-linux-gnu/**/*.so*")}
         environment["LD_LIBRARY_PATH"] = os.pathsep.join(sorted(libraries))
-        return str(unpacked), environment
+        return str(found[0]), environment
     for name in NAMES:
         if path := shutil.which(name):
             return path, environment

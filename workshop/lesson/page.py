@@ -35,7 +35,7 @@ def _write_step(number: int, step: LessonStep) -> str:
             f"![{step.picture}](lesson/step_{number:02}.png)",
             *map(_wrap, filter(None, f"Explain: {step.seen}".split("\n"))),
             *_write_table(step.table),
-            _wrap(f"Question: {step.question} (The article's {step.source}.)") + "\n",
+            _wrap(f"Question: {step.question} (In the article: {step.source}.)") + "\n",
         ]
     )
 

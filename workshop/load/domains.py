@@ -4,14 +4,13 @@ import atexit
 import contextlib
 import fcntl
 import os
-import tempfile
 from pathlib import Path
 from typing import IO
 
 # Domain 0 is the user's, `make demo` takes 60 to 89, and beyond 101 the ports of a domain reach
 # those that Linux hands out to other programs.
 DOMAINS: tuple[int, ...] = (*range(1, 60), *range(90, 102))
-FOLDER = Path(tempfile.gettempdir(), "symtop_ros_domains")
+FOLDER = Path("/tmp/symtop_ros_domains")  # also of runs that have temporary folders of their own
 _held: dict[int, IO[str]] = {}
 _next = os.getpid()  # a released domain is used again as late as possible
 

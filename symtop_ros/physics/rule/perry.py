@@ -1,6 +1,6 @@
-"""Perry's rule: "hurry on the precession, and the body rises in opposition to gravity".
+"""Perry's rule: "Hurry on the precession, and the body rises in opposition to gravity".
 
-One definition is used for a state, a kick and a map. The kicked top is compared with the same top
+One definition, that of docs/article.md, is used for a state, a kick and a map. The kicked top is compared with the same top
 not kicked: phi' is multiplied by a factor while the spin rate or the spin momentum is held.
 
 - factor > 1 (hurried): the rule holds if theta'' is lower with the kick.

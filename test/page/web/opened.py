@@ -1,5 +1,6 @@
 """The page as one file in a tab of Chromium, without a network."""
 
+import contextlib
 import json
 import time
 from pathlib import Path
@@ -35,6 +36,7 @@ Storage.prototype.getItem = function (key) {
 
 
 USUAL = FEW_FRAMES + UNDRAWN
+PATIENCE = 5.0  # s
 WINDOW = {"width": 1280, "height": 720}
 MEDIA = {"media": "null", "color_scheme": "light", "reduced_motion": "null"}
 MEDIA |= {"forced_colors": "null"}
@@ -87,7 +89,22 @@ class Opened:
             self.problems.append(message.text)
 
     def wait_for_page(self):
-        self.tab.wait_for_selector("#headline:not(:empty)", state="attached")
+        """Wait for the page; one that had a problem and is not there a while later never will be."""
+        deadline = time.monotonic() + TIMEOUT
+        while not self._waits_for_headline():
+            assert not self.problems, f"the page does not start: {self.problems[:5]}"
+            assert time.monotonic() < deadline, "the page does not start, and says nothing"
+
+    def _waits_for_headline(self):
+        """Return True as soon as there is a headline, False if there is none after a while."""
+        from playwright.sync_api import TimeoutError as LateError  # where there is no browser
+
+        with contextlib.suppress(LateError):
+            self.tab.wait_for_selector(
+                "#headline:not(:empty)", state="attached", timeout=PATIENCE * 1000
+            )
+            return True
+        return False
 
     def reload(self):
         self.tab.reload()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from page.web import random_acts
-from page.web.opened import FEW_FRAMES, UNDRAWN, USUAL
+from page.web.opened import FEW_FRAMES, UNDRAWN, USUAL, Opened
 from trials import trials
 
 from symtop_ros.physics import Motion, State, Top
@@ -93,6 +93,13 @@ def test_a_browser_that_cannot_show_it_says_so(browser, path, missing, said):
     tab.wait_for_selector("#refusal:not([hidden])")
     assert said in tab.text_content("#refusal")
     tab.context.close()
+
+
+def test_a_page_that_does_not_start_is_a_failure_that_says_why_and_not_a_wait(browser, path):
+    opened = Opened(browser, "WebAssembly.instantiate = () => { throw new Error('forbidden'); };")
+    with pytest.raises(AssertionError, match="the page does not start: .*forbidden"):
+        opened.open(path)
+    opened.context.close()
 
 
 def test_scripts_find_the_motions_of_python(opened):

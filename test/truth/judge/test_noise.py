@@ -82,7 +82,7 @@ def test_no_deviation_is_wrong_by_a_factor(name):
     assert all(0.25 < each < 1.9 for each in found), found
 
 
-@pytest.mark.parametrize("seed", choose(range(16), range(3)))
+@pytest.mark.parametrize("seed", choose(range(16), range(2)))
 def test_noise_of_a_filter_gets_no_invented_cause(seed):
     estimates = make_noisy(1000, 5, 0.02, EVEN, False, seed)
     found = find_causes(estimates, TRUTH)
@@ -149,30 +149,32 @@ CHOSEN = {
 MIXED = [f"{kind}, {which}" for kind in GARBAGE for which in CHOSEN]
 
 
-@pytest.mark.parametrize("mixed", choose(MIXED, MIXED[::4]))
-@pytest.mark.parametrize("count", [1999, 2000])
-def test_two_publishers_on_one_topic_are_not_explained(mixed, count):
-    kind, which = mixed.split(", ")
-    stamps = SECOND + np.arange(count) * (SECOND // 400)
+COUNTS = 1999, 2000
+PUBLISHERS = [f"{mixed}, {count}" for mixed in MIXED for count in COUNTS]
+
+
+@pytest.mark.parametrize("publishers", choose(PUBLISHERS, PUBLISHERS[::5]))  # each of all
+def test_two_publishers_on_one_topic_are_not_explained(publishers):
+    kind, which, count = publishers.split(", ")
+    stamps = SECOND + np.arange(int(count)) * (SECOND // 400)
     exact = TRUTH.states_at(stamps)[0]
-    bad = CHOSEN[which](np.arange(count))[:, np.newaxis]
+    bad = CHOSEN[which](np.arange(len(stamps)))[:, np.newaxis]
     found = find_causes(Estimates.of(stamps, np.where(bad, GARBAGE[kind](exact), exact)), TRUTH)
     assert not found.explained
     assert found.best.residual > 0.1  # that of all estimates
 
 
-@pytest.mark.parametrize("bad", [0.001, 0.5])
-def test_what_is_said_is_said_of_all_estimates(bad, monkeypatch):
+def test_what_is_said_is_said_of_all_estimates(monkeypatch):
     """Some are exact; those that are not looked at in detail are asked as well."""
     monkeypatch.setattr(search, "MOST_SAMPLES", 500)
     stamps = SECOND + np.arange(20_000) * (SECOND // 4000)
     estimates = Made(delay=1e-3).make(TRUTH, stamps)
-    wrong = np.zeros(len(stamps), dtype=bool)
-    wrong[19_000 : 19_000 + int(bad * len(stamps))] = True
-    q = np.where(wrong[:, np.newaxis], [1.0, 0.0, 0.0, 0.0], estimates.orientations)
-    found = find_causes(Estimates.of(stamps, q), TRUTH)
-    assert not found.explained
     assert find_causes(estimates, TRUTH).explained
+    for bad in (0.001, 0.05):
+        wrong = np.zeros(len(stamps), dtype=bool)
+        wrong[19_000 : 19_000 + int(bad * len(stamps))] = True
+        q = np.where(wrong[:, np.newaxis], [1.0, 0.0, 0.0, 0.0], estimates.orientations)
+        assert not find_causes(Estimates.of(stamps, q), TRUTH).explained
 
 
 def test_correlations_that_swing_are_correlations():

@@ -9,13 +9,19 @@ import { readColor } from "./colors.js";
 /** @typedef {[number, number][]} Profile radius and height, from the lowest point upwards */
 /**
  * Place, normal and colour, three numbers each, of every corner of a triangle.
- * @typedef {number[]} Mesh
+ * @typedef {Float32Array<ArrayBuffer>} Mesh
  */
 
+const WIDTH = 9; // numbers of a corner
 const SECTORS = 6; // three pairs of colours: after half a turn the colours are exchanged
 const LARGEST = 0.46; // radius of a rotor: it stays above the ground
 const FACETS = 16; // of a sector
 const PIECES = 5; // of an edge of a curve
+/** Cosine and sine of the angles at which facets meet, once around. */
+const AROUND = Array.from({ length: SECTORS * FACETS + 1 }, (_, k) => {
+  const angle = (2 * Math.PI * k) / (SECTORS * FACETS);
+  return [Math.cos(angle), Math.sin(angle)];
+});
 const SHARP = 0.6; // cosine: edges that meet in a larger angle have a crease between them
 
 /** @param {number[]} radii @param {number[]} heights @returns {Profile} */
@@ -74,22 +80,40 @@ const joinNormals = (own, other = own) => {
  * @param {Profile} profile @param {Color} first @param {Color} second @returns {Mesh}
  */
 export const createLathe = (profile, first, second = first) => {
-  /** @type {Mesh} */
-  const mesh = [];
-  const count = SECTORS * FACETS;
   const normals = findNormals(profile);
+  const count = SECTORS * FACETS;
+  const mesh = new Float32Array(normals.length * count * CORNERS.length * WIDTH);
+  let place = 0;
   normals.forEach((normal, edge) => {
     const ends = [edge - 1, edge + 1].map((each) => joinNormals(normal, normals[each]));
     for (let facet = 0; facet < count; facet += 1) {
       const color = Math.floor(facet / FACETS) % 2 ? second : first;
-      for (const [corner, isUpper] of CORNERS) {
-        const angle = (2 * Math.PI * (facet + corner)) / count;
-        const [c, s] = [Math.cos(angle), Math.sin(angle)];
-        const [[radius, height], [out, up]] = [profile[edge + isUpper], ends[isUpper]];
-        mesh.push(radius * c, radius * s, height, out * c, out * s, up, ...color);
+      for (let k = 0; k < CORNERS.length; k += 1, place += WIDTH) {
+        // by index: to take arrays apart takes several times as long here
+        const around = AROUND[facet + CORNERS[k][0]];
+        const point = profile[edge + CORNERS[k][1]];
+        const end = ends[CORNERS[k][1]];
+        mesh[place] = point[0] * around[0];
+        mesh[place + 1] = point[0] * around[1];
+        mesh[place + 2] = point[1];
+        mesh[place + 3] = end[0] * around[0];
+        mesh[place + 4] = end[0] * around[1];
+        mesh[place + 5] = end[1];
+        for (let part = 0; part < 3; part += 1) mesh[place + 6 + part] = color[part];
       }
     }
   });
+  return mesh;
+};
+
+/** @param {Mesh[]} meshes @returns {Mesh} */
+const join = (meshes) => {
+  const mesh = new Float32Array(meshes.reduce((sum, each) => sum + each.length, 0));
+  let place = 0;
+  for (const each of meshes) {
+    mesh.set(each, place);
+    place += each.length;
+  }
   return mesh;
 };
 
@@ -109,11 +133,11 @@ const createRotor = (radius, height) => {
   const rim = spread(-Math.PI / 2, Math.PI / 2, 13).map((angle) => {
     return [(0.94 + 0.06 * Math.cos(angle)) * radius, height + 0.035 * Math.sin(angle)];
   });
-  return [
-    ...createLathe(/** @type {Profile} */ (lower), IVORY, ENAMEL),
-    ...createLathe(/** @type {Profile} */ (upper), IVORY, ENAMEL),
-    ...createLathe(rim, BRASS),
-  ];
+  return join([
+    createLathe(/** @type {Profile} */ (lower), IVORY, ENAMEL),
+    createLathe(/** @type {Profile} */ (upper), IVORY, ENAMEL),
+    createLathe(rim, BRASS),
+  ]);
 };
 
 /** The body of a top: its rotor is at the centre of mass. @param {Top} top */
@@ -122,22 +146,24 @@ export const createBody = (top) => {
   const low = Math.min(0, height - 0.22);
   const heights = [low, low + 0.03, 0.93, 0.95, 0.985, 1];
   const axle = createProfile([0, 0.022, 0.022, 0.034, 0.034, 0], heights);
-  return [...createLathe(axle, STEEL), ...createRotor(findRadius(top), height)];
+  return join([createLathe(axle, STEEL), createRotor(findRadius(top), height)]);
 };
 
 /**
  * A box between two squares, by their half widths, places and heights: four sides.
  * @param {[x: number, y: number, z: number, half: number][]} ends @returns {Mesh}
  */
-const createBeam = ([[x, y, z, half], [u, v, w, last]]) =>
-  Array.from({ length: 4 }, (_, side) => {
+const createBeam = ([[x, y, z, half], [u, v, w, last]]) => {
+  const sides = Array.from({ length: 4 }, (_, side) => {
     const [c, s] = [Math.cos((Math.PI * side) / 2), Math.sin((Math.PI * side) / 2)];
     return CORNERS.flatMap(([corner, isUpper]) => {
       const [a, b, height, size] = isUpper ? [u, v, w, last] : [x, y, z, half];
       const across = corner ? size : -size;
       return [a + size * c - across * s, b + size * s + across * c, height, c, s, 0, ...STONE];
     });
-  }).flat();
+  });
+  return new Float32Array(sides.flat());
+};
 
 /** The tower of a toy gyroscope: four legs that bend outwards, two floors, and a cup for the peg. */
 export const createStand = () => {
@@ -145,7 +171,7 @@ export const createStand = () => {
   const widths = [0.18, 0.13, 0.096, 0.072, 0.047, 0.031, 0.022];
   const curve = createCurve(createProfile(widths, heights));
   const legs = [0, 1, 2, 3].flatMap((leg) =>
-    curve.slice(1).flatMap((end, k) => {
+    curve.slice(1).map((end, k) => {
       const ends = [curve[k], end].map(([width, height]) => {
         const [x, y] = [leg % 2 ? 1 : -1, leg > 1 ? 1 : -1].map((sign) => sign * width);
         return /** @type {[number, number, number, number]} */ ([
@@ -158,7 +184,7 @@ export const createStand = () => {
       return createBeam(ends);
     }),
   );
-  const floors = [-0.26, -0.13].flatMap((height) => {
+  const floors = [-0.26, -0.13].map((height) => {
     const half = 0.025 - 0.27 * height;
     return createBeam([
       [0, 0, height - 0.008, half],
@@ -166,7 +192,7 @@ export const createStand = () => {
     ]);
   });
   const cup = createProfile([0, 0.034, 0.036, 0.026, 0], [-0.05, -0.045, -0.006, -0.002, -0.012]);
-  return [...legs, ...floors, ...createLathe(cup, STONE)];
+  return join([...legs, ...floors, createLathe(cup, STONE)]);
 };
 
 /** A shaft of length 1 along z, to be scaled, and a head whose tip is the origin. @param {Color} color */
@@ -185,5 +211,5 @@ export const createBall = (color) => {
 /** A flat disc of radius 1, with its own x and y in place of a colour. @returns {Mesh} */
 export const createDisc = () => {
   const disc = createLathe(createProfile([1, 0], [0, 0]), [0, 0, 0]);
-  return disc.map((number, k) => (k % 9 === 6 || k % 9 === 7 ? disc[k - 6] : number));
+  return disc.map((number, k) => (k % WIDTH === 6 || k % WIDTH === 7 ? disc[k - 6] : number));
 };

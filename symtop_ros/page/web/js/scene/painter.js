@@ -158,7 +158,7 @@ export class Painter {
 
   /** @param {Mesh} mesh @param {Model} model that it becomes */
   loadMesh(mesh, model = this.create([3, 3, 3])) {
-    this.fill(model, new Float32Array(mesh));
+    this.fill(model, mesh);
     return model;
   }
 

@@ -116,7 +116,7 @@ export class Scene {
       sphere: painter.loadLines([]),
       circles: painter.loadLines([]),
       trace: painter.loadLines([]),
-      body: painter.loadMesh([]),
+      body: painter.loadMesh(new Float32Array()),
     };
   }
 
