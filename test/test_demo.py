@@ -75,7 +75,9 @@ def test_two_demonstrations_hurry_the_top_log_it_print_the_same_and_leave_nothin
 
 def assert_rises(answer, after):
     """The numbers of the answer are those of the article's top, and are seen in the samples."""
-    said = "Precession 11.89 -> 16.64 rad/s, spin rate held. The top rises: theta will stay between "
+    said = (
+        "Precession 11.89 -> 16.64 rad/s, spin rate held. The top rises: theta will stay between "
+    )
     assert f"{said}0.354 and" in answer
     low, high = re.search(r"between (\S+) and (\S+) rad", answer).groups()
     seen = re.search(r"theta (\S+) to (\S+) rad", after).groups()

@@ -89,7 +89,7 @@ def test_a_top_is_hurried_and_the_run_survives_a_reload(driver, path):
     run = driver.run("return window.symtop.run();")
     *_, start, kick = run["events"]
     before = read_motion(start).at(find_time(start, kick))
-    after = hurry(before, 1.4)
+    after = hurry(before, 1.4, "spin_momentum")
     assert kick["orientation"] == after.given_orientation.tolist()
     assert kick["angular_velocity"] == after.angular_velocity.tolist()
     verdict = kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_momentum")
@@ -101,3 +101,31 @@ def test_a_top_is_hurried_and_the_run_survives_a_reload(driver, path):
     until(driver, "document.querySelector('#headline')?.textContent")
     assert driver.run("return window.symtop.run();")["events"] == run["events"]
     assert driver.run("return document.querySelector('#refusal').textContent;") == ""
+
+
+# A hand holds a button for 3 s while each frame takes 350 ms.
+HOLD = """
+const [hold] = given;
+const draw = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (each) => draw((now) => {
+  const end = performance.now() + 350;
+  while (performance.now() < end);
+  each(now);
+});
+const wait = (seconds) => new Promise((done) => setTimeout(done, 1000 * seconds));
+const button = document.querySelector(`[data-hold=${hold}]`);
+button.dispatchEvent(new PointerEvent("pointerdown"));
+await wait(3);
+button.dispatchEvent(new PointerEvent("pointerup"));
+await wait(1);
+const kinds = window.symtop.run().events.map(({ kind }) => kind);
+return kinds.slice(kinds.lastIndexOf("start"));
+"""
+HELD = {"press": ["push"], "grasp": ["clamp", "unclamp"], "torque": ["torque", "torque"]}
+
+
+@pytest.mark.parametrize("hold", HELD)
+def test_a_hold_is_one_act_where_frames_are_slow(driver, path, hold):
+    driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow")
+    until(driver, "document.querySelector('#headline')?.textContent")
+    assert driver.run(HOLD, hold) == ["start", *HELD[hold]]

@@ -181,3 +181,55 @@ def test_an_act_while_a_button_pushes_ends_those_pushes_and_the_hold_makes_no_ot
     opened.wait_for_time(opened.read_events()[-1]["time"] + 0.02)
     button.dispatch_event("pointerup")
     assert [event["kind"] for event in opened.read_events()] == kinds
+
+
+# What the page calls a push: the main button, the two keys, and those of the tab.
+PUSHES = {
+    "the button": lambda page: page.tab.click("#hurry"),
+    "key h": lambda page: page.press("h"),
+    "key d": lambda page: page.press("d"),
+    "along": lambda page: page.tab.click("[data-push=along]"),
+    "back": lambda page: page.tab.click("[data-push=back]"),
+}
+
+
+@pytest.mark.parametrize("scene", ["theta=0.5&psi_dot=200&precession=slow", "scene=perry_fails"])
+def test_a_push_has_no_torque_about_the_axle_and_the_article_s_comparison_has(opened, scene):
+    opened.follow(scene)
+    opened.open_tab("push")
+    for name, push in PUSHES.items():
+        push(opened)
+        before, after = opened.read_events()[-2:]
+        # omega_z, and so p_psi = Iz omega_z, is the same double
+        assert after["angular_velocity"][2] == before["angular_velocity"][2], name
+    for act in ("hurry_held", "delay_held"):
+        opened.tab.click(f"[data-act={act}]")
+        before, after = opened.read_events()[-2:]
+        assert after["angular_velocity"][2] != before["angular_velocity"][2]
+        # psi' is a difference of rates of this size, each known to some EPS
+        size = max(map(abs, after["angular_velocity"]))
+        start = read_motion(before).at(find_time(before, after))
+        assert opened.read_last().euler_rates.psi == pytest.approx(
+            start.euler_rates.psi, abs=1e-14 * size
+        )
+
+
+@pytest.mark.wording
+def test_the_sizes_at_push_and_twist_are_those_of_the_change_of_angular_momentum(opened):
+    opened.tab.click("#pause")
+    opened.follow("theta=0.5&psi_dot=200&precession=slow")
+    opened.open_tab("push")
+    opened.tab.click("[data-act=hurry_held]")
+    opened.wait_for_frames(3)
+    said = [label.text_content() for label in opened.tab.locator(".label:visible").all()]
+    first, kick = opened.read_events()[-2:]
+    before, after = read_motion(first).at(find_time(first, kick)), read_state(kick)
+    top = Top(*kick["top"])
+    change = top.angular_momentum(after) - top.angular_momentum(before)
+    axle = after.to_world(np.array([0.0, 0.0, 1.0]))
+    along = float(change @ axle)
+    across = float(np.linalg.norm(change - along * axle))
+    for name, size in (("push", across), ("twist", abs(along))):
+        (number,) = [text.split()[1] for text in said if text.startswith(f"{name} ")]
+        assert number == f"{size:.2g}", (name, said)
+        assert f"{name} {number} N m s" in said
