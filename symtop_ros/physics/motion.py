@@ -614,7 +614,7 @@ class Motion:
         >>> motion.kind, round(motion.rounding_shows_at)
         ('through the pole', 63)
         """
-        if self.is_driven or self.clamped:
+        if self.is_driven or self.pushes or self.clamped:
             return math.inf
         return door.find_doubt(self.packed_start)
 

@@ -170,3 +170,12 @@ def test_random_series_come_at_the_nearest_nanoseconds():
         # half a ns, and two roundings of numbers below 2^42 ns
         assert abs(pushes.last_time - exact) <= Fraction(1, 2) + Fraction(1, 2**10)
         assert motion.piece_at(ExactTimes(pushes.last_time - 1)).number == number - 1
+
+
+def test_rounding_is_not_said_to_show_in_a_motion_of_pushes():
+    """The question is asked of a start under gravity alone, and of nothing that follows a push."""
+    rate = 2 / math.sqrt(3)
+    start = State.from_euler(theta=math.pi / 3, phi_dot=rate, psi_dot=rate)
+    top = Top(1.0, 1.0, 1.0)
+    assert math.isfinite(Motion(top, start).rounding_shows_at)
+    assert Motion(top, start, pushes=Pushes(1e-3, 20.0, 5)).rounding_shows_at == math.inf

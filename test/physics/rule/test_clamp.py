@@ -5,10 +5,10 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from drawn import Numbers
+from drawn import Numbers, cos, sin
 from physics.clamped import fall, follow_clamped
 from physics.tops import ARTICLE, CUSPS, DISC, FAMILIES, random_case
-from trials import seeds
+from trials import seeds, trials
 
 from symtop_ros.physics import (
     ClampVerdict,
@@ -88,6 +88,44 @@ def test_each_sentence_is_true_of_its_motion(first):
     kinds = Counter(check(*draw_start(seed)) for seed in range(250 * first, 250 * (first + 1)))
     assert min(kinds["falls"], kinds["swings"]) > 20
     assert min(kinds["turns"], kinds["rests"]) > 0
+
+
+NEXT_TO_THE_LOWEST = [
+    # lowest in 1e-17 s, then up to 1.047 rad; and over the top for ever
+    (
+        Top(1.0, 0.5, -1.0),
+        State((1.0, float.fromhex("0x1.70ef54646d497p-58"), 0.0, 0.0), (-1, 0, 0)),
+    ),
+    (
+        Top(1.0, 0.5, 1.0),
+        State.from_euler(theta=float.fromhex("0x1.921fb54442d17p+1"), theta_dot=-3),
+    ),
+]
+
+
+@pytest.mark.parametrize(("top", "start"), NEXT_TO_THE_LOWEST)
+def test_an_axis_that_moves_next_to_its_lowest_point_passes_it(top, start):
+    held = clamp_verdict(top, start)
+    assert held.kind == "swings"
+    check_lowest(top, Motion(top, start, clamped=True), held)
+
+
+@pytest.mark.parametrize("count", trials(60, 3000))
+def test_next_to_the_lowest_point_nothing_comes_to_rest_at_the_highest(count):
+    """Half of them rotate, half of them swing; the sign of A or B after a period is rounding."""
+    rng = Numbers("next to the lowest point")
+    for _ in range(count):
+        top = Top(1.0, rng.uniform(0.1, 2.0), rng.choice([1, -1]) * rng.power(-2, 2))
+        near = rng.power(-17, -6)  # half an angle from the lowest point, by the part that vanishes
+        turn = rng.uniform(-3, 3)
+        parts = (near * cos(turn), near * sin(turn))
+        q = (parts[0], 1.0, 0.0, parts[1]) if top.Mgl > 0 else (1.0, *parts, 0.0)
+        rate = rng.uniform(0.1, 4) * float(np.sqrt(abs(top.Mgl)))
+        way = rng.uniform(-3, 3)
+        start = State(q, (rate * cos(way), rate * sin(way), rng.uniform(-9, 9)))
+        held = clamp_verdict(top, start)
+        assert held.kind in ("swings", "falls"), (top, start)
+        assert held.lowest_in is not None
 
 
 def test_with_the_energy_to_stand_upright_it_rises_or_falls_first():

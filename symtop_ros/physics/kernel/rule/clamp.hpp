@@ -21,11 +21,14 @@ class HeldAxis {
   double find_rate() const { return find_modulus({omega_[0], omega_[1]}); }
 
   // The first time at which the weight is lowest; NaN if it never is. The part of the quaternion that
-  // vanishes there, A for Mgl > 0, changes its sign once in a period of theta.
+  // vanishes there, A for Mgl > 0, changes its sign once in a period of theta. That there is a period
+  // says that the axis passes: it is known from the exact constants, while the sign after one period is
+  // that of a rounding error for a start next to the lowest point, at theta = 1e-17 with Mgl < 0.
   double find_lowest_time(double longest) {
     const double period = motion_.find_rates().nutation_period;
-    double before = 0.0, after = std::isfinite(period) ? period : longest;
-    if (!has_passed(after)) return NAN;
+    const bool returns = std::isfinite(period);
+    double before = 0.0, after = returns ? period : longest;
+    if (!returns && !has_passed(after)) return NAN;
     for (;;) {
       const double middle = before + (after - before) / 2;
       if (!(before < middle && middle < after)) return after;
