@@ -58,7 +58,8 @@ def test_in_regular_precession_every_chart_spans_a_part_of_its_quantity(open_pag
 
 def test_the_energy_of_a_kick_is_that_of_the_article(opened):
     assert not opened.tab.is_visible("#ledger-chart")
-    opened.tab.click("#hurry")
+    opened.open_tab("push")
+    opened.tab.click("[data-act=hurry_held]")
     _, kick = opened.read_events()
     slow = regular_precession_rates(ARTICLE, 0.5, 200.0)[0]
     before = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)

@@ -36,7 +36,7 @@ def test_a_push_is_predicted_seen_and_compared(new):
     assert not new.tab.is_visible("#hurry")
     new.tab.click("text=It will fall")
     before, motion, time = read_kick(new)
-    hurried = hurry(before.start, 1.4)
+    hurried = hurry(before.start, 1.4, "spin_momentum")
     assert motion.start.angular_velocity.tolist() == hurried.angular_velocity.tolist()
     assert not new.tab.is_visible("#compared")  # it has not been seen yet
     assert new.tab.is_visible("text=In slow motion")
@@ -68,7 +68,8 @@ def test_the_same_is_asked_at_the_fast_precession_and_the_same_push_lowers_it(ne
     new.wait_for_time(time + motion.nutation_period / 2)
     new.tab.wait_for_selector("#compared")
     assert new.say("compared") == "You were right: it fell."
-    assert "between them, 6.50 and 69.82 rad/s" in new.say("between")
+    assert "6.50 and 52.31 rad/s at the slow precession" in new.say("between")
+    assert "4.87 and 69.82 rad/s at the fast one" in new.say("between")
     assert not new.tab.is_visible("#second")
     new.tab.click("#hurry")
     assert not new.tab.is_visible("#between")
@@ -166,7 +167,7 @@ def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_highe
     opened.tab.click("#pause")
     opened.wait_for_time(time + PERIODS * motion.nutation_period)
     opened.until(lambda: opened.say("pace") == "")  # the speed that was chosen
-    opened.until(lambda: bracket.text_content() == "rises 0.063 rad higher")
+    opened.until(lambda: bracket.text_content() == "rises 0.062 rad higher")
 
 
 def test_a_kick_is_a_step_in_the_chart_of_the_rate_and_a_mark_at_the_slider_of_the_time(opened):

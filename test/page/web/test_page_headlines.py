@@ -33,7 +33,7 @@ def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
     opened.open_tab("history")
     assert read_history(opened) == [
         "Mgl changed to 0.05",
-        "hurried: phi' times 1.4",
+        "hurried: phi' times 1.4, spin momentum held",
         "started: theta 0.6 rad, phi' 6.497, psi' 200 rad/s",
         "Perry's rule holds",
     ]
@@ -88,20 +88,29 @@ def test_words_that_a_run_of_before_has_are_shown_as_they_are_and_make_no_button
 @pytest.mark.wording
 def test_a_kick_names_the_point_that_it_has_moved_and_one_that_is_no_longer_reached(opened):
     opened.tab.click("text=Pause")
+    opened.open_tab("push")
     cases = (
         # theta was 2.000 to 2.089 and is 2.000 to 2.050
-        ("theta=2&psi_dot=200&phi_dot=3", "h", "falls 0.039 rad less far than without the push."),
+        (
+            "theta=2&psi_dot=200&phi_dot=3",
+            "hurry_held",
+            "falls 0.039 rad less far than without the push.",
+        ),
         # theta was 0.439 to 0.500 and is 0.500 to 0.5017
         (
-            *("theta=0.5&psi_dot=200&phi_dot=9", "d"),
+            *("theta=0.5&psi_dot=200&phi_dot=9", "delay_held"),
             "falls 0.0017 rad lower than without the push, and no longer rises.",
         ),
         # theta was 0.500 to 0.664 and is 0.500
-        ("scene=cusps&precession=slow", "h", "rises 0.063 rad higher than without the push."),
+        (
+            "scene=cusps&precession=slow",
+            "hurry_held",
+            "rises 0.063 rad higher than without the push.",
+        ),
     )
-    for fragment, key, words in cases:
+    for fragment, act, words in cases:
         opened.follow(fragment)
-        opened.press(key)
+        opened.tab.click(f"[data-act={act}]")
         assert opened.say("headline") == f"The top {words}"
 
 
