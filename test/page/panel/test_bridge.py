@@ -7,7 +7,7 @@ from functools import partial
 
 import pytest
 import rclpy
-from page.web.opened import UNDRAWN
+from page.web.opened import UNDRAWN, slow_frames
 from ros.node.listener import Listener
 from ros.node.running_top import RunningTop
 from serving import serving
@@ -260,4 +260,30 @@ def test_a_held_button_pushes_the_node_until_it_is_released(node, browser):
         assert (events()[-1]["kind"], events()[-1]["act"]["rate"]) == ("push", 20)
         until(lambda: f"sideways {given} times" in tab.text_content("#headline"), look)
         assert bridge.news.last.verdict.startswith(f"Pushed sideways {given} times in ")
+        tab.close()
+
+
+HOLDS = {"torque": ["torque", "torque"], "grasp": ["clamp", "unclamp"]}
+
+
+@pytest.mark.parametrize("hold", HOLDS)
+def test_a_hold_on_a_page_that_draws_slowly_is_one_act_of_the_node(node, browser, hold):
+    """Frames of 350 ms: the page cannot repeat a torque before the node lets it go."""
+    _, bridge = node
+    with serving(write_file(node=bridge.name), bridge) as server:
+        tab = browser.new_page()
+        tab.add_init_script(UNDRAWN + slow_frames(350))
+        tab.goto(server.url)
+        look = partial(tab.wait_for_timeout, 20)
+        tab.click("#tab-push")
+        button = tab.locator(f"[data-hold={hold}]").first
+        kinds = (
+            "window.symtop.run().events.map(({kind}) => kind).filter((each) => each !== 'start')"
+        )
+        button.dispatch_event("pointerdown")
+        until(lambda: tab.evaluate(kinds) == HOLDS[hold][:1], look)
+        tab.wait_for_timeout(1500)  # the hand is held in real time, fifteen time-outs of the node
+        assert tab.evaluate(kinds) == HOLDS[hold][:1]
+        button.dispatch_event("pointerup")
+        until(lambda: tab.evaluate(kinds) == HOLDS[hold], look)
         tab.close()

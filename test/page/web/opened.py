@@ -35,6 +35,18 @@ Storage.prototype.getItem = function (key) {
 """
 
 
+def slow_frames(milliseconds):
+    """Return a script by which each frame takes so long: timers and frames are late."""
+    return f"""
+const drawLate = window.requestAnimationFrame.bind(window);
+window.requestAnimationFrame = (draw) => drawLate((now) => {{
+    const end = performance.now() + {milliseconds};
+    while (performance.now() < end);
+    draw(now);
+}});
+"""
+
+
 USUAL = FEW_FRAMES + UNDRAWN
 PATIENCE = 5.0  # s
 WINDOW = {"width": 1280, "height": 720}

@@ -1,24 +1,15 @@
 """A button that is held does one act, from its press to its end, however slowly the page draws."""
 
 import pytest
-from page.web.opened import USUAL
+from page.web.opened import USUAL, slow_frames
 from trials import choose
 
-# A frame takes so long that timers and frames are late; the hand is not.
-SLOW = """
-const drawLate = window.requestAnimationFrame.bind(window);
-window.requestAnimationFrame = (draw) => drawLate((now) => {
-    const end = performance.now() + MILLISECONDS;
-    while (performance.now() < end);
-    draw(now);
-});
-"""
 LINK = "#theta=0.5&psi_dot=200&precession=slow"
 ACTS = {"press": ["push"], "grasp": ["clamp", "unclamp"], "torque": ["torque", "torque"]}
 
 
 def open_slow(open_page, milliseconds):
-    page = open_page(LINK, script=USUAL + SLOW.replace("MILLISECONDS", str(milliseconds)))
+    page = open_page(LINK, script=USUAL + slow_frames(milliseconds))
     page.open_tab("push")
     return page
 
