@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import os
 import time
 from pathlib import Path
 
@@ -47,7 +48,9 @@ window.requestAnimationFrame = (draw) => drawLate((now) => {{
 """
 
 
-USUAL = FEW_FRAMES + UNDRAWN
+# Of a trial on a page that draws slowly, in ms: SLOW_FRAMES=300 pytest test/page/web
+SLOW = os.environ.get("SLOW_FRAMES")
+USUAL = FEW_FRAMES + UNDRAWN + (slow_frames(int(SLOW)) if SLOW else "")
 PATIENCE = 5.0  # s
 WINDOW = {"width": 1280, "height": 720}
 MEDIA = {"media": "null", "color_scheme": "light", "reduced_motion": "null"}
