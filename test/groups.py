@@ -35,9 +35,9 @@ PERIOD = 15.0  # s between two lines of progress
 NODES = ("test/ros/node", "test/system", "test/load", "test/ros/client")
 PLAIN = ("test/digits", "test/speed", "test/run/wire", "test/run/models", "test/truth/testset")
 JUDGE = ("test/truth/judge", "test/truth/imu", "test/run/check")
-# These run once more as on an old processor, on which BLAS, NumPy and libm round otherwise: what they
-# test adds products or takes sines in these libraries. The kernel, refusals and records do not, and
-# derivatives and references take long (`make test-elsewhere` runs all).
+# These run once more as on an old processor, on which BLAS, NumPy and libm round otherwise: what
+# they test adds products or takes sines in these libraries. The kernel, refusals and records do
+# not, and derivatives and references take long (`make test-elsewhere` runs all).
 NUMBERS = (
     *(
         f"test/physics/test_{name}.py"

@@ -88,7 +88,7 @@ def write_checkout(folder):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """A path with a blank, and a copy of the checkout that was set up there as `panel` and `ros`."""
+    """A path with a blank, and a copy of the checkout that was set up there as panel and ros."""
     folder = write_checkout(tmp_path_factory.mktemp("made") / "My Größe")
     done = make(folder, "set-up-panel", "set-up-ros")
     assert (done.returncode, done.stdout.splitlines()[0]) == (0, "Setting up .venv: Python ...")

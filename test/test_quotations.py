@@ -1,4 +1,4 @@
-"""What documents and the lesson quote stands in its source letter for letter; sources are listed."""
+"""What documents and the lesson quote stands so in its source; sources are listed."""
 
 import json
 import re
@@ -68,7 +68,7 @@ def test_sources_that_are_cited_are_in_the_list_of_references_and_in_that_for_pr
     references = (ROOT / "docs/article.md").read_text().partition("\n## References\n")[2]
     listed = (ROOT / "CITATION.cff").read_text()
     for name, title in (
-        ("Tanrıverdi", "Why do we use constants of motion"),
+        ("Tanr\u0131verdi", "Why do we use constants of motion"),
         ("Perry", "Spinning Tops"),
         ("Butikov", "Precession and nutation of a gyroscope"),
     ):

@@ -16,7 +16,7 @@ ALLOWED = ("pip", ".npm", ".cache", "lttng-ust-wait")
 
 
 def list_places() -> set[Path]:
-    """Return what is in the shared memory and in the folders of the home in which programs write."""
+    """Return what is in the shared memory, and in the folders of the home that programs use."""
     home = Path.home()
     folders = (SHARED, home, home / ".cache", home / ".config", home / ".local/share")
     found = (path for folder in folders if folder.is_dir() for path in folder.iterdir())

@@ -209,7 +209,7 @@ EARLY = {  # what else is said of logs that only end early
 }
 READERS = "check", "judge", "clock", "replay", "save", "repair"
 PAIRS = [(name, reader) for name in CASES for reader in READERS]
-# A quarter of them, with each reader and each case: the fourth of one row, the next of the next one.
+# A quarter of them, with each reader and each case: in each row the next places.
 OFTEN = [pair for k, pair in enumerate(PAIRS) if (k + k // len(READERS)) % 4 == 0]
 
 

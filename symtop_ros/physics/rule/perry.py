@@ -1,7 +1,8 @@
 """Perry's rule: "Hurry on the precession, and the body rises in opposition to gravity".
 
-One definition, that of docs/article.md, is used for a state, a kick and a map. The kicked top is compared with the same top
-not kicked: phi' is multiplied by a factor while the spin rate or the spin momentum is held.
+One definition, that of docs/article.md, is used for a state, a kick and a map. The kicked top is
+compared with the same top not kicked: phi' is multiplied by a factor while the spin rate or the
+spin momentum is held.
 
 - factor > 1 (hurried): the rule holds if theta'' is lower with the kick.
 - 0 <= factor < 1 (delayed): the rule holds if theta'' is higher with the kick.

@@ -94,9 +94,8 @@ def _say(motion: Motion, verdict: Verdict) -> str:
     if motion.clamped:
         return str(clamp_verdict(motion.top, motion.start))
     neglected = Neglected.of(motion)
-    return (
-        write("driven", {"neglected": neglected, "verdict": verdict}) if neglected else str(verdict)
-    )
+    said = {"neglected": neglected, "verdict": verdict, "decay": None}  # that is said of a start
+    return write("driven", said) if neglected else str(verdict)
 
 
 def _name_forces(motion: Motion) -> str:

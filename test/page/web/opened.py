@@ -104,7 +104,7 @@ class Opened:
             self.problems.append(message.text)
 
     def wait_for_page(self):
-        """Wait for the page; one that had a problem and is not there a while later never will be."""
+        """Wait for the page; one with a problem that is not there a while later never will be."""
         deadline = time.monotonic() + TIMEOUT
         while not self._waits_for_headline():
             assert not self.problems, f"the page does not start: {self.problems[:5]}"

@@ -97,7 +97,7 @@ def test_a_browser_that_cannot_show_it_says_so(browser, path, missing, said):
 
 def test_a_page_that_does_not_start_is_a_failure_that_says_why_and_not_a_wait(browser, path):
     opened = Opened(browser, "WebAssembly.instantiate = () => { throw new Error('forbidden'); };")
-    with pytest.raises(AssertionError, match="the page does not start: .*forbidden"):
+    with pytest.raises(AssertionError, match=r"the page does not start: .*forbidden"):
         opened.open(path)
     opened.context.close()
 

@@ -21,6 +21,7 @@ from symtop_ros.physics import (
     perrys_rule,
     push_axle,
 )
+from symtop_ros.run.simulation.changes.decay import Decay
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.words import write
 
@@ -50,6 +51,7 @@ class Start:
     neglected: Neglected | None  # None if only gravity acts
     verdict: Verdict | None  # None of a motion whose precession is held
     clamp: ClampVerdict | None = None  # of such a motion
+    decay: Decay | None = None  # None if friction does not change the precession
 
     @classmethod
     def of(cls, motion: Motion) -> "Start":
@@ -57,7 +59,7 @@ class Start:
         if motion.clamped:
             return cls(motion.kind, None, None, clamp_verdict(motion.top, motion.start))
         verdict = perrys_rule(motion.top, motion.start)
-        return cls(motion.kind, Neglected.of(motion), verdict)
+        return cls(motion.kind, Neglected.of(motion), verdict, decay=Decay.of(motion))
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,7 @@
 // What an event led to, as records: for the headline of the page, and for the reason below it.
 
 import { findPrecession } from "../physics/formulas.js";
+import { findDecay } from "./decay.js";
 import { judge, judgeClamp, judgeKick, nameSubject } from "./verdict.js";
 
 /** @import { Course } from "../physics/course.js" */
@@ -161,7 +162,13 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
       motion: findMoves(free, turning_angles, verdict.reason.kind),
     },
     name: forces ? "driven" : "start",
-    outcome: { motion, neglected: forces && { forces }, verdict, clamp: null },
+    outcome: {
+      motion,
+      neglected: forces && { forces },
+      verdict,
+      clamp: null,
+      decay: findDecay(course),
+    },
     because: forces ? null : verdict.cause,
   };
 };
