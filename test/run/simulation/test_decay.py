@@ -1,4 +1,4 @@
-"""What friction at the spin does to the precession: the sentence, held against the sampled motion."""
+"""What friction at the spin does to the precession: the sentence against the sampled motion."""
 
 import math
 import re
