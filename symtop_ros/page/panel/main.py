@@ -17,6 +17,8 @@ from symtop_ros.page.web.join import LANGUAGES, write_file
 
 PORT = 8015
 PERIOD = 0.2  # s between two looks for the end
+# What a page holds in which no run was saved.
+WITHOUT_RUN = '<script type="application/json" id="top-run">null</script>'
 FILE = Path("top.html")  # in the folder where the program is started: browsers may not read others
 
 
@@ -28,6 +30,9 @@ def main(args: list[str] | None = None) -> int:
     options, rest = parser.parse_known_args(arguments)
     if rest and not (options.node and rest[0] == "--ros-args"):
         parser.error(f"unrecognized arguments: {one_line(' '.join(rest), 200)}")
+    others = [name for name in ("node", "port", "host") if getattr(options, name) is not None]
+    if options.write and others:
+        parser.error(f"--write must be without --node, --port and --host, got --{others[0]}")
     return tell_failures("top_panel", lambda: _run(options, arguments))
 
 
@@ -90,7 +95,8 @@ def _open_file(options: argparse.Namespace, page: str) -> int:
     """Write the page into this folder and open it; a run that was saved there is kept."""
     path = FILE
     number = 1
-    while path.exists() and path.read_text(encoding="utf-8", errors="replace") != page:
+    while path.exists() and not _is_own(path):
+        print(f"kept {path}, in which something was saved")
         number += 1
         path = FILE.with_stem(f"{FILE.stem}_{number}")
     _write(path, page)
@@ -99,6 +105,11 @@ def _open_file(options: argparse.Namespace, page: str) -> int:
     )
     print(f"wrote {path}, {'and opened it' if is_opened else 'open it'} in a browser")
     return 0
+
+
+def _is_own(path: Path) -> bool:
+    """Return True for a page without a run, of any version: it is renewed."""
+    return WITHOUT_RUN in path.read_text(encoding="utf-8", errors="replace")
 
 
 def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None = None) -> int:

@@ -12,6 +12,7 @@ from urllib.parse import urlsplit
 import pytest
 from documents import ROOT
 from programs import command, running
+from run.simulation.page_runs import change as page_run
 from waiting import TIMEOUT
 
 from symtop_ros.page.panel import main as module
@@ -87,6 +88,35 @@ def test_a_saved_run_of_the_same_name_is_kept():
     assert module.main(["--no-browser"]) == 0  # the same page is the same file
     assert Path("top.html").read_text() == "a run"
     assert sorted(path.name for path in Path().iterdir()) == ["top.html", "top_2.html"]
+
+
+@pytest.mark.parametrize("change", [("0.5.0", "0.4.0"), ("<body", "<body data-old")])
+def test_a_page_without_a_run_is_renewed_whatever_its_version(change, capsys):
+    Path("top.html").write_text(write_file().replace(*change))
+    assert module.main(["--no-browser"]) == 0
+    assert capsys.readouterr().out == "wrote top.html, open it in a browser\n"
+    assert Path("top.html").read_text() == write_file()
+    assert len([*Path().iterdir()]) == 1
+
+
+def test_a_page_with_a_run_is_kept_and_named(capsys):
+    saved = write_file(run=page_run(1))
+    Path("top.html").write_text(saved)
+    assert module.main(["--no-browser"]) == 0
+    said = "kept top.html, in which something was saved\nwrote top_2.html, open it in a browser\n"
+    assert capsys.readouterr().out == said
+    assert Path("top.html").read_text() == saved
+    assert Path("top_2.html").read_text() == write_file()
+
+
+@pytest.mark.parametrize("words", ["--node /top", "--port 8000", "--host 0.0.0.0"])
+def test_a_page_that_is_written_is_not_served_as_well(words, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        module.main(["--write", "x.html", *words.split()])
+    option = words.split()[0]
+    said = f"--write must be without --node, --port and --host, got {option}\n"
+    assert capsys.readouterr().err.endswith(said)
+    assert not Path("x.html").exists()
 
 
 def test_the_lesson_is_opened_by_the_file_itself():
