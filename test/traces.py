@@ -13,6 +13,8 @@ SHARED = Path("/dev/shm")
 # What fetches packages writes its cache into the home, and tracing of ROS, if it is installed,
 # keeps a lock in shared memory.
 ALLOWED = ("pip", ".npm", ".cache", "lttng-ust-wait")
+# Empty folders that viewer and browser make and do not remove; they go with the temporary folder.
+OF_OTHERS = ("rerun-data-", "org.chromium.")
 
 
 def list_places() -> set[Path]:
@@ -48,7 +50,7 @@ class Traces:
 
     def find(self) -> Iterator[Path]:
         """Yield what is left."""
-        yield from self.folder.iterdir()
+        yield from self._list_temporary()
         used = list_mapped()
         # with a segment in use come files of its name, for its lock
         in_use = {path.name.removesuffix("_el") for path in used}
@@ -56,7 +58,11 @@ class Traces:
             if not any(name in path.name for name in in_use):
                 yield path
 
+    def _list_temporary(self) -> list[Path]:
+        found = sorted(self.folder.iterdir())
+        return [path for path in found if not path.name.startswith(OF_OTHERS)]
+
     def close(self) -> None:
         """Remove the temporary folder, unless something is in it to look at."""
-        if not any(self.folder.iterdir()):
+        if not self._list_temporary():
             shutil.rmtree(self.folder)
