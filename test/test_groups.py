@@ -1,6 +1,5 @@
 """The groups of `make test`: all of them run, and the summary says what failed."""
 
-import os
 import shlex
 import shutil
 import sys
@@ -31,6 +30,10 @@ def _folder(tmp_path, monkeypatch):
     """A folder for output, in which the groups run."""
     for name in ("OUTPUT", "ROOT"):
         monkeypatch.setattr(groups, name, tmp_path)
+    for name in ("home", "shared"):  # without what other groups do there meanwhile
+        (tmp_path / name).mkdir()
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.setattr(traces, "SHARED", tmp_path / "shared")
     for name in ("TMPDIR", "PYTEST_DEBUG_TEMPROOT"):  # what `groups` sets is undone
         monkeypatch.setenv(name, tempfile.gettempdir())
     monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")  # half of the time of a short run
@@ -77,24 +80,23 @@ def test_each_failed_test_is_named_with_the_command_that_runs_it_alone(monkeypat
 LEAVES = {
     "the temporary folder": "import tempfile; tempfile.mkdtemp(prefix='left-')",
     "the home": "import pathlib; (pathlib.Path.home() / 'left-here').touch()",
-    "shared memory": "import pathlib; pathlib.Path('/dev/shm/left-{pid}').touch()",
+    "shared memory": "import pathlib; pathlib.Path('shared/left-here').touch()",
 }
 
 
 @pytest.mark.parametrize("place", LEAVES)
 def test_what_a_test_leaves_behind_is_a_failure(place, monkeypatch, capsys, folder):
-    (folder / "home").mkdir()
-    monkeypatch.setenv("HOME", str(folder / "home"))
-    code = LEAVES[place].replace("{pid}", str(os.getpid()))
-    assert run(monkeypatch, {"some": [script(code)]}) == 1
+    assert run(monkeypatch, {"some": [script(LEAVES[place])]}) == 1
     printed = capsys.readouterr().out
-    lines = [line.split() for line in printed.splitlines() if "is left by a test" in line]
-    # nodes of other groups that start or end just now may have others
-    (left,) = [path for words in lines if (path := Path(words[2])).name.startswith("left-")]
-    left.unlink() if left.is_file() else shutil.rmtree(left.parent)
+    (line,) = [line for line in printed.splitlines() if "is left by a test" in line]
+    left = Path(line.split()[2])
+    assert left.name.startswith("left-")
+    if left.is_dir():
+        shutil.rmtree(left.parent)
 
 
-def test_shared_memory_of_a_running_program_is_not_left_behind():
+def test_shared_memory_of_a_running_program_is_not_left_behind(monkeypatch):
+    monkeypatch.setattr(traces, "SHARED", Path("/dev/shm"))
     found = traces.Traces()
     segment = SharedMemory(create=True, size=4096)
     left = [path for path in found.find() if segment.name.strip("/") in path.name]
