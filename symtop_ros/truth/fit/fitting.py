@@ -1,0 +1,112 @@
+"""The fit of a record: a search, a second and a third one if what is left is no noise, and others.
+
+A search that ends in a wrong minimum leaves residuals that are correlated: then the search is made
+again with more starts, and the better motion is taken.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.model import Model
+from symtop_ros.truth.fit.record import Record
+from symtop_ros.truth.fit.refine import Fit, refine
+from symtop_ros.truth.fit.search import ALIKE, EFFORTS, Candidate, search
+
+FARTHEST = 6.0  # deviations; a residual beyond it counts as this
+CLEAR = 25.0  # squares of deviations by which a motion fits worse than another
+DIFFERENT = 0.02  # of p_psi/Ix; motions that are closer are one
+
+
+def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> Fit:
+    """Return the motion that explains a record.
+
+    Parameters
+    ----------
+    record : Record
+        Of any number of rows; at most `record.MOST` are taken.
+    tell : callable
+        Is called with the part that is done, 0 to 1.
+
+    Returns
+    -------
+    Fit
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from symtop_ros.physics import Motion, State, Top
+    >>> from symtop_ros.truth.fit import fit_motion, make_record
+    >>> motion = Motion(Top(1.0, 0.25, 300.0), State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> t = np.arange(100) / 100
+    >>> fit = fit_motion(make_record(t, motion.at(t).to_world([0.0, 0.0, 1.0]), "axis"))
+    >>> fit.x[:2].round(6).tolist()
+    [300.0, 50.0]
+    """
+    record = record.thin()
+    found: Fit | None = None
+    rivals: list[Candidate] = []
+    for number, effort in enumerate(EFFORTS):
+        new = search(record, effort)
+        rivals += new
+        found = choose_better(found, refine(new[0].model, new[0].x))
+        if tell:
+            tell((number + 1) / len(EFFORTS))
+        if is_clean(found):
+            break
+    assert found is not None
+    return replace(found, others=tuple(find_others(found, rivals)))
+
+
+def is_clean(fit: Fit) -> bool:
+    """Return True if residuals look like white noise, so that no better motion is looked for."""
+    return fit.remainder.is_white and not fit.noise.lasting.any()
+
+
+def choose_better(first: Fit | None, second: Fit) -> Fit:
+    """Return the fit whose residuals are smaller, whatever noise they are taken for."""
+    if first is None or measure_median(second) < 0.999 * measure_median(first):
+        return second
+    return first
+
+
+def measure_median(fit: Fit) -> float:
+    """Return the median size of residuals, by the size of the values."""
+    spread = np.abs(fit.model.record.values).max() + 1e-300
+    return float(np.median(np.abs(fit.residuals)) / spread)
+
+
+def find_others(fit: Fit, rivals: list[Candidate]) -> list[Real]:
+    """Return the parameters of other motions that fit a record as well."""
+    own = sum_squares(fit, fit.residuals)
+    found: list[Real] = []
+    momenta = [find_momentum(fit.model, fit.x)]
+    best = min(each.cost for each in rivals)
+    for each in sorted(rivals, key=lambda each: each.cost):
+        if each.cost > ALIKE * best:
+            break
+        p = find_momentum(each.model, each.x)
+        size = max(abs(p), 1e-300)
+        if min(abs(p - other) for other in momenta) < DIFFERENT * size:
+            continue
+        if sum_squares(fit, each.model.move(fit.model.record).find_residuals(each.x)) < own + CLEAR:
+            momenta.append(p)
+            found.append(each.x)
+    return found
+
+
+def sum_squares(fit: Fit, residuals: Real) -> float:
+    """Return the sum of the squares of residuals in deviations, each at most FARTHEST."""
+    noise = fit.noise
+    sigma = noise.sigma / np.sqrt(1 - noise.lasting**2)
+    return float((np.minimum(np.abs(residuals / sigma), FARTHEST) ** 2).sum())
+
+
+def find_momentum(model: Model, x: Real) -> float:
+    """Return p_psi/Ix."""
+    place = model.place
+    if "p_psi/Ix" in place:
+        return float(x[place["p_psi/Ix"]])
+    return float(x[place["Iz/Ix"]] * x[place["spin"]])
