@@ -10,10 +10,13 @@ from dataclasses import replace
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.truth.fit.model import Model
+from symtop_ros.physics import Motion
+from symtop_ros.truth.fit.model import TURNS, Model
 from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.refine import Fit, refine
 from symtop_ros.truth.fit.search import ALIKE, EFFORTS, Candidate, search
+from symtop_ros.truth.fit.starts import fill
+from symtop_ros.truth.fit.twins import take_other_end, turn_over
 
 FARTHEST = 6.0  # deviations; a residual beyond it counts as this
 CLEAR = 25.0  # squares of deviations by which a motion fits worse than another
@@ -54,15 +57,37 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
         found = choose_better(found, refine(new[0].model, new[0].x))
         if tell:
             tell((number + 1) / len(EFFORTS))
-        if is_clean(found):
+        if is_clean(found) or (number and found.remainder.is_white):
             break
     assert found is not None
+    found = choose_twin(found)
     return replace(found, others=tuple(find_others(found, rivals)))
+
+
+def choose_twin(fit: Fit) -> Fit:
+    """Return the usual one of two exact twins: Mgl > 0 by rates, and a camera that is upright."""
+    model, x = fit.model, fit.x
+    if model.kind.name == "rates" and x[0] < 0:
+        return _restate(fit, turn_over(model.find_motion(x)), {})
+    if "roll" in model.place and np.cos(x[model.place["roll"]]) < 0:
+        roll = float(x[model.place["roll"]]) + np.pi
+        roll -= 2 * np.pi * np.round(roll / (2 * np.pi))
+        return _restate(fit, take_other_end(model.find_motion(x)), {"roll": roll})
+    return fit
+
+
+def _restate(fit: Fit, motion: Motion, changed: dict[str, float]) -> Fit:
+    """Return the fit of a twin of its motion, about the start of the twin."""
+    model = Model(fit.model.record, np.asarray(motion.start.orientation))
+    wx, wy, spin = (float(each) for each in motion.start.angular_velocity)
+    kept = {name: float(value) for name, value in zip(fit.model.names, fit.x, strict=True)}
+    own = {"Mgl/Ix": motion.top.Mgl, "p_psi/Ix": spin, "spin": spin, "wx": wx, "wy": wy}
+    return refine(model, fill(model, {**kept, **dict.fromkeys(TURNS, 0.0), **own, **changed}))
 
 
 def is_clean(fit: Fit) -> bool:
     """Return True if residuals look like white noise, so that no better motion is looked for."""
-    return fit.remainder.is_white and not fit.noise.lasting.any()
+    return fit.remainder.is_white and not len(fit.noise.lasting)
 
 
 def choose_better(first: Fit | None, second: Fit) -> Fit:
@@ -82,26 +107,35 @@ def find_others(fit: Fit, rivals: list[Candidate]) -> list[Real]:
     """Return the parameters of other motions that fit a record as well."""
     own = sum_squares(fit, fit.residuals)
     found: list[Real] = []
-    momenta = [find_momentum(fit.model, fit.x)]
+    marks = [find_marks(fit.model, fit.x)]
     best = min(each.cost for each in rivals)
     for each in sorted(rivals, key=lambda each: each.cost):
         if each.cost > ALIKE * best:
             break
-        p = find_momentum(each.model, each.x)
-        size = max(abs(p), 1e-300)
-        if min(abs(p - other) for other in momenta) < DIFFERENT * size:
+        mark = find_marks(each.model, each.x)
+        if min(np.abs(mark / other - 1).max() for other in marks) < DIFFERENT:
             continue
         if sum_squares(fit, each.model.move(fit.model.record).find_residuals(each.x)) < own + CLEAR:
-            momenta.append(p)
+            marks.append(mark)
             found.append(each.x)
     return found
 
 
+def find_marks(model: Model, x: Real) -> Real:
+    """Return numbers that are the same for motions that are exact twins of each other."""
+    p = find_momentum(model, x)
+    if model.kind.name in {"axis", "angles", "attitude"}:
+        return np.array([p])
+    if model.kind.name != "theta":
+        return np.array([abs(p)])
+    motion = model.find_motion(x)
+    p_phi = float(motion.top.angular_momentum(motion.start)[2])
+    return np.sort(np.abs([p, p_phi]))
+
+
 def sum_squares(fit: Fit, residuals: Real) -> float:
     """Return the sum of the squares of residuals in deviations, each at most FARTHEST."""
-    noise = fit.noise
-    sigma = noise.sigma / np.sqrt(1 - noise.lasting**2)
-    return float((np.minimum(np.abs(residuals / sigma), FARTHEST) ** 2).sum())
+    return float((np.minimum(np.abs(fit.noise.whiten(residuals)), FARTHEST) ** 2).sum())
 
 
 def find_momentum(model: Model, x: Real) -> float:

@@ -14,6 +14,7 @@ FEWEST = 12  # rows
 MOST = 100_000  # rows of a fit; more are thinned
 RUN = 200  # rows that follow each other in a record that was thinned, for the correlation of noise
 GAP = 1.5  # medians of the steps; a longer step ends a run of noise
+ROUNDED = 2  # rows for each value of a column, at least, if it is rounded
 STILL = 1e-9  # of the size of the numbers; what changes less does not move
 Known = tuple[float, float]  # a value and its standard deviation
 
@@ -69,6 +70,21 @@ class Record:
         """True (n,) for rows that come one step after the row before, so that noise lasts."""
         return np.append(False, np.diff(self.times) < GAP * self.step)
 
+    @cached_property
+    def rounding(self) -> Real:
+        """Deviation (m,) of the rounding of each column to its decimals; 0 if none is seen.
+
+        A column that is rounded has few values; rounding to a step has the deviation step/sqrt(12).
+        """
+        found = np.zeros(self.values.shape[1])
+        for column, values in enumerate(self.values.T):
+            unique = np.unique(values)
+            if 1 < len(unique) < len(self) / ROUNDED:
+                found[column] = np.diff(unique).min() / np.sqrt(12)
+            elif len(unique) == 1:
+                found[column] = find_decimal(values[0]) / np.sqrt(12)
+        return found
+
     def select(self, rows: slice | Mask) -> "Record":
         """Return a part of the record."""
         return replace(self, times=self.times[rows], values=self.values[rows])
@@ -80,6 +96,13 @@ class Record:
         pieces = max(most // RUN, 1)
         firsts = np.linspace(0, len(self) - RUN, pieces).astype(int)
         return self.select(np.unique(firsts[:, np.newaxis] + np.arange(RUN)).ravel())
+
+
+def find_decimal(value: float) -> float:
+    """Return the step of the last decimal of a number that was written with up to nine digits."""
+    digits = f"{value:.9g}".partition("e")[0]
+    exponent = int(f"{value:.9e}".partition("e")[2])
+    return float(10.0 ** (exponent + 1 - len(digits.replace(".", "").strip("-0") or "0")))
 
 
 def make_record(times: Real, values: Real, kind: str, **more: object) -> Record:

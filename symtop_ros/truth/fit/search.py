@@ -35,7 +35,7 @@ class Effort:
     per_parameter: int
 
 
-EFFORTS = (Effort(24, 4, 40, 4), Effort(150, 8, 24, 3), Effort(150, 8, 60, 4))
+EFFORTS = (Effort(24, 4, 40, 4), Effort(80, 6, 24, 3), Effort(150, 8, 60, 4))
 
 
 @dataclass(frozen=True, eq=False)
