@@ -16,7 +16,7 @@ from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.refine import Fit, refine
 from symtop_ros.truth.fit.search import ALIKE, EFFORTS, Candidate, search
 from symtop_ros.truth.fit.starts import fill
-from symtop_ros.truth.fit.twins import take_other_end, turn_over
+from symtop_ros.truth.fit.twins import mirror_view, take_other_end, turn_over
 
 FARTHEST = 6.0  # deviations; a residual beyond it counts as this
 CLEAR = 25.0  # squares of deviations by which a motion fits worse than another
@@ -65,19 +65,22 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
 
 
 def choose_twin(fit: Fit) -> Fit:
-    """Return the usual one of two exact twins: Mgl > 0 by rates, and a camera that is upright."""
+    """Return the usual one of two exact twins: Mgl > 0 by rates, a camera that is upright and high."""
     model, x = fit.model, fit.x
     if model.kind.name == "rates" and x[0] < 0:
         return _restate(fit, turn_over(model.find_motion(x)), {})
     if "roll" in model.place and np.cos(x[model.place["roll"]]) < 0:
         roll = float(x[model.place["roll"]]) + np.pi
         roll -= 2 * np.pi * np.round(roll / (2 * np.pi))
-        return _restate(fit, take_other_end(model.find_motion(x)), {"roll": roll})
+        fit = _restate(fit, take_other_end(model.find_motion(x)), {"roll": roll})
+    if "elevation" in fit.model.place and fit.x[fit.model.place["elevation"]] < 0:
+        motion, camera = mirror_view(fit.model.find_motion(fit.x), fit.model.find_camera(fit.x))
+        return _restate(fit, motion, {"elevation": camera["elevation"]})
     return fit
 
 
 def _restate(fit: Fit, motion: Motion, changed: dict[str, float]) -> Fit:
-    """Return the fit of a twin of its motion, about the start of the twin."""
+    """Return the fit that begins at a twin of its motion, about the start of the twin."""
     model = Model(fit.model.record, np.asarray(motion.start.orientation))
     wx, wy, spin = (float(each) for each in motion.start.angular_velocity)
     kept = {name: float(value) for name, value in zip(fit.model.names, fit.x, strict=True)}
@@ -103,10 +106,10 @@ def measure_median(fit: Fit) -> float:
     return float(np.median(np.abs(fit.residuals)) / spread)
 
 
-def find_others(fit: Fit, rivals: list[Candidate]) -> list[Real]:
-    """Return the parameters of other motions that fit a record as well."""
+def find_others(fit: Fit, rivals: list[Candidate]) -> list[Fit]:
+    """Return other motions that fit a record as well."""
     own = sum_squares(fit, fit.residuals)
-    found: list[Real] = []
+    found: list[Fit] = []
     marks = [find_marks(fit.model, fit.x)]
     best = min(each.cost for each in rivals)
     for each in sorted(rivals, key=lambda each: each.cost):
@@ -115,9 +118,10 @@ def find_others(fit: Fit, rivals: list[Candidate]) -> list[Real]:
         mark = find_marks(each.model, each.x)
         if min(np.abs(mark / other - 1).max() for other in marks) < DIFFERENT:
             continue
-        if sum_squares(fit, each.model.move(fit.model.record).find_residuals(each.x)) < own + CLEAR:
+        other = Fit(each.model.move(fit.model.record), each.x, fit.noise)
+        if sum_squares(fit, other.residuals) < own + CLEAR:
             marks.append(mark)
-            found.append(each.x)
+            found.append(choose_twin(other))
     return found
 
 

@@ -123,12 +123,19 @@ class Model:
         if self.kind.name == "axis":
             return axis
         if self.kind.name == "pixels":
-            given = self.record.camera
-            return project(axis, {n: self.take(x, n, given.get(n, 0.0)) for n in CAMERA})
+            return project(axis, self._find_cameras(x))
         theta = np.arctan2(np.hypot(axis[..., 0], axis[..., 1]), axis[..., 2])
         if self.kind.name == "theta":
             return theta[..., np.newaxis]
         return np.stack([theta, np.arctan2(axis[..., 0], -axis[..., 1])], axis=-1)
+
+    def _find_cameras(self, x: Real) -> dict[str, Real]:
+        given = self.record.camera
+        return {n: self.take(x, n, given.get(n, 0.0)) for n in CAMERA}
+
+    def find_camera(self, x: Real) -> dict[str, float]:
+        """Return the camera of parameters (p,), by the names of its numbers."""
+        return {name: float(each[0]) for name, each in self._find_cameras(x[np.newaxis]).items()}
 
     def _mount(self, rates: Real, x: Real) -> Real:
         """Return rates as a gyroscope shows them that is biased, and not along the axis."""

@@ -65,14 +65,14 @@ class Fit:
     model : Model
     x : ndarray (p,)
     noise : Noise
-    others : tuple of ndarray (p,)
+    others : tuple of Fit
         Other motions that fit as well.
     """
 
     model: Model
     x: Real
     noise: Noise
-    others: tuple[Real, ...] = field(default=())
+    others: tuple["Fit", ...] = field(default=())
 
     @cached_property
     def residuals(self) -> Real:

@@ -135,7 +135,7 @@ def minimise(
 def list_bounds(model: Model) -> tuple[Real, Real]:
     """Return the least and the largest value of each parameter."""
     low, high = np.full(len(model.names), -np.inf), np.full(len(model.names), np.inf)
-    limits = {"Iz/Ix": (THINNEST, 2.0), "elevation": (-0.1, np.pi / 2 + 0.1)}
+    limits = {"Iz/Ix": (THINNEST, 2.0), "elevation": (-np.pi / 2, np.pi / 2)}
     limits |= dict.fromkeys(FRICTION, (-1e-6, np.inf))
     for name, (least, largest) in limits.items():
         if name in model.place:

@@ -7,22 +7,29 @@ before it names one, and so do the tests, to rounding.
 import numpy as np
 
 from symtop_ros.base.arrays import Real, compose
-from symtop_ros.physics import Motion, State, Top
+from symtop_ros.physics import Friction, Motion, State, Top
 
 OVER_X = np.array([0.0, 1.0, 0.0, 0.0])  # half a turn about x
+
+
+def scale_friction(friction: Friction, axial: float, transverse: float) -> Friction:
+    """Return friction that is larger by factors."""
+    return Friction(float(friction.axial) * axial, float(friction.transverse) * transverse)
 
 
 def scale_moments(motion: Motion, factor: float) -> Motion:
     """Return the motion of a top whose moments and weight are larger by a factor: the same one."""
     top = motion.top
-    return Motion(Top(top.Ix * factor, top.Iz * factor, top.Mgl * factor), motion.start)
+    new = Top(top.Ix * factor, top.Iz * factor, top.Mgl * factor)
+    return Motion(new, motion.start, scale_friction(motion.friction, factor, factor))
 
 
 def change_axial_moment(motion: Motion, Iz: float) -> Motion:
     """Return a motion with the same axis: of another Iz, and the spin that keeps p_psi."""
     top, (wx, wy, wz) = motion.top, motion.start.angular_velocity
     omega = [wx, wy, wz * top.Iz / Iz]
-    return Motion(Top(top.Ix, Iz, top.Mgl), State(motion.start.orientation, omega))
+    friction = scale_friction(motion.friction, Iz / top.Iz, 1.0)
+    return Motion(Top(top.Ix, Iz, top.Mgl), State(motion.start.orientation, omega), friction)
 
 
 def exchange_momenta(motion: Motion) -> Motion:
@@ -35,40 +42,37 @@ def exchange_momenta(motion: Motion) -> Motion:
     cos, square = np.cos(angles.theta), np.sin(angles.theta) ** 2
     p_psi = top.Iz * float(motion.start.angular_velocity[2])
     p_phi = top.Ix * square * rates.phi + p_psi * cos
-    return _start(top, motion.start, float((p_psi - p_phi * cos) / (top.Ix * square)), p_phi / top.Iz)
+    return _start(motion, float((p_psi - p_phi * cos) / (top.Ix * square)), p_phi / top.Iz)
 
 
 def reverse_momenta(motion: Motion) -> Motion:
     """Return a motion with the same theta: p_psi and p_phi with the other sign."""
     rates = motion.start.euler_rates
-    return _start(
-        motion.top, motion.start, float(-rates.phi), float(-motion.start.angular_velocity[2])
-    )
+    return _start(motion, float(-rates.phi), float(-motion.start.angular_velocity[2]))
 
 
-def _start(top: Top, start: State, phi_dot: float, spin: float) -> Motion:
+def _start(motion: Motion, phi_dot: float, spin: float) -> Motion:
     """Return the motion with the same theta and theta', and a given phi' and omega_z."""
+    top, start, friction = motion.top, motion.start, motion.friction
     angles, rates = start.euler_angles, start.euler_rates
     psi_dot = float(spin - phi_dot * np.cos(angles.theta))
     given = {"theta": float(angles.theta), "theta_dot": float(rates.theta)}
     new = State.from_euler(**given, phi=float(angles.phi), phi_dot=phi_dot, psi_dot=psi_dot)
-    return Motion(top, new)
+    return Motion(top, new, friction)
 
 
 def turn_over(motion: Motion) -> Motion:
     """Return a motion with the same rates of the body: Mgl and the vertical change sign together."""
     top, start = motion.top, motion.start
     turned = State(compose(OVER_X, start.orientation), start.angular_velocity)
-    return Motion(Top(top.Ix, top.Iz, -top.Mgl), turned)
+    return Motion(Top(top.Ix, top.Iz, -top.Mgl), turned, motion.friction)
 
 
 def turn_azimuth(motion: Motion, angle: float) -> Motion:
     """Return the motion turned about the vertical: with the same rates and the same theta."""
     turn = np.array([np.cos(angle / 2), 0.0, 0.0, np.sin(angle / 2)])
-    return Motion(
-        motion.top,
-        State(compose(turn, motion.start.orientation), motion.start.angular_velocity),
-    )
+    turned = State(compose(turn, motion.start.orientation), motion.start.angular_velocity)
+    return Motion(motion.top, turned, motion.friction)
 
 
 def take_other_end(motion: Motion) -> Motion:
@@ -78,7 +82,7 @@ def take_other_end(motion: Motion) -> Motion:
     """
     top, (wx, wy, wz) = motion.top, motion.start.angular_velocity
     q = compose(motion.start.orientation, OVER_X)
-    return Motion(Top(top.Ix, top.Iz, -top.Mgl), State(q, [wx, -wy, -wz]))
+    return Motion(Top(top.Ix, top.Iz, -top.Mgl), State(q, [wx, -wy, -wz]), motion.friction)
 
 
 def mirror_view(motion: Motion, camera: dict[str, float]) -> tuple[Motion, dict[str, float]]:
@@ -114,7 +118,7 @@ def start_axis(motion: Motion, axis: Real, velocity: Real, sign: float) -> Motio
     attitude = State.from_euler(theta=theta, phi=float(np.arctan2(axis[0], -axis[1])))
     wx, wy, _ = attitude.to_body(np.cross(axis, velocity))
     omega = [wx, wy, sign * motion.start.angular_velocity[2]]
-    return Motion(motion.top, State(attitude.orientation, omega))
+    return Motion(motion.top, State(attitude.orientation, omega), motion.friction)
 
 
 def see_from_above(motion: Motion) -> Motion:
@@ -122,12 +126,8 @@ def see_from_above(motion: Motion) -> Motion:
     axis, velocity = _find_axis_motion(motion)
     over = np.array([1.0, 1.0, -1.0])
     found = start_axis(motion, axis * over, velocity * over, -1.0)
-    return Motion(replace_weight(motion.top, -motion.top.Mgl), found.start)
-
-
-def replace_weight(top: Top, Mgl: float) -> Top:
-    """Return the top with another weight."""
-    return Top(top.Ix, top.Iz, Mgl)
+    top = motion.top
+    return Motion(Top(top.Ix, top.Iz, -top.Mgl), found.start, motion.friction)
 
 
 def bias_spin(motion: Motion, bias: float) -> Motion:

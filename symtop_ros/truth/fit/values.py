@@ -1,7 +1,7 @@
 """Numbers of a motion that was fitted: those that the record shows, each with its deviation."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,8 @@ from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
 
 SURE = 0.15  # of the scale of a number; one with a larger deviation is not known
-SMALL = 1e-3  # of a step of differences, in deviations of white noise
+LEVEL = 4.0  # deviations within which an elevation may be zero
+SIDES = "phi", "phi_dot", "mean_precession_rate"  # change with the sign of p_psi
 UNITS = {
     "Mgl/Ix": "1/s^2",
     "p_psi/Ix": "rad/s",
@@ -57,8 +58,42 @@ class Value:
 
 
 def list_values(fit: Fit) -> list[Value]:
-    """Return what the record shows, in the order of the text."""
-    return [find_value(fit, name, of) for name, of in list_quantities(fit)]
+    """Return what the record shows, in the order of the text.
+
+    A number is not known if a twin or another motion that fits as well has a different one.
+    """
+    others = [dict(list_quantities(other)) for other in fit.others]
+    hidden, found = find_hidden(fit), []
+    for name, of in list_quantities(fit):
+        value = find_value(fit, name, of)
+        rivals = [other[name](each.x) for other, each in zip(others, fit.others, strict=True)]
+        is_same = all(agree(value, rival) for rival in rivals)
+        found.append(value if is_same and name not in hidden else replace(value, is_known=False))
+    return found
+
+
+def agree(value: Value, rival: float) -> bool:
+    """Return whether a number of another motion is within three deviations of a value."""
+    left = rival - value.value
+    if value.name in {"phi", "roll"}:
+        left -= 2 * np.pi * np.round(left / (2 * np.pi))
+    return bool(abs(left) <= 3 * value.deviation)
+
+
+def find_hidden(fit: Fit) -> tuple[str, ...]:
+    """Return names that an exact twin has with a different value."""
+    if fit.model.kind.name == "theta":
+        return "p_psi/Ix", "phi_dot", "mean_precession_rate"
+    return ("p_psi/Ix", *SIDES, "elevation") if is_level(fit) else ()
+
+
+def is_level(fit: Fit) -> bool:
+    """Return True if a camera may be above or below the level of the pivot."""
+    if "elevation" not in fit.model.place:
+        return False
+    place = fit.model.place["elevation"]
+    deviation = fit.find_deviation(np.eye(len(fit.x))[place])
+    return bool(abs(fit.x[place]) < LEVEL * deviation)
 
 
 def list_quantities(fit: Fit) -> Iterator[tuple[str, Callable[[Real], float]]]:

@@ -1,0 +1,213 @@
+"""Statements on what a record cannot show, and why: exact twins, null directions, and too little.
+
+A twin is named only if it was computed and shows the same record to rounding.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.physics import Motion
+from symtop_ros.truth.fit.camera import CAMERA, project
+from symtop_ros.truth.fit.model import find_axis
+from symtop_ros.truth.fit.record import Known
+from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.twins import (
+    bias_spin,
+    change_axial_moment,
+    exchange_momenta,
+    mirror_view,
+    reverse_momenta,
+    scale_moments,
+    see_from_above,
+    take_other_end,
+    turn_azimuth,
+    turn_over,
+)
+from symtop_ros.truth.fit.values import Value, is_level
+
+EXACT = 1e-9  # of the size of a record; twins agree to rounding, which grows with time
+ROWS = 50  # at which twins are compared
+STRONG = 0.98  # correlation of two numbers that are only known together
+SPARSE = 4.0  # rows in a nutation, below which a different motion may show the same rows
+ABOVE = 4.0  # deviations within which a camera may be straight above
+BIAS = 0.01  # of the spin, by which the gyroscope of a twin is wrong
+Show = Callable[[Motion], Real]
+#: The twins of each kind.
+EXACT_TWINS: dict[str, tuple[str, ...]] = {
+    "attitude": ("moments",),
+    "rates": ("moments", "over", "azimuth", "bias"),
+    "axis": ("moments", "spin"),
+    "angles": ("moments", "spin"),
+    "pixels": ("moments", "spin", "upright", "high", "above"),
+    "theta": ("moments", "spin", "azimuth", "exchange", "reverse"),
+}
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """One statement, whose words are those of the template `unknown.KIND`.
+
+    Attributes
+    ----------
+    kind : str
+    names : str
+        Numbers that are not known.
+    numbers : tuple of float
+        What the sentence says of them.
+    """
+
+    kind: str
+    names: str
+    numbers: tuple[float, ...] = ()
+
+
+def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> list[Unknown]:
+    """Return what a record leaves open."""
+    found = [*list_twins(fit, given), *list_together(fit, values)]
+    paired = {name for each in found if each.kind == "together" for name in each.names.split(" and ")}
+    found += [
+        Unknown("weak", each.name, (each.value, each.deviation))
+        for each in values
+        if not each.is_known and np.isfinite(each.deviation) and each.name not in paired
+        if not any(each.name in other.names.split(", ") for other in found)
+    ]
+    by_name = {each.name: each for each in values}
+    return found + list(_list_others(fit, by_name))
+
+
+def list_twins(fit: Fit, given: dict[str, Known]) -> Iterator[Unknown]:
+    """Yield exact twins of the motion that was found."""
+    motion = fit.model.find_motion(fit.x)
+    own = show(fit, motion)
+    size = float(np.abs(own).max())
+    for kind in EXACT_TWINS[fit.model.kind.name]:
+        if _is_settled(fit, kind, given):
+            continue
+        twin, names, numbers, difference = make_twin(fit, motion, kind)
+        if np.abs(difference(own, twin)).max() <= EXACT * size:
+            yield Unknown(kind, names, numbers)
+
+
+def _is_settled(fit: Fit, kind: str, given: dict[str, Known]) -> bool:
+    """Return True if something else settles what a twin leaves open."""
+    settled = {
+        "moments": "Ix" in given or "Mgl" in given,
+        "spin": "Iz/Ix" in given,
+        "bias": fit.model.record.has_mount,
+        "upright": "roll" in fit.model.record.camera,
+        "high": "elevation" in fit.model.record.camera,
+        "above": not is_above(fit),
+    }
+    return settled.get(kind, False)
+
+
+def is_above(fit: Fit) -> bool:
+    """Return True if a camera may look straight down."""
+    camera = fit.model.find_camera(fit.x)
+    left = np.pi / 2 - camera["elevation"]
+    if "elevation" not in fit.model.place:
+        return bool(abs(left) < EXACT)
+    deviation = fit.find_deviation(np.eye(len(fit.x))[fit.model.place["elevation"]])
+    return bool(left < ABOVE * deviation)
+
+
+Twin = tuple[Real, str, tuple[float, ...], Callable[[Real, Real], Real]]
+
+
+def make_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
+    """Return what a twin shows, the names that it changes, its numbers, and a difference."""
+    camera = fit.model.find_camera(fit.x)
+    p = motion.top.Iz * float(motion.start.angular_velocity[2])
+    if kind == "moments":
+        return show(fit, scale_moments(motion, 2.0)), "Ix, Iz, Mgl", (), np.subtract
+    if kind == "spin":
+        twin = change_axial_moment(motion, motion.top.Ix / 2)
+        return show(fit, twin), "Iz/Ix, spin", (), np.subtract
+    if kind == "over":
+        return show(fit, turn_over(motion)), "sign of Mgl", (), np.subtract
+    if kind == "azimuth":
+        return show(fit, turn_azimuth(motion, 1.0)), "phi", (), np.subtract
+    if kind == "bias":
+        bias = BIAS * float(motion.start.angular_velocity[2])
+        moved = show(fit, bias_spin(motion, bias)) - [0.0, 0.0, bias]
+        return moved, "bias_z", (bias, 2 * bias), np.subtract
+    if kind == "exchange":
+        twin = exchange_momenta(motion)
+        other = twin.top.Iz * float(twin.start.angular_velocity[2])
+        return show(fit, twin), "p_psi/Ix, phi_dot, mean_precession_rate", (p, other), np.subtract
+    if kind == "reverse":
+        twin = reverse_momenta(motion)
+        return show(fit, twin), "sign of p_psi", (-p,), np.subtract
+    if kind == "upright":
+        turned = {**camera, "roll": camera["roll"] + np.pi}
+        shown = _project(fit, take_other_end(motion), turned)
+        return shown, "sign of Mgl", (-motion.top.Mgl, -p), np.subtract
+    if kind == "high":
+        twin, low = mirror_view(motion, camera)
+        return _project(fit, twin, low), "sign of p_psi", (low["elevation"], -p), np.subtract
+    level = {**camera, "elevation": np.pi / 2}
+    first = _project(fit, motion, level)
+    other_side = _project(fit, see_from_above(motion), level)
+    return other_side, "sign of Mgl", (-motion.top.Mgl, -p), lambda _, twin: twin - first
+
+
+def show(fit: Fit, motion: Motion) -> Real:
+    """Return what a motion shows at some times of a record."""
+    kind = fit.model.kind.name
+    if kind == "pixels":
+        return _project(fit, motion, fit.model.find_camera(fit.x))
+    state = motion.at(_choose_times(fit))
+    if kind == "rates":
+        return state.angular_velocity
+    if kind == "attitude":
+        return state.orientation
+    axis = find_axis(state.orientation)
+    return axis[:, 2:] if kind == "theta" else axis
+
+
+def _choose_times(fit: Fit) -> Real:
+    times = fit.model.record.times - fit.model.record.times[0]
+    return times[:: max(1, len(times) // ROWS)]
+
+
+def _project(fit: Fit, motion: Motion, camera: dict[str, float]) -> Real:
+    axis = find_axis(motion.at(_choose_times(fit)).orientation)
+    return project(axis[np.newaxis], {name: np.array([camera[name]]) for name in CAMERA})[0]
+
+
+def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
+    """Yield pairs of numbers that are not known, but for a combination of both."""
+    doubtful = [v for v in values if not v.is_known and v.name in fit.model.place]
+    names = [v.name for v in doubtful]
+    if {"Mgl/Ix", "p_psi/Ix"} <= {*names}:
+        a, p = fit.model.place["Mgl/Ix"], fit.model.place["p_psi/Ix"]
+        covariance = fit.covariance
+        ratio = float(covariance[a, p] / np.sqrt(covariance[a, a] * covariance[p, p]))
+        if abs(ratio) > STRONG:
+            slope = float(covariance[a, p] / covariance[p, p])
+            row = np.zeros(len(fit.x))
+            row[a], row[p] = 1.0, -slope
+            numbers = slope, float(row @ fit.x), fit.find_deviation(row)
+            yield Unknown("together", "Mgl/Ix and p_psi/Ix", numbers)
+    if "scale" in {v.name for v in values if not v.is_known} and "log_scale" in fit.model.place:
+        yield Unknown("tilt", "scale and theta")
+
+
+def _list_others(fit: Fit, values: dict[str, Value]) -> Iterator[Unknown]:
+    """Yield motions that fit as well, and nutations with few rows."""
+    for other in fit.others:
+        motion = other.model.find_motion(other.x)
+        p = motion.top.Iz * float(motion.start.angular_velocity[2])
+        yield Unknown("other", "Mgl/Ix, p_psi/Ix", (float(motion.top.Mgl), p))
+    period = values.get("nutation_period")
+    rows = period.value / fit.model.record.step if period else np.inf
+    if rows < SPARSE and fit.model.kind.name != "rates":
+        yield Unknown("sparse", "p_psi/Ix", (float(rows),))
+    if is_level(fit):
+        yield Unknown("level", "sign of p_psi")
+    if fit.model.kind.name == "attitude":
+        turns = 2 * np.pi / fit.model.record.step
+        yield Unknown("turns", "spin", (turns,))
