@@ -57,7 +57,9 @@ class Sample:
 
 def draw_motion(draw: Draw, has_friction: bool) -> Motion:
     """Return a random motion: of both signs of Mgl, rods and discs, fast and slow, hanging."""
-    top = Top(1.0, float(draw.uniform(0.1, 1.9)), float(draw.uniform(20, 400) * draw.choice([1, -1])))
+    top = Top(
+        1.0, float(draw.uniform(0.1, 1.9)), float(draw.uniform(20, 400) * draw.choice([1, -1]))
+    )
     p = float(draw.uniform(4, 80) * draw.choice([1, -1]))
     phi_dot, theta_dot = (float(3 * draw.normal()) for _ in range(2))
     theta, phi = float(draw.uniform(0.25, 2.7)), float(draw.uniform(-3, 3))
@@ -75,9 +77,9 @@ def see(motion: Motion, kind: str, times: Real, camera: dict[str, float]) -> Rea
     """Return what a record of a kind shows at some times."""
     state = motion.at(times)
     if kind == "attitude":
-        return state.orientation
+        return np.asarray(state.orientation)
     if kind == "rates":
-        return state.angular_velocity
+        return np.asarray(state.angular_velocity)
     axis = find_axis(state.orientation)
     if kind == "axis":
         return axis

@@ -98,4 +98,4 @@ def summarize(rows: Sequence[dict[str, Any]]) -> list[str]:
 
 def is_doubted(row: dict[str, Any]) -> bool:
     """Return True if a fit says that it may be none."""
-    return bool(row["verdict"] == "fails" or row["others"] or row["fault"])
+    return bool(row["verdict"] != HOLDS or row["others"])

@@ -19,16 +19,20 @@ PAD = 8  # by which a spectrum is finer
 
 def list_starts(record: Record) -> Iterator[Starts]:
     """Yield starts for a record of any kind."""
-    makers = {"rates": list_rate_starts, "attitude": list_attitude_starts, "theta": list_tilt_starts}
+    makers = {
+        "rates": list_rate_starts,
+        "attitude": list_attitude_starts,
+        "theta": list_tilt_starts,
+    }
     return makers.get(record.kind.name, list_axis_starts)(record)
 
 
 def list_rate_starts(record: Record) -> Iterator[Starts]:
-    """Yield starts for the rates of the body; least squares that are linear, in a frame without spin.
+    """Yield starts for the rates of the body, by linear least squares in a frame without spin.
 
     With W = wx + i wy, and the vertical G = gx + i gy, both seen from a frame that turns with the
-    axis but does not spin, Euler's equations are W' = i (Iz/Ix) wz W - i (Mgl/Ix) G. Their integrals
-    need no derivative of noise, and the vertical at the start is linear in them.
+    axis but does not spin, Euler's equations are W' = i (Iz/Ix) wz W - i (Mgl/Ix) G. Their
+    integrals need no derivative of noise, and the vertical at the start is linear in them.
     """
     rates = median_filter(record.values, (3, 1), mode="nearest")
     spin = float(np.median(rates[:, 2]))
@@ -76,14 +80,19 @@ def list_attitude_starts(record: Record) -> Iterator[Starts]:
     q = record.values
     turns = find_rotation_vectors(compose(invert(q[:-1]), q[1:])) / np.diff(record.times)[:, None]
     seen = float(np.median(turns[:, 2]))
-    axis = fill_axis_starts(replace(record, kind=KINDS["axis"], values=find_axis(q)), find_axis(q), {})
+    axis = fill_axis_starts(
+        replace(record, kind=KINDS["axis"], values=find_axis(q)), find_axis(q), {}
+    )
     back = Rotation.from_quat(q[0][[1, 2, 3, 0]]).inv()
     back = back * Rotation.from_quat(axis.model.reference[[1, 2, 3, 0]])
     model, rows = Model(record, q[0]), []
     for start in axis.x:
         named = dict(zip(axis.model.names, start, strict=True))
         wx, wy, _ = back.apply([named["wx"], named["wy"], 0.0])
-        for ratio, spin in _list_spins(record, seen, named["p_psi/Ix"]):
+        p = named["p_psi/Ix"]
+        for ratio, spin in [*_list_spins(record, seen, p)] or [
+            (np.clip(p / seen, 0.05, 1.95), seen)
+        ]:
             given = {"Mgl/Ix": named["Mgl/Ix"], "Iz/Ix": ratio, "spin": spin, "wx": wx, "wy": wy}
             rows.append(fill(model, given))
     yield Starts(model, np.array(rows))

@@ -1,4 +1,4 @@
-"""Does the model hold: are residuals white, and are the constants of both halves the same?"""
+"""The test of the model: white residuals, and the same constants in both halves."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -79,7 +79,8 @@ class Check:
         """HOLDS, UNCLEAR (noise that wanders, or a motion that is not of this model) or FAILS."""
         if self.changes or (not self.is_white and self.smoothness > SMOOTH):
             return FAILS
-        return HOLDS if self.is_white and not self.fault else UNCLEAR
+        is_noise = self.is_white and self.smoothness <= SMOOTH and not self.fault
+        return HOLDS if is_noise else UNCLEAR
 
 
 @dataclass(frozen=True, eq=False)

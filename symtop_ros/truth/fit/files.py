@@ -7,6 +7,7 @@ which a cell is empty are left out: Tracker leaves cells empty where nothing was
 from array import array
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -81,15 +82,11 @@ def _read_lines(
     """Find the names within the first lines, and read the rows after them."""
     numbered = ((number, line) for number, line in enumerate(file, 1) if line.strip())
     head = ""
-    for number, line in numbered:
+    for _, line in islice(numbered, HEAD):
         head = head or line
         if places := find_places(path, split_names(line), kind):
-            break
-        if number >= HEAD:
-            numbered = iter(())
-    else:
-        raise RefusedError(_describe_names(path, kind, head))
-    return _read_numbers(path, places, numbered, tell)
+            return _read_numbers(path, places, numbered, tell)
+    raise RefusedError(_describe_names(path, kind, head))
 
 
 def _describe_names(path: Path, kind: str | None, head: str) -> str:
@@ -141,9 +138,13 @@ def _list_kinds(names: list[str]) -> Iterator[tuple[str, list[int]]]:
         if pattern.fullmatch(name)
     }
     if "theta" in angles:
-        yield ("angles", [angles["theta"], angles["phi"]]) if len(angles) == 2 else (
-            "theta",
-            [angles["theta"]],
+        yield (
+            ("angles", [angles["theta"], angles["phi"]])
+            if len(angles) == 2
+            else (
+                "theta",
+                [angles["theta"]],
+            )
         )
     yield from _list_points(names, bool(quaternions))
 
@@ -160,49 +161,69 @@ def _list_points(names: list[str], has_quaternion: bool) -> Iterator[tuple[str, 
         yield "pixels", [point["x"], point["y"]]
 
 
+@dataclass(eq=False)
+class Lines:
+    """Cells of a table, as they are read."""
+
+    path: Path
+    wanted: tuple[int, ...]
+    numbers: "array[float]"
+    separator: str | None = None
+    rows: int = 0
+    empty: int = 0
+    is_whole: bool = True  # all times are whole numbers
+
+    def read(self, line: int, text: str) -> None:
+        """Read a line; the first one shows what separates the cells."""
+        if not self.rows:
+            self.separator = next((s for s in (";", "\t") if s in text), find_separator(text))
+        self.rows += 1
+        cells = split_cells(text, self.separator)
+        try:
+            picked = [cells[place] for place in self.wanted]
+            if all(picked):
+                self.numbers.extend([_read_number(cell, self.separator) for cell in picked])
+            else:
+                self.empty += 1
+        except (IndexError, ValueError) as error:
+            lacks = isinstance(error, IndexError)
+            wanted = "have all columns" if lacks else "have finite numbers, or empty cells"
+            raise RefusedError(
+                f"line {line} of {self.path} must {wanted}, got {one_line(text, 80)}"
+            ) from None
+        self.is_whole = self.is_whole and picked[0].lstrip("-").isdecimal()
+
+
 def _read_numbers(
     path: Path,
     places: Places,
-    rows: Iterator[tuple[int, str]],
+    lines: Iterable[tuple[int, str]],
     tell: Callable[[int], None] | None,
 ) -> Rows:
-    """Read the rows; the first of them shows what separates the cells."""
-    numbers, wanted = array("d"), (places.time, *places.columns)
-    separator: str | None = None
-    empty = count = done = 0
-    whole = True
-    for line, text in rows:
-        if text.startswith("#"):
-            continue
-        if not count:
-            separator = ";" if ";" in text else "\t" if "\t" in text else find_separator(text)
-        count += 1
+    """Read the rows, and say what was left out."""
+    done = 0
+    table = Lines(path, (places.time, *places.columns), array("d"))
+    for line, text in lines:
+        if not text.startswith("#"):
+            table.read(line, text)
         done += len(text)
-        if tell and count % REPORT_EVERY == 0:
+        if tell and table.rows % REPORT_EVERY == 0:
             tell(done)
-        cells = split_cells(text, separator)
-        try:
-            picked = [cells[place] for place in wanted]
-        except IndexError:
-            raise RefusedError(f"line {line} of {path} must have all columns, got {one_line(text)}") from None
-        if not all(picked):
-            empty += 1
-            continue
-        try:
-            numbers.extend([_read_number(cell, separator) for cell in picked])
-        except ValueError:
-            raise RefusedError(
-                f"line {line} of {path} must consist of finite numbers, or cells that are empty, "
-                f"got {one_line(text)}"
-            ) from None
-        whole = whole and picked[0].lstrip("-").isdecimal()
-    table = np.frombuffer(numbers, dtype=float).reshape(-1, len(wanted))
-    notes = [f"{write_count(empty, 'row', 'have')} an empty cell, and are left out"] if empty else []
+    numbers = np.frombuffer(table.numbers, dtype=float).reshape(-1, len(table.wanted))
+    seconds = places.seconds or (1e-9 if table.is_whole else 1.0)
+    times = (numbers[:, 0] - (numbers[0, 0] if len(numbers) else 0.0)) * seconds
+    values = numbers[:, 1:] * places.factors
+    return Rows(places.kind, times, values, tuple(_write_notes(table, places)))
+
+
+def _write_notes(table: Lines, places: Places) -> Iterator[str]:
+    """Yield what was odd about a table."""
+    if table.empty:
+        rows = "has" if table.empty == 1 else "have"
+        yield f"{write_count(table.empty, 'row')} {rows} an empty cell: left out"
     if places.others:
-        notes.append(f"read as {places.kind}; it has {' and '.join(places.others)} as well: --kind")
-    seconds = places.seconds or (1e-9 if whole else 1.0)
-    times = (table[:, 0] - (table[0, 0] if len(table) else 0.0)) * seconds
-    return Rows(places.kind, times, table[:, 1:] * places.factors, tuple(notes))
+        others = " and ".join(places.others)
+        yield f"read as {places.kind}; the table has {others} as well (--kind)"
 
 
 def _read_number(cell: str, separator: str | None) -> float:

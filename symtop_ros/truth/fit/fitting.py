@@ -1,7 +1,7 @@
-"""The fit of a record: a search, a second and a third one if what is left is no noise, and others.
+"""The fit of a record: two searches, more if what is left is no noise, and other motions.
 
-A search that ends in a wrong minimum leaves residuals that are correlated: then the search is made
-again with more starts, and the better motion is taken.
+A search that ends in a wrong minimum leaves residuals that are correlated or larger: the better
+motion of all searches is taken.
 """
 
 from collections.abc import Callable
@@ -11,10 +11,12 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
+from symtop_ros.truth.fit.aliases import SPARSE, count_rows, list_alias_starts
+from symtop_ros.truth.fit.check import HOLDS, Check
 from symtop_ros.truth.fit.model import TURNS, Model
 from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.refine import Fit, refine
-from symtop_ros.truth.fit.search import ALIKE, EFFORTS, Candidate, search
+from symtop_ros.truth.fit.search import ALIKE, EFFORTS, SURE, Candidate, search
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.twins import mirror_view, take_other_end, turn_over
 
@@ -51,21 +53,30 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
     record = record.thin()
     found: Fit | None = None
     rivals: list[Candidate] = []
-    for number, effort in enumerate(EFFORTS):
-        new = search(record, effort)
-        rivals += new
-        found = choose_better(found, refine(new[0].model, new[0].x))
+    for number, effort in enumerate(EFFORTS, 1):
+        rivals += search(record, effort)
+        found = choose_better(found, rivals, record)
         if tell:
-            tell((number + 1) / len(EFFORTS))
-        if is_clean(found) or (number and found.remainder.is_white):
+            tell(number / (len(EFFORTS) + 1))
+        if number >= SURE and Check(found).verdict == HOLDS:
             break
     assert found is not None
+    if count_rows(found) < 2 * SPARSE:
+        rivals += search(record, EFFORTS[2], list_alias_starts(found))
+        found = choose_better(found, rivals, record)
     found = choose_twin(found)
     return replace(found, others=tuple(find_others(found, rivals)))
 
 
+def choose_better(fit: Fit | None, rivals: list[Candidate], record: Record) -> Fit:
+    """Return the fit whose residuals are smaller, whatever noise they are taken for."""
+    best = min(rivals, key=lambda each: each.cost)
+    new = refine(best.model.move(record), best.x)
+    return new if fit is None or measure_median(new) < 0.999 * measure_median(fit) else fit
+
+
 def choose_twin(fit: Fit) -> Fit:
-    """Return the usual one of two exact twins: Mgl > 0 by rates, a camera that is upright and high."""
+    """Return the usual one of exact twins: Mgl > 0 by rates, an upright camera that is high."""
     model, x = fit.model, fit.x
     if model.kind.name == "rates" and x[0] < 0:
         return _restate(fit, turn_over(model.find_motion(x)), {})
@@ -86,18 +97,6 @@ def _restate(fit: Fit, motion: Motion, changed: dict[str, float]) -> Fit:
     kept = {name: float(value) for name, value in zip(fit.model.names, fit.x, strict=True)}
     own = {"Mgl/Ix": motion.top.Mgl, "p_psi/Ix": spin, "spin": spin, "wx": wx, "wy": wy}
     return refine(model, fill(model, {**kept, **dict.fromkeys(TURNS, 0.0), **own, **changed}))
-
-
-def is_clean(fit: Fit) -> bool:
-    """Return True if residuals look like white noise, so that no better motion is looked for."""
-    return fit.remainder.is_white and not len(fit.noise.lasting)
-
-
-def choose_better(first: Fit | None, second: Fit) -> Fit:
-    """Return the fit whose residuals are smaller, whatever noise they are taken for."""
-    if first is None or measure_median(second) < 0.999 * measure_median(first):
-        return second
-    return first
 
 
 def measure_median(fit: Fit) -> float:

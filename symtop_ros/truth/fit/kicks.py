@@ -4,8 +4,6 @@ The first part that one motion explains is made longer by halves of the rest; so
 from the other end. If both are noise and leave no gap, the motion changed where they meet.
 """
 
-
-
 import numpy as np
 
 from symtop_ros.truth.fit.record import FEWEST, Record
@@ -26,7 +24,7 @@ def find_kick(fit: Fit) -> float | None:
         return None
     rest = record.select(slice(first, None))
     found = search(rest, EFFORTS[0])[0]
-    other = refine(found.model, found.x)
+    other = refine(found.model.move(rest), found.x)
     if not explains(other):
         return None
     return float(record.times[first] - record.times[0])
@@ -40,8 +38,9 @@ def explains(fit: Fit) -> bool:
 def find_reach(record: Record) -> int | None:
     """Return how many of the first rows are of one motion; None if no part is."""
     count = min(max(len(record) // 8, SHORTEST), len(record))
-    found = search(record.select(slice(count)), EFFORTS[0])[0]
-    fit = refine(found.model, found.x)
+    part = record.select(slice(count))
+    found = search(part, EFFORTS[0])[0]
+    fit = refine(found.model.move(part), found.x)
     if not explains(fit):
         return None
     while count < len(record):
@@ -70,5 +69,3 @@ def _find_end(fit: Fit, record: Record, low: int, high: int) -> int:
     far = left[low:] > JUMPS + 2
     after = np.convolve(far, np.ones(ROWS, dtype=int))[: len(far)] >= ROWS - 1
     return low + max(int(np.argmax(after)) - ROWS + 2, 0) if after.any() else high
-
-

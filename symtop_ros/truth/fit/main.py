@@ -15,8 +15,8 @@ from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
-from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.fit.kicks import find_kick
+from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
 from symtop_ros.truth.fit.report import Report
 from symtop_ros.truth.judge.forms import is_table
@@ -200,7 +200,9 @@ class Progress:
         if spent < PATIENCE or not 0 < part < 1 or not sys.stderr.isatty():
             return
         left = spent * (1 - part) / part
-        print(f"\rtop_fit: {action}, {part:.0%}, at most {left:.0f} s more ", end="", file=sys.stderr)
+        print(
+            f"\rtop_fit: {action}, {part:.0%}, at most {left:.0f} s more ", end="", file=sys.stderr
+        )
         self._wrote = True
 
     def end(self) -> None:

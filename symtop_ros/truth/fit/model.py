@@ -165,7 +165,9 @@ class Model:
 
     def find_scales(self, x: Real) -> Real:
         """Return the size (p,) of each parameter: rates are those of the motion."""
-        rates = np.abs([x[self.place[n]] for n in ("wx", "wy", "spin", "p_psi/Ix") if n in self.place])
+        rates = np.abs(
+            [x[self.place[n]] for n in ("wx", "wy", "spin", "p_psi/Ix") if n in self.place]
+        )
         rate = float(np.sqrt(abs(x[0])) + rates.max())
         size = float(np.exp(self.record.camera.get("log_scale", 0.0)))
         if "log_scale" in self.place:

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from symtop_ros.base.arrays import Mask, Real
+from symtop_ros.base.arrays import Mask, Places, Real
 from symtop_ros.base.refusals import RefusedError, refuse, require
 from symtop_ros.truth.fit.kinds import KINDS, Kind
 
@@ -16,6 +16,7 @@ RUN = 200  # rows that follow each other in a record that was thinned, for the c
 GAP = 1.5  # medians of the steps; a longer step ends a run of noise
 ROUNDED = 2  # rows for each value of a column, at least, if it is rounded
 STILL = 1e-9  # of the size of the numbers; what changes less does not move
+NORMAL = 1.4826  # deviation of a normal distribution, in median distances from the median
 Known = tuple[float, float]  # a value and its standard deviation
 
 
@@ -85,7 +86,7 @@ class Record:
                 found[column] = find_decimal(values[0]) / np.sqrt(12)
         return found
 
-    def select(self, rows: slice | Mask) -> "Record":
+    def select(self, rows: slice | Mask | Places) -> "Record":
         """Return a part of the record."""
         return replace(self, times=self.times[rows], values=self.values[rows])
 
@@ -185,3 +186,9 @@ def _refuse_still(values: Real, kind: Kind) -> None:
             f"a record must show a motion, got {kind.name} that do not change: "
             f"{', '.join(f'{v:.6g}' for v in values[0])}"
         )
+
+
+def find_spread(rows: Real) -> Real:
+    """Return a deviation of each column, (m,), on which outliers have no influence."""
+    middle = np.median(rows, axis=0)
+    return np.asarray(NORMAL * np.median(np.abs(rows - middle), axis=0) + 1e-300)

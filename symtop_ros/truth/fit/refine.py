@@ -1,9 +1,8 @@
-"""Least squares with the noise that is found: outliers left out, lasting noise whitened, deviations.
+"""Least squares with the noise that is found: outliers, noise that lasts, and deviations.
 
 The weights are those of the noise of each column. Noise that lasts is taken as an autoregression,
-of the order that Akaike's criterion chooses: flicker has another power at a nutation than on
-average, and one of first order made deviations of it too small by a factor of five. Noise of any
-other correlation is left to the sandwich of `truth/judge/noise.py`.
+of the order that Hannan and Quinn's criterion chooses: flicker has another power at a nutation than
+on average. Noise of any other correlation is left to the sandwich of `truth/judge/noise.py`.
 """
 
 from dataclasses import dataclass, field
@@ -13,8 +12,8 @@ import numpy as np
 
 from symtop_ros.base.arrays import Mask, Real
 from symtop_ros.truth.fit.model import Model
-from symtop_ros.truth.fit.record import Record
-from symtop_ros.truth.fit.search import find_spread, minimise
+from symtop_ros.truth.fit.record import Record, find_spread
+from symtop_ros.truth.fit.search import minimise
 from symtop_ros.truth.judge.noise import Remainder, sum_influences
 
 OUTLIER = 5.0  # deviations; a normal number is farther once in two million
@@ -139,7 +138,7 @@ class Fit:
         return np.asarray((rounding * fixed)[:, np.newaxis] * (sums @ self.covariance))
 
     def find_deviation(self, slope: Real) -> float:
-        """Return the deviation of a combination (p,) of parameters, for noise of any correlation."""
+        """Return the deviation of a combination (p,), also for noise that is correlated."""
         free = self.remainder.independent
         robust = sum_influences(self._influences @ slope, len(self.x), free)
         by_known = float((self.covariance @ slope) ** 2 @ self.priors)
@@ -175,7 +174,7 @@ def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
     record, left = model.record, model.find_residuals(x)
     rounding, fixed = find_rounding(record, left.shape[1])
     floor = np.maximum(find_spread(left), rounding)
-    good = (np.abs(left) < OUTLIER * floor).all(axis=1)
+    good = np.asarray((np.abs(left) < OUTLIER * floor).all(axis=1))
     outliers = int((~good).sum())
     lasting = np.zeros((0, left.shape[1]))
     if lasts and outliers < MANY * len(record):
@@ -226,8 +225,9 @@ def find_lasting(left: Real, good: Mask, follows: Mask, parameters: int) -> Real
     share = parameters / (len(left) * left.shape[1])
     covariances = covariances + share * np.maximum(total, covariances[0])
     fits = [solve_order(covariances, order) for order in range(most + 1)]
+    loglog = np.log(np.log(max(len(left), 16)))
     cost = [
-        len(left) * np.log(new / covariances[0]).sum() + 2 * order * left.shape[1]
+        len(left) * np.log(new / covariances[0]).sum() + 2 * order * left.shape[1] * loglog
         for order, (_, new) in enumerate(fits)
     ]
     return fits[int(np.argmin(cost))][0]

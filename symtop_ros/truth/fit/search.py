@@ -1,19 +1,21 @@
 """The search for the motion: the starts that are best on longer and longer parts of a record.
 
 A long record has many minima: a nutation that is counted wrong by one turn fits almost as well. On
-a short part their valleys are wide, and each longer part begins inside the valley of the one before.
+a short part their valleys are wide, and each longer part begins inside the valley of the last one.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
+from scipy.ndimage import median_filter
 from scipy.optimize import least_squares
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit.body_starts import list_starts
 from symtop_ros.truth.fit.model import FRICTION, THINNEST, Model
-from symtop_ros.truth.fit.record import Record
+from symtop_ros.truth.fit.record import Record, find_spread
 from symtop_ros.truth.fit.starts import Starts
 
 GROWTH = 1.7  # of a part
@@ -21,21 +23,23 @@ BROAD = 3.0  # scales of the residuals at which starts are compared
 SOFT = 0.1  # of the spread of the values: the first scale of a robust loss
 SAME = 1e-4  # relative difference of the costs of one minimum
 ALIKE = 1.1  # costs of motions that fit as well, at most
-NORMAL = 1.4826  # deviation of a normal distribution, in median distances from the median
+USUAL, SPIKE = 90, 4.0  # per cent of the differences from medians, and times beyond it
 QUICK = 10_000  # rows of a search
 
 
 @dataclass(frozen=True)
 class Effort:
-    """The size of a search: starts that are tried, those that are kept, and rows of the first part."""
+    """The size of a search: starts tried, those kept, and rows of the first part."""
 
     tried: int
     kept: int
     first: int
-    per_parameter: int
+    share: float = 0.0  # of all rows, in the first part
 
 
-EFFORTS = (Effort(24, 4, 40, 4), Effort(80, 6, 24, 3), Effort(150, 8, 60, 4))
+# The first part of the second search is long: in a quick record 40 rows show no nutation.
+EFFORTS = (Effort(24, 4, 40), Effort(24, 4, 40, 0.35), Effort(80, 6, 24), Effort(150, 8, 60, 0.2))
+SURE = 2  # searches of every record
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +53,8 @@ class Candidate:
 
 def search(record: Record, effort: Effort, starts: Sequence[Starts] = ()) -> list[Candidate]:
     """Return motions that fit the whole record, the best first."""
-    count = min(len(record), max(effort.first, effort.per_parameter * 10))
+    record = replace(record, values=drop_spikes(record.values))
+    count = min(len(record), max(effort.first, int(effort.share * len(record))))
     part = record.select(slice(count))
     shows = record.kind.name in {"pixels", "theta"}  # their starts need a whole turn
     found = starts or [*list_starts(record.thin(QUICK) if shows else part)]
@@ -74,7 +79,9 @@ def choose(found: Sequence[Starts], part: Record, most: int) -> list[Candidate]:
         for rows in np.array_split(starts.x, len(starts.x) // 64 + 1):
             left = np.abs(model.compare(model.show(rows)))
             costs = np.minimum(left, wide).mean(axis=(1, 2))
-            rated += [Candidate(model, x, cost) for x, cost in zip(rows, costs.tolist(), strict=True)]
+            rated += [
+                Candidate(model, x, cost) for x, cost in zip(rows, costs.tolist(), strict=True)
+            ]
     return sorted(rated, key=lambda each: each.cost)[:most]
 
 
@@ -105,12 +112,14 @@ def minimise(
     x: Real,
     find: Callable[[Real], Real],
     derive: Callable[[Real], Real],
-    loss: str,
+    loss: Literal["linear", "soft_l1"],
     most: int,
 ) -> Candidate:
     """Return the least squares of residuals and of what is known, from a start."""
     low, high = list_bounds(model)
-    known = [(model.place[n], *known) for n, known in model.record.known.items() if n in model.place]
+    known = [
+        (model.place[n], *known) for n, known in model.record.known.items() if n in model.place
+    ]
     slopes = np.zeros((len(known), len(x)))
     for row, (place, _, deviation) in enumerate(known):
         slopes[row, place] = 1 / deviation
@@ -143,7 +152,13 @@ def list_bounds(model: Model) -> tuple[Real, Real]:
     return low, high
 
 
-def find_spread(rows: Real) -> Real:
-    """Return a deviation of each column, (m,), on which outliers have no influence."""
-    middle = np.median(rows, axis=0)
-    return np.asarray(NORMAL * np.median(np.abs(rows - middle), axis=0) + 1e-300)
+def drop_spikes(values: Real) -> Real:
+    """Return values (n, m) in which single wrong rows are replaced by medians of their neighbours.
+
+    A few wrong lines hide the extent of a motion, and may lead a search elsewhere.
+    """
+    middle = median_filter(values, (5, 1), mode="nearest")
+    far = np.abs(values - middle)
+    usual = np.percentile(far, USUAL, axis=0)  # a median differs at the ends of a swing alone
+    wrong = (far > SPIKE * usual + 1e-300).any(axis=1, keepdims=True)
+    return np.asarray(np.where(wrong, middle, values))

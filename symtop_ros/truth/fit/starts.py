@@ -137,8 +137,6 @@ def _list_circles(record: Record, elevation: float) -> Iterator[tuple[tuple[floa
         yield from ((pivot, size) for size in known or [far * each for each in SIZES])
         return
     for tilt in TILTS:
-        size = half / np.sin(tilt)
-        if "log_scale" in given:
-            size = float(np.exp(given["log_scale"]))
-            tilt = float(np.arcsin(min(half / size, 1.0)))
-        yield (middle[0], middle[1] - size * np.cos(tilt) * np.cos(elevation)), size
+        size = float(np.exp(given["log_scale"])) if "log_scale" in given else half / np.sin(tilt)
+        height = size * np.sqrt(max(1 - (half / size) ** 2, 0.0))
+        yield (middle[0], middle[1] - height * np.cos(elevation)), size

@@ -62,7 +62,7 @@ def _start(motion: Motion, phi_dot: float, spin: float) -> Motion:
 
 
 def turn_over(motion: Motion) -> Motion:
-    """Return a motion with the same rates of the body: Mgl and the vertical change sign together."""
+    """Return a motion with the same rates: Mgl and the vertical change sign together."""
     top, start = motion.top, motion.start
     turned = State(compose(OVER_X, start.orientation), start.angular_velocity)
     return Motion(Top(top.Ix, top.Iz, -top.Mgl), turned, motion.friction)

@@ -3,13 +3,14 @@
 A twin is named only if it was computed and shows the same record to rounding.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
+from symtop_ros.truth.fit.aliases import SPARSE, count_rows
 from symtop_ros.truth.fit.camera import CAMERA, project
 from symtop_ros.truth.fit.model import find_axis
 from symtop_ros.truth.fit.record import Known
@@ -31,10 +32,9 @@ from symtop_ros.truth.fit.values import Value, is_level
 EXACT = 1e-9  # of the size of a record; twins agree to rounding, which grows with time
 ROWS = 50  # at which twins are compared
 STRONG = 0.98  # correlation of two numbers that are only known together
-SPARSE = 4.0  # rows in a nutation, below which a different motion may show the same rows
 ABOVE = 4.0  # deviations within which a camera may be straight above
 BIAS = 0.01  # of the spin, by which the gyroscope of a twin is wrong
-Show = Callable[[Motion], Real]
+OF_CAMERAS = "upright", "high", "above"
 #: The twins of each kind.
 EXACT_TWINS: dict[str, tuple[str, ...]] = {
     "attitude": ("moments",),
@@ -67,15 +67,16 @@ class Unknown:
 def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> list[Unknown]:
     """Return what a record leaves open."""
     found = [*list_twins(fit, given), *list_together(fit, values)]
-    paired = {name for each in found if each.kind == "together" for name in each.names.split(" and ")}
+    paired = {
+        name for each in found if each.kind == "together" for name in each.names.split(" and ")
+    }
     found += [
         Unknown("weak", each.name, (each.value, each.deviation))
         for each in values
         if not each.is_known and np.isfinite(each.deviation) and each.name not in paired
         if not any(each.name in other.names.split(", ") for other in found)
     ]
-    by_name = {each.name: each for each in values}
-    return found + list(_list_others(fit, by_name))
+    return found + list(_list_others(fit))
 
 
 def list_twins(fit: Fit, given: dict[str, Known]) -> Iterator[Unknown]:
@@ -86,9 +87,10 @@ def list_twins(fit: Fit, given: dict[str, Known]) -> Iterator[Unknown]:
     for kind in EXACT_TWINS[fit.model.kind.name]:
         if _is_settled(fit, kind, given):
             continue
-        twin, names, numbers, difference = make_twin(fit, motion, kind)
-        if np.abs(difference(own, twin)).max() <= EXACT * size:
-            yield Unknown(kind, names, numbers)
+        make = make_camera_twin if kind in OF_CAMERAS else make_body_twin
+        twin = make(fit, motion, kind)
+        if np.abs(twin.shown - own).max() <= EXACT * size:
+            yield Unknown(kind, twin.names, twin.numbers)
 
 
 def _is_settled(fit: Fit, kind: str, given: dict[str, Known]) -> bool:
@@ -114,44 +116,60 @@ def is_above(fit: Fit) -> bool:
     return bool(left < ABOVE * deviation)
 
 
-Twin = tuple[Real, str, tuple[float, ...], Callable[[Real, Real], Real]]
+@dataclass(frozen=True, eq=False)
+class Twin:
+    """A twin: what it shows, the names that it changes, and its numbers."""
+
+    shown: Real
+    names: str
+    numbers: tuple[float, ...] = ()
 
 
-def make_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
-    """Return what a twin shows, the names that it changes, its numbers, and a difference."""
-    camera = fit.model.find_camera(fit.x)
-    p = motion.top.Iz * float(motion.start.angular_velocity[2])
+def make_body_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
+    """Return a twin of a record that has no camera."""
     if kind == "moments":
-        return show(fit, scale_moments(motion, 2.0)), "Ix, Iz, Mgl", (), np.subtract
+        return Twin(show(fit, scale_moments(motion, 2.0)), "Ix, Iz, Mgl")
     if kind == "spin":
-        twin = change_axial_moment(motion, motion.top.Ix / 2)
-        return show(fit, twin), "Iz/Ix, spin", (), np.subtract
+        return Twin(show(fit, change_axial_moment(motion, motion.top.Ix / 2)), "Iz/Ix, spin")
     if kind == "over":
-        return show(fit, turn_over(motion)), "sign of Mgl", (), np.subtract
+        return Twin(show(fit, turn_over(motion)), "sign of Mgl")
     if kind == "azimuth":
-        return show(fit, turn_azimuth(motion, 1.0)), "phi", (), np.subtract
+        return Twin(show(fit, turn_azimuth(motion, 1.0)), "phi")
+    return make_momentum_twin(fit, motion, kind)
+
+
+def make_momentum_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
+    """Return a twin with a different p_psi."""
+    p = find_p(motion)
     if kind == "bias":
         bias = BIAS * float(motion.start.angular_velocity[2])
-        moved = show(fit, bias_spin(motion, bias)) - [0.0, 0.0, bias]
-        return moved, "bias_z", (bias, 2 * bias), np.subtract
-    if kind == "exchange":
-        twin = exchange_momenta(motion)
-        other = twin.top.Iz * float(twin.start.angular_velocity[2])
-        return show(fit, twin), "p_psi/Ix, phi_dot, mean_precession_rate", (p, other), np.subtract
+        shown = show(fit, bias_spin(motion, bias)) - [0.0, 0.0, bias]
+        return Twin(shown, "bias_z", (bias, 2 * bias))
     if kind == "reverse":
-        twin = reverse_momenta(motion)
-        return show(fit, twin), "sign of p_psi", (-p,), np.subtract
+        return Twin(show(fit, reverse_momenta(motion)), "sign of p_psi", (-p,))
+    twin = exchange_momenta(motion)
+    names = "p_psi/Ix, phi_dot, mean_precession_rate"
+    return Twin(show(fit, twin), names, (p, find_p(twin)))
+
+
+def make_camera_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
+    """Return a twin that a different camera shows, or one from straight above."""
+    camera, p = fit.model.find_camera(fit.x), find_p(motion)
     if kind == "upright":
         turned = {**camera, "roll": camera["roll"] + np.pi}
         shown = _project(fit, take_other_end(motion), turned)
-        return shown, "sign of Mgl", (-motion.top.Mgl, -p), np.subtract
+        return Twin(shown, "sign of Mgl", (-motion.top.Mgl, -p))
     if kind == "high":
         twin, low = mirror_view(motion, camera)
-        return _project(fit, twin, low), "sign of p_psi", (low["elevation"], -p), np.subtract
+        return Twin(_project(fit, twin, low), "sign of p_psi", (low["elevation"], -p))
     level = {**camera, "elevation": np.pi / 2}
-    first = _project(fit, motion, level)
-    other_side = _project(fit, see_from_above(motion), level)
-    return other_side, "sign of Mgl", (-motion.top.Mgl, -p), lambda _, twin: twin - first
+    moved = _project(fit, see_from_above(motion), level) - _project(fit, motion, level)
+    return Twin(show(fit, motion) + moved, "sign of Mgl", (-motion.top.Mgl, -p))
+
+
+def find_p(motion: Motion) -> float:
+    """Return p_psi."""
+    return float(motion.top.Iz * motion.start.angular_velocity[2])
 
 
 def show(fit: Fit, motion: Motion) -> Real:
@@ -161,9 +179,9 @@ def show(fit: Fit, motion: Motion) -> Real:
         return _project(fit, motion, fit.model.find_camera(fit.x))
     state = motion.at(_choose_times(fit))
     if kind == "rates":
-        return state.angular_velocity
+        return np.asarray(state.angular_velocity)
     if kind == "attitude":
-        return state.orientation
+        return np.asarray(state.orientation)
     axis = find_axis(state.orientation)
     return axis[:, 2:] if kind == "theta" else axis
 
@@ -196,16 +214,13 @@ def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
         yield Unknown("tilt", "scale and theta")
 
 
-def _list_others(fit: Fit, values: dict[str, Value]) -> Iterator[Unknown]:
+def _list_others(fit: Fit) -> Iterator[Unknown]:
     """Yield motions that fit as well, and nutations with few rows."""
     for other in fit.others:
         motion = other.model.find_motion(other.x)
-        p = motion.top.Iz * float(motion.start.angular_velocity[2])
-        yield Unknown("other", "Mgl/Ix, p_psi/Ix", (float(motion.top.Mgl), p))
-    period = values.get("nutation_period")
-    rows = period.value / fit.model.record.step if period else np.inf
-    if rows < SPARSE and fit.model.kind.name != "rates":
-        yield Unknown("sparse", "p_psi/Ix", (float(rows),))
+        yield Unknown("other", "Mgl/Ix, p_psi/Ix", (float(motion.top.Mgl), find_p(motion)))
+    if (rows := count_rows(fit)) < SPARSE:
+        yield Unknown("sparse", "p_psi/Ix", (rows,))
     if is_level(fit):
         yield Unknown("level", "sign of p_psi")
     if fit.model.kind.name == "attitude":
