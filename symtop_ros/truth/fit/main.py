@@ -13,6 +13,7 @@ import numpy as np
 
 from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
 from symtop_ros.base.refusals import RefusedError
+from symtop_ros.truth.fit.check import FAILS, HOLDS
 from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
 from symtop_ros.truth.fit.kicks import find_kick
@@ -87,14 +88,14 @@ def _run(options: argparse.Namespace) -> int:
     given = {name: known for name, known in find_given(options).items() if known}
     report = Report(str(path), len(record), fit, given)
     progress.end()
-    if report.check.verdict == "fails" and (place := find_kick(fit)) is not None:
+    if report.check.verdict != HOLDS and (place := find_kick(fit)) is not None:
         raise RefusedError(
             f"{path} must have one motion, got two: a push or a knock after {place:.4g} s"
         )
     print(json.dumps(report.facts(), indent=1) if options.json else report.format())
     if options.plot:
         draw(report, options.plot)
-    return 0 if report.check.verdict != "fails" else 1
+    return int(report.check.verdict == FAILS)
 
 
 def copy_example() -> Path:

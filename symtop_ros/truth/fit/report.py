@@ -9,7 +9,7 @@ import numpy as np
 from symtop_ros import __version__
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.measured import write_measured
-from symtop_ros.truth.fit.check import Check
+from symtop_ros.truth.fit.check import FAILS, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
@@ -17,7 +17,13 @@ from symtop_ros.truth.fit.values import Value, convert, list_values
 from symtop_ros.words import write
 
 SCHEMA = "symtop_ros/fit/1"
-LABELS = {"spin": "spin (omega_z)", "mean_precession_rate": "mean precession"}
+LABELS = {
+    "spin": "spin (omega_z)",
+    "theta_dot": "theta'",
+    "phi_dot": "phi'",
+    "mean_precession_rate": "mean precession",
+    "nutation_period": "nutation period",
+}
 ANGLES = "theta", "phi", "theta_dot", "phi_dot"
 
 
@@ -115,7 +121,7 @@ class Report:
 
     def _write_row(self, value: Value) -> str:
         number, deviation = write_measured(value.value, value.deviation)
-        label = LABELS.get(value.name, value.name.replace("_dot", "'").replace("_", " "))
+        label = LABELS.get(value.name, value.name)
         when = " (first row)" if value.name in ANGLES else ""
         return f"  {label:18}{number:>12} +- {deviation} {value.unit}{when}".rstrip()
 
@@ -126,11 +132,16 @@ class Report:
             record |= {"value": value, "deviation": deviation}  # type: ignore[dict-item]
         return write(f"unknown.{unknown.kind}", {**record, "names": unknown.names})
 
+    @property
+    def _lacks_friction(self) -> bool:
+        return self.check.verdict == FAILS and not self.fit.model.record.has_friction
+
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""
         noise = self.fit.noise
         record = {
             "verdict": self.check.verdict,
+            "undamped": {} if self._lacks_friction else None,
             "outliers": {"count": write_count(noise.outliers, "row")} if noise.outliers else None,
             "lasting": {"order": len(noise.lasting)} if len(noise.lasting) else None,
             "changes": [vars(each) for each in self.check.changes] or None,

@@ -10,7 +10,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
-from symtop_ros.truth.fit.aliases import SPARSE, count_rows
+from symtop_ros.truth.fit.aliases import count_rows
 from symtop_ros.truth.fit.camera import CAMERA, project
 from symtop_ros.truth.fit.model import find_axis
 from symtop_ros.truth.fit.record import Known
@@ -27,7 +27,7 @@ from symtop_ros.truth.fit.twins import (
     turn_azimuth,
     turn_over,
 )
-from symtop_ros.truth.fit.values import Value, is_level
+from symtop_ros.truth.fit.values import ALIASED, Value, is_level, is_sparse
 
 EXACT = 1e-9  # of the size of a record; twins agree to rounding, which grows with time
 ROWS = 50  # at which twins are compared
@@ -66,7 +66,8 @@ class Unknown:
 
 def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> list[Unknown]:
     """Return what a record leaves open."""
-    found = [*list_twins(fit, given), *list_together(fit, values)]
+    together = [*list_together(fit, values)]
+    found = [*list_twins(fit, given), *together, *_list_ambiguities(fit)]
     paired = {
         name for each in found if each.kind == "together" for name in each.names.split(" and ")
     }
@@ -76,7 +77,9 @@ def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> 
         if not each.is_known and np.isfinite(each.deviation) and each.name not in paired
         if not any(each.name in other.names.split(", ") for other in found)
     ]
-    return found + list(_list_others(fit))
+    # along a combination that alone is known there is a motion for each of its values
+    others = [] if together else fit.others
+    return found + [*_list_motions(others)]
 
 
 def list_twins(fit: Fit, given: dict[str, Known]) -> Iterator[Unknown]:
@@ -214,13 +217,17 @@ def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
         yield Unknown("tilt", "scale and theta")
 
 
-def _list_others(fit: Fit) -> Iterator[Unknown]:
-    """Yield motions that fit as well, and nutations with few rows."""
-    for other in fit.others:
+def _list_motions(others: Sequence[Fit]) -> Iterator[Unknown]:
+    """Yield motions that fit as well."""
+    for other in others:
         motion = other.model.find_motion(other.x)
         yield Unknown("other", "Mgl/Ix, p_psi/Ix", (float(motion.top.Mgl), find_p(motion)))
-    if (rows := count_rows(fit)) < SPARSE:
-        yield Unknown("sparse", "p_psi/Ix", (rows,))
+
+
+def _list_ambiguities(fit: Fit) -> Iterator[Unknown]:
+    """Yield nutations with few rows, level cameras, and whole turns of the spin."""
+    if is_sparse(fit):
+        yield Unknown("sparse", ", ".join(ALIASED), (count_rows(fit),))
     if is_level(fit):
         yield Unknown("level", "sign of p_psi")
     if fit.model.kind.name == "attitude":

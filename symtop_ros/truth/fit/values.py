@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.aliases import SPARSE, count_rows
 from symtop_ros.truth.fit.camera import CAMERA
 from symtop_ros.truth.fit.fitting import find_momentum
 from symtop_ros.truth.fit.model import FRICTION, MOUNT
@@ -15,7 +16,8 @@ from symtop_ros.truth.fit.refine import Fit
 
 SURE = 0.15  # of the scale of a number; one with a larger deviation is not known
 LEVEL = 4.0  # deviations within which an elevation may be zero
-SIDES = "phi", "phi_dot", "mean_precession_rate"  # change with the sign of p_psi
+SIDES = "p_psi/Ix", "phi_dot", "mean_precession_rate"  # change with the sign of p_psi
+ALIASED = "Mgl/Ix", "p_psi/Ix", "theta_dot", "phi_dot", "nutation_period"
 UNITS = {
     "Mgl/Ix": "1/s^2",
     "p_psi/Ix": "rad/s",
@@ -83,8 +85,14 @@ def agree(value: Value, rival: float) -> bool:
 def find_hidden(fit: Fit) -> tuple[str, ...]:
     """Return names that an exact twin has with a different value."""
     if fit.model.kind.name == "theta":
-        return "p_psi/Ix", "phi_dot", "mean_precession_rate"
-    return ("p_psi/Ix", *SIDES, "elevation") if is_level(fit) else ()
+        return *SIDES, *(ALIASED if is_sparse(fit) else ())
+    level = (*SIDES, "phi", "elevation") if is_level(fit) else ()
+    return *level, *(ALIASED if is_sparse(fit) else ())
+
+
+def is_sparse(fit: Fit) -> bool:
+    """Return True if there are so few rows in a nutation that a different one shows the same."""
+    return count_rows(fit) < SPARSE
 
 
 def is_level(fit: Fit) -> bool:
