@@ -84,7 +84,9 @@ def see(motion: Motion, kind: str, times: Real, camera: dict[str, float]) -> Rea
     if kind == "axis":
         return axis
     if kind == "pixels":
-        return project(axis[None], {name: np.array([v]) for name, v in camera.items()})[0]
+        return np.asarray(
+            project(axis[None], {name: np.array([v]) for name, v in camera.items()})[0]
+        )
     angles = state.euler_angles
     return np.stack([angles.theta, angles.phi][: 1 if kind == "theta" else 2], axis=1)
 

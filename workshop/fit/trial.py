@@ -17,8 +17,10 @@ from symtop_ros.truth.fit.model import FRICTION, Model
 from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.values import list_values
+from workshop.fit.baseline import Row, compare_all
 from workshop.fit.records import NOISES, Sample, draw_sample
 
+SEEDS = 42  # of each kind and noise: 2016 records
 WORSE = 1.03  # a median residual that is larger than that of the truth is of a wrong minimum
 TWINS = ("phi_dot", "mean_precession_rate", "p_psi/Ix")  # of theta alone
 
@@ -99,3 +101,26 @@ def summarize(rows: Sequence[dict[str, Any]]) -> list[str]:
 def is_doubted(row: dict[str, Any]) -> bool:
     """Return True if a fit says that it may be none."""
     return bool(row["verdict"] != HOLDS or row["others"])
+
+
+def measure_fits(folder: Path) -> None:
+    """Write fit.md: a table of all kinds and noises, and a comparison with integrated equations."""
+    rows = run_trial(range(SEEDS), folder / "fit.jsonl")
+    both = compare_all()
+    lines = [*write_table(rows), "", write_comparison(both)]
+    (folder / "fit.md").write_text("\n".join([*lines, ""]), encoding="utf-8")
+    print(f"{folder / 'fit.md'} and fit.jsonl")
+
+
+def write_comparison(rows: Sequence[Row]) -> str:
+    """Return one sentence on records that were fitted in both ways."""
+    plain, own = (sorted(times)[len(rows) // 2] for times in _list_times(rows))
+    return (
+        f"Of {len(rows)} records solve_ivp and least_squares from a textbook's guess fit "
+        f"{sum(row.plain for row in rows)} ({plain:.2g} s each, median of CPU times), `top_fit` "
+        f"{sum(row.found for row in rows)} ({own:.2g} s)."
+    )
+
+
+def _list_times(rows: Sequence[Row]) -> tuple[list[float], list[float]]:
+    return [row.plain_seconds for row in rows], [row.seconds for row in rows]

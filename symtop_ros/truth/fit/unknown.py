@@ -79,7 +79,7 @@ def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> 
     ]
     # along a combination that alone is known there is a motion for each of its values
     others = [] if together else fit.others
-    return found + [*_list_motions(others)]
+    return [*found, *_list_motions(others)]
 
 
 def list_twins(fit: Fit, given: dict[str, Known]) -> Iterator[Unknown]:
@@ -186,7 +186,7 @@ def show(fit: Fit, motion: Motion) -> Real:
     if kind == "attitude":
         return np.asarray(state.orientation)
     axis = find_axis(state.orientation)
-    return axis[:, 2:] if kind == "theta" else axis
+    return np.asarray(axis[:, 2:]) if kind == "theta" else axis
 
 
 def _choose_times(fit: Fit) -> Real:
@@ -196,7 +196,9 @@ def _choose_times(fit: Fit) -> Real:
 
 def _project(fit: Fit, motion: Motion, camera: dict[str, float]) -> Real:
     axis = find_axis(motion.at(_choose_times(fit)).orientation)
-    return project(axis[np.newaxis], {name: np.array([camera[name]]) for name in CAMERA})[0]
+    return np.asarray(
+        project(axis[np.newaxis], {name: np.array([camera[name]]) for name in CAMERA})[0]
+    )
 
 
 def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:

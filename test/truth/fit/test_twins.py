@@ -79,7 +79,8 @@ def test_rates_and_theta_do_not_show_the_azimuth():
 @pytest.mark.parametrize("bias", [-3.0, 0.5, 4.0])
 def test_a_bias_of_the_gyroscope_is_twice_as_much_of_p_psi(bias):
     twin = twins.bias_spin(MOTION, bias)
-    assert differ(rates(MOTION) + [0.0, 0.0, bias], rates(twin)) < EXACT
+    biased = rates(MOTION) + np.array([0.0, 0.0, bias])
+    assert differ(biased, rates(twin)) < EXACT
     p, other = (m.top.Iz * m.start.angular_velocity[2] for m in (MOTION, twin))
     assert other - p == pytest.approx(2 * bias, rel=1e-13)
 
