@@ -190,8 +190,9 @@ def show(fit: Fit, motion: Motion) -> Real:
 
 
 def _choose_times(fit: Fit) -> Real:
-    times = fit.model.record.times - fit.model.record.times[0]
-    return times[:: max(1, len(times) // ROWS)]
+    record = fit.model.record
+    times = record.times - record.times[0]
+    return np.asarray(times[:: max(1, len(times) // ROWS)])
 
 
 def _project(fit: Fit, motion: Motion, camera: dict[str, float]) -> Real:
