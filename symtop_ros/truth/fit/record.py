@@ -22,7 +22,7 @@ Known = tuple[float, float]  # a value and its standard deviation
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """What was seen of a top.
+    """Measurements of a top, with their times.
 
     Attributes
     ----------

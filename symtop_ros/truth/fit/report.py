@@ -55,12 +55,12 @@ class Report:
 
     @cached_property
     def check(self) -> Check:
-        """Whether the model holds."""
+        """The test of the model."""
         return Check(self.fit)
 
     @cached_property
     def unknown(self) -> list[Unknown]:
-        """What the record does not show."""
+        """Statements on what the record does not show."""
         return list_unknown(self.fit, self.values, self.given)
 
     def facts(self) -> dict[str, Any]:
