@@ -30,7 +30,10 @@ BAD = 1e3  # residual of parameters without a motion
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """The values that parameters x (k, p) show at the times of a record, about a reference attitude (4,)."""
+    """The values that parameters x (k, p) show at the times of a record.
+
+    The start of all of them is near a reference attitude (4,).
+    """
 
     record: Record
     reference: Real

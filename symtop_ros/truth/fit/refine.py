@@ -23,6 +23,7 @@ ORDERS = 12  # of an autoregression, at most
 PER_ORDER = 20  # rows for each order
 SETTLED = 1e-7  # of the scale of a parameter
 FIXED = 12.0  # deviations of rounding, of which a step has 3.5
+DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
 
 
@@ -173,7 +174,8 @@ def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
     """Return outliers, correlation and size of what parameters leave."""
     record, left = model.record, model.find_residuals(x)
     rounding, fixed = find_rounding(record, left.shape[1])
-    floor = np.maximum(find_spread(left), rounding)
+    least = np.maximum(rounding, DOUBLE * np.abs(record.values).max())
+    floor = np.maximum(find_spread(left), least)
     good = np.asarray((np.abs(left) < OUTLIER * floor).all(axis=1))
     outliers = int((~good).sum())
     lasting = np.zeros((0, left.shape[1]))
@@ -184,7 +186,7 @@ def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
         kept, lasting = np.ones(len(record), dtype=bool), lasting[:0]
     new = Noise(kept, np.ones(left.shape[1]), lasting, outliers).whiten(left)
     free = max(len(new) - len(x) / left.shape[1], 1.0)
-    sigma = np.maximum(np.sqrt((new**2).sum(axis=0) / free), rounding) + 1e-300
+    sigma = np.maximum(np.sqrt((new**2).sum(axis=0) / free), least)
     return Noise(kept, np.where(fixed, sigma * np.sqrt(len(new)), sigma), lasting, outliers)
 
 
