@@ -178,6 +178,7 @@ setup(
             "physics/gpu/device/shim/*",
             "words/*.json",
         ],
+        f"{NAME}.truth.fit": ["*.csv"],
         f"{NAME}.truth.testset": [
             "*.md",
             "*.xz",
@@ -223,6 +224,7 @@ setup(
             f"top_judge = {NAME}.programs:top_judge",
             f"top_model = {NAME}.programs:top_model",
             f"top_imu = {NAME}.programs:top_imu",
+            f"top_fit = {NAME}.programs:top_fit",
         ]
     },
     author="The symtop_ros authors",

@@ -14,7 +14,7 @@ LONG = "x" * 100_000
 BYTES = "\udcff\udcfe"  # what Python makes of bytes that are no text
 TEXTS = {"CONTROL": CONTROL, "LONG": LONG, "BYTES": BYTES, "NUL": "\0", "NINES": "9" * 5000}
 FOLDERS = {"ctl": "ros.client", "live": "ros.live", "panel": "page.panel", "replay": "replay"}
-FOLDERS |= {"model": "run.models", "judge": "truth.judge", "imu": "truth.imu"}
+FOLDERS |= {"model": "run.models", "judge": "truth.judge", "imu": "truth.imu", "fit": "truth.fit"}
 MAINS = {
     f"top_{name}": import_module(f"symtop_ros.{folder}.main").main
     for name, folder in FOLDERS.items()
@@ -44,6 +44,10 @@ FAILED = {
     "--seconds 1 -o /dev/null/x.csv | --seconds 1 -o aNULb | --magnetic-field=1,2 -o x.csv | "
     "--magnetic-field=1,2,nan -o x.csv | --rate 0 -o x.csv | -o x.txt",
 }
+FAILED["top_fit"] = (
+    "CONTROL | LONG | BYTES | aNULb | /dev/null | /dev/null/x.csv | / | --kind axis /dev/null | "
+    "--topic /x CONTROL.mcap"
+)
 MISUSED = {"top_ctl": "kick CONTROL | kick LONG | kick =3 | kick CONTROL=1 CONTROL=2"}
 UNREADABLE = {
     "top_ctl": " | kick | step | CONTROL | --timeout nan hurry | --timeout -inf hurry | "
@@ -56,6 +60,7 @@ UNREADABLE = {
     "workshop": " | CONTROL | speed --limit nan | speed --limit CONTROL | filters --docs nowhere",
     "top_model": " | --format CONTROL",
     "top_imu": "--rate 1_0 -o x.csv | --seed 1_0 -o x.csv | --magnetic-field 1_0 -o x.csv",
+    "top_fit": " | a b | a --kind CONTROL | a --Ix 1 | a --Ix nan 1 | a --Mgl 1_0 1 | a --example",
     "top_judge": " | a --topic b --max-error nan | a --topic b --remove CONTROL | --live | "
     "a --topic b --ros-args",
 }

@@ -1,7 +1,8 @@
 """Exact truth for authors of engines and filters: to compare with, to feed, to score.
 
 `judge/` compares estimates with the exact motion and names causes; `testset/` has seventy motions
-to 30 digits and a scorer; `imu/` makes records of an inertial sensor.
+to 30 digits and a scorer; `imu/` makes records of an inertial sensor; `fit/` finds the motion
+from a measurement.
 
 With `physics` it is all that such an author has to know. Begin with `judge/main.py` or
 `testset/score.py`.

@@ -1,1 +1,4 @@
-"""`top_judge`: estimates of others compared with the exact motion. Nothing imports it."""
+"""`top_judge`: estimates of others compared with the exact motion.
+
+`truth/fit` uses its reader, its noise and its figures; nothing else imports it.
+"""

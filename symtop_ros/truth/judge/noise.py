@@ -159,11 +159,11 @@ def find_deviations(columns: Real, remainder: Remainder) -> Real:
     columns = columns / sizes
     inverse = np.linalg.pinv(np.einsum("tij,tik->jk", columns, columns), hermitian=True)
     influences = np.einsum("tij,ti->tj", columns, left) @ inverse
-    found = [_sum_influences(each, count, remainder.independent) for each in influences.T]
+    found = [sum_influences(each, count, remainder.independent) for each in influences.T]
     return np.asarray(np.sqrt(found) / sizes)
 
 
-def _sum_influences(values: Real, parameters: int, independent: float) -> float:
+def sum_influences(values: Real, parameters: int, independent: float) -> float:
     """Return the variance of the sum of correlated numbers (n,), of which so many are free."""
     square = float(values @ values)
     if not square:

@@ -17,7 +17,8 @@ from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.messages import TRANSFORM
 from symtop_ros.truth.judge.estimates import Estimates, read_topic
-from symtop_ros.truth.judge.tables import TABLES, read_table
+from symtop_ros.truth.judge.forms import is_table
+from symtop_ros.truth.judge.tables import read_table
 from symtop_ros.truth.judge.times import read_times
 from symtop_ros.truth.judge.truth import Truth, read_events, scene_truth
 
@@ -64,7 +65,7 @@ def read_run(options: argparse.Namespace) -> Run:
 def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
     """Return the estimates that are asked for."""
     other: Path | None = options.estimates
-    if other and other.suffix.lower() in TABLES:
+    if other and is_table(other):
         of_sensor = options.attitude_of == SENSOR
         return [Source(str(other), read_times(read_table(other), run.truth, str(other), of_sensor))]
     if not options.topic:

@@ -1,7 +1,6 @@
 """Estimates from tables of text: columns with names, TUM and EuRoC, and what is odd about them."""
 
 import csv
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
@@ -14,20 +13,23 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError, one_line, plain
 from symtop_ros.run.wire.layout import NANOSECONDS
+from symtop_ros.truth.judge.columns import (
+    NUMBERED,
+    TIMES,
+    Row,
+    choose_time,
+    find_quaternions,
+    find_rates,
+    find_separator,
+    find_unit,
+    is_number,
+    refuse_twice,
+    split_cells,
+    split_names,
+    split_units,
+)
 from symtop_ros.truth.judge.estimates import MAX_STAMP, Estimates
 
-TABLES = (".csv", ".tum", ".txt")  # endings of files that are no logs
-SEPARATORS = (",", ";", "\t")  # else any white space
-# A component of the quaternion is w, x, y, z alone or after one of these words: qw, q_RS_w []
-# (EuRoC), pose.orientation.w. A name of an angular velocity is wx, w_x or angular_velocity.x.
-QUATERNION = re.compile(
-    r"((?:.*[._/ ])?(?:q|quat|quaternion|orientation|rotation|attitude)(?:_\w+?)?[._/ ]?|)([wxyz])"
-)
-RATES = re.compile(r"(?:w_?|(?:.*[._/ ])?angular_velocity[._/ ])([xyz])")
-TIMES = re.compile(
-    r"(?:t|time|times|timestamp|time_?stamp|stamp|sec|secs|seconds)(?:_?(ns|us|ms|s))?"
-)
-UNIT = re.compile(r"\s*[\[(]\s*([^\])]*?)\s*[\])]\s*$")
 DIGITS_OF = {"s": 9, "ms": 6, "us": 3, "ns": 0}  # digits after the point that are whole ns
 # Columns without names: EuRoC has ns, position, w, x, y, z, and more; TUM has s, position, x, y, z,
 # w; KITTI has twelve numbers of a matrix, and no time.
@@ -36,10 +38,10 @@ POSITIONAL = {
     "ns": "no names of columns: read as EuRoC's, timestamp (ns), position, w, x, y, z",
     "s": "no names of columns: read as TUM's, timestamp (s), position, x, y, z, w",
 }
+NUMBERED_NOTE = "the components q0 to q3 of the quaternion are read as w, x, y, z"
 # Seconds since 1970 as a double are off by 1e-7 s, and have up to seven decimals.
 EPOCH = 10**18  # ns
 DIGITS = 9  # decimals of a time in whole ns
-Row = Sequence[str]
 
 
 @dataclass(frozen=True)
@@ -87,96 +89,41 @@ def _read_lines(path: Path, lines: Iterable[str]) -> Table:
     columns = None
     first = (1, "")
     for number, line in numbered:
-        found = _find_names(path, _split_names(line))
+        found = _find_names(path, split_names(line))
         columns = found or columns
         if not found and not line.startswith("#"):
             first = number, line
             break
-    separator = _find_separator(first[1])
-    columns = columns or _guess_columns(path, _split(first[1], separator), first[1])
+    separator = find_separator(first[1])
+    columns = columns or _guess_columns(path, split_cells(first[1], separator), first[1])
     rows = [first] if first[1] else []
     rest = (each for each in numbered if not each[1].startswith("#"))
     return _read_rows(path, columns, chain(rows, rest), separator)
 
 
-def _find_separator(line: str) -> str | None:
-    return next((each for each in SEPARATORS if each in line), None)
-
-
-def _split(line: str, separator: str | None) -> list[str]:
-    if separator is None:
-        return line.split()
-    (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True)
-    return [cell.strip() for cell in cells]
-
-
-def _split_names(line: str) -> list[str]:
-    """Return the names of columns; a comment sign is no name."""
-    line = line.strip().lstrip("#").strip()
-    return _split(line, _find_separator(line))
-
-
 def _find_names(path: Path, head: Row) -> ColumnPlaces | None:
     """Return where the columns are, by their names; None if these are no names of columns."""
-    names = [UNIT.sub("", name.strip().strip('"')).lower() for name in head]
-    units = [found[1].lower() if (found := UNIT.search(name)) else "" for name in head]
+    names, units = split_units(head)
     times = [place for place, name in enumerate(names) if TIMES.fullmatch(name)]
-    groups = _group_components(path, names)
+    groups = find_quaternions(names)
     if not times or not groups:
         return None
     if len(groups) > 1:
         kinds = " and ".join(one_line(names[places["w"]]) for places in groups.values())
         raise RefusedError(f"{path} must have the columns of one quaternion, got {kinds}")
     (quaternion,) = groups.values()
-    rates = {found[1]: k for k, name in enumerate(names) if (found := RATES.fullmatch(name))}
-    wanted = [quaternion[each] for each in "wxyz"]
-    wanted += [rates[each] for each in "xyz"] if len(rates) == 3 else []
-    time = _choose_time(path, names, times)
-    _refuse_twice(path, names, [time, *wanted])
-    return ColumnPlaces(time, tuple(wanted), _find_unit(names[time], units[time]))
-
-
-def _group_components(path: Path, names: Row) -> dict[str, dict[str, int]]:
-    """Return the places of complete quaternions by the words before their components.
-
-    If there is a bare w, x, y, z it is the only one.
-    """
-    groups: dict[str, dict[str, int]] = {}
-    for place, name in enumerate(names):
-        if found := QUATERNION.fullmatch(name):
-            groups.setdefault(found[1], {}).setdefault(found[2], place)
-    whole = {word: places for word, places in groups.items() if len(places) == 4}
-    return {"": whole[""]} if "" in whole else whole
-
-
-def _choose_time(path: Path, names: Row, times: Sequence[int]) -> int:
-    """Return the place of the time: a stamp, if there are seconds as well."""
-    stamps = [place for place in times if "stamp" in names[place]]
-    return (stamps or [*times])[0]
-
-
-def _refuse_twice(path: Path, names: Row, places: Sequence[int]) -> None:
-    for place in places:
-        if names.count(names[place]) > 1:
-            raise RefusedError(
-                f"{path} must have each column once, got {one_line(names[place])} twice"
-            )
-
-
-def _find_unit(name: str, unit: str) -> str:
-    """Return the unit of a time by what its name says; "" if the numbers have to show it."""
-    found = TIMES.fullmatch(name)
-    said = unit if unit in DIGITS_OF else found[1] if found else ""
-    if said:
-        return said
-    if name == "stamp":
-        return "ns"
-    return "" if "stamp" in name else "s"
+    wanted = [*(quaternion[each] for each in "wxyz"), *find_rates(names)]
+    time = choose_time(names, times)
+    refuse_twice(path, names, [time, *wanted])
+    is_numbered = NUMBERED.fullmatch(names[quaternion["w"]])
+    note = NUMBERED_NOTE if is_numbered else ""
+    unit = find_unit(names[time], units[time], [*DIGITS_OF])
+    return ColumnPlaces(time, tuple(wanted), unit, note)
 
 
 def _guess_columns(path: Path, head: Row, first: str) -> ColumnPlaces:
     """Return where the columns of a table without names are."""
-    numbers = [_is_number(cell) for cell in head]
+    numbers = [is_number(cell) for cell in head]
     if len(head) >= EUROC and all(numbers) and head[0].isdecimal() and "," in first:
         return ColumnPlaces(0, (4, 5, 6, 7), "ns", POSITIONAL["ns"])
     if len(head) == TUM and all(numbers):
@@ -189,20 +136,12 @@ def _guess_columns(path: Path, head: Row, first: str) -> ColumnPlaces:
     )
 
 
-def _is_number(text: str) -> bool:
-    try:
-        float(plain(text))
-    except ValueError:
-        return False
-    return True
-
-
 def _read_rows(
     path: Path, columns: ColumnPlaces, rows: Iterable[tuple[int, str]], separator: str | None
 ) -> Table:
     times, numbers, lines = [], [], []
     for line, row in rows:
-        cells = _split(row, separator)
+        cells = split_cells(row, separator)
         try:
             times.append(plain(cells[columns.time]).strip())
             Decimal(times[-1])

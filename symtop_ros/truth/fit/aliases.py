@@ -1,0 +1,57 @@
+"""Starts for motions whose nutation looks the same at few rows in a nutation.
+
+At equal steps a nutation of the frequency f shows the same rows as one of 1/step - f or 1/step + f.
+The mean precession stays, and so does the place of the axis in the first row; the velocity of the
+nutation grows with its frequency, and turns round for the first of both.
+"""
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.model import Model
+from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.starts import Starts
+
+SPARSE = 4.0  # rows in a nutation, below which a different motion may show the same rows
+NEAR = np.linspace(0.8, 1.2, 33)  # of p_psi/Ix of a start
+
+
+def count_rows(fit: Fit) -> float:
+    """Return the number of rows in a nutation; infinite where friction or a pole hides it."""
+    if fit.model.record.has_friction or fit.model.kind.shows_spin:
+        return np.inf
+    try:
+        return float(fit.model.find_motion(fit.x).nutation_period / fit.model.record.step)
+    except (ValueError, TypeError):
+        return np.inf
+
+
+def list_alias_starts(fit: Fit) -> list[Starts]:
+    """Return starts whose nutation has another frequency."""
+    model, x = fit.model, fit.x
+    motion = model.find_motion(x)
+    turning = float(motion.mean_precession_rate)
+    rate = 2 * np.pi / float(motion.nutation_period)
+    sampling = 2 * np.pi / model.record.step
+    rows = [
+        _make_start(model, x, sign * ratio * near, turning)
+        for sign, ratio in ((-1.0, abs(sampling - rate) / rate), (1.0, (sampling + rate) / rate))
+        for near in NEAR
+    ]
+    return [Starts(model, np.array(rows))]
+
+
+def _make_start(model: Model, x: Real, ratio: float, turning: float) -> Real:
+    """Return parameters whose p_psi and velocity of nutation are larger by a ratio."""
+    found = x.copy()
+    start = model.find_motion(x).start
+    w, a, b, c = np.asarray(start.orientation)
+    up = Rotation.from_quat([a, b, c, w]).inv().apply([0.0, 0.0, 1.0])
+    mean = turning * (up - up[2] * np.array([0.0, 0.0, 1.0]))
+    across = np.asarray(start.angular_velocity)[:2] - mean[:2]
+    p = x[model.place["p_psi/Ix"]] * ratio
+    found[model.place["p_psi/Ix"]] = p
+    found[model.place["Mgl/Ix"]] = p * turning - up[2] * turning**2
+    found[model.place["wx"]], found[model.place["wy"]] = mean[:2] + ratio * across
+    return found

@@ -1,0 +1,107 @@
+"""The test of the model: white residuals, and the same constants in both halves."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.judge.noise import measure_correlation
+
+# The constants of two halves differ by more than five deviations once in two million records; noise
+# that wanders makes deviations of halves uncertain, which the sandwich of a half allows for.
+CHANGED = 5.0
+# Residuals of a wrong model swing with the motion: they are larger than their steps from row to row
+# by more than this. Noise that keeps nine tenths from row to row reaches 3.2.
+SMOOTH = 4.0
+HOLDS, UNCLEAR, FAILS = "holds", "unclear", "fails"
+CONSTANTS = ("Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin")
+
+
+@dataclass(frozen=True)
+class Change:
+    """A constant that differs between the halves of a record."""
+
+    name: str
+    first: float
+    second: float
+    deviations: float
+
+
+@dataclass(frozen=True, eq=False)
+class Check:
+    """The model of a fit, tested."""
+
+    fit: Fit
+
+    @cached_property
+    def is_white(self) -> bool:
+        """True if what is new in each row is white."""
+        return self.fit.remainder.is_white
+
+    @cached_property
+    def correlation(self) -> float:
+        """Sum of squares of the first ten correlations; 30 at most for white noise, as a rule."""
+        return measure_correlation(self.fit.white)
+
+    @cached_property
+    def smoothness(self) -> float:
+        """Size of the residuals in that of noise with the same steps from row to row."""
+        rows = self.fit.residuals[self.fit.noise.kept] / self.fit.noise.sigma
+        steps = np.diff(rows, axis=0)
+        return float(np.sqrt((rows**2).mean() / max((steps**2).mean() / 2, 1e-300)))
+
+    @cached_property
+    def changes(self) -> tuple[Change, ...]:
+        """Constants that are not the same in both halves."""
+        first, second = (find_half(self.fit, late) for late in (False, True))
+        return tuple(
+            change
+            for name in CONSTANTS
+            if name in self.fit.model.place
+            and (change := self._compare(name, first, second)).deviations > CHANGED
+        )
+
+    def _compare(self, name: str, first: "Half", second: "Half") -> Change:
+        place = self.fit.model.place[name]
+        both = np.hypot(first.deviations[place], second.deviations[place])
+        a, b = first.x[place], second.x[place]
+        return Change(name, float(a), float(b), float(abs(a - b) / max(both, 1e-300)))
+
+    @property
+    def fault(self) -> str:
+        """Why there are no honest deviations: "few", "wanders" or ""."""
+        return self.fit.remainder.find_fault(1)
+
+    @property
+    def verdict(self) -> str:
+        """HOLDS, UNCLEAR (noise that wanders, or a motion that is not of this model) or FAILS."""
+        if self.changes or (not self.is_white and self.smoothness > SMOOTH):
+            return FAILS
+        is_noise = self.is_white and self.smoothness <= SMOOTH and not self.fault
+        return HOLDS if is_noise else UNCLEAR
+
+
+@dataclass(frozen=True, eq=False)
+class Half:
+    """Parameters (p,) by one half of a record, by one step of Gauss and Newton, and deviations."""
+
+    x: Real
+    deviations: Real
+
+
+def find_half(fit: Fit, late: bool) -> Half:
+    """Return the parameters that one half of the record shows."""
+    middle = len(fit.white) // 2
+    rows = slice(middle, None) if late else slice(middle)
+    columns, white = fit.columns[rows] / fit.sizes, fit.white[rows]
+    normal = np.einsum("tij,tik->jk", columns, columns) + np.diag(fit.priors / fit.sizes**2)
+    values, vectors = np.linalg.eigh(normal)
+    inverse = (vectors / np.maximum(values, 1e-12 * values[-1])) @ vectors.T
+    influences = np.einsum("tij,ti->tj", columns, white) @ inverse / fit.sizes
+    # noise that is not white after all makes sums larger than those of independent numbers
+    excess = max(fit.remainder.independent, 1.0)
+    wider = np.sqrt(len(fit.white) / excess)
+    deviations = wider * np.sqrt(np.diag(inverse)) / fit.sizes
+    return Half(fit.x - influences.sum(axis=0), deviations)

@@ -1,0 +1,149 @@
+"""The fit of a record: two searches, more if what is left is no noise, and other motions.
+
+A search that ends in a wrong minimum leaves residuals that are correlated or larger: the better
+motion of all searches is taken.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.physics import Motion
+from symtop_ros.truth.fit.aliases import SPARSE, count_rows, list_alias_starts
+from symtop_ros.truth.fit.check import HOLDS, Check
+from symtop_ros.truth.fit.model import TURNS, Model
+from symtop_ros.truth.fit.record import Record
+from symtop_ros.truth.fit.refine import Fit, refine
+from symtop_ros.truth.fit.search import ALIKE, EFFORTS, SURE, Candidate, search
+from symtop_ros.truth.fit.starts import fill
+from symtop_ros.truth.fit.twins import mirror_view, take_other_end, turn_over
+
+FARTHEST = 6.0  # deviations; a residual beyond it counts as this
+CLEAR = 25.0  # squares of deviations by which a motion fits worse than another
+DIFFERENT = 0.02  # of p_psi/Ix; motions that are closer are one
+
+
+def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> Fit:
+    """Return the motion that explains a record.
+
+    Parameters
+    ----------
+    record : Record
+        Of any number of rows; at most `record.MOST` are taken.
+    tell : callable
+        Is called with the part that is done, 0 to 1.
+
+    Returns
+    -------
+    Fit
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from symtop_ros.physics import Motion, State, Top
+    >>> from symtop_ros.truth.fit import fit_motion, make_record
+    >>> motion = Motion(Top(1.0, 0.25, 300.0), State.from_euler(theta=0.5, psi_dot=200.0))
+    >>> t = np.arange(100) / 100
+    >>> fit = fit_motion(make_record(t, motion.at(t).to_world([0.0, 0.0, 1.0]), "axis"))
+    >>> fit.x[:2].round(6).tolist()
+    [300.0, 50.0]
+    """
+    record = record.thin()
+    found: Fit | None = None
+    rivals: list[Candidate] = []
+    for number, effort in enumerate(EFFORTS, 1):
+        rivals += search(record, effort)
+        found = choose_better(found, rivals, record)
+        if tell:
+            tell(number / (len(EFFORTS) + 1))
+        if number >= SURE and Check(found).verdict == HOLDS:
+            break
+    assert found is not None
+    if count_rows(found) < 2 * SPARSE:
+        rivals += search(record, EFFORTS[2], list_alias_starts(found))
+        found = choose_better(found, rivals, record)
+    found = choose_twin(found)
+    return replace(found, others=tuple(find_others(found, rivals)))
+
+
+def choose_better(fit: Fit | None, rivals: list[Candidate], record: Record) -> Fit:
+    """Return the fit whose residuals are smaller, whatever noise they are taken for."""
+    best = min(rivals, key=lambda each: each.cost)
+    new = refine(best.model.move(record), best.x)
+    return new if fit is None or measure_median(new) < 0.999 * measure_median(fit) else fit
+
+
+def choose_twin(fit: Fit) -> Fit:
+    """Return the usual one of exact twins: Mgl > 0 by rates, an upright camera that is high."""
+    model, x = fit.model, fit.x
+    if model.kind.name == "rates" and x[0] < 0:
+        return _restate(fit, turn_over(model.find_motion(x)), {})
+    if "roll" in model.place and np.cos(x[model.place["roll"]]) < 0:
+        roll = float(x[model.place["roll"]]) + np.pi
+        roll -= 2 * np.pi * np.round(roll / (2 * np.pi))
+        fit = _restate(fit, take_other_end(model.find_motion(x)), {"roll": roll})
+    if "elevation" in fit.model.place and fit.x[fit.model.place["elevation"]] < 0:
+        motion, camera = mirror_view(fit.model.find_motion(fit.x), fit.model.find_camera(fit.x))
+        return _restate(fit, motion, {"elevation": camera["elevation"]})
+    return fit
+
+
+def _restate(fit: Fit, motion: Motion, changed: dict[str, float]) -> Fit:
+    """Return the fit that begins at a twin of its motion, about the start of the twin."""
+    model = Model(fit.model.record, np.asarray(motion.start.orientation))
+    wx, wy, spin = (float(each) for each in motion.start.angular_velocity)
+    kept = {name: float(value) for name, value in zip(fit.model.names, fit.x, strict=True)}
+    own = {"Mgl/Ix": motion.top.Mgl, "p_psi/Ix": spin, "spin": spin, "wx": wx, "wy": wy}
+    return refine(model, fill(model, {**kept, **dict.fromkeys(TURNS, 0.0), **own, **changed}))
+
+
+def measure_median(fit: Fit) -> float:
+    """Return the median size of residuals, by the size of the values."""
+    spread = np.abs(fit.model.record.values).max() + 1e-300
+    return float(np.median(np.abs(fit.residuals)) / spread)
+
+
+def find_others(fit: Fit, rivals: list[Candidate]) -> list[Fit]:
+    """Return other motions that fit a record as well."""
+    own = sum_squares(fit, fit.residuals)
+    found: list[Fit] = []
+    marks = [find_marks(fit.model, fit.x)]
+    best = min(each.cost for each in rivals)
+    for each in sorted(rivals, key=lambda each: each.cost):
+        if each.cost > ALIKE * best:
+            break
+        mark = find_marks(each.model, each.x)
+        if min(np.abs(mark / other - 1).max() for other in marks) < DIFFERENT:
+            continue
+        other = Fit(each.model.move(fit.model.record), each.x, fit.noise)
+        if sum_squares(fit, other.residuals) < own + CLEAR:
+            marks.append(mark)
+            found.append(choose_twin(other))
+    return found
+
+
+def find_marks(model: Model, x: Real) -> Real:
+    """Return numbers that are the same for motions that are exact twins of each other."""
+    p = find_momentum(model, x)
+    if model.kind.name in {"axis", "angles", "attitude"}:
+        return np.array([p])
+    if model.kind.name != "theta":
+        return np.array([abs(p)])
+    motion = model.find_motion(x)
+    p_phi = float(motion.top.angular_momentum(motion.start)[2])
+    return np.sort(np.abs([p, p_phi]))
+
+
+def sum_squares(fit: Fit, residuals: Real) -> float:
+    """Return the sum of the squares of residuals in deviations, each at most FARTHEST."""
+    return float((np.minimum(np.abs(fit.noise.whiten(residuals)), FARTHEST) ** 2).sum())
+
+
+def find_momentum(model: Model, x: Real) -> float:
+    """Return p_psi/Ix."""
+    place = model.place
+    if "p_psi/Ix" in place:
+        return float(x[place["p_psi/Ix"]])
+    return float(x[place["Iz/Ix"]] * x[place["spin"]])

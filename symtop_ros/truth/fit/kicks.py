@@ -1,0 +1,71 @@
+"""Two motions in one record: the place of a kick between them.
+
+The first part that one motion explains is made longer by halves of the rest; so is the last part,
+from the other end. If both are noise and leave no gap, the motion changed where they meet.
+"""
+
+import numpy as np
+
+from symtop_ros.truth.fit.record import FEWEST, Record
+from symtop_ros.truth.fit.refine import Fit, refine
+from symtop_ros.truth.fit.search import EFFORTS, search
+
+SHORTEST = 3 * FEWEST  # rows that show a motion
+NEAR = 4  # rows between both parts, at most, in units of the resolution
+JUMPS = 3.0  # deviations of the first rows that a motion does not explain
+ROWS = 4  # of them
+
+
+def find_kick(fit: Fit) -> float | None:
+    """Return the time in s after the first row at which the motion changed; None if at no time."""
+    record = fit.model.record
+    first = find_reach(record)
+    if first is None or not SHORTEST <= first <= len(record) - SHORTEST:
+        return None
+    rest = record.select(slice(first, None))
+    found = search(rest, EFFORTS[0])[0]
+    other = refine(found.model.move(rest), found.x)
+    if not explains(other):
+        return None
+    return float(record.times[first] - record.times[0])
+
+
+def explains(fit: Fit) -> bool:
+    """Return whether a motion leaves white noise, no larger than the steps from row to row."""
+    return fit.remainder.is_white and not len(fit.noise.lasting)
+
+
+def find_reach(record: Record) -> int | None:
+    """Return how many of the first rows are of one motion; None if no part is."""
+    count = min(max(len(record) // 8, SHORTEST), len(record))
+    part = record.select(slice(count))
+    found = search(part, EFFORTS[0])[0]
+    fit = refine(found.model.move(part), found.x)
+    if not explains(fit):
+        return None
+    while count < len(record):
+        more = min(count + max(count // 4, ROWS), len(record))
+        longer = _extend(fit, record, more)
+        if leaves(longer, fit, count):
+            return _find_end(fit, record, count, more)
+        fit, count = longer, more
+    return None
+
+
+def _extend(fit: Fit, record: Record, count: int) -> Fit:
+    return refine(fit.model.move(record.select(slice(count))), fit.x)
+
+
+def leaves(longer: Fit, fit: Fit, count: int) -> bool:
+    """Return whether a motion does not explain the rows that were added."""
+    size = float(np.sqrt((longer.residuals / fit.noise.sigma) ** 2).mean())
+    return size > 1.3 or not longer.remainder.is_white
+
+
+def _find_end(fit: Fit, record: Record, low: int, high: int) -> int:
+    """Return the first row that the motion of the rows before does not explain."""
+    model = fit.model.move(record.select(slice(high)))
+    left = np.abs(model.find_residuals(fit.x) / fit.noise.sigma).max(axis=1)
+    far = left[low:] > JUMPS + 2
+    after = np.convolve(far, np.ones(ROWS, dtype=int))[: len(far)] >= ROWS - 1
+    return low + max(int(np.argmax(after)) - ROWS + 2, 0) if after.any() else high

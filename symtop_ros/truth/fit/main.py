@@ -1,0 +1,212 @@
+"""Entry point of `top_fit`: the motion of a top from a record of what was seen of it."""
+
+import argparse
+import json
+import shutil
+import sys
+import time
+from collections.abc import Callable
+from importlib.resources import as_file, files
+from pathlib import Path
+
+import numpy as np
+
+from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
+from symtop_ros.base.refusals import RefusedError
+from symtop_ros.truth.fit.check import FAILS, HOLDS
+from symtop_ros.truth.fit.files import Rows, read_rows
+from symtop_ros.truth.fit.fitting import fit_motion
+from symtop_ros.truth.fit.kicks import find_kick
+from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
+from symtop_ros.truth.fit.report import Report
+from symtop_ros.truth.judge.forms import is_table
+
+DESCRIPTION = """Find the motion of a heavy symmetric top from a record of what was seen of it: a
+table (columns with names: t and theta, phi; x, y, z of the axis; u, v of a point in a picture; wx,
+wy, wz of the body; w, x, y, z), a log or a bag. It prints what the record shows, with standard
+deviations, what it cannot show, and whether the model holds."""
+EXAMPLE = "example.csv"
+PATIENCE = 2.0  # s, after which progress is written
+RATIOS = ("Iz/Ix", "Ix", "Mgl")
+
+
+def main(args: list[str] | None = None) -> int:
+    """Fit; return 0 (good), 1 (refused or failed, or the model does not hold) or 2 (usage)."""
+    parser = make_parser()
+    options = parser.parse_args(args)
+    if bool(options.record) == options.example:
+        parser.error("RECORD or --example is needed")
+    return tell_failures("top_fit", lambda: _run(options))
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    parser = new_parser("top_fit", DESCRIPTION)
+    parser.add_argument("record", nargs="?", type=Path, metavar="RECORD", help="table, log or bag")
+    parser.add_argument(
+        "--example", action="store_true", help=f"copy a record to ./{EXAMPLE} and fit it"
+    )
+    parser.add_argument("--kind", choices=KINDS, help="kind of record if its columns do not say it")
+    parser.add_argument("--topic", help="full name of a topic of a log")
+    parser.add_argument("--frame", help="child frame of the top, for /tf")
+    parser.add_argument("--friction", action="store_true", help="look for linear friction as well")
+    parser.add_argument(
+        "--mount",
+        type=positive,
+        metavar="RAD/S",
+        help="look for biases and the tilt of a gyroscope as well; deviation of its bias about z, "
+        "which no record shows",
+    )
+    for name, unit in zip(RATIOS, ("", " in kg m^2", " in J"), strict=True):
+        parser.add_argument(
+            f"--{name.replace('/', '-')}",
+            type=positive,
+            nargs=2,
+            metavar=("VALUE", "DEVIATION"),
+            dest=name,
+            help=f"known {name}{unit}, with its standard deviation",
+        )
+    parser.add_argument("--pivot", type=decimal, nargs=2, metavar=("U", "V"), help="known pivot")
+    parser.add_argument("--scale", type=positive, metavar="PIXELS", help="known length of the axis")
+    parser.add_argument(
+        "--elevation", type=decimal, metavar="DEGREES", help="known elevation of the camera"
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON in place of text")
+    parser.add_argument(
+        "--plot", type=Path, metavar="FILE", help="draw record, motion and residuals (.png, .svg)"
+    )
+    return parser
+
+
+def _run(options: argparse.Namespace) -> int:
+    path = copy_example() if options.example else options.record
+    progress = Progress()
+    rows = read(path, options, progress)
+    record = fill_record(rows, options)
+    fit = fit_motion(record, progress.tell_part)
+    given = {name: known for name, known in find_given(options).items() if known}
+    report = Report(str(path), len(record), fit, given)
+    progress.end()
+    if report.check.verdict != HOLDS and (place := find_kick(fit)) is not None:
+        raise RefusedError(
+            f"{path} must have one motion, got two: a push or a knock after {place:.4g} s"
+        )
+    print(json.dumps(report.facts(), indent=1) if options.json else report.format())
+    if options.plot:
+        draw(report, options.plot)
+    return int(report.check.verdict == FAILS)
+
+
+def copy_example() -> Path:
+    """Copy the example into the working folder, and return its path."""
+    path = Path(EXAMPLE)
+    if not path.exists():
+        with as_file(files("symtop_ros.truth.fit") / EXAMPLE) as own:
+            shutil.copyfile(own, path)
+    return path
+
+
+def read(path: Path, options: argparse.Namespace, progress: "Progress") -> Rows:
+    """Return the rows of a table or a log."""
+    if is_table(path):
+        size = path.stat().st_size if path.exists() else 1
+        return read_rows(path, options.kind, lambda done: progress.tell(done / size, "reading"))
+    from symtop_ros.truth.fit.logs import read_log  # logs need mcap
+
+    return read_log(path, options.topic, options.frame, options.kind)
+
+
+def fill_record(rows: Rows, options: argparse.Namespace) -> Record:
+    """Return the record of some rows and of what the options know."""
+    _refuse_options(rows.kind, options)
+    notes = [*rows.notes]
+    if len(rows.times) > MOST:
+        notes.append(f"{len(rows.times)} rows: {MOST} of them are taken, spread over the record")
+    return make_record(
+        rows.times,
+        rows.values,
+        rows.kind,
+        camera=find_camera(options) if rows.kind == "pixels" else {},
+        known=find_known(rows.kind, options),
+        has_friction=options.friction,
+        has_mount=options.mount is not None,
+        notes=tuple(notes),
+    )
+
+
+def _refuse_options(kind: str, options: argparse.Namespace) -> None:
+    """Refuse options that say something of a different kind of record."""
+    if options.mount is not None and kind != "rates":
+        raise RefusedError(f"--mount must have a record of rates, got {kind}")
+    if kind != "pixels" and (options.pivot or options.scale or options.elevation is not None):
+        raise RefusedError(f"--pivot, --scale and --elevation must have pixels, got {kind}")
+
+
+def find_camera(options: argparse.Namespace) -> dict[str, float]:
+    """Return what is known of a camera; one whose pivot is known is upright."""
+    found: dict[str, float] = {}
+    if options.pivot:
+        found |= dict(zip("uv", options.pivot, strict=True))
+    if options.scale:
+        found["log_scale"] = float(np.log(options.scale))
+    if options.elevation is not None:
+        found["elevation"] = float(np.radians(options.elevation))
+    return found
+
+
+def find_given(options: argparse.Namespace) -> dict[str, Known | None]:
+    """Return the known values of the options, by name."""
+    values = {name: getattr(options, name) for name in RATIOS}
+    return {name: (each[0], each[1]) if each else None for name, each in values.items()}
+
+
+def find_known(kind: str, options: argparse.Namespace) -> dict[str, Known]:
+    """Return known parameters of the fit: ratios of what is known, and a bias of zero."""
+    given, known = find_given(options), {}
+    ratio, size, weight = (given[name] for name in RATIOS)
+    if ratio and KINDS[kind].shows_spin:
+        known["Iz/Ix"] = ratio
+    if size and weight:
+        value = weight[0] / size[0]
+        known["Mgl/Ix"] = value, value * float(np.hypot(weight[1] / weight[0], size[1] / size[0]))
+    if options.mount is not None:
+        known["bias_z"] = 0.0, options.mount
+    return known
+
+
+def draw(report: Report, path: Path) -> None:
+    """Draw the report, if Matplotlib is installed."""
+    try:
+        from symtop_ros.truth.fit.figures import write_figure
+    except ModuleNotFoundError as error:
+        print(f"top_fit: no plot, {error.name} is missing", file=sys.stderr)
+    else:
+        write_figure(report, path)
+
+
+class Progress:
+    """Progress on a terminal, once an action takes longer than `PATIENCE`."""
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock, self._begin, self._wrote = clock, clock(), False
+
+    def tell_part(self, part: float) -> None:
+        """Write what part of the fit is done."""
+        self.tell(part, "fitting")
+
+    def tell(self, part: float, action: str) -> None:
+        """Write what part of an action is done, and an estimate of the time that is left."""
+        spent = self._clock() - self._begin
+        if spent < PATIENCE or not 0 < part < 1 or not sys.stderr.isatty():
+            return
+        left = spent * (1 - part) / part
+        print(
+            f"\rtop_fit: {action}, {part:.0%}, at most {left:.0f} s more ", end="", file=sys.stderr
+        )
+        self._wrote = True
+
+    def end(self) -> None:
+        """End the line, if one was written."""
+        if self._wrote:
+            print(file=sys.stderr)

@@ -1,0 +1,194 @@
+"""A record: what was seen of a top at some times, and what is known of it besides."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+
+from symtop_ros.base.arrays import Mask, Places, Real
+from symtop_ros.base.refusals import RefusedError, refuse, require
+from symtop_ros.truth.fit.kinds import KINDS, Kind
+
+FEWEST = 12  # rows
+MOST = 100_000  # rows of a fit; more are thinned
+RUN = 200  # rows that follow each other in a record that was thinned, for the correlation of noise
+GAP = 1.5  # medians of the steps; a longer step ends a run of noise
+ROUNDED = 2  # rows for each value of a column, at least, if it is rounded
+STILL = 1e-9  # of the size of the numbers; what changes less does not move
+NORMAL = 1.4826  # deviation of a normal distribution, in median distances from the median
+Known = tuple[float, float]  # a value and its standard deviation
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """Measurements of a top, with their times.
+
+    Attributes
+    ----------
+    times : ndarray (n,)
+        In s, growing.
+    values : ndarray (n, m)
+        By the columns of the kind, in rad, rad/s or pixels; axis and attitude have norm 1.
+    kind : Kind
+    camera : mapping
+        Of pixels: what is known of the camera, by the names of `camera.CAMERA`.
+    known : mapping
+        Known values with their standard deviations: "Mgl/Ix", "Iz/Ix", and biases.
+    has_friction : bool
+        True if friction is looked for.
+    has_mount : bool
+        Of rates: True if biases and the tilt of the sensor are looked for.
+    notes : tuple of str
+        What was odd about the file.
+    """
+
+    times: Real
+    values: Real
+    kind: Kind
+    camera: Mapping[str, float] = field(default_factory=dict)
+    known: Mapping[str, Known] = field(default_factory=dict)
+    has_friction: bool = False
+    has_mount: bool = False
+    notes: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        """Return the number of rows."""
+        return len(self.times)
+
+    @cached_property
+    def step(self) -> float:
+        """Median of the steps of time, in s."""
+        return float(np.median(np.diff(self.times)))
+
+    @property
+    def seconds(self) -> float:
+        """Time from the first to the last row."""
+        return float(self.times[-1] - self.times[0])
+
+    @cached_property
+    def follows(self) -> Mask:
+        """True (n,) for rows that come one step after the row before, so that noise lasts."""
+        return np.append(False, np.diff(self.times) < GAP * self.step)
+
+    @cached_property
+    def rounding(self) -> Real:
+        """Deviation (m,) of the rounding of each column to its decimals; 0 if none is seen.
+
+        A column that is rounded has few values; rounding to a step has the deviation step/sqrt(12).
+        """
+        found = np.zeros(self.values.shape[1])
+        for column, values in enumerate(self.values.T):
+            unique = np.unique(values)
+            if 1 < len(unique) < len(self) / ROUNDED:
+                found[column] = np.diff(unique).min() / np.sqrt(12)
+            elif len(unique) == 1:
+                found[column] = find_decimal(values[0]) / np.sqrt(12)
+        return found
+
+    def select(self, rows: slice | Mask | Places) -> "Record":
+        """Return a part of the record."""
+        return replace(self, times=self.times[rows], values=self.values[rows])
+
+    def thin(self, most: int = MOST) -> "Record":
+        """Return at most so many rows: all, or runs of rows that are spread over the record."""
+        if len(self) <= most:
+            return self
+        pieces = max(most // RUN, 1)
+        firsts = np.linspace(0, len(self) - RUN, pieces).astype(int)
+        return self.select(np.unique(firsts[:, np.newaxis] + np.arange(RUN)).ravel())
+
+
+def find_decimal(value: float) -> float:
+    """Return the step of the last decimal of a number that was written with up to nine digits."""
+    digits = f"{value:.9g}".partition("e")[0]
+    exponent = int(f"{value:.9e}".partition("e")[2])
+    return float(10.0 ** (exponent + 1 - len(digits.replace(".", "").strip("-0") or "0")))
+
+
+def make_record(times: Real, values: Real, kind: str, **more: object) -> Record:
+    """Return a record of which numbers, times and motion were looked at.
+
+    Parameters
+    ----------
+    times : array_like (n,)
+        In s.
+    values : array_like (n, m)
+        By the columns of `KINDS[kind]`: theta and phi, or theta, in rad; x, y, z of the axis or
+        the quaternion w, x, y, z of any norm; rates of the body in rad/s; u, v of a point of the
+        axis, v upwards.
+    kind : str
+        A name of `KINDS`.
+    **more
+        Further attributes of `Record`.
+
+    Raises
+    ------
+    ValueError
+        If the record is refused.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from symtop_ros.truth.fit import make_record
+    >>> t = np.arange(20) / 10
+    >>> len(make_record(t, 0.5 + 0.1 * np.sin(t)[:, None], "theta"))
+    20
+    """
+    require(kind in KINDS, "kind", f"one of {', '.join(KINDS)}", kind)
+    times, values = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
+    found = KINDS[kind]
+    if times.ndim != 1 or values.shape != (len(times), found.width):
+        raise RefusedError(
+            f"values must have the columns {', '.join(found.columns)} for each of "
+            f"{times.size} times, got shape {values.shape}"
+        )
+    _refuse_odd(times, values)
+    if kind in {"axis", "attitude"}:
+        values = _normalize(values, kind)
+    _refuse_still(values, found)
+    return Record(times, values, found, **more)  # type: ignore[arg-type]
+
+
+def _refuse_odd(times: Real, values: Real) -> None:
+    """Refuse too few rows, numbers that are not finite, and times that do not grow."""
+    if len(times) < FEWEST:
+        raise RefusedError(f"a record must have at least {FEWEST} rows, got {len(times)}")
+    bad = ~(np.isfinite(times) & np.isfinite(values).all(axis=1))
+    if bad.any():
+        row = int(np.argmax(bad))
+        raise RefusedError(
+            f"a record must have finite numbers (empty cells where nothing was seen), got "
+            f"{[float(times[row]), *map(float, values[row])]} in row {row + 1}"
+        )
+    back = np.flatnonzero(np.diff(times) <= 0)
+    if len(back):
+        row = int(back[0]) + 1
+        raise RefusedError(
+            f"times must grow, got {times[row]:.9g} s after {times[row - 1]:.9g} s in row {row + 1}"
+        )
+
+
+def _normalize(values: Real, kind: str) -> Real:
+    norms = np.linalg.norm(values, axis=1, keepdims=True)
+    if not norms.all():
+        row = int(np.argmin(norms)) + 1
+        raise refuse(f"{kind} in row {row}", "a vector other than zero", 0.0)
+    return np.asarray(values / norms)
+
+
+def _refuse_still(values: Real, kind: Kind) -> None:
+    """Refuse a record in which nothing moves."""
+    size = np.abs(values).max()
+    moved = np.ptp(np.abs(values) if kind.name == "attitude" else values, axis=0).max()
+    if moved <= STILL * max(size, 1e-300):
+        raise RefusedError(
+            f"a record must show a motion, got {kind.name} that do not change: "
+            f"{', '.join(f'{v:.6g}' for v in values[0])}"
+        )
+
+
+def find_spread(rows: Real) -> Real:
+    """Return a deviation of each column, (m,), on which outliers have no influence."""
+    middle = np.median(rows, axis=0)
+    return np.asarray(NORMAL * np.median(np.abs(rows - middle), axis=0) + 1e-300)

@@ -1,0 +1,255 @@
+"""Least squares with the noise that is found: outliers, noise that lasts, and deviations.
+
+The weights are those of the noise of each column. Noise that lasts is taken as an autoregression,
+of the order that Hannan and Quinn's criterion chooses: flicker has another power at a nutation than
+on average. Noise of any other correlation is left to the sandwich of `truth/judge/noise.py`.
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from symtop_ros.base.arrays import Mask, Real
+from symtop_ros.truth.fit.model import Model
+from symtop_ros.truth.fit.record import Record, find_spread
+from symtop_ros.truth.fit.search import minimise
+from symtop_ros.truth.judge.noise import Remainder, sum_influences
+
+OUTLIER = 5.0  # deviations; a normal number is farther once in two million
+ROUNDS = 8  # of weights and least squares
+MANY = 0.02  # part of the rows; with more outliers there are too few neighbours
+ORDERS = 12  # of an autoregression, at most
+PER_ORDER = 20  # rows for each order
+SETTLED = 1e-7  # of the scale of a parameter
+FIXED = 12.0  # deviations of rounding, of which a step has 3.5
+DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
+NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
+
+
+@dataclass(frozen=True, eq=False)
+class Noise:
+    """The noise of a record.
+
+    Attributes
+    ----------
+    kept : ndarray (n,)
+        True for rows that are no outliers and, if noise lasts, follow enough that are none.
+    sigma : ndarray (r,)
+        Deviations of what is new in each row.
+    lasting : ndarray (q, r)
+        Coefficients of the autoregression, of the row before first; q = 0 for white noise.
+    outliers : int
+    """
+
+    kept: Mask
+    sigma: Real
+    lasting: Real
+    outliers: int
+
+    def whiten(self, rows: Real) -> Real:
+        """Return what is new in the kept rows (n, r, ...), in deviations."""
+        shape = (-1, *[1] * (rows.ndim - 2))
+        new = rows.copy()
+        for lag, each in enumerate(self.lasting, 1):
+            new[lag:] -= each.reshape(shape) * rows[:-lag]
+        return np.asarray((new / self.sigma.reshape(shape))[self.kept])
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A motion that was fitted to a record.
+
+    Attributes
+    ----------
+    model : Model
+    x : ndarray (p,)
+    noise : Noise
+    others : tuple of Fit
+        Other motions that fit as well.
+    """
+
+    model: Model
+    x: Real
+    noise: Noise
+    others: tuple["Fit", ...] = field(default=())
+
+    @cached_property
+    def residuals(self) -> Real:
+        """Residuals (n, r) of all rows."""
+        return self.model.find_residuals(self.x)
+
+    @cached_property
+    def white(self) -> Real:
+        """Residuals of the kept rows, whitened, in deviations."""
+        return self.noise.whiten(self.residuals)
+
+    @cached_property
+    def columns(self) -> Real:
+        """Derivatives of these, (n, r, p)."""
+        slopes = self.model.find_jacobian(self.x, central=True)
+        return self.noise.whiten(slopes)
+
+    @cached_property
+    def remainder(self) -> Remainder:
+        """The whitened residuals, for the tests of noise."""
+        return Remainder((self.white, self.white), self.model.record.seconds)
+
+    @cached_property
+    def priors(self) -> Real:
+        """Weights (p,) of what is known."""
+        found = np.zeros(len(self.x))
+        for name, (_, deviation) in self.model.record.known.items():
+            if name in self.model.place:
+                found[self.model.place[name]] = deviation**-2.0
+        return found
+
+    @cached_property
+    def sizes(self) -> Real:
+        """Root of the diagonal (p,) of Fisher's matrix."""
+        return np.asarray(np.sqrt((self.columns**2).sum(axis=(0, 1)) + self.priors) + 1e-300)
+
+    @cached_property
+    def spectrum(self) -> tuple[Real, Real]:
+        """Eigenvalues (p,), growing, and vectors of Fisher's matrix of parameters times sizes."""
+        scaled = (self.columns / self.sizes).reshape(-1, len(self.x))
+        normal = scaled.T @ scaled + np.diag(self.priors / self.sizes**2)
+        values, vectors = np.linalg.eigh(normal)
+        return np.maximum(values, NULL * values[-1]), vectors
+
+    @cached_property
+    def covariance(self) -> Real:
+        """Covariance (p, p) of the parameters, if the noise is white."""
+        values, vectors = self.spectrum
+        return np.asarray((vectors / values) @ vectors.T / np.outer(self.sizes, self.sizes))
+
+    @cached_property
+    def _influences(self) -> Real:
+        scores = np.einsum("tij,ti->tj", self.columns, self.white)
+        return np.asarray(scores @ self.covariance)
+
+    @cached_property
+    def _shifts(self) -> Real:
+        """Changes (r, p) of the parameters by the rounding of columns that hardly change.
+
+        Where a number stays within its last decimal, the errors of all rows are one error.
+        """
+        rounding, fixed = find_rounding(self.model.record, self.white.shape[1])
+        sums = self.columns.sum(axis=0) / self.noise.sigma[:, np.newaxis]
+        return np.asarray((rounding * fixed)[:, np.newaxis] * (sums @ self.covariance))
+
+    def find_deviation(self, slope: Real) -> float:
+        """Return the deviation of a combination (p,), also for noise that is correlated."""
+        free = self.remainder.independent
+        robust = sum_influences(self._influences @ slope, len(self.x), free)
+        by_known = float((self.covariance @ slope) ** 2 @ self.priors)
+        by_rounding = float(((self._shifts @ slope) ** 2).sum())
+        return float(np.sqrt(robust + by_known + by_rounding))
+
+
+def refine(model: Model, x: Real) -> Fit:
+    """Return the fit with the weights of its own noise, from a motion that is near it."""
+    noise = None
+    for number in range(ROUNDS):
+        noise = find_noise(model, x, lasts=number > 0)
+        moved, x = x, fit_weighted(model, x, noise)
+        if number > 1 and (np.abs(x - moved) < SETTLED * model.find_scales(x)).all():
+            break
+    return Fit(model, x, find_noise(model, x, lasts=True))
+
+
+def fit_weighted(model: Model, x: Real, noise: Noise) -> Real:
+    """Return the least squares of whitened residuals."""
+
+    def find(x: Real) -> Real:
+        return noise.whiten(model.find_residuals(x))
+
+    def derive(x: Real) -> Real:
+        return noise.whiten(model.find_jacobian(x))
+
+    return minimise(model, x, find, derive, "linear", 60).x
+
+
+def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
+    """Return outliers, correlation and size of what parameters leave."""
+    record, left = model.record, model.find_residuals(x)
+    rounding, fixed = find_rounding(record, left.shape[1])
+    least = np.maximum(rounding, DOUBLE * np.abs(record.values).max())
+    floor = np.maximum(find_spread(left), least)
+    good = np.asarray((np.abs(left) < OUTLIER * floor).all(axis=1))
+    outliers = int((~good).sum())
+    lasting = np.zeros((0, left.shape[1]))
+    if lasts and outliers < MANY * len(record):
+        lasting = np.where(fixed, 0.0, find_lasting(left, good, record.follows, len(x)))
+    kept = good & find_runs(good, record.follows, len(lasting))
+    if not kept.any():
+        kept, lasting = np.ones(len(record), dtype=bool), lasting[:0]
+    new = Noise(kept, np.ones(left.shape[1]), lasting, outliers).whiten(left)
+    free = max(len(new) - len(x) / left.shape[1], 1.0)
+    sigma = np.maximum(np.sqrt((new**2).sum(axis=0) / free), least)
+    return Noise(kept, np.where(fixed, sigma * np.sqrt(len(new)), sigma), lasting, outliers)
+
+
+def find_rounding(record: Record, width: int) -> tuple[Real, Mask]:
+    """Return the deviation (r,) of rounding, and True (r,) for columns within a few steps of it.
+
+    All rows of such a column have one error, so that they count as one.
+    """
+    rounding = record.rounding
+    if len(rounding) != width:  # residuals of attitudes are no differences of columns
+        return np.zeros(width), np.zeros(width, dtype=bool)
+    return rounding, np.ptp(record.values, axis=0) < FIXED * rounding
+
+
+def find_runs(good: Mask, follows: Mask, length: int) -> Mask:
+    """Return True (n,) for rows that follow so many good ones, each a step after the other."""
+    found = np.ones(len(good), dtype=bool)
+    for lag in range(1, length + 1):
+        found[:lag] = False
+        found[lag:] &= good[:-lag] & _link(follows, lag)
+    return found
+
+
+def _link(follows: Mask, lag: int) -> Mask:
+    """Return True (n - lag,) for rows that come after `lag` steps without a gap."""
+    count = np.concatenate([[0], np.cumsum(~follows)])
+    return np.asarray(count[lag + 1 :] == count[1:-lag])
+
+
+def find_lasting(left: Real, good: Mask, follows: Mask, parameters: int) -> Real:
+    """Return the coefficients (q, r) of autoregressions of one order for all columns.
+
+    A fit takes the share p/(n r) of the power of noise away; it is given back to the correlations.
+    """
+    most = min(ORDERS, len(left) // PER_ORDER)
+    covariances = find_covariances(left, good, follows, most)
+    total = covariances[0] + 2 * covariances[1:].sum(axis=0)
+    share = parameters / (len(left) * left.shape[1])
+    covariances = covariances + share * np.maximum(total, covariances[0])
+    fits = [solve_order(covariances, order) for order in range(most + 1)]
+    loglog = np.log(np.log(max(len(left), 16)))
+    cost = [
+        len(left) * np.log(new / covariances[0]).sum() + 2 * order * left.shape[1] * loglog
+        for order, (_, new) in enumerate(fits)
+    ]
+    return fits[int(np.argmin(cost))][0]
+
+
+def find_covariances(left: Real, good: Mask, follows: Mask, most: int) -> Real:
+    """Return the covariances (most + 1, r) of good rows at lags without a gap."""
+    found = [(left[good] ** 2).mean(axis=0) + 1e-300]
+    for lag in range(1, most + 1):
+        pairs = good[lag:] & good[:-lag] & _link(follows, lag)
+        products = (left[lag:] * left[:-lag])[pairs]
+        found.append(products.sum(axis=0) / max(len(products) + lag, 1))
+    return np.array(found)
+
+
+def solve_order(covariances: Real, order: int) -> tuple[Real, Real]:
+    """Return coefficients (q, r) and the variance (r,) of what is new, by Yule and Walker."""
+    places = np.abs(np.subtract.outer(np.arange(order), np.arange(order)))
+    slopes = np.zeros((order, covariances.shape[1]))
+    for column, own in enumerate(covariances.T):
+        slopes[:, column] = np.linalg.lstsq(own[places], own[1 : order + 1], rcond=None)[0]
+    new = covariances[0] - (slopes * covariances[1 : order + 1]).sum(axis=0)
+    return slopes, np.maximum(new, 1e-6 * covariances[0])

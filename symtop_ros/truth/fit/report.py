@@ -1,0 +1,150 @@
+"""The report of a fit: as a record for JSON, and as text, both from the same numbers."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from symtop_ros import __version__
+from symtop_ros.base.counts import write_count
+from symtop_ros.base.measured import write_measured
+from symtop_ros.truth.fit.check import FAILS, Check
+from symtop_ros.truth.fit.record import Known
+from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.unknown import Unknown, list_unknown
+from symtop_ros.truth.fit.values import Value, convert, list_values
+from symtop_ros.words import write
+
+SCHEMA = "symtop_ros/fit/1"
+LABELS = {
+    "spin": "spin (omega_z)",
+    "theta_dot": "theta'",
+    "phi_dot": "phi'",
+    "mean_precession_rate": "mean precession",
+    "nutation_period": "nutation period",
+}
+ANGLES = "theta", "phi", "theta_dot", "phi_dot"
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """Everything that is said of a fit.
+
+    Attributes
+    ----------
+    source : str
+        Name of the record.
+    rows : int
+        Rows of the file, of which the fit may have taken a part.
+    fit : Fit
+    given : dict
+        Known values, as for `values.convert`.
+    """
+
+    source: str
+    rows: int
+    fit: Fit
+    given: dict[str, Known]
+
+    @cached_property
+    def values(self) -> list[Value]:
+        """All numbers, also those that are not known."""
+        found = list_values(self.fit)
+        return [*found, *convert(found, self.given)]
+
+    @cached_property
+    def check(self) -> Check:
+        """The test of the model."""
+        return Check(self.fit)
+
+    @cached_property
+    def unknown(self) -> list[Unknown]:
+        """Statements on what the record does not show."""
+        return list_unknown(self.fit, self.values, self.given)
+
+    def facts(self) -> dict[str, Any]:
+        """Return all figures, for JSON."""
+        record = self.fit.model.record
+        known = {
+            each.name: {"value": each.value, "deviation": each.deviation, "unit": each.unit}
+            for each in self.values
+            if each.is_known
+        }
+        return {
+            "schema": SCHEMA,
+            "version": __version__,
+            "source": self.source,
+            "kind": record.kind.name,
+            "rows": self.rows,
+            "taken": len(record),
+            "seconds": record.seconds,
+            "values": known,
+            "unknown": [self._describe(each) for each in self.unknown],
+            "model": self._describe_model(),
+            "notes": list(record.notes),
+        }
+
+    def _describe(self, unknown: Unknown) -> dict[str, Any]:
+        return {
+            "kind": unknown.kind,
+            "names": unknown.names.replace(" and ", ", ").split(", "),
+            "numbers": list(unknown.numbers),
+            "text": self._write(unknown),
+        }
+
+    def _describe_model(self) -> dict[str, Any]:
+        check, noise = self.check, self.fit.noise
+        return {
+            "verdict": check.verdict,
+            "text": self.write_verdict(),
+            "residuals_are_white": check.is_white,
+            "residual_rms": np.sqrt((self.fit.residuals[noise.kept] ** 2).mean(axis=0)).tolist(),
+            "outliers": noise.outliers,
+            "noise_order": len(noise.lasting),
+            "independent_rows": self.fit.remainder.independent,
+            "no_deviations_as": check.fault or None,
+            "changed": [vars(each) for each in check.changes],
+        }
+
+    def format(self) -> str:
+        """Return the report as text."""
+        record = self.fit.model.record
+        head = (
+            f"{self.source}: {record.kind.name}, {write_count(self.rows, 'row')} in "
+            f"{record.seconds:.4g} s"
+        )
+        lines = [head, *(self._write_row(each) for each in self.values if each.is_known)]
+        lines.append(self.write_verdict())
+        lines += [f"not known: {self._write(each)}" for each in self.unknown]
+        return "\n".join([*lines, *(f"note: {note}" for note in record.notes)])
+
+    def _write_row(self, value: Value) -> str:
+        number, deviation = write_measured(value.value, value.deviation)
+        label = LABELS.get(value.name, value.name)
+        when = " (first row)" if value.name in ANGLES else ""
+        return f"  {label:18}{number:>12} +- {deviation} {value.unit}{when}".rstrip()
+
+    def _write(self, unknown: Unknown) -> str:
+        record = {f"n{k}": number for k, number in enumerate(unknown.numbers)}
+        if unknown.kind in {"weak", "together"}:  # the last two are a value with its deviation
+            value, deviation = write_measured(*unknown.numbers[-2:])
+            record |= {"value": value, "deviation": deviation}  # type: ignore[dict-item]
+        return write(f"unknown.{unknown.kind}", {**record, "names": unknown.names})
+
+    @property
+    def _lacks_friction(self) -> bool:
+        return self.check.verdict == FAILS and not self.fit.model.record.has_friction
+
+    def write_verdict(self) -> str:
+        """Return whether the model holds, in a sentence."""
+        noise = self.fit.noise
+        record = {
+            "verdict": self.check.verdict,
+            "undamped": {} if self._lacks_friction else None,
+            "outliers": {"count": write_count(noise.outliers, "row")} if noise.outliers else None,
+            "lasting": {"order": len(noise.lasting)} if len(noise.lasting) else None,
+            "changes": [vars(each) for each in self.check.changes] or None,
+            "fault": {"kind": self.check.fault} if self.check.fault else None,
+        }
+        return write("model", record)

@@ -1,0 +1,154 @@
+"""Fits of records of each kind: numbers within their deviations, and what is left open."""
+
+import numpy as np
+import pytest
+from truth.fit.cases import CUSPS, SIGMA, TIMES, make_axis, make_noisy
+
+from symtop_ros.physics import Friction, Motion, State, Top, regular_precession_rates
+from symtop_ros.truth.fit import fit_motion, make_record
+from symtop_ros.truth.fit.camera import project
+from symtop_ros.truth.fit.check import FAILS, HOLDS, Check
+from symtop_ros.truth.fit.model import find_axis
+from symtop_ros.truth.fit.report import Report
+from symtop_ros.truth.fit.values import list_values
+
+# A normal number is farther than five deviations once in two million.
+FAR = 5.0
+
+
+def read_values(fit):
+    return {each.name: each for each in list_values(fit)}
+
+
+def assert_near(value, truth):
+    assert value.is_known
+    assert abs(value.value - truth) < FAR * value.deviation
+
+
+@pytest.fixture(scope="module")
+def fit():
+    return fit_motion(make_record(TIMES, make_axis(), "axis"))
+
+
+def test_the_axis_shows_the_motion_and_the_noise(fit):
+    values = read_values(fit)
+    for name, truth in {
+        "Mgl/Ix": 300.0,
+        "p_psi/Ix": 0.25 * CUSPS.start.angular_velocity[2],
+        "theta": 0.5,
+        "phi_dot": 1.0,
+        "nutation_period": CUSPS.nutation_period,
+        "mean_precession_rate": CUSPS.mean_precession_rate,
+    }.items():
+        assert_near(values[name], truth)
+    # The axis is normalised, so that noise along it is lost; five deviations of 480 numbers.
+    assert np.linalg.norm(fit.noise.sigma) == pytest.approx(SIGMA * np.sqrt(2), rel=0.16)
+    assert Check(fit).verdict == HOLDS
+
+
+def test_angles_show_the_same_across_the_period_of_phi(fit):
+    angles = CUSPS.at(TIMES).euler_angles
+    seen = np.stack([angles.theta, angles.phi], axis=1)
+    values = read_values(fit_motion(make_noisy("angles", seen, SIGMA)))
+    assert_near(values["Mgl/Ix"], 300.0)
+
+
+@pytest.mark.parametrize("Mgl", [200.0, -200.0])
+def test_rates_show_the_body_and_a_positive_weight(Mgl):
+    motion = Motion(Top(1.0, 1.5, Mgl), State.from_euler(theta=1.0, phi_dot=1.0, psi_dot=20.0))
+    seen = motion.at(TIMES).angular_velocity
+    values = read_values(fit_motion(make_noisy("rates", seen, 0.125)))
+    assert_near(values["Mgl/Ix"], 200.0)
+    assert_near(values["Iz/Ix"], 1.5)
+    assert "phi" not in values
+
+
+def test_attitudes_show_all_but_a_moment():
+    values = read_values(fit_motion(make_noisy("attitude", CUSPS.at(TIMES).orientation, SIGMA)))
+    assert_near(values["Iz/Ix"], 0.25)
+    assert_near(values["spin"], CUSPS.start.angular_velocity[2])
+
+
+def test_pixels_show_the_motion_and_the_camera():
+    camera = {"u": 600.0, "v": 400.0, "log_scale": 5.5, "elevation": 0.5, "roll": 0.0625}
+    axis = find_axis(CUSPS.at(TIMES).orientation)
+    seen = project(axis[None], {name: np.array([value]) for name, value in camera.items()})[0]
+    values = read_values(fit_motion(make_noisy("pixels", seen, 0.5)))
+    assert_near(values["Mgl/Ix"], 300.0)
+    assert_near(values["elevation"], 0.5)
+    assert_near(values["scale"], float(np.exp(5.5)))
+
+
+def test_theta_alone_names_both_momenta():
+    seen = CUSPS.at(TIMES).euler_angles.theta[:, None]
+    found = fit_motion(make_noisy("theta", seen, 2.0**-12))
+    report = Report("record", len(TIMES), found, {})
+    kinds = {each.kind: each for each in report.unknown}
+    momenta = 0.25 * CUSPS.start.angular_velocity[2], CUSPS.top.angular_momentum(CUSPS.start)[2]
+    assert sorted(kinds["exchange"].numbers) == pytest.approx(sorted(momenta), rel=0.05)
+    assert {"reverse", "azimuth", "moments", "spin"} <= set(kinds)
+
+
+def test_friction_is_found_if_it_is_looked_for_and_else_the_model_fails():
+    top = CUSPS.top
+    motion = Motion(top, CUSPS.start, Friction(axial=0.125 * top.Iz, transverse=0.25))
+    times = np.arange(240) / 64
+    seen = make_axis(motion, times)
+    values = read_values(fit_motion(make_record(times, seen, "axis", has_friction=True)))
+    assert_near(values["axial/Iz"], 0.125)
+    assert_near(values["transverse/Ix"], 0.25)
+    assert Check(fit_motion(make_record(times, seen, "axis"))).verdict == FAILS
+
+
+def test_without_nutation_one_combination_is_known():
+    top = Top(1.0, 0.25, 300.0)
+    slow = float(regular_precession_rates(top, theta=0.5, psi_dot=200.0)[0])
+    start = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
+    found = fit_motion(make_record(TIMES, make_axis(Motion(top, start)), "axis"))
+    report = Report("record", len(TIMES), found, {})
+    (together,) = [each for each in report.unknown if each.kind == "together"]
+    slope, offset, deviation = together.numbers
+    assert abs(300.0 - slope * 0.25 * start.angular_velocity[2] - offset) < FAR * deviation
+    assert not {"Mgl/Ix", "p_psi/Ix"} & {each.name for each in report.values if each.is_known}
+
+
+def test_few_rows_in_a_nutation_leave_the_momentum_open():
+    step = CUSPS.nutation_period / 2.5
+    times = np.arange(160) * step
+    found = fit_motion(make_record(times, make_axis(times=times), "axis"))
+    values = read_values(found)
+    assert not values["p_psi/Ix"].is_known
+    assert_near(values["mean_precession_rate"], CUSPS.mean_precession_rate)
+    kinds = [each.kind for each in Report("record", 160, found, {}).unknown]
+    assert "sparse" in kinds
+
+
+def test_known_values_turn_ratios_into_moments(fit):
+    given = {"Iz/Ix": (0.25, 0.005), "Ix": (2e-4, 2e-6)}
+    values = {each.name: each for each in Report("record", 240, fit, given).values}
+    assert values["Mgl"].value == pytest.approx(0.06, rel=1e-2)
+    assert values["spin"].deviation == pytest.approx(0.02 * values["spin"].value, rel=0.05)
+    assert values["Iz"].value == pytest.approx(5e-5, rel=1e-12)
+    kinds = {each.kind for each in Report("record", 240, fit, given).unknown}
+    assert not {"moments", "spin"} & kinds
+
+
+def test_a_bias_about_the_axis_widens_what_rates_show():
+    rates = CUSPS.at(TIMES).angular_velocity
+    narrow, wide = (
+        read_values(fit_motion(make_noisy("rates", rates, 0.125, **more)))
+        for more in ({}, {"has_mount": True, "known": {"bias_z": (0.0, 0.5)}})
+    )
+    # a bias b of z is 2 b of p_psi/Ix
+    assert narrow["p_psi/Ix"].deviation < 0.1
+    assert wide["p_psi/Ix"].deviation == pytest.approx(1.0, rel=0.1)
+    assert_near(wide["p_psi/Ix"], 0.25 * CUSPS.start.angular_velocity[2])
+
+
+def test_a_column_within_its_last_decimal_has_the_deviation_of_rounding():
+    rates = CUSPS.at(TIMES).angular_velocity
+    step = 0.25
+    values = read_values(fit_motion(make_record(TIMES, step * np.round(rates / step), "rates")))
+    spin = values["spin"]
+    assert_near(spin, CUSPS.start.angular_velocity[2])
+    assert spin.deviation > step / np.sqrt(12) / 10

@@ -1,0 +1,124 @@
+"""`top_fit` as its users call it."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+from truth.fit.cases import CUSPS, TIMES, make_axis, write_table
+
+from symtop_ros import __version__
+from symtop_ros.physics import Motion, apply_impulse
+from symtop_ros.truth.fit.main import Progress, main
+from symtop_ros.truth.imu.main import main as imu_main
+
+
+@pytest.fixture(scope="module")
+def table(tmp_path_factory):
+    return write_table(tmp_path_factory.mktemp("fit") / "axis.csv", make_axis())
+
+
+def test_the_text_has_each_number_of_the_json(table, capsys):
+    assert main([str(table)]) == 0
+    text = capsys.readouterr().out
+    assert main([str(table), "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert list(facts)[:2] == ["schema", "version"]
+    assert facts["version"] == __version__
+    rows = re.findall(r"^  (\S+).*? (-?[\d.]+) \+- ([\d.]+)", text, re.M)
+    names = {"theta'": "theta_dot", "phi'": "phi_dot", "mean": "mean_precession_rate"}
+    names["nutation"] = "nutation_period"
+    assert len(rows) == len(facts["values"])
+    for name, value, deviation in rows:
+        number = facts["values"][names.get(name, name)]
+        # half of the last of two digits
+        assert abs(float(value) - number["value"]) <= 0.051 * number["deviation"]
+        assert abs(float(deviation) - number["deviation"]) <= 0.051 * number["deviation"]
+        assert len(value.partition(".")[2]) == len(deviation.partition(".")[2])
+    assert facts["model"]["verdict"] == "holds"
+    assert all(each["text"] in text for each in facts["unknown"])
+
+
+def test_the_example_comes_along_and_is_not_overwritten(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["--example", "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert abs(facts["values"]["Mgl/Ix"]["value"] - 0.068 / 0.000228) < 0.5
+    (tmp_path / "example.csv").write_text("mine")
+    assert main(["--example"]) == 1
+    assert (tmp_path / "example.csv").read_text() == "mine"
+
+
+def test_a_record_of_top_imu_gives_its_top_back(tmp_path, capsys):
+    path = str(tmp_path / "imu.csv")
+    arguments = ["--scene", "cusps", "--seconds", "2", "--noise", "consumer", "-o", path]
+    assert imu_main(arguments) == 0
+    capsys.readouterr()
+    assert main([path, "--kind", "rates", "--json"]) == 0
+    values = json.loads(capsys.readouterr().out)["values"]
+    for name, truth in {"Mgl/Ix": 0.068 / 0.000228, "Iz/Ix": 0.0000572 / 0.000228}.items():
+        assert abs(values[name]["value"] - truth) < 5 * values[name]["deviation"]
+        assert values[name]["deviation"] < 1e-4 * truth
+
+
+def test_a_kick_is_named_with_its_place(tmp_path, capsys):
+    state = CUSPS.at(1.0)
+    kicked = Motion(CUSPS.top, apply_impulse(CUSPS.top, state, (3.0, 0.0, 0.0)))
+    before, after = TIMES[TIMES < 1.0], TIMES[TIMES >= 1.0]
+    rows = [make_axis(times=before), make_axis(kicked, after - 1.0, seed=3)]
+    path = write_table(tmp_path / "kick.csv", np.concatenate(rows))
+    assert main([str(path)]) == 1
+    out, err = capsys.readouterr()
+    assert not out
+    place = re.fullmatch(r"top_fit: \S+ must have one motion, got two: .* (\S+) s\n", err)
+    assert abs(float(place[1]) - 1.0) < 8 / 128  # rows that it takes to leave the noise
+
+
+BAD = {
+    "few rows": (slice(5), "a record must have at least 12 rows, got 5"),
+    "repeated": ([*range(20), 19, 20], "times must grow, got "),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_rows_that_are_no_record_are_one_line(name, tmp_path, capsys):
+    chosen, reason = BAD[name]
+    path = write_table(tmp_path / "bad.csv", make_axis()[chosen], TIMES[chosen])
+    assert main([str(path)]) == 1
+    assert capsys.readouterr().err.startswith(f"top_fit: {reason}")
+
+
+def test_a_point_that_does_not_move_is_no_record(tmp_path, capsys):
+    path = write_table(tmp_path / "still.csv", np.broadcast_to([0.0, 0.6, 0.8], (240, 3)))
+    assert main([str(path)]) == 1
+    assert "must show a motion, got axis that do not change: 0, 0.6, 0.8" in capsys.readouterr().err
+
+
+def test_options_of_another_kind_are_refused(table, capsys):
+    assert main([str(table), "--mount", "1"]) == 1
+    assert "--mount must have a record of rates, got axis" in capsys.readouterr().err
+    assert main([str(table), "--scale", "100"]) == 1
+    assert "must have pixels, got axis" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("arguments", [[], ["a.csv", "--example"], ["a.csv", "--Ix", "1"]])
+def test_misuse_has_status_2(arguments):
+    with pytest.raises(SystemExit) as end:
+        main(arguments)
+    assert end.value.code == 2
+
+
+def test_a_plot_is_written(table, tmp_path):
+    assert main([str(table), "--plot", str(tmp_path / "fit.png")]) == 0
+    assert (tmp_path / "fit.png").stat().st_size > 10_000
+
+
+def test_progress_is_written_after_two_seconds_on_a_terminal(capsys, monkeypatch):
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
+    times = iter([0.0, 1.0, 4.0])
+    progress = Progress(lambda: next(times))
+    progress.tell_part(0.5)
+    assert not capsys.readouterr().err
+    progress.tell_part(0.5)
+    progress.end()
+    assert capsys.readouterr().err == "\rtop_fit: fitting, 50%, at most 4 s more \n"

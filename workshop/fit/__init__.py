@@ -1,0 +1,1 @@
+"""Trials of `top_fit`: synthetic records of random tops, and what one does without it."""

@@ -1,0 +1,126 @@
+"""Fits of random records: pulls of what is said to be known, and minima that are wrong."""
+
+import json
+import time
+from collections.abc import Iterator, Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from symtop_ros.truth.fit import Fit, fit_motion
+from symtop_ros.truth.fit.check import HOLDS, Check
+from symtop_ros.truth.fit.fitting import measure_median
+from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.model import FRICTION, Model
+from symtop_ros.truth.fit.refine import refine
+from symtop_ros.truth.fit.starts import fill
+from symtop_ros.truth.fit.values import list_values
+from workshop.fit.baseline import Row, compare_all
+from workshop.fit.records import NOISES, Sample, draw_sample
+
+SEEDS = 42  # of each kind and noise: 2016 records
+WORSE = 1.03  # a median residual that is larger than that of the truth is of a wrong minimum
+TWINS = ("phi_dot", "mean_precession_rate", "p_psi/Ix")  # of theta alone
+
+
+def try_record(kind: str, noise: str, seed: int) -> dict[str, Any]:
+    """Fit a random record, and return what was found, as JSON has it."""
+    sample = draw_sample(kind, noise, seed)
+    row: dict[str, Any] = {"kind": kind, "noise": noise, "seed": seed}
+    began = time.process_time()
+    fit = fit_motion(sample.record)
+    check = Check(fit)
+    values = list_values(fit)
+    row["seconds"] = time.process_time() - began
+    row["wrong"] = measure_median(fit) > WORSE * measure_median(fit_from_truth(sample))
+    row |= {"verdict": check.verdict, "others": len(fit.others), "fault": check.fault}
+    truth = sample.truth
+    hidden = TWINS if kind == "theta" else ()
+    row["pulls"] = {
+        each.name: pull(each.value, truth[each.name], each.deviation, each.name)
+        for each in values
+        if each.is_known and each.name in truth and each.name not in hidden
+    }
+    row["unknown"] = [each.name for each in values if not each.is_known]
+    return row
+
+
+def pull(value: float, truth: float, deviation: float, name: str) -> float:
+    """Return the error in deviations; of an azimuth without whole turns."""
+    left = value - truth
+    if name in {"phi", "roll"}:
+        left -= 2 * np.pi * np.round(left / (2 * np.pi))
+    return float(left / deviation)
+
+
+def fit_from_truth(sample: Sample) -> Fit:
+    """Return the fit that begins at the truth."""
+    record, motion = sample.record, sample.motion
+    model = Model(record, motion.start.orientation)
+    wx, wy, spin = motion.start.angular_velocity
+    top, friction = motion.top, motion.friction
+    named = {"Mgl/Ix": top.Mgl, "Iz/Ix": top.Iz, "p_psi/Ix": top.Iz * spin, "spin": spin}
+    named |= {"wx": wx, "wy": wy, **sample.camera}
+    named |= dict(zip(FRICTION, (friction.axial / top.Iz, friction.transverse), strict=True))
+    return refine(model, fill(model, named))
+
+
+def run_trial(seeds: Sequence[int], path: Path | None = None) -> list[dict[str, Any]]:
+    """Return the rows of all kinds and noises, and write each as it is found."""
+    rows = []
+    for seed, noise, kind in product(seeds, NOISES, KINDS):
+        rows.append(try_record(kind, noise, seed))
+        if path:
+            with path.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(rows[-1]) + "\n")
+    return rows
+
+
+def write_table(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
+    """Yield the lines of a table: root mean square of pulls, wrong minima, and those not said."""
+    yield "| kind | noise | records | pulls | wrong minima | not said | said not to hold |"
+    yield "|---|---|--:|--:|--:|--:|--:|"
+    for kind, noise in product(KINDS, NOISES):
+        mine = [row for row in rows if (row["kind"], row["noise"]) == (kind, noise)]
+        if mine:
+            yield f"| {kind} | {noise} | {' | '.join(summarize(mine))} |"
+
+
+def summarize(rows: Sequence[dict[str, Any]]) -> list[str]:
+    """Return the cells of a row: pulls are those of motions that are not said to be in doubt."""
+    wrong = [row for row in rows if row["wrong"]]
+    unsaid = [row for row in wrong if row["verdict"] == HOLDS and not row["others"]]
+    pulls = [p for row in rows if not is_doubted(row) for p in row["pulls"].values()]
+    doubted = sum(row["verdict"] != HOLDS for row in rows)
+    size = float(np.sqrt(np.mean(np.square(pulls)))) if pulls else np.nan
+    return [str(len(rows)), f"{size:.2f}", str(len(wrong)), str(len(unsaid)), str(doubted)]
+
+
+def is_doubted(row: dict[str, Any]) -> bool:
+    """Return True if a fit says that it may be none."""
+    return bool(row["verdict"] != HOLDS or row["others"])
+
+
+def measure_fits(folder: Path) -> None:
+    """Write fit.md: a table of all kinds and noises, and a comparison with integrated equations."""
+    rows = run_trial(range(SEEDS), folder / "fit.jsonl")
+    both = compare_all()
+    lines = [*write_table(rows), "", write_comparison(both)]
+    (folder / "fit.md").write_text("\n".join([*lines, ""]), encoding="utf-8")
+    print(f"{folder / 'fit.md'} and fit.jsonl")
+
+
+def write_comparison(rows: Sequence[Row]) -> str:
+    """Return one sentence on records that were fitted in both ways."""
+    plain, own = (sorted(times)[len(rows) // 2] for times in _list_times(rows))
+    return (
+        f"Of {len(rows)} records solve_ivp and least_squares from a textbook's guess fit "
+        f"{sum(row.plain for row in rows)} ({plain:.2g} s each, median of CPU times), `top_fit` "
+        f"{sum(row.found for row in rows)} ({own:.2g} s)."
+    )
+
+
+def _list_times(rows: Sequence[Row]) -> tuple[list[float], list[float]]:
+    return [row.plain_seconds for row in rows], [row.seconds for row in rows]
