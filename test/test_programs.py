@@ -70,7 +70,7 @@ def test_help_and_version_need_neither_ros_nor_rerun_nor_mcap(tmp_path):
     done = run_python(ASK, cwd=tmp_path)
     answers = done.stdout.split("status 0\n")
     assert (done.stderr, answers.pop()) == ("", "")
-    assert len(PROGRAMS) == 8
+    assert len(PROGRAMS) == 9
     for program, full, short, version in zip(
         PROGRAMS, *(answers[k::3] for k in range(3)), strict=True
     ):

@@ -47,6 +47,8 @@ class Traces:
         self.folder.chmod(0o1777)  # tests may run as another user
         # pytest keeps the folders of the last runs where it always does
         self.variables = {"TMPDIR": str(self.folder), "PYTEST_DEBUG_TEMPROOT": usual}
+        # Playwright's Node would keep its compiled code there
+        self.variables["NODE_DISABLE_COMPILE_CACHE"] = "1"
 
     def find(self) -> Iterator[Path]:
         """Yield what is left."""

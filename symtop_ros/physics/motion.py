@@ -655,7 +655,7 @@ class Motion:
         >>> motion = Motion(Top(1.0, 0.5, 1.0), State.from_euler(theta=0.5, psi_dot=5.0))
         >>> low, high = motion.turning_angles
         >>> round(motion.mean_cosine, 6), round((math.cos(low) + math.cos(high)) / 2, 6)
-        (0.813284, 0.811538)
+        (0.802917, 0.802022)
         """
         return float(self._rates.mean_cosine)
 

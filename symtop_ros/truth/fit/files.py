@@ -128,7 +128,7 @@ def _list_kinds(names: list[str]) -> Iterator[tuple[str, list[int]]]:
     if len(quaternions) == 1:
         (places,) = quaternions.values()
         yield "attitude", [places[each] for each in "wxyz"]
-    if rates := find_rates(names):
+    if rates := find_rates(names, ("measured_", "")):
         is_measured = names[rates[0]].startswith("measured")
         yield "measured" if is_measured else "rates", rates
     angles = {

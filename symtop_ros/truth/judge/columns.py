@@ -99,13 +99,16 @@ def find_quaternions(names: Row) -> dict[str, dict[str, int]]:
     return {"": whole[""]} if "" in whole else whole
 
 
-def find_rates(names: Row) -> list[int]:
-    """Return the places of an angular velocity, those that were measured first, or []."""
+def find_rates(names: Row, words: Sequence[str] = ("",)) -> list[int]:
+    """Return the places of an angular velocity after the first of some words, or [].
+
+    top_imu writes the exact one and what was measured, as measured_wx, into one table.
+    """
     groups: dict[str, dict[str, int]] = {}
     for place, name in enumerate(names):
         if found := RATES.fullmatch(name):
             groups.setdefault(found[1] or "", {}).setdefault(found[2], place)
-    for word in ("measured_", ""):
+    for word in words:
         places = groups.get(word, {})
         if len(places) == 3:
             return [places[each] for each in "xyz"]

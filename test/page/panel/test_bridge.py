@@ -34,7 +34,9 @@ def bridge_to(name, context, **options):
 @pytest.fixture(name="node")
 def _node():
     """A node in real time, which a thread spins as another process would, and the bridge to it."""
-    running = RunningTop(realtime=True, scene="cusps", real_time_factor=0.1)
+    # a torque lasts long enough for threads that other programs keep waiting
+    slow = {"real_time_factor": 0.1, "applied_torque_timeout": 1.0}
+    running = RunningTop(realtime=True, scene="cusps", **slow)
     ending = threading.Event()
     thread = threading.Thread(target=running.spin_until, args=(ending.is_set, 1e9), daemon=True)
     thread.start()
@@ -282,7 +284,7 @@ def test_a_hold_on_a_page_that_draws_slowly_is_one_act_of_the_node(node, browser
         )
         button.dispatch_event("pointerdown")
         until(lambda: tab.evaluate(kinds) == HOLDS[hold][:1], look)
-        tab.wait_for_timeout(1500)  # the hand is held in real time, fifteen time-outs of the node
+        tab.wait_for_timeout(2500)  # the hand is held in real time, longer than the node's time-out
         assert tab.evaluate(kinds) == HOLDS[hold][:1]
         button.dispatch_event("pointerup")
         until(lambda: tab.evaluate(kinds) == HOLDS[hold], look)
