@@ -63,7 +63,7 @@ PAGE = ("test/page/panel", "test/page/web")
 WITHOUT_ROS = ("test/run/simulation", "test/run/session", "test/run/log")
 WITH_ROS = ("test/run/log/test_definitions.py", "test/page/panel/test_bridge.py")
 ELSEWHERE = (*NODES, "test/physics", *PLAIN, *JUDGE, *PAGE, *WITHOUT_ROS)
-REALTIME = ("test/ros/node", "test/system", "test/load")
+REALTIME = ("test/ros/node", "test/system", "test/load", "test/page/panel/test_bridge.py")
 # These read no wording: they pass with every template replaced by its key, but for marked ones.
 KEYS = Path(__file__).with_name("keys")
 READ_NO_WORDING = ("nodes", "page", "rest", "plain", "judge", "physics", "without-ros")
@@ -165,7 +165,7 @@ def list_groups(trace: bool) -> dict[str, list[Command]]:
         "without-ros": [run(*WITHOUT_ROS, options=("-p", "without_ros"))],
         "old-processor": [run(*NUMBERS, before=old)],
         "examples": [run("symtop_ros", options=EXAMPLES)],
-        "realtime": [run("-m", "realtime and not long", *REALTIME)],
+        "realtime": [*fetch("chromium"), run("-m", "realtime and not long", *REALTIME)],
     }
 
 

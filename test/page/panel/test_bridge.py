@@ -268,6 +268,7 @@ def test_a_held_button_pushes_the_node_until_it_is_released(node, browser):
 HOLDS = {"torque": ["torque", "torque"], "grasp": ["clamp", "unclamp"]}
 
 
+@pytest.mark.realtime  # the node lets go a torque of which it has not heard for some time
 @pytest.mark.parametrize("hold", HOLDS)
 def test_a_hold_on_a_page_that_draws_slowly_is_one_act_of_the_node(node, browser, hold):
     """Frames of 350 ms: the page cannot repeat a torque before the node lets it go."""
