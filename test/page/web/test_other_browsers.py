@@ -14,6 +14,7 @@ from PIL import Image
 
 from symtop_ros.physics import Motion, Top, hurry, kick_verdict
 from workshop.kernel_wasm import MODULE
+from workshop.lesson.steps import read_lesson
 
 pytestmark = pytest.mark.long
 
@@ -129,3 +130,49 @@ def test_a_hold_is_one_act_where_frames_are_slow(driver, path, hold):
     driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow")
     until(driver, "document.querySelector('#headline')?.textContent")
     assert driver.run(HOLD, hold) == HELD[hold]
+
+
+DISC = "#scene=perry_fails&theta=0.5&psi_dot=-25&precession=fast"
+PRESS = """
+const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+location.hash = given.shift();
+await wait(300);
+for (const name of given) document.querySelector(`[data-act=${name}]`).click();
+return window.symtop.run().events.slice(-2);
+"""
+
+
+def test_the_disc_is_pushed_one_way_and_hurried_at_its_spin_rate_the_other(driver, path):
+    ends = {}
+    driver.open(path.as_uri())
+    until(driver, "document.querySelector('#headline')?.textContent")
+    for act in ("hurry", "hurry_held"):
+        before, after = driver.run(PRESS, f"{DISC}&psi={len(ends)}", act)
+        held = after["angular_velocity"][2] == before["angular_velocity"][2]
+        assert held == (act == "hurry")
+        ends[act] = read_motion(after).turning_angles
+    assert ends["hurry"][1] > 0.79  # a push lowers its axis, from 0.5 rad
+    assert ends["hurry_held"][0] < 0.37  # psi' held, it rises
+
+
+STEPS = """
+const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+const found = [];
+for (let k = 1; k <= 14; k += 1) {
+  location.hash = `#lesson=${k}`;
+  await wait(200);
+  for (const button of document.querySelectorAll("#lesson-acts button")) {
+    await wait(100);
+    button.click();
+    found.push(document.querySelector("#refusal").textContent);
+  }
+}
+return found;
+"""
+
+
+def test_each_button_of_the_lesson_does_its_act(driver, path):
+    driver.open(path.as_uri())
+    until(driver, "document.querySelector('#headline')?.textContent")
+    found = driver.run(STEPS)
+    assert found == [""] * sum(len(step.acts) for step in read_lesson())
