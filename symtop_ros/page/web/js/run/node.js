@@ -150,11 +150,13 @@ export class NodeTop extends LocalTop {
 
   /** @param {Held} hold */
   letGo(hold) {
-    if (!this.held.delete(hold)) return;
+    const isHeld = this.held.delete(hold);
     if (hold === "torque") {
+      // of a motion that began anew as well: the server repeats the torque until it hears of the end
       clearInterval(this.renewal);
       this.requests.push({ torque: [0, 0, 0] });
-    } else if (hold === "press") this.release();
+    } else if (!isHeld) return;
+    else if (hold === "press") this.release();
     else this.ask(CLAMP, false);
   }
 
