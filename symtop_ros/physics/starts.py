@@ -82,10 +82,11 @@ def solve_start(top: Top, **known: float) -> tuple[Solution, ...]:
     -------
     tuple of Solution
         One to four: first those with phi' > 0, or let go those with psi' > 0; of constants the
-        start at the smaller theta first. Each number is right to some EPS for what is given, but
-        for the spin of a nutation period next to the longest one, where it loses half its digits.
-        Constants whose energy is the least one within 64 EPS of its terms are those of a regular
-        precession.
+        start at the smaller theta first. Each number is right to some EPS for what is given. A
+        nutation period up to 16 EPS longer than the longest one counts as the longest, and one up
+        to 16 EPS shorter than the pendulum's, where the slow spin would end, as the pendulum's.
+        Constants whose energy is the least one within 64 EPS of its terms, above or below, are
+        those of a regular precession.
 
     Raises
     ------
@@ -120,6 +121,11 @@ def _read(each: Any) -> Solution:
     return Solution(each.theta, each.theta_dot, each.phi_dot, each.psi_dot)
 
 
+def _show_range(found: SolutionsRecord) -> str:
+    above = "" if math.isnan(found.least) else f"> {show_limit(found.least)} and "
+    return f"{above}< {show_limit(found.most)}"
+
+
 def _refuse(
     top: Top, names: tuple[str, ...], numbers: list[float], found: SolutionsRecord
 ) -> RefusedError:
@@ -142,6 +148,7 @@ def _refuse(
         "positive": f"> 0 {unit}",
         "least": f"at least {show_limit(found.least)} {unit} with {others}",
         "size": f"at least {show_limit(found.least)} {unit} in size with {others}",
+        "range": f"{_show_range(found)} {unit} in size with {others}",
         "regular": f"such that the top can precess regularly with {others}",
         "spin": f"other than 0 {unit}: without weight every precession rate is then regular",
         "rates": f"such that no rate exceeds {LARGEST_ANGULAR_VELOCITY:g} rad/s with {others}",

@@ -5,6 +5,7 @@ periods and turning angles by the motions of the starts.
 """
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from symtop_ros.physics.starts import ROWS
 
 FEW = 200  # of each question, in a run of all tests
 MANY = 5000
+LONGEST_AT = 2.179660431678698  # r of the longest nutation period: derivation.md, section 12
 HORIZONTAL = 2.0**-52  # |cos(theta)| that counts as zero, as docs/library.md says
 
 
@@ -31,7 +33,7 @@ class Drawn:
         ratio = rng.choice([rng.uniform(0.02, 2.0), rng.power(-3, 0.3), 1.0])
         pull = rng.choice([1, 1, -1, 0]) * rng.power(-1, 4)
         self.top = Top(Ix, Ix * min(ratio, 2.0), Ix * pull)
-        near = rng.power(-8, 0)
+        near = rng.power(-15, 0)
         self.theta = rng.choice([rng.uniform(0.001, 3.14), near, PI - near, PI / 2])
         self.swing = math.sqrt(abs(pull) + 1e-6)
 
@@ -136,16 +138,60 @@ def test_an_axis_that_is_let_go_dips_as_far_as_was_seen(seed):
                 assert not starts
                 continue
             assert [each.psi_dot for each in starts] == [starts[0].psi_dot, -starts[0].psi_dot]
-            # Four sines with 4 EPS each, one of them squared, and the square of a spin with 6.
-            # Quarter turns are subtracted with 79 bits: next to pi what is left of those counts.
-            left = 2.0**-76 / abs(math.sin(one.theta + math.copysign(dip, one.top.Mgl)))
+            # A spin is made of three roots and their products: six roundings, squared.
             share = find_share(one.top, one.theta, dip, mpf(starts[0].psi_dot))
-            assert abs(share - 1) <= 40 * EPS + left
+            assert abs(share - 1) <= 12 * EPS
             assert not find(one.top, theta=one.theta, dip=most + 4 * EPS * PI)
 
 
 def find_period(top, theta, psi_dot):
     return Motion(top, State.from_euler(theta=theta, psi_dot=psi_dot)).nutation_period
+
+
+def find_x(top, theta, period):
+    """Of the starts with a nutation period p_psi^2/(2 |Mgl| Ix), the fast one first (section 12).
+
+    Both sides of the longest period are searched by halves, with all digits.
+    """
+    Ix, _, Mgl = map(mpf, top.moments)
+    tilt = mpf(theta) if Mgl > 0 else mp.pi - mpf(theta)
+    sine, R = mp.sin(tilt), mp.cot(tilt / 2)
+    asked = mpf(period) * mp.sqrt(2 * abs(Mgl) * sine / Ix) / (2 * mp.pi)
+
+    def find_relative(r):
+        return mp.sqrt(r) / mp.agm(1, mp.sqrt(1 + r * r))
+
+    def search(low, high, grows):
+        for _ in range(220):
+            middle = (low + high) / 2
+            low, high = (
+                (middle, high) if (find_relative(middle) < asked) == grows else (low, middle)
+            )
+        return sine * (R - low) * (1 + 1 / (low * R))
+
+    fold = mpf(LONGEST_AT)
+    found = [search(mpf(0), min(R, fold), grows=True)]
+    if fold < R and asked >= find_relative(R):
+        found.append(search(fold, R, grows=False))
+    return found
+
+
+@pytest.mark.parametrize("seed", seeds(1, 20))
+def test_a_spin_next_to_the_pendulums_has_all_its_digits(seed):
+    rng = Numbers(f"next to a pendulum {seed}")
+    with mp.workdps(50):
+        for _ in range(20):
+            Mgl = rng.choice([-1, 1]) * rng.power(-3, 2)
+            top = Top(1.0, rng.uniform(0.05, 2.0), Mgl)
+            is_folded = rng.choice([False, True])  # periods beyond the pendulum's have two spins
+            tilt = rng.uniform(0.1, 0.8) if is_folded else rng.uniform(0.9, 3.0)
+            theta = tilt if Mgl > 0 else PI - tilt
+            sign = rng.choice([-1, 1]) if is_folded else 1
+            period = find_period(top, theta, 0.0) * (1 - sign * rng.power(-15, -4))
+            momenta = [mp.sqrt(2 * x * abs(mpf(Mgl))) for x in find_x(top, theta, period)]
+            spins = [each.psi_dot for each in find(top, theta=theta, nutation_period=period)]
+            exact = [spin for each in momenta for spin in (each / top.Iz, -each / top.Iz)]
+            assert spins[: len(exact)] == pytest.approx(exact, rel=6 * EPS)
 
 
 def find_slope(top, theta, psi_dot):
@@ -207,18 +253,29 @@ def find_constants(top, state):
     }
 
 
-def check_constants(top, start, known):
+def check_constants(top, start, known, is_only):
     """A start has the constants up to rounding of it and of them."""
     state = start.state
     found = find_constants(top, state)
     across = top.Ix * (abs(start.phi_dot * math.sin(start.theta)) + abs(start.theta_dot))
     momenta = abs(known["p_phi"]) + abs(known["p_psi"]) + across
+    # What precesses regularly is a start at the bottom, up to 64 EPS of the terms away.
+    digits = 72 if is_only and start.theta_dot == 0 else 8
     along = top.Iz * (abs(start.phi_dot) + abs(start.psi_dot))
     swing = top.Ix * (start.phi_dot**2 + start.theta_dot**2) + top.Iz * start.psi_dot**2
     energies = swing + abs(top.Mgl) + abs(known["energy"])
-    assert abs(found["energy"] - known["energy"]) <= 8 * EPS * energies
+    assert abs(found["energy"] - known["energy"]) <= digits * EPS * energies
     assert abs(found["p_phi"] - known["p_phi"]) <= 8 * EPS * (momenta + along)
     assert abs(found["p_psi"] - known["p_psi"]) <= 8 * EPS * (momenta + along)
+
+
+@pytest.mark.parametrize("seed", seeds(1, MANY // FEW))
+def test_the_constants_of_a_regular_precession_give_one_start(seed):
+    for k in range(FEW):
+        one = Drawn(seed * FEW + k)
+        for seen in find(one.top, theta=one.theta, precession_period=one.period()):
+            (start,) = solve_start(one.top, **find_constants(one.top, seen.state))
+            assert start.theta_dot == 0.0 or start.theta in (0.0, PI)
 
 
 def draw_state(one):
@@ -236,7 +293,7 @@ def test_constants_lead_to_the_turning_angles_of_their_motion(seed):
         known = find_constants(one.top, state)
         starts = solve_start(one.top, **known)
         for start in starts:
-            check_constants(one.top, start, known)
+            check_constants(one.top, start, known, len(starts) == 1)
         low, high = Motion(one.top, state).turning_angles
         # The place of a bottom is known to the root of the rounding of its energy. Numbers next to
         # the vertical are those of p_phi - p_psi, which is no more than rounding.
@@ -253,8 +310,9 @@ def test_goldsteins_constants_lead_to_the_same_starts(seed):
         alpha, a, b = one.rate() ** 2, one.rate(), one.rate()
         energy = float((Ix * mpf(alpha) + (Ix * mpf(a)) ** 2 / Iz) / 2)
         known = {"energy": energy, "p_phi": float(Ix * b), "p_psi": float(Ix * a)}
-        for start in find(one.top, alpha=alpha, a=a, b=b):
-            check_constants(one.top, start, known)
+        starts = find(one.top, alpha=alpha, a=a, b=b)
+        for start in starts:
+            check_constants(one.top, start, known, len(starts) == 1)
 
 
 @pytest.mark.parametrize("seed", seeds(1, MANY // FEW))
@@ -265,8 +323,9 @@ def test_less_than_the_least_energy_is_refused_and_the_least_is_not(seed):
         with pytest.raises(RefusedError, match="energy must be at least") as refused:
             solve_start(one.top, **known)
         least = float(str(refused.value).split("at least ")[1].split(" J")[0])
-        for start in solve_start(one.top, **known | {"energy": least}):
-            check_constants(one.top, start, known | {"energy": least})
+        starts = solve_start(one.top, **known | {"energy": least})
+        for start in starts:
+            check_constants(one.top, start, known | {"energy": least}, len(starts) == 1)
         below = least - 1e-9 * (abs(least) + abs(one.top.Mgl))
         assert not find(one.top, **known | {"energy": below})
 
@@ -283,8 +342,8 @@ def test_each_question_is_refused_in_words_that_say_what_would_do():
             "theta": 0.5,
             "psi_dot": 9.0,
         },
-        "precession_period must be such that the top can precess regularly with "
-        "psi_dot = 200 rad/s, got 0.5": {"psi_dot": 200.0, "precession_period": 0.5},
+        "psi_dot must be > 57.07923014321494 and < 132.12594695903826 rad/s in size with "
+        "precession_period = 0.5 s, got 200": {"psi_dot": 200.0, "precession_period": 0.5},
         "psi_dot must be at most 1e+100 rad/s in size, got 1e+200": {
             "theta": 1.0,
             "psi_dot": 1e200,
@@ -321,6 +380,29 @@ def test_a_limit_that_a_refusal_states_is_not_refused_and_what_lies_beyond_it_is
             assert find(one.top, theta=theta, **{name: limit}), (name, limit)
             beyond = limit * (1 + (-1e-13 if name == "psi_dot" else 1e-13))
             assert not find(one.top, theta=theta, **{name: beyond}), (name, beyond)
+
+
+@pytest.mark.parametrize("seed", seeds(1, MANY // FEW))
+def test_a_spin_has_a_turn_of_that_time_exactly_between_the_limits_of_the_refusal(seed):
+    for k in range(FEW):
+        one = Drawn(seed * FEW + k)
+        if one.top.Ix == one.top.Iz:
+            continue
+        period = one.period()
+        with pytest.raises(
+            RefusedError, match=r"^psi_dot must be .* rad/s in size with"
+        ) as refused:
+            solve_start(one.top, psi_dot=1e99, precession_period=period)
+        limits = [float(each) for each in re.findall(r"[<>] (\S+)", str(refused.value))]
+        least, most = limits if len(limits) == 2 else (0.0, limits[0])
+        # A limit is the nearest double: the next one is on its side.
+        inside = np.nextafter(least, math.inf), (least + most) / 2, np.nextafter(most, 0.0)
+        if np.nextafter(inside[0], math.inf) < inside[2]:
+            for spin in (*inside, -inside[0], -inside[2]):
+                assert find(one.top, psi_dot=float(spin), precession_period=period)
+        beyond = np.nextafter(most, math.inf), np.nextafter(least, 0.0) or -2 * most
+        for spin in (*beyond, -beyond[0], -beyond[1]):
+            assert not find(one.top, psi_dot=float(spin), precession_period=period)
 
 
 def test_where_every_rate_is_regular_the_spin_is_refused_and_not_the_precession():

@@ -94,6 +94,7 @@ Demand = Literal[
     "weight",
     "rates",
     "spin",
+    "range",
 ]
 DEMANDS: tuple[Demand | None, ...] = (
     None,
@@ -107,6 +108,7 @@ DEMANDS: tuple[Demand | None, ...] = (
     "weight",
     "rates",
     "spin",
+    "range",
 )
 
 KickKind = Literal["rate", "change", "factor", "impulse", "axle"]

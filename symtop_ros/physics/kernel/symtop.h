@@ -355,7 +355,8 @@ typedef enum {
   SYMTOP_DEMANDS_UNEQUAL,  /* "unequal": the top must have Ix and Iz that differ */
   SYMTOP_DEMANDS_WEIGHT,   /* "weight": the top must have Mgl other than 0 */
   SYMTOP_DEMANDS_RATES,    /* "rates": such that no rate of a start exceeds 1e100 rad/s */
-  SYMTOP_DEMANDS_SPIN      /* "spin": other than 0, at which every rate is regular */
+  SYMTOP_DEMANDS_SPIN,     /* "spin": other than 0, at which every rate is regular */
+  SYMTOP_DEMANDS_RANGE     /* "range": in size above `least`, if it is a number, and below `most` */
 } symtop_demand;
 
 typedef struct {

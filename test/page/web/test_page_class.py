@@ -116,6 +116,16 @@ def test_what_no_motion_has_is_refused_in_words(opened):
         ("theta dip", ("0.5", "3"), "dip must be positive and at most 2.6415 rad, got 3"),
         ("theta psi_dot", ("0.5", "9"), "spin psi' (rad/s) must be at least 111.63 rad/s in size"),
         (
+            "psi_dot precession_period",
+            ("200", "0.5"),
+            "spin psi' (rad/s) must lie above 57.08 rad/s and below 132.12 rad/s in size, got 200",
+        ),
+        (
+            "psi_dot precession_period",
+            ("-2e3", "0.2"),
+            "spin psi' (rad/s) must be below",
+        ),
+        (
             "theta psi_dot",
             ("0", "9"),
             "tilt theta must lie above 0 rad and below 3.1415 rad, got 0",

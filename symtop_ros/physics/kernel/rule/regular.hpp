@@ -53,21 +53,31 @@ inline void write_roots(const Long& a, const Long& b, const Long& c, double root
   for (int count = solve_quadratic(a, b, c, roots); count < 2; count++) roots[count] = NAN;
 }
 
-// The cosine of a double by its series, to 47 digits of 1. Zero if it is no more than EPS: no double
-// is exactly pi/2, and the axis was meant to be horizontal.
-inline Long find_long_cosine(double theta) {
-  const Long x(take_turns_off(theta)), square = -(x * x);
-  int last = 0;
-  for (double term = 1.0; term > 1e-52; term *= x.to_double() * x.to_double() / (last * (last - 1)))
-    last += 2;
-  // Horner's rule for last! cos(x), of which all coefficients are whole: one division, at the end.
+// cos(x) from n = 0 on, or sin(x)/x from n = 1 on, by the series, to 47 digits of 1. Horner's rule for
+// last! times it, of which all coefficients are whole: one division, at the end.
+inline Long sum_circular_series(const Long& x, int first) {
+  const Long square = -(x * x);
+  int last = first;
+  for (double term = 1.0; term > 1e-52; term *= -square.to_double() / (last * (last - 1))) last += 2;
   Long coefficient(1.0), total(1.0);
-  for (int n = last; n > 0; n -= 2) {
+  for (int n = last; n > first; n -= 2) {
     coefficient = coefficient * Long(double(n * (n - 1)));
     total = total * square + coefficient;
   }
-  total = total / coefficient;
+  return total / coefficient;
+}
+
+// The cosine of a double. Zero if it is no more than EPS: no double is exactly pi/2, and the axis was
+// meant to be horizontal.
+inline Long find_long_cosine(double theta) {
+  const Long total = sum_circular_series(Long(take_turns_off(theta)), 0);
   return size(total) <= Long(EPS) ? Long() : total;
+}
+
+// The sine of a number from 0 to pi, to 47 digits of itself: from the nearer end.
+inline Long find_long_sine(const Long& x) {
+  const Long rest = Long(find_long_turn().scale(-1)) - x, &nearer = rest < x ? rest : x;
+  return nearer * sum_circular_series(nearer, 1);
 }
 
 // Regular rates phi' at a tilt, given psi' or omega_z.

@@ -29,6 +29,24 @@ inline bool has_none(const symtop_solutions& found) {
   return found.number == 0 && found.demand != SYMTOP_DEMANDS_RATES;
 }
 
+// The place at which `is_below` becomes false, between two doubles, and then with 60 bits more.
+template <class Number, class Below>
+Number bisect(double low, double high, const Below& is_below) {
+  for (;;) {
+    // Roots, as the product could overflow.
+    const double middle =
+        high > 2 * low ? std::sqrt(low) * std::sqrt(high) : low + (high - low) / 2;
+    if (!(low < middle && middle < high)) break;
+    (is_below(Number(middle)) ? low : high) = middle;
+  }
+  Number from(low), to(high);
+  for (int bits = 0; bits < 60; bits++) {
+    const Number middle = (from + to).scale(-1);
+    (is_below(middle) ? from : to) = middle;
+  }
+  return from;
+}
+
 // ---- Regular precession ----
 
 // psi' of the tilt and phi' = +-2 pi/T: the quadratic of regular precession is linear in psi'.
@@ -63,22 +81,31 @@ inline void solve_tilt_and_spin(const symtop_top& top, double theta, double psi_
   refuse(found, least > 0 ? SYMTOP_DEMANDS_SIZE : other, 1, least);
 }
 
+// |Iz psi' p - Mgl| < |Ix - Iz| p^2 for one of the two directions: |psi'| lies between the quotients of
+// |Mgl| -+ |Ix - Iz| p^2 and Iz |p|. If the smaller one is negative, every smaller spin does.
+inline void refuse_spin_and_turn(const symtop_top& top, const Long& pace, symtop_solutions& found) {
+  const Long weight = size(Long(top.Mgl)), per_spin = invert(Long(top.Iz) * pace);
+  const Long whole = size(Long(top.Ix) - Long(top.Iz)) * pace * pace;
+  const Long least = (weight - whole) * per_spin, most = (weight + whole) * per_spin;
+  refuse(found, SYMTOP_DEMANDS_RANGE, 0, least.sign < 0 ? NAN : least.to_double(), most.to_double());
+}
+
 // cos(theta) = N/D with N = Iz psi' p - Mgl and D = (Ix - Iz) p^2. The half angle has the tangent
 // sqrt((D - N)/(D + N)): an arc cosine would lose half the digits next to the vertical.
 inline void solve_spin_and_turn(const symtop_top& top, double psi_dot, double period,
                                 symtop_solutions& found) {
   const Long difference = Long(top.Ix) - Long(top.Iz);
   if (!difference.sign) return refuse(found, SYMTOP_DEMANDS_UNEQUAL);
+  const Long pace = Long(TWO_PI) / Long(period), whole = difference * pace * pace;
   for (const double sign : {1.0, -1.0}) {
-    const Long rate = Long(TWO_PI) / Long(sign * period);
-    const Long whole = difference * rate * rate;
+    const Long rate = pace * Long(sign);
     const Long share = Long(top.Iz) * Long(psi_dot) * rate - Long(top.Mgl);
     const Long above = whole - share, below = whole + share;
     if (above.sign * below.sign <= 0) continue;  // |N| < |D| does not hold
     const double tangent = root(above / below).to_double();
     keep(found, {2 * arc_tangent(tangent, 1.0), 0.0, rate.to_double(), psi_dot});
   }
-  if (has_none(found)) refuse(found, SYMTOP_DEMANDS_REGULAR, 1);
+  if (has_none(found)) refuse_spin_and_turn(top, pace, found);
 }
 
 // ---- Let go at rest ----
@@ -90,63 +117,77 @@ inline void keep_spins(const symtop_top& top, double theta, double x, symtop_sol
   if (momentum > 0) keep(found, {theta, 0.0, 0.0, -momentum / top.Iz});
 }
 
-// sin(a + b) with what the sum has lost (Knuth's two-sum): next to pi that is more than rounding.
-inline double find_sine_of_sum(double a, double b) {
-  const double total = a + b, part = total - a, lost = (a - (total - part)) + (b - part);
-  const Pair turn = find_tilt(total, false);
-  return turn.y + turn.x * lost;
-}
-
 // The axis comes to rest again where x (cos(theta) - cos(end)) = sin(end)^2, x as above. The
-// difference is 2 sin(theta + dip/2) sin(dip/2).
+// difference is 2 sin(theta + dip/2) sin(dip/2). The sums are exact: next to pi, what that of two
+// doubles loses is more than rounding.
 inline void solve_tilt_and_dip(const symtop_top& top, double theta, double dip,
                                symtop_solutions& found) {
   if (top.Mgl == 0) return refuse(found, SYMTOP_DEMANDS_WEIGHT);
-  const double way = std::copysign(dip, top.Mgl), end = theta + way;
+  const double way = std::copysign(dip, top.Mgl), nearest = theta + way;
   const double most = top.Mgl > 0 ? PI - theta : theta;
-  if (!(end >= 0 && end <= PI)) return refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, most);
-  const double sine = find_sine_of_sum(theta, way), half = find_sine_of_sum(theta, way / 2);
-  keep_spins(top, theta, sine / (2 * half) * (sine / find_tilt(dip / 2, false).y), found);
+  if (!(nearest >= 0 && nearest <= PI)) return refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, most);
+  const Long end = Long(theta) + Long(way), half = Long(theta) + Long(way).scale(-1);
+  // The double next to pi is the vertical, and so is what a sum that rounds to it has beyond.
+  const Long sine = end >= Long(PI) ? Long() : find_long_sine(end);
+  const Long difference = find_long_sine(half) * find_long_sine(Long(dip).scale(-1));
+  keep_spins(top, theta, (sine * sine / difference.scale(1)).to_double(), found);
 }
 
 // sqrt(r)/agm(1, sqrt(1 + r^2)): the nutation period in its unit. It grows up to LONGEST_AT.
-inline double find_relative_period(double r) {
-  const double modulus = find_modulus({1.0, r});
-  // agm(1, m) = m agm(1, 1/m), of which the quarter period is pi/2 over the second factor.
-  return std::sqrt(r) / modulus * quarter_period(1 / modulus) / (PI / 2);
+inline Precise find_relative_period(const Precise& r) {
+  int count;
+  const Precise one(1.0), modulus = root(one + r * r);
+  // agm(1, m) = m agm(1, 1/m): the mean is taken of a number up to 1.
+  return root(r) / (modulus * iterate_mean<3>(invert(modulus), nullptr, count));
 }
 
 const double LONGEST_AT = 2.179660431678698;
 
 // The r between two, in which the period grows or falls, at which it is a given one.
-inline double find_period_at(double period, double low, double high, bool grows) {
-  for (;;) {
-    const double middle = std::sqrt(low) * std::sqrt(high);
-    if (!(low < middle && middle < high)) return low;
-    ((find_relative_period(middle) < period) == grows ? low : high) = middle;
-  }
+inline Precise find_period_at(const Precise& period, double low, double high, bool grows) {
+  return bisect<Precise>(low, high, [&](const Precise& r) {
+    return (find_relative_period(r) < period) == grows;
+  });
 }
 
-// With r between 0, for an infinite spin, and R = cot(theta/2), for none, of a top with Mgl > 0.
+// With r between 0, for an infinite spin, and R = cot(theta/2), for none, of a top with Mgl > 0. The
+// spin next to a pendulum's comes from R - r, and so both are precise.
+struct LetGo {
+  Precise sine, R, per_unit;  // 1/s, of the unit 2 pi sqrt(Ix/(2 |Mgl| sin(theta)))
+
+  LetGo(const symtop_top& top, double theta) {
+    const Long half = Long(theta).scale(-1), quarter_turn(find_long_turn().scale(-2));
+    const Precise s(find_long_sine(half)), c(find_long_sine(quarter_turn - half));
+    sine = (s * c).scale(1), R = top.Mgl > 0 ? c / s : s / c;
+    per_unit = root(Precise(2 * std::fabs(top.Mgl)) * sine / Precise(top.Ix)) * PER_TURN;
+  }
+
+  double find_x(const Precise& r) const {
+    const Precise x = sine * (R - r) * (Precise(1.0) + invert(r * R));
+    return x.sign < 0 ? 0.0 : x.to_double();
+  }
+};
+
+// A period is a rounded number: up to 16 EPS beyond the longest one it is the longest, and up to 16 EPS
+// below the pendulum's, where no slow spin would be left, the pendulum's.
 inline void solve_tilt_and_nutation(const symtop_top& top, double theta, double period,
                                     symtop_solutions& found) {
   if (top.Mgl == 0) return refuse(found, SYMTOP_DEMANDS_WEIGHT);
-  const Pair half = find_tilt(theta, true);
-  const double sine = find_tilt(theta, false).y;
-  const double R = top.Mgl > 0 ? half.x / half.y : half.y / half.x;
-  const double unit = 2 * PI * std::sqrt(top.Ix / (2 * std::fabs(top.Mgl))) / std::sqrt(sine);
-  const double longest = find_relative_period(std::fmin(R, LONGEST_AT));
-  double asked = period / unit;
-  if (asked > longest && asked <= (1 + 16 * EPS) * longest) asked = longest;  // up to its rounding
-  if (!(asked <= longest)) return refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, longest * unit);
-  const auto keep_at = [&](double r) {
-    keep_spins(top, theta, std::fmax(0.0, sine * (R - r) * (1 + 1 / (r * R))), found);
-  };
-  const double low = asked * asked / 2;  // agm(1, ...) >= 1, so that r >= asked^2
-  keep_at(find_period_at(asked, std::fmin(low, R / 2), std::fmin(R, LONGEST_AT), true));
-  if (R > LONGEST_AT && asked >= find_relative_period(R) && asked < longest)
-    keep_at(find_period_at(asked, LONGEST_AT, R, false));
-  if (has_none(found)) refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, longest * unit);
+  const LetGo go(top, theta);
+  const bool is_folded = go.R > Precise(LONGEST_AT);  // there are periods beyond the pendulum's
+  const Precise still = find_relative_period(go.R), asked = Precise(period) * go.per_unit;
+  const Precise longest = is_folded ? find_relative_period(Precise(LONGEST_AT)) : still;
+  if (asked > longest * Precise(1 + 16 * EPS))
+    return refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, (longest / go.per_unit).to_double());
+  const auto keep_at = [&](const Precise& r) { keep_spins(top, theta, go.find_x(r), found); };
+  if (asked >= longest) return keep_at(is_folded ? Precise(LONGEST_AT) : go.R);
+  const double end = std::nextafter(go.R.to_double(), INFINITY);  // not below R
+  const double square = asked.to_double() * asked.to_double();
+  // agm(1, ...) >= 1, so that r >= asked^2.
+  const double low = std::fmin(square / 2, end / 4), high = is_folded ? LONGEST_AT : end;
+  keep_at(find_period_at(asked, low, high, true));
+  if (!is_folded || asked < still * Precise(1 - 16 * EPS)) return;
+  keep_at(asked < still ? go.R : find_period_at(asked, LONGEST_AT, end, false));
 }
 
 // ---- Constants ----
@@ -177,24 +218,6 @@ struct Well {
 
 const double LEAST_Q = 0x1p-1000, MOST_Q = 0x1p1000;  // the tilts of which the axis is vertical
 
-// The place at which `is_below` becomes false, between two doubles, and then with 60 bits more.
-template <class Below>
-Long bisect(double low, double high, const Below& is_below) {
-  for (;;) {
-    // Roots, as the product could overflow.
-    const double middle =
-        high > 2 * low ? std::sqrt(low) * std::sqrt(high) : low + (high - low) / 2;
-    if (!(low < middle && middle < high)) break;
-    (is_below(Long(middle)) ? low : high) = middle;
-  }
-  Long from(low), to(high);
-  for (int bits = 0; bits < 60; bits++) {
-    const Long middle = (from + to).scale(-1);
-    (is_below(middle) ? from : to) = middle;
-  }
-  return from;
-}
-
 // On the vertical the axis has all of theta'^2, and psi' counts the whole spin.
 inline symtop_solution start_on_vertical(const Well& well, bool is_upright, const Long& spin) {
   const Long weight = well.weight.scale(1), square = well.alpha + (is_upright ? -weight : weight);
@@ -213,21 +236,22 @@ inline symtop_solution start_at(const Well& well, const Long& q, const Long& spi
 }
 
 // The turning angles of what has these constants. `rounding` is that of the energy, times 2/Ix, up to
-// which a regular precession has too little of it. Returns what the energy lacks, times 2/Ix, or 0.
+// which a regular precession has too little of it, or too much. Returns what the energy lacks, times
+// 2/Ix, or 0.
 inline Long solve_well(const Well& well, const Long& spin, const Long& rounding,
                        symtop_solutions& found) {
   const auto falls = [&](const Long& q) { return well.find_slope(q) < 0; };
-  const Long bottom = bisect(LEAST_Q, MOST_Q, falls), square = well.find_square(bottom);
-  if (square.sign < 0 && -square > rounding) return -square;
-  const double middle = bottom.to_double();
-  if (square.sign <= 0) {
+  const Long bottom = bisect<Long>(LEAST_Q, MOST_Q, falls), square = well.find_square(bottom);
+  if (size(square) <= rounding) {
     keep(found, start_at(well, bottom, spin));
     return Long();
   }
+  if (square.sign < 0) return -square;
+  const double middle = bottom.to_double();
   const auto lacks = [&](const Long& q) { return well.at(q).sign < 0; };
   const auto has = [&](const Long& q) { return well.at(q).sign >= 0; };
-  const symtop_solution high = start_at(well, bisect(LEAST_Q, middle, lacks), spin);
-  const symtop_solution low = start_at(well, bisect(middle, MOST_Q, has), spin);
+  const symtop_solution high = start_at(well, bisect<Long>(LEAST_Q, middle, lacks), spin);
+  const symtop_solution low = start_at(well, bisect<Long>(middle, MOST_Q, has), spin);
   // What only approaches the vertical starts at its other turning angle.
   const auto moves = [](const symtop_solution& start) {
     return start.theta_dot > 0 || (start.theta > 0 && start.theta < PI);

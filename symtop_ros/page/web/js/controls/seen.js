@@ -21,6 +21,15 @@ const describe = (start) => {
   return phrase("solution", { ...start, ...turns }, variant);
 };
 
+/**
+ * The words of a demand: some have one limit or two.
+ * @param {string} demand @param {number} least @param {number} most
+ */
+const nameDemand = (demand, least, most) => {
+  if (demand === "positive" && Number.isFinite(most)) return "most";
+  return demand === "range" && Number.isNaN(least) ? "below" : demand;
+};
+
 export class Seen {
   /** @param {(message: import("../run/acts.js").Message) => void} send */
   constructor(send) {
@@ -91,8 +100,8 @@ export class Seen {
     if (demand) {
       const input = this.inputs[which];
       const unit = QUANTITIES[this.names[which]];
-      const kind = demand === "positive" && Number.isFinite(most) ? "most" : demand;
       const limits = { least: writeLimit(least, 1, unit), most: writeLimit(most, -1, unit) };
+      const kind = nameDemand(demand, least, most);
       const name = phrase(`known.${this.names[which]}`);
       refuseField(input, phrase("demand", { kind, name, ...limits, got: input.value }));
       return;

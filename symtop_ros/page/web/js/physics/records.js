@@ -72,6 +72,7 @@ export const NAMES = {
     "weight",
     "rates",
     "spin",
+    "range",
   ],
   kick_kind: ["rate", "change", "factor", "impulse", "axle"],
   subject: ["top", "axis"],
