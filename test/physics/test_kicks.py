@@ -77,6 +77,20 @@ def test_a_new_rate_is_met_as_closely_as_omega_has_it(hold):
         assert abs(kicked.euler_rates.phi - 1e6) <= 27 * EPS * largest / math.sin(theta)
 
 
+@pytest.mark.parametrize("hold", ["spin_rate", "spin_momentum"])
+def test_a_kick_that_ends_the_precession_leaves_no_rounding_of_it(hold):
+    rng = Numbers("an end")
+    for _ in range(200):
+        angles = {"phi": rng.uniform(-3, 3), "theta": rng.uniform(0.01, 3.13)}
+        tilting, rate = rng.choice([0.0, 1.0]), rng.power(-2, 5)
+        start = State.from_euler(**angles, psi=1.2, theta_dot=tilting, phi_dot=rate)
+        ended = set_precession_rate(start, 0.0, hold)
+        # What is left belongs to theta', to rounding of it, however fast the precession was.
+        assert abs(ended.euler_rates.phi) * math.sin(angles["theta"]) <= 8 * EPS * tilting
+        if hold == "spin_rate":  # psi' was 0, and stays so
+            assert ended.angular_velocity[2] == 0.0 or tilting
+
+
 def test_a_kick_at_the_smallest_tilt_needs_no_division():
     start = State.from_euler(theta=1e-12, psi_dot=200.0)
     after = set_precession_rate(start, 9.0)

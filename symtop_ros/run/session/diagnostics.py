@@ -180,7 +180,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "applied_torque": list(motion.applied_torque),
         "regular_precession_rates": list(verdict.regular_rates),
         "regular_precession_periods": _keep(map(find_period, verdict.regular_rates)),
-        "seen_from_above": _name_way(float(state.euler_rates.phi)),
+        "seen_from_above": _name_way(0.0 if motion.clamped else verdict.reason.before or 0.0),
         "critical_spin": _keep([float(top.critical_spin)])[0],
         **_describe_pivot(segment, motion, state),
         "clamped": motion.clamped,

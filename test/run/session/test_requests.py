@@ -285,6 +285,8 @@ def test_the_state_has_the_time_of_a_turn_and_the_force_of_the_pivot():
     assert math.hypot(x, y) == pytest.approx(turning)
     assert z == pytest.approx(body.mass * segment.rig.gravity)
     assert found["critical_spin"] == segment.motion.top.critical_spin
+    held = Run("regular_precession", **{"initial.clamped": True}).simulation
+    assert summarize_state(held.segment, held.stamp + 12_345_678)["seen_from_above"] == ""
 
 
 @pytest.mark.parametrize("changes", [{}, {"top.Mgl": 0.0}, {"initial.clamped": True}])

@@ -124,13 +124,18 @@ struct Vertical {
   double find_sine() const { return find_modulus({x, y}); }
 };
 
+// phi' of an axis that is not vertical. Divided twice: the square of a sine below 1e-154 would underflow.
+inline double find_precession_rate(const Vertical& g, const double omega[3]) {
+  const double sine = g.find_sine();
+  return (omega[0] * g.x + omega[1] * g.y) / sine / sine;
+}
+
 // phi', theta' and psi'. On the vertical phi' counts as 0, and theta' is the rate of the axis.
 inline void find_angle_rates(const double q[4], const double omega[3], double rates[3]) {
   const Vertical g(q);
   const double sine = g.find_sine();
   if (sine > 0) {
-    // Divided twice: the square of a sine below 1e-154 would underflow.
-    rates[0] = (omega[0] * g.x + omega[1] * g.y) / sine / sine;
+    rates[0] = find_precession_rate(g, omega);
     rates[1] = (omega[0] * g.y - omega[1] * g.x) / sine;
   } else {
     rates[0] = 0.0;

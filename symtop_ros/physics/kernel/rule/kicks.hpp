@@ -17,6 +17,18 @@ inline void change_precession(const Vertical& g, double change, symtop_hold hold
   omega[2] += hold == SYMTOP_SPIN_MOMENTUM ? 0.0 : change * g.z;
 }
 
+// A kick that ends the precession leaves rounding of what there was. It is taken off as well: a later
+// kick would find a rate of 1e-15 rad/s, and hurry or reverse it by its sign. What is then left of a top
+// without theta', or without psi', is no more than rounding.
+inline void end_precession(const Vertical& g, symtop_hold hold, double omega[3]) {
+  const double across = find_modulus({omega[0], omega[1]});
+  const double rounding = 8 * EPS * std::fmax(across, std::fabs(omega[2]));
+  for (int step = 0; step < 2; step++)
+    change_precession(g, -find_precession_rate(g, omega), hold, omega);
+  if (find_modulus({omega[0], omega[1]}) <= 8 * EPS * across) omega[0] = omega[1] = 0.0;
+  if (std::fabs(omega[2]) <= rounding) omega[2] = 0.0;
+}
+
 // The components in the body frame of a vector of the world: q* v q.
 inline void turn_to_body(const double q[4], const double v[3], double turned[3]) {
   const double w = -q[0], x = q[1], y = q[2], z = q[3], a = v[0], b = v[1], c = v[2];
@@ -65,9 +77,11 @@ inline bool kick(const symtop_top& top, const double q[4], symtop_kick_kind kind
     if (kind == SYMTOP_AXLE_IMPULSE) {
       push_axle(top, g, *amount, omega);
     } else {
-      double rates[3];
-      find_angle_rates(q, omega, rates);
-      change_precession(g, find_new_rate(kind, *amount, rates[0]) - rates[0], hold, omega);
+      const double now = find_precession_rate(g, omega), rate = find_new_rate(kind, *amount, now);
+      if (rate == 0)
+        end_precession(g, hold, omega);
+      else
+        change_precession(g, rate - now, hold, omega);
     }
   }
   flush_tiny(omega, 3);

@@ -6,10 +6,13 @@
 
 namespace symtop {
 
-// Of a sum of two products, relative to its terms.
-const double SUM_ROUNDING = 4 * EPS;
 // cos(theta) of a quaternion: four squares, each rounded, and its norm.
 const double STATE_ROUNDING = 8 * EPS;
+
+inline double find_largest_rate(const symtop_start& s) {
+  const double* omega = s.angular_velocity;
+  return std::fmax(std::fmax(std::fabs(omega[0]), std::fabs(omega[1])), std::fabs(omega[2]));
+}
 
 // A start, with the vertical of its normalised orientation.
 struct Instant {
@@ -20,10 +23,7 @@ struct Instant {
   explicit Instant(const symtop_start& s)
       : start(s), top{s.Ix, s.Iz, s.Mgl}, vertical(find_vertical(s.orientation)) {}
 
-  double find_largest_rate() const {
-    const double* omega = start.angular_velocity;
-    return std::fmax(std::fmax(std::fabs(omega[0]), std::fabs(omega[1])), std::fabs(omega[2]));
-  }
+  double find_largest_rate() const { return symtop::find_largest_rate(start); }
 
  private:
   static Vertical find_vertical(const double given[4]) {
@@ -38,6 +38,15 @@ struct SpinAndPrecession {
   double phi_dot, psi_dot;
 };
 
+// True if phi' sin(theta) is what rounding leaves of the rates of a start, or of the kick that ended the
+// precession: a kick from there would hurry, delay or reverse it by chance. The scale of the rates is
+// the larger one of those of the start and of the swing that the weight makes.
+inline bool is_no_precession(const symtop_start& s, const Precise& along, const Precise& upper_lower) {
+  const double scale = std::fmax(find_largest_rate(s), std::sqrt(std::fabs(s.Mgl) / s.Ix));
+  const Precise least(STATE_ROUNDING * scale);  // along is phi' sin(theta)^2/2, the product sin^2/4
+  return along * along <= least * least * upper_lower;
+}
+
 // phi' and psi', the nearest doubles to those of the doubles of a start. Next to the vertical phi'
 // is a quotient of small differences: with the rounding of doubles it has half of its digits there,
 // and a large factor can take the kicked rate to a place where the others decide.
@@ -46,11 +55,8 @@ inline SpinAndPrecession find_exact_rates(const symtop_start& s) {
   const Precise w(q[0]), x(q[1]), y(q[2]), z(q[3]);
   const Precise wx(s.angular_velocity[0]), wy(s.angular_velocity[1]), wz(s.angular_velocity[2]);
   const Precise upper = w * w + z * z, lower = x * x + y * y;
-  const Precise along_x = wx * (x * z - w * y), along_y = wy * (y * z + w * x);
-  const Precise along = along_x + along_y;
-  // phi' is exactly 0 if it vanishes up to rounding of its two terms.
-  if (size(along) <= Precise(SUM_ROUNDING) * (size(along_x) + size(along_y)))
-    return {0.0, wz.to_double()};
+  const Precise along = wx * (x * z - w * y) + wy * (y * z + w * x);
+  if (is_no_precession(s, along, upper * lower)) return {0.0, wz.to_double()};
   const Precise norm = upper + lower;  // 1 but for the rounding of the quaternion
   const Precise phi_dot = along / upper / lower * norm.scale(-1);
   return {phi_dot.to_double(), (wz - phi_dot * (upper - lower) / norm).to_double()};

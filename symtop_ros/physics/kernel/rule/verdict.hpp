@@ -34,8 +34,7 @@ inline symtop_direction find_direction(const Instant& now) {
   const double sine = g.find_sine();
   double change = (omega[0] * g.y - omega[1] * g.x) / sine;
   if (std::fabs(change) <= START_ROUNDING * now.find_largest_rate()) {
-    const double phi_dot = (omega[0] * g.x + omega[1] * g.y) / sine / sine;
-    change = TiltAcceleration(now, SYMTOP_SPIN_RATE).at(phi_dot);
+    change = TiltAcceleration(now, SYMTOP_SPIN_RATE).at(find_precession_rate(g, omega));
   }
   return change == 0 ? SYMTOP_STAYS : change < 0 ? SYMTOP_RISES : SYMTOP_FALLS;
 }
