@@ -4,10 +4,18 @@ The formulas are in the kernel (`kernel/rule/starts.hpp`; docs/derivation.md, se
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
-from symtop_ros.base.refusals import RefusedError, Words, refuse, show_limit
+from symtop_ros.base.refusals import (
+    RefusedError,
+    Words,
+    refuse,
+    require,
+    show_limit,
+    validate_names,
+)
 from symtop_ros.base.units import QUANTITIES
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import DEMANDS, QUESTIONS, SolutionsRecord
@@ -34,12 +42,17 @@ class Solution:
         Tilt in rad.
     theta_dot, phi_dot, psi_dot : float
         Rates in rad/s; phi' is 0 on the vertical, where psi' is the whole spin.
+    least, most : Solution or None
+        The least and the largest of each number, as far as what is known may be off; None if nothing
+        was said to be, or if it may be off so far that there are more or fewer starts.
     """
 
     theta: float
     theta_dot: float
     phi_dot: float
     psi_dot: float
+    least: "Solution | None" = None
+    most: "Solution | None" = None
 
     @property
     def state(self) -> State:
@@ -52,7 +65,9 @@ class Solution:
         )
 
 
-def solve_start(top: Top, **known: float) -> tuple[Solution, ...]:
+def solve_start(
+    top: Top, *, half_widths: Mapping[str, float] | None = None, **known: float
+) -> tuple[Solution, ...]:
     """Return all starts of a top that have what is known of its motion.
 
     ==============================  ==================================================
@@ -74,6 +89,9 @@ def solve_start(top: Top, **known: float) -> tuple[Solution, ...]:
     ----------
     top : Top
         One top.
+    half_widths : mapping of str to float, optional
+        By how much numbers that are known may be off, >= 0 in their units: the solutions then have
+        `least` and `most`, of any numbers in the box. Extremes inside of it are found as well.
     **known : float
         Two or three numbers of one row, in rad, rad/s, s, J, N m s, 1/s^2 and 1/s. The time of one
         turn of phi, `precession_period`, has no sign: the top may go round in either direction.
@@ -104,6 +122,13 @@ def solve_start(top: Top, **known: float) -> tuple[Solution, ...]:
     >>> first, _ = solve_start(top, theta=math.pi / 2, precession_period=2.2)
     >>> round(first.psi_dot * 60 / (2 * math.pi))
     1802
+
+    The turn was timed to 0.05 s:
+
+    >>> seen = {"theta": math.pi / 2, "precession_period": 2.2}
+    >>> first, _ = solve_start(top, half_widths={"precession_period": 0.05}, **seen)
+    >>> f"{first.least.psi_dot:.0f} to {first.most.psi_dot:.0f} rad/s"
+    '184 to 193 rad/s'
     """
     validate_one(top)
     names = ROWS.get(frozenset(known))
@@ -114,7 +139,24 @@ def solve_start(top: Top, **known: float) -> tuple[Solution, ...]:
     found = door.solve_start(top.moments, [*ROWS.values()].index(names), numbers)
     if found.number == 0:
         raise _refuse(top, names, numbers, found)
-    return tuple(_read(each) for each in found.each[: int(found.number)])
+    starts = tuple(_read(each) for each in found.each[: int(found.number)])
+    if half_widths is None:
+        return starts
+    validate_names(half_widths, names, "half_widths")
+    widths = [_validate_width(name, half_widths.get(name, 0.0)) for name in names]
+    spreads = door.find_spreads(top.moments, [*ROWS.values()].index(names), numbers, widths)
+    if math.isnan(spreads.least[0].theta):
+        return starts
+    return tuple(
+        replace(start, least=_read(least), most=_read(most))
+        for start, least, most in zip(starts, spreads.least, spreads.most, strict=False)
+    )
+
+
+def _validate_width(name: str, value: float) -> float:
+    width = validate_number(f"half_widths[{name}]", value, QUANTITIES[name])
+    require(0 <= width < math.inf, f"half_widths[{name}]", f">= 0 {QUANTITIES[name]}", width)
+    return width
 
 
 def _read(each: Any) -> Solution:

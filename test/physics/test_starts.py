@@ -4,6 +4,7 @@ Regular precession is judged by its quadratic, and a dip by the constants, with 
 periods and turning angles by the motions of the starts.
 """
 
+import itertools
 import math
 import re
 
@@ -427,6 +428,99 @@ def test_names_of_no_question_are_refused_with_all_questions():
         with pytest.raises(RefusedError, match="known must be one of theta, precession_period / "):
             solve_start(ARTICLE, **known)
     assert len(ROWS) == 7
+
+
+def draw_question(one):
+    """What is known of a start, of any question, and by how much each may be off."""
+    names = one.rng.choice([*ROWS.values()])
+    values = {
+        "theta": one.theta,
+        "precession_period": one.period(),
+        "psi_dot": one.spin(),
+        "dip": draw_dip(one)[0],
+        "nutation_period": one.period(),
+        "alpha": one.rate() ** 2,
+        "a": one.rate(),
+        "b": one.rate(),
+    } | find_constants(one.top, draw_state(one))
+    known = {name: values[name] for name in names}
+    share = one.rng.power(-5, -1.5)
+    return known, {
+        name: abs(value) * share for name, value in known.items() if one.rng.random() < 0.8
+    }
+
+
+def find_all_over(top, known, half_widths, points):
+    """Solutions on a grid of what is known."""
+    shares = np.arange(points) * 2 / (points - 1) - 1
+    axes = [
+        [value + share * half_widths[name] for share in shares] if name in half_widths else [value]
+        for name, value in known.items()
+    ]
+    for numbers in itertools.product(*axes):
+        yield find(top, **dict(zip(known, numbers, strict=True)))
+
+
+@pytest.mark.parametrize("seed", seeds(1, 40))
+def test_a_spread_is_that_of_all_starts_of_what_may_be_known(seed):
+    for k in range(25):
+        one = Drawn(10_000 + seed * 25 + k)
+        known, half_widths = draw_question(one)
+        starts = find(one.top, **known)
+        if not starts or one.top.Mgl == 0:
+            continue
+        starts = solve_start(one.top, half_widths=half_widths, **known)
+        if starts[0].least is None:
+            continue
+        points = 17 if len(known) == 2 else 9
+        others = [*find_all_over(one.top, known, half_widths, points)]
+        # Of an extreme between two of its points a grid misses the square of half a step, of a
+        # spread that is at least the square of 1.
+        miss = 1 / (points - 1) ** 2
+        assert {len(each) for each in others} == {len(starts)}
+        for start, same in zip(starts, zip(*others, strict=True), strict=True):
+            for name in ("theta", "theta_dot", "phi_dot", "psi_dot"):
+                numbers = [getattr(each, name) for each in same]
+                least, most = getattr(start.least, name), getattr(start.most, name)
+                assert least <= getattr(start, name) <= most
+                rounding = 64 * EPS * max(abs(least), abs(most))
+                slack = (most - least) * miss + rounding
+                assert abs(min(numbers) - least) <= slack, (one.top, known, half_widths, name)
+                assert abs(max(numbers) - most) <= slack, (one.top, known, half_widths, name)
+
+
+def test_a_spread_knows_the_extreme_between_its_ends():
+    # psi' = (Ix - Iz) cos(theta) p/Iz + Mgl/(Iz p) is least at p^2 = Mgl/((Ix - Iz) cos(theta)).
+    top = Top(2.0, 1.0, 1.0)
+    theta, period = PI / 3, 2 * PI / math.sqrt(2.0)
+    first, _ = solve_start(
+        top,
+        theta=theta,
+        precession_period=period * 1.02,
+        half_widths={"precession_period": period / 10},
+    )
+    assert first.least.psi_dot == pytest.approx(math.sqrt(2.0), rel=1e-12)
+    assert first.most.psi_dot > first.psi_dot
+
+
+def test_a_spread_is_unknown_where_a_start_ends_or_goes_through_infinity():
+    for known, half_widths in (
+        ({"theta": 0.5, "psi_dot": 112.0}, {"psi_dot": 1.0}),  # none below 111.6 rad/s
+        ({"theta": PI / 2, "psi_dot": 200.0}, {"theta": 0.01}),  # the fast one, at the horizontal
+    ):
+        for start in solve_start(ARTICLE, half_widths=half_widths, **known):
+            assert start.least is None
+            assert start.most is None
+
+
+def test_half_widths_are_refused_by_name():
+    for half_widths, refusal in (
+        ({"dip": -1.0}, r"half_widths\[dip\] must be >= 0 rad, got -1"),
+        ({"dip": math.inf}, r"half_widths\[dip\] must be "),
+        ({"tilt": 1.0}, "half_widths must be one of theta, dip, got 'tilt'"),
+    ):
+        with pytest.raises(ValueError, match=refusal):
+            solve_start(ARTICLE, theta=0.5, dip=0.1, half_widths=half_widths)
 
 
 def test_a_pendulum_is_let_go_without_spin():

@@ -43,6 +43,7 @@ from symtop_ros.physics.kernel.records import (
     PieceRecord,
     RatesRecord,
     SolutionsRecord,
+    SpreadsRecord,
     StartRecord,
     TopRecord,
     VerdictRecord,
@@ -431,6 +432,16 @@ def solve_start(top: Sequence[float], seen: int, known: Sequence[float]) -> Solu
     numbers = (*known, 0.0)[:3]
     given = bytes(TopRecord(*top)), seen, bytes(Rates(*numbers))
     demand(open_door().solve_start(*given, found))
+    return found
+
+
+def find_spreads(
+    top: Sequence[float], seen: int, known: Sequence[float], half_widths: Sequence[float]
+) -> SpreadsRecord:
+    """Return how far starts move with what is known of them."""
+    found = SpreadsRecord()
+    pair = [bytes(Rates(*(*each, 0.0)[:3])) for each in (known, half_widths)]
+    demand(open_door().find_spreads(bytes(TopRecord(*top)), seen, *pair, found))
     return found
 
 

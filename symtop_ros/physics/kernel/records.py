@@ -287,6 +287,12 @@ class SolutionsRecord(Structure):
     ]
 
 
+class SpreadsRecord(Structure):
+    """`symtop_spreads`."""
+
+    _fields_: ClassVar = [("least", SolutionRecord * 4), ("most", SolutionRecord * 4)]
+
+
 class PlaceRecord(Structure):
     """`symtop_place`."""
 
@@ -413,6 +419,7 @@ RECORDS: tuple[type[Structure], ...] = (
     BodyRecord,
     SolutionRecord,
     SolutionsRecord,
+    SpreadsRecord,
     PlaceRecord,
     ReasonRecord,
     AverageRecord,
@@ -500,6 +507,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     ),
     "find_tilt_accelerations": (c_int, (c_char_p, c_int, c_char_p, c_size_t, POINTER(c_double))),
     "solve_start": (c_int, (c_char_p, c_int, c_char_p, POINTER(SolutionsRecord))),
+    "find_spreads": (c_int, (c_char_p, c_int, c_char_p, c_char_p, POINTER(SpreadsRecord))),
     "kick": (
         c_int,
         (

@@ -377,6 +377,17 @@ typedef struct {
 SYMTOP_API symtop_status symtop_solve_start(const symtop_top* top, symtop_question seen,
                                             const double known[3], symtop_solutions* solutions);
 
+typedef struct {
+  symtop_solution least[4];
+  symtop_solution most[4];
+} symtop_spreads;
+
+/* How far the same starts move while each number that is known moves by up to its half-width, if that is
+ * > 0, to both sides. All NaN if there are more or fewer starts on the way, or one of them leaves all bounds. */
+SYMTOP_API symtop_status symtop_find_spreads(const symtop_top* top, symtop_question seen,
+                                             const double known[3], const double half_widths[3],
+                                             symtop_spreads* spreads);
+
 /* ---- Kicks ---- */
 
 typedef enum {

@@ -1,8 +1,11 @@
 """Questions of a class on the page: a body of parts, a start from what is seen, the pivot."""
 
+import itertools
 import math
+import re
 
 import pytest
+from physics.tops import ARTICLE
 
 from symtop_ros.physics import BODIES, Body, Motion, Part, State, Top, solve_start
 
@@ -107,6 +110,64 @@ def test_starts_from_what_is_seen_are_those_of_python(opened, question):
         start = opened.read_last()
         assert start.orientation.tolist() == solution.state.orientation.tolist()
         assert start.angular_velocity.tolist() == solution.state.angular_velocity.tolist()
+
+
+NUMBERS = "theta", "phi_dot", "psi_dot"  # theta, phi and psi are shown as letters of mathematics
+TYPED = {  # as typed, and the half of a unit of the last digit of each
+    "theta precession_period": (("90\u00b0", "2.2 s"), (math.pi / 360, 0.05)),
+    "theta psi_dot": (("pi/4", "1910 rpm"), (0.0, 0.5 * (math.pi / 30))),
+    "psi_dot precession_period": (("3.00e2", "1.55"), (0.5, 0.005)),
+    "theta dip": (("60 deg", "200e-3"), (math.pi / 360, 0.0005)),
+}
+
+
+def list_corners(known, half_widths):
+    """The starts of all ends of what is known: between them the numbers of these are monotone."""
+    ends = [
+        (value - half, value + half)
+        for value, half in zip(known.values(), half_widths, strict=True)
+    ]
+    return [
+        solve_start(ARTICLE, **dict(zip(known, each, strict=True)))
+        for each in itertools.product(*ends)
+    ]
+
+
+@pytest.mark.parametrize("question", TYPED)
+def test_the_page_says_how_far_a_start_moves_for_the_last_digits_that_were_typed(opened, question):
+    opened.open_tab("start")
+    texts, half_widths = TYPED[question]
+    opened.ask(question, *texts)
+    names = question.split()
+    numbers = {"90\u00b0": math.pi / 2, "pi/4": math.pi / 4, "60 deg": math.pi / 3}
+    values = {"2.2 s": 2.2, "1910 rpm": 1910 * math.pi / 30, "3.00e2": 300.0, "200e-3": 0.2}
+    known = dict(zip(names, [(numbers | values).get(each, 1.55) for each in texts], strict=True))
+    starts = solve_start(ARTICLE, **known)
+    corners = list_corners(known, half_widths)
+    said = opened.tab.locator("#solutions .spread").all_inner_texts()
+    assert len(said) == len(starts)
+    for k, text in enumerate(each.replace("\n", "") for each in said):
+        assert text.startswith("within the last digits typed: ")
+        found = re.findall(r"([\U0001d703\U0001d711\U0001d713])\.? (\S+) to (\S+) rad", text)
+        assert found, text
+        for symbol, *ends in found:
+            name = dict(zip("\U0001d703\U0001d711\U0001d713", NUMBERS, strict=True))[symbol]
+            low, high = (float(each.replace("\u2212", "-")) for each in ends)
+            exact = [getattr(each[k], name) for each in corners]
+            width = max(exact) - min(exact)
+            assert low <= min(exact) <= low + width
+            assert high >= max(exact) >= high - width
+
+
+def test_where_the_last_digits_decide_whether_there_is_a_start_the_page_says_so(opened):
+    opened.open_tab("start")
+    opened.ask("theta psi_dot", "0.500", "112")  # none below 111.6 rad/s
+    said = opened.tab.locator("#solutions .spread").all_inner_texts()
+    unknown = "within the last digits typed there may be more or fewer such starts"
+    assert said == [unknown] * len(opened.list_solutions())
+    opened.ask("theta psi_dot", "pi/6", "pi*50")
+    said = opened.tab.locator("#solutions .spread").all_inner_texts()
+    assert said == [""] * len(opened.list_solutions())
 
 
 def test_what_no_motion_has_is_refused_in_words(opened):

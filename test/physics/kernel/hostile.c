@@ -403,6 +403,24 @@ static void try_starts(void) {
   for (int k = 0; k < number; k++) check_solution(&found->each[k]);
 }
 
+static void try_spreads(void) {
+  int good = 1;
+  const int seen = draw_enum(7);
+  prepare();
+  symtop_top* top = take_tops(1, &good);
+  double *known = take_numbers(3, 2.0), *half_widths = take_numbers(3, 2.0);
+  double* room = take_room(sizeof(symtop_spreads) / sizeof(double));
+  symtop_spreads* found = (symtop_spreads*)(void*)room;
+  const symtop_status status =
+      symtop_find_spreads(top, (symtop_question)seen, known, half_widths, found);
+  CHECK(status, good && !has_null && seen >= 0 && seen < 7);
+  if (status != SYMTOP_OK || has_overlap) return;
+  for (int k = 0; k < 4 && !isnan(found->least[k].theta); k++) {
+    check_solution(&found->least[k]), check_solution(&found->most[k]);
+    if (!(found->least[k].psi_dot <= found->most[k].psi_dot)) fault = fault ? fault : __LINE__;
+  }
+}
+
 static void try_kicks(void) {
   int good = 1;
   const int kind = draw_enum(5), hold = draw_enum(3);
@@ -691,7 +709,7 @@ static void try_clamped(void) {
 int run(unsigned first, unsigned number);
 int run(unsigned first, unsigned number) {
   static void (*const TRIALS[])(void) = {try_angles, try_orientations, try_regular_rates, try_tilts,
-                                         try_discs,  try_bodies,       try_starts,
+                                         try_discs,  try_bodies,       try_starts,   try_spreads,
                                          try_kicks,  try_verdicts,     try_map,
                                          try_many,   try_motion,       try_pushed,        try_clamped,
                                          try_exchange};

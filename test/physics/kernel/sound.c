@@ -84,6 +84,8 @@ int main(int count, char** words) {
   show(symtop_find_body(&kind, &part, 1, &body, &done), q, 0);
   show(symtop_find_body_top(&body, 9.81, &made), q, 0);
   show(symtop_solve_start(&top, SYMTOP_TILT_AND_SPIN, angles, &solutions), q, 0);
+  symtop_spreads spreads;
+  show(symtop_find_spreads(&top, SYMTOP_TILT_AND_SPIN, angles, rates, &spreads), q, 0);
   show(symtop_find_doubt(&start, few), q, 0);
   double two[8], turning[6];
   for (int k = 0; k < 8; k++) two[k] = start.orientation[k % 4];

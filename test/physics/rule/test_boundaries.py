@@ -1,9 +1,9 @@
 """What is said next to a boundary: true of the start itself, or of one that rounding makes of it.
 
-A boundary is where a number vanishes, and a sentence says its sign, or that it is zero. Each number is
-walked by single last places from both sides, and is known with 40 digits here. A sign that is said is
-wrong if the number has the other one beyond rounding; so is a zero of a number beyond rounding. How
-large rounding is, says docs/derivation.md, section 14, for each of them.
+A boundary is where a number vanishes, and a sentence says its sign, or that it is zero. Each number
+is walked by single last places from both sides, and is known with 40 digits here. A sign that is
+said is wrong if the number has the other one beyond rounding; so is a zero of a number beyond
+rounding. How large rounding is, says docs/derivation.md, section 14, for each of them.
 """
 
 import math
@@ -152,7 +152,7 @@ def draw_no_effect(rng: Numbers) -> Inputs:
 
 def judge_rule(*numbers: float) -> Said:
     top, state = unpack(numbers)
-    theta, (p, _, spin), largest, (Ix, Iz, Mgl) = look(top, state)
+    theta, (p, _, spin), largest, (Ix, Iz, _) = look(top, state)
     reason = perrys_rule(top, state, 1.4).reason
     assert reason.kind in ("if_hurried", "no_effect")
     after = mpf(1.4) * p

@@ -5,6 +5,7 @@
 #include "../rule/doubt.hpp"
 #include "../rule/hurried.hpp"
 #include "../rule/kicks.hpp"
+#include "../rule/spreads.hpp"
 #include "../rule/starts.hpp"
 #include "arguments.hpp"
 
@@ -125,6 +126,22 @@ symtop_status symtop_solve_start(const symtop_top* top, symtop_question seen, co
   if (!is_number_of(read_number(seen), SYMTOP_GOLDSTEIN)) return SYMTOP_BAD_QUESTION;
   const double numbers[] = {known[0], known[1], known[2]};
   *solutions = solve_start(given, seen, numbers);
+  return SYMTOP_OK;
+}
+
+symtop_status symtop_find_spreads(const symtop_top* top, symtop_question seen,
+                                  const double known[3], const double half_widths[3],
+                                  symtop_spreads* spreads) {
+  using namespace symtop;
+  symtop_status status = admit({top, known, half_widths, spreads});
+  if (status != SYMTOP_OK) return status;
+  const symtop_top given = *top;
+  status = accept(given);
+  if (status != SYMTOP_OK) return status;
+  if (!is_number_of(read_number(seen), SYMTOP_GOLDSTEIN)) return SYMTOP_BAD_QUESTION;
+  const double numbers[] = {known[0], known[1], known[2]};
+  const double widths[] = {half_widths[0], half_widths[1], half_widths[2]};
+  *spreads = find_spreads(given, seen, numbers, widths);
   return SYMTOP_OK;
 }
 

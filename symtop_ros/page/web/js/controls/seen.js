@@ -5,8 +5,16 @@ import { find, make, say, write } from "./document.js";
 import { refuse, refuseField } from "./notices.js";
 import { convertTyped, makeInput, readTyped } from "./typed.js";
 import { NAMES } from "../physics/records.js";
-import { addUnit, inDegrees, writeLimit } from "../words/quantities.js";
-import { QUANTITIES } from "../words/units.js";
+import {
+  addUnit,
+  halveLastDigit,
+  inDegrees,
+  nameUnit,
+  parseQuantity,
+  writeLimit,
+  writeRounded,
+} from "../words/quantities.js";
+import { QUANTITIES, UNITS } from "../words/units.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Found } from "../physics/kernel.js" */
@@ -19,6 +27,34 @@ const describe = (start) => {
   const variant = inDegrees() ? "degrees" : "radians";
   const turns = { spin: start.psi_dot * PER_MINUTE, theta_dot: start.theta_dot || null };
   return phrase("solution", { ...start, ...turns }, variant);
+};
+
+/** @typedef {{start: Solution, least: Solution, most: Solution}} Spread */
+/** @type {[keyof Solution, string, string][]} */
+const NUMBERS = [
+  ["theta", "theta", "rad"],
+  ["theta_dot", "theta'", "rad/s"],
+  ["phi_dot", "phi'", "rad/s"],
+  ["psi_dot", "psi'", "rad/s"],
+];
+
+/** Two ends, rounded outwards at the first digit of their distance. @param {number} least @param {number} most @param {string} unit */
+const writeEnds = (least, most, unit) => {
+  const [size, width] = [Math.max(-least, most), most - least].map((each) =>
+    Math.floor(Math.log10(each)),
+  );
+  const digits = Math.min(15, Math.max(1, size - width + 1));
+  const [low, high] = [writeRounded(least, -1, unit, digits), writeRounded(most, 1, unit, digits)];
+  return { least: low, most: high, unit: nameUnit(unit) };
+};
+
+/** How far the numbers of a start move for the last digits of what was typed. @param {Spread} spread */
+const describeSpread = ({ least, most }) => {
+  if (Number.isNaN(least.theta)) return phrase("spread.unknown");
+  const numbers = NUMBERS.filter(([name]) => most[name] > least[name]).map(([name, symbol, unit]) =>
+    phrase("spread.number", { name: symbol, ...writeEnds(least[name], most[name], unit) }),
+  );
+  return numbers.length ? phrase("spread.numbers", { numbers: numbers.join(", ") }) : "";
 };
 
 /**
@@ -92,7 +128,15 @@ export class Seen {
     this.clear();
     const known = this.names.map((name, k) => readTyped(this.inputs[k], QUANTITIES[name]));
     if (known.every((each) => each !== null))
-      this.send({ act: "solve", question: this.list.value, known });
+      this.send({ act: "solve", question: this.list.value, known, halfWidths: this.halve() });
+  }
+
+  /** Half a unit of the last digit of each number that was typed, in SI; 0 of what is exact. */
+  halve() {
+    return this.names.map((name, k) => {
+      const half = halveLastDigit(this.inputs[k].value);
+      return half === null ? 0 : parseQuantity(half, UNITS[QUANTITIES[name]]);
+    });
   }
 
   /** Show all starts as buttons, or say what a number would have to be. @param {Found} found */
@@ -107,12 +151,14 @@ export class Seen {
       return;
     }
     say("solutions-text", phrase("page.solutions"));
-    const buttons = starts.map((/** @type {Solution} */ start) => {
+    const shown = starts.flatMap((/** @type {Spread} */ found) => {
       const button = make("button", { className: "found" });
-      write(button, describe(start));
-      button.addEventListener("click", () => this.send({ act: "start", ...start }));
-      return button;
+      write(button, describe(found.start));
+      button.addEventListener("click", () => this.send({ act: "start", ...found.start }));
+      const spread = make("p", { className: "dim spread" });
+      write(spread, describeSpread(found));
+      return [button, spread];
     });
-    find("solutions").replaceChildren(...buttons);
+    find("solutions").replaceChildren(...shown);
   }
 }

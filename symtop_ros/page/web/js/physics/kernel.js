@@ -210,13 +210,28 @@ export class Kernel {
   /**
    * The starts that have what is known of them, or what a number would have to be.
    * @param {Top} top @param {string} question names of what is known @param {number[]} known
+   * @param {number[]} halfWidths by how much each may be off: each start has the `least` and the `most`
+   * of its numbers then, NaN if there may be more or fewer starts
    * @returns {Found}
    */
-  solveStart({ Ix, Iz, Mgl }, question, known) {
-    const numbers = [...known, 0].slice(0, 3);
-    const given = [[Ix, Iz, Mgl], NAMES.question.indexOf(question), numbers];
+  solveStart({ Ix, Iz, Mgl }, question, known, halfWidths) {
+    const fill = (/** @type {number[]} */ numbers) => [...numbers, 0].slice(0, 3);
+    const given = [[Ix, Iz, Mgl], NAMES.question.indexOf(question), fill(known)];
     const [{ each, number, ...found }] = this.call("solve_start", ...given, room("solutions"));
-    return { ...found, starts: each.slice(0, number) };
+    const [{ least, most }] = this.call(
+      "find_spreads",
+      ...given,
+      fill(halfWidths),
+      room("spreads"),
+    );
+    const starts = each
+      .slice(0, number)
+      .map((/** @type {object} */ start, /** @type {number} */ k) => ({
+        start,
+        least: least[k],
+        most: most[k],
+      }));
+    return { ...found, starts };
   }
 
   /** The time in s from which on rounding shows in a motion. @param {number[]} start @returns {number} */

@@ -187,6 +187,10 @@ export const RECORDS = {
     ["double", "number"],
     ["solution 4", "each"],
   ],
+  spreads: [
+    ["solution 4", "least"],
+    ["solution 4", "most"],
+  ],
   place: [
     ["place_kind", "kind"],
     ["double", "rate"],

@@ -52,7 +52,7 @@ import { createStart, describeStart, findScene, readLink, readScene } from "./li
  *   run: {},
  *   seek: {time: number},
  *   show: {layer: string, shown: boolean},
- *   solve: {question: string, known: number[]},
+ *   solve: {question: string, known: number[], halfWidths: number[]},
  *   speed: {factor: number},
  *   step: {},
  * }} ViewActs
@@ -261,8 +261,8 @@ const takeBody = (top, { parts }) => {
 };
 
 /** What starts have what is known of them. @param {LocalTop} top @param {ViewActs["solve"]} asked */
-const solve = (top, { question, known }) => {
-  top.tell({ solved: top.kernel.solveStart(top.course.top, question, known) });
+const solve = (top, { question, known, halfWidths }) => {
+  top.tell({ solved: top.kernel.solveStart(top.course.top, question, known, halfWidths) });
 };
 
 /** @param {LocalTop} top */

@@ -60,19 +60,28 @@ const parseFactor = (text) => {
 const convert = (value, size) => (size >= 1 || (1 / size) % 1 ? value * size : value / (1 / size));
 
 /**
- * A limit in the unit of the field that it bounds, in few digits, rounded to the side that is allowed:
- * one that is typed in again is not refused.
- * @param {number} limit in SI @param {1 | -1} side of what is allowed
+ * A limit in the unit of the page, without it, in few digits, rounded to one side.
+ * @param {number} limit in SI @param {1 | -1} side
  * @param {string} unit of SI @param {number} digits
  */
-export const writeLimit = (limit, side, unit, digits = LIMIT_DIGITS) => {
+export const writeRounded = (limit, side, unit, digits) => {
   const size = unit === "rad" && inDegrees() ? DEGREE : 1;
   const near = Number(convert(limit, 1 / size).toPrecision(digits));
   const place = Math.floor(Math.log10(Math.abs(near))) - digits + 1;
   const isAllowed = !Number.isFinite(near) || side * (convert(near, size) - limit) >= 0;
   const kept = isAllowed ? near : Number((near + side * 10 ** place).toPrecision(digits));
+  return localize(String(kept));
+};
+
+/**
+ * A limit in the unit of the field that it bounds, with the unit, rounded to the side that is allowed:
+ * one that is typed in again is not refused.
+ * @param {number} limit in SI @param {1 | -1} side of what is allowed
+ * @param {string} unit of SI @param {number} digits
+ */
+export const writeLimit = (limit, side, unit, digits = LIMIT_DIGITS) => {
   const shown = nameUnit(unit);
-  return `${localize(String(kept))}${shown === "\u00b0" ? "" : " "}${shown}`;
+  return `${writeRounded(limit, side, unit, digits)}${shown === "\u00b0" ? "" : " "}${shown}`;
 };
 
 /**
@@ -95,4 +104,18 @@ export const parseQuantity = (text, units, isInDegrees = inDegrees()) => {
   const value = (sign === "-" ? -size : size) / Number(part);
   if (unit) return convert(value, units[unit]);
   return units === UNITS.rad && isInDegrees && !factors.includes("pi") ? value * DEGREE : value;
+};
+
+const LITERAL = /^[-+]?(\d*)(?:[.,](\d*))?(?:e([-+]?\d+))?((?!\s*(?:[*/\d.,]|pi|\u03c0)).*)$/i;
+
+/**
+ * Half a unit of the last digit of a number as it is typed, in the same unit: "5e-2 s" of "57.6 s". Null
+ * of products, quotients and multiples of pi, which have no last digit.
+ * @param {string} text @returns {string | null}
+ */
+export const halveLastDigit = (text) => {
+  const plain = text.trim().replace("\u2212", "-");
+  const [, whole, decimals = "", exponent = "0", unit] = plain.match(LITERAL) ?? [];
+  if (!whole && !decimals) return null;
+  return `5e${Number(exponent) - decimals.length - 1}${unit}`;
 };
