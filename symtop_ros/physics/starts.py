@@ -43,8 +43,8 @@ class Solution:
     theta_dot, phi_dot, psi_dot : float
         Rates in rad/s; phi' is 0 on the vertical, where psi' is the whole spin.
     least, most : Solution or None
-        The least and the largest of each number, as far as what is known may be off; None if nothing
-        was said to be, or if it may be off so far that there are more or fewer starts.
+        The least and the largest of each number, as far as what is known may be off; None without
+        half-widths, or if there may then be more or fewer starts.
     """
 
     theta: float

@@ -38,12 +38,12 @@ const NUMBERS = [
   ["psi_dot", "psi'", "rad/s"],
 ];
 
-/** Two ends, rounded outwards at the first digit of their distance. @param {number} least @param {number} most @param {string} unit */
+/** Two ends, rounded outwards at the second digit of their distance. @param {number} least @param {number} most @param {string} unit */
 const writeEnds = (least, most, unit) => {
   const [size, width] = [Math.max(-least, most), most - least].map((each) =>
     Math.floor(Math.log10(each)),
   );
-  const digits = Math.min(15, Math.max(1, size - width + 1));
+  const digits = Math.min(15, Math.max(2, size - width + 2));
   const [low, high] = [writeRounded(least, -1, unit, digits), writeRounded(most, 1, unit, digits)];
   return { least: low, most: high, unit: nameUnit(unit) };
 };
