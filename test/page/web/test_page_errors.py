@@ -79,22 +79,6 @@ def test_a_frame_of_another_site_shows_the_top_and_says_that_it_may_not_save(bro
     tab.context.close()
 
 
-@pytest.mark.parametrize(
-    ("missing", "said"),
-    [
-        ("HTMLCanvasElement.prototype.getContext = () => null", "has no WebGL 2"),
-        ("WebAssembly.instantiate = () => Promise.reject(new Error('forbidden'))", "forbidden"),
-    ],
-)
-def test_a_browser_that_cannot_show_it_says_so(browser, path, missing, said):
-    tab = browser.new_context(offline=True).new_page()
-    tab.add_init_script(missing)
-    tab.goto(path.as_uri())
-    tab.wait_for_selector("#refusal:not([hidden])")
-    assert said in tab.text_content("#refusal")
-    tab.context.close()
-
-
 def test_a_page_that_does_not_start_is_a_failure_that_says_why_and_not_a_wait(browser, path):
     opened = Opened(browser, "WebAssembly.instantiate = () => { throw new Error('forbidden'); };")
     with pytest.raises(AssertionError, match=r"the page does not start: .*forbidden"):

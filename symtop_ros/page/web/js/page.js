@@ -79,7 +79,9 @@ export class Page {
       },
       (name) => this.send({ act: "scene", name }),
     );
-    addEventListener("beforeprint", () => find("printed").replaceChildren(drawScene()));
+    addEventListener("beforeprint", () => {
+      if (!find("picture").hidden) find("printed").replaceChildren(drawScene());
+    });
     addEventListener(FULL, () => refuse(phrase("page.full")), { once: true });
     followLooks();
     keepChoice("unit", () => this.showUnit());

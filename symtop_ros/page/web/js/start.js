@@ -5,14 +5,17 @@ import { Kernel } from "./physics/kernel.js";
 import { LocalTop } from "./run/local.js";
 import { NodeTop } from "./run/node.js";
 import { turnByKeys } from "./controls/keys.js";
-import { guard, refuse, showLoss } from "./controls/notices.js";
+import { find, findAll } from "./controls/document.js";
+import { guard, showLoss } from "./controls/notices.js";
 import { Page } from "./page.js";
 import { chooseLanguage } from "./controls/language.js";
+import { NoPicture } from "./scene/painter.js";
 import { Scene } from "./scene/scene.js";
+import { TraceChart } from "./scene/trace_chart.js";
 import { offerSheets } from "./controls/sheets.js";
 import { createShoot } from "./scene/shots.js";
 import { copyPage, readData } from "./run/files.js";
-import { setTemplates } from "./words/wording.js";
+import { phrase, setTemplates } from "./words/wording.js";
 
 /**
  * What the file holds: the module in base64, the texts of each language, scenes, the lesson and the
@@ -37,6 +40,42 @@ const unpack = (text) => {
   return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).json();
 };
 
+/**
+ * The scene; without WebGL 2 the way of the axle, and why there is no more.
+ * @param {import("./run/local.js").LocalTop} top
+ */
+const openScene = (top) => {
+  try {
+    const scene = new Scene(top);
+    turnByKeys(scene.camera);
+    scene.tellLoss = (text) => showLoss(text, "picture-lost");
+    return scene;
+  } catch (error) {
+    if (!(error instanceof NoPicture)) throw error;
+    showLoss(error.message, "picture-lost");
+    return new TraceChart(top);
+  }
+};
+
+/** Without the kernel nothing can be computed: the page says so for good, and asks for nothing. @param {string} text */
+const close = (text) => {
+  showLoss(text);
+  for (const id of ["legend", "reason"]) find(id).hidden = true;
+  for (const each of findAll("button, input, select, textarea"))
+    Object.assign(each, { disabled: true });
+};
+
+/** @param {string} code in base64 */
+const loadKernel = async (code) => {
+  try {
+    return await Kernel.load(decode(code));
+  } catch (error) {
+    close(phrase("page.no_kernel"));
+    console.error(error);
+    return null;
+  }
+};
+
 export const start = async () => {
   const source = copyPage();
   try {
@@ -46,15 +85,14 @@ export const start = async () => {
     const language = chooseLanguage(content.texts);
     setTemplates(content.texts[language], language);
     const page = new Page(content);
-    const kernel = await Kernel.load(decode(content.kernel));
+    const kernel = await loadKernel(content.kernel);
+    if (!kernel) return;
     const Top = content.node ? NodeTop : LocalTop;
     const top = new Top(kernel, { ...content, layers: LAYERS });
     // For scripts of the page: motions of their own, and the run as in run.json.
     const symtop = { motion: kernel.motion.bind(kernel), run: () => top.json };
     Object.assign(window, { symtop });
-    const scene = new Scene(top);
-    turnByKeys(scene.camera);
-    scene.tellLoss = (text) => showLoss(text, "picture-lost");
+    const scene = openScene(top);
     top.tell = guard("texts", page.receive.bind(page));
     top.draw = guard("scene", scene.draw.bind(scene));
     top.begin = guard("scene", scene.begin.bind(scene));
@@ -64,7 +102,7 @@ export const start = async () => {
     top.open();
   } catch (error) {
     // In English: it may be the texts that are missing.
-    refuse(`the top cannot be shown: ${error instanceof Error ? error.message : error}`);
+    close(`the top cannot be shown: ${error instanceof Error ? error.message : error}`);
     console.error(error);
   }
 };

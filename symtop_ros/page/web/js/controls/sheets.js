@@ -6,7 +6,7 @@ import { isKnown, phrase } from "../words/wording.js";
 
 /** @import { Step } from "./lesson.js" */
 /** @typedef {"worksheet" | "teacher"} Kind */
-/** A picture of what follows requests. @typedef {(shot: import("../scene/shots.js").Shot) => HTMLCanvasElement} Shoot */
+/** A picture of what follows requests. @typedef {(shot: import("../scene/shots.js").Shot) => Element} Shoot */
 
 const LINES = 2; // to write on
 

@@ -81,6 +81,9 @@ const SMOOTH = { antialias: true, failIfMajorPerformanceCaveat: true };
 const PIECE = 6; // numbers of its two ends
 const BOLD = 1.8; // thickness of lines and arrows for a projector
 
+/** The browser draws no scene: its message says why. */
+export class NoPicture extends Error {}
+
 export class Painter {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
@@ -89,7 +92,7 @@ export class Painter {
     const gl =
       canvas.getContext("webgl2", { ...options, ...SMOOTH }) ??
       canvas.getContext("webgl2", { ...options, antialias: false });
-    if (!gl) throw new Error(phrase("page.no_webgl"));
+    if (!gl) throw new NoPicture(phrase("page.no_webgl"));
     this.gl = gl;
     this.canvas = canvas;
     /** @type {Map<WebGLProgram, {[name: string]: WebGLUniformLocation | null}>} */
@@ -126,7 +129,7 @@ export class Painter {
     }
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
-      throw new Error(`the scene cannot be drawn: ${gl.getProgramInfoLog(program)}`);
+      throw new NoPicture(`${phrase("page.no_webgl")} (${gl.getProgramInfoLog(program)})`);
     }
     return program;
   }

@@ -5,8 +5,8 @@ import { LocalTop } from "../run/local.js";
 import { drawSmall } from "./picture.js";
 
 /** @import { Kernel } from "../physics/kernel.js" */
-/** @import { Scene } from "./scene.js" */
 /** @import { Message } from "../run/acts.js" */
+/** What draws another top for a while. @typedef {{lend: (top: LocalTop, work: () => Element) => Element}} Lender */
 /** @typedef {{messages: Message[], layers: string[]}} Shot what is asked for, and shown */
 
 const LONGEST = 1; // s after an act
@@ -17,7 +17,7 @@ const watch = (top) => {
   top.step(Math.round(Math.min(half || LONGEST, LONGEST) * NANO));
 };
 
-/** @param {Scene} scene @param {Kernel} kernel @param {ConstructorParameters<typeof LocalTop>[1]} content */
+/** @param {Lender} scene @param {Kernel} kernel @param {ConstructorParameters<typeof LocalTop>[1]} content */
 export const createShoot =
   (scene, kernel, content) =>
   (/** @type {Shot} */ { messages, layers }) => {
