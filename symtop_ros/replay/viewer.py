@@ -78,15 +78,24 @@ def start(*files: str, port: int | None = None, web: bool = False) -> subprocess
 
 
 def show(recording: Path, web: bool) -> int:
-    """Show a recording until the viewer or this process is ended; return the exit status."""
+    """Show a recording until the viewer or this process is ended; return the exit status.
+
+    LogError if the viewer fails, as on a machine without a graphics card.
+    """
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that the viewer is ended too
     with start(str(recording), web=web) as process:
         try:
-            return 0 if process.wait() == 0 else 1
+            status = process.wait()
         except KeyboardInterrupt:
             return 0
         finally:
             process.terminate()
+    if status > 0:
+        raise LogError(
+            "the viewer ended with an error: without a graphics card use --save OUT.html to write a "
+            "page for any browser, or --web"
+        )
+    return 0 if status == 0 else 1
 
 
 def free_port() -> int:

@@ -12,6 +12,7 @@ from waiting import until
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.replay import viewer
 from symtop_ros.replay.view.plots import describe_motion
+from symtop_ros.run.log.reader import LogError
 from symtop_ros.run.simulation.segment import Segment
 
 
@@ -47,6 +48,14 @@ def test_what_is_undefined_for_a_sleeping_top_is_a_dash(top):
 
 
 TIMEOUT = 120.0
+
+
+def test_a_viewer_that_fails_is_a_line_that_says_what_else_there_is(monkeypatch, tmp_path):
+    monkeypatch.setattr(viewer, "PROGRAM", sys.executable)  # knows none of the options
+    monkeypatch.setattr(viewer, "settings", dict)
+    monkeypatch.setattr(viewer.signal, "signal", lambda *_: None)  # the tests keep their own
+    with pytest.raises(LogError, match=r"the viewer ended with an error: .*--save OUT\.html"):
+        viewer.show(tmp_path / "run.rrd", web=False)
 
 
 def test_the_page_asks_no_other_host(capsys, browser):

@@ -87,7 +87,7 @@ def test_without_webassembly_the_page_says_so_for_good_and_in_its_language(brows
     tab.goto(path.as_uri())
     tab.wait_for_selector("#lost:not([hidden])")
     said = tab.text_content("#lost")
-    assert said.startswith("dieser Browser kann nicht rechnen: WebAssembly fehlt oder ist gesperrt")
+    assert said.startswith("dieser Browser kann nicht rechnen: WebAssembly fehlt")
     assert "forbidden" not in said
     assert "not defined" not in said
     tab.mouse.click(400, 400)
