@@ -1,4 +1,4 @@
-"""What documents and the lesson quote stands so in its source; sources are listed."""
+"""Quotations of documents and the lesson stand so in their sources, which are listed."""
 
 import json
 import re

@@ -38,7 +38,7 @@ def list_mapped() -> set[Path]:
 
 
 class Traces:
-    """What is new since this was made."""
+    """Return the paths that are new since this was made."""
 
     def __init__(self) -> None:
         self.before = list_places()

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 UNPACKED = Path(sys.prefix, "chromium")
 # If it is set, the shell without windows is used, which is the same browser and opens pages with
-# less work; if there is none, the whole one.
+# less work; without it, the whole one.
 SHELL = "HEADLESS_SHELL"
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 # Software rendering works on machines without a GPU, and gives the same pictures on all others.

@@ -431,7 +431,7 @@ def test_names_of_no_question_are_refused_with_all_questions():
 
 
 def draw_question(one):
-    """What is known of a start, of any question, and by how much each may be off."""
+    """Return what is known of a start, of any question, and by how much each may be off."""
     names = one.rng.choice([*ROWS.values()])
     values = {
         "theta": one.theta,

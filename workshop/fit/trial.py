@@ -68,7 +68,7 @@ def fit_from_truth(sample: Sample) -> Fit:
 
 
 def run_trial(seeds: Sequence[int], path: Path | None = None) -> list[dict[str, Any]]:
-    """Return the rows of all kinds and noises, and write each as it is found."""
+    """Return the rows of all kinds and noises, and write each at once."""
     rows = []
     for seed, noise, kind in product(seeds, NOISES, KINDS):
         rows.append(try_record(kind, noise, seed))

@@ -427,7 +427,7 @@ def find_body_top(body: Sequence[float], gravity: float) -> TopRecord:
 
 
 def solve_start(top: Sequence[float], seen: int, known: Sequence[float]) -> SolutionsRecord:
-    """Return the starts that have what is known of them, or why there is none."""
+    """Return the starts that have what is known of them, or why no start has it."""
     found = SolutionsRecord()
     numbers = (*known, 0.0)[:3]
     given = bytes(TopRecord(*top)), seen, bytes(Rates(*numbers))

@@ -63,7 +63,7 @@ class TopicAccount:
     missing: int  # samples, beyond those that the node has counted as missed
     is_least: bool  # True if more of them may be missing
     uncounted: int  # samples that are missing where the node has not counted any more
-    repeated: int  # samples with the stamp of another one
+    repeated: int  # samples with the stamp of another sample
     has_more: bool  # True if more of them may be repeated
     is_repeat: bool  # False if the clock may have gone back, so that they are others
     unreadable: str  # why messages cannot be read; empty: all can

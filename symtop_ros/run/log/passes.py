@@ -117,7 +117,7 @@ class Passes:
         return owners
 
     def list_spans(self, first: int, last: int) -> Iterator[tuple[int, int]]:
-        """Yield the stretches of time (ns) from an event to another one, for each pass one."""
+        """Yield the stretches of time (ns) from an event to the next, for each pass one."""
         begin, end = self._events[first].stamp, self._events[last].stamp
         for since, until, _ in self.cut(first, last, begin, end):
             yield since, until

@@ -80,7 +80,7 @@ class StampRows:
         return spread(first, last), spread(at, until)
 
     def count_repeated(self, passes: Places) -> int:
-        """Return how many samples have the stamp of another one in the same pass (n,) of time.
+        """Return how many samples have the stamp of another sample in the same pass (n,) of time.
 
         Two neighbours may be 1 ns apart. Within a row that is the rounding of a grid, by which one
         stamp may be in two rows.

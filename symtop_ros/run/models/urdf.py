@@ -89,7 +89,7 @@ def describe_inertial(top: Top, body: Body | None, described: Description = PLAI
 
 
 def join_child(frame: str, body: Body | None, described: Description) -> str:
-    """Return the fixed child with its joint; nothing if there is none."""
+    """Return the fixed child with its joint; nothing without a child."""
     if not (body and described.has_child):
         return ""
     place = f'xyz="{join(described.place_child())}" rpy="{join(ROLL_PITCH_YAW)}"'

@@ -192,7 +192,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
 
 
 def _name_way(phi_dot: float) -> str:
-    """Return the direction of the precession as seen from above; empty if there is none."""
+    """Return the direction of the precession as seen from above; empty without precession."""
     if phi_dot == 0:
         return ""
     return "counterclockwise" if phi_dot > 0 else "clockwise"

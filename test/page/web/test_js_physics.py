@@ -203,7 +203,7 @@ def find_direction(start):
         return 0
     rates = start["theta"], start["phi_dot"], start["psi_dot"]
     change = start.get("theta_dot") or float(theta_acceleration(Top(**start["top"]), *rates))
-    # A swing of less than 1e-7 rad is none: it is 2 theta'' divided by the square of 50 rad/s.
+    # A swing of less than 1e-7 rad is no swing: it is 2 theta'' divided by the square of 50 rad/s.
     return 0 if abs(change) < 1e-7 * 50**2 / 2 else math.copysign(1, change)
 
 

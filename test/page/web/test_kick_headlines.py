@@ -1,4 +1,4 @@
-"""What the page says of a kick, read as a person would, is what the two sampled motions do.
+"""Headlines on kicks, read as a person would, against the two sampled motions.
 
 The words and numbers of the headline, of the labels at the brackets and of the answer to the first
 question are held against the tilts of the motion with the kick and of the one without it. Nothing

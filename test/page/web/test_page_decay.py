@@ -1,4 +1,4 @@
-"""What friction does to the precession: the page says what a node says."""
+"""The page says of friction what a node says."""
 
 import pytest
 from page.web.opened import read_motion

@@ -1,4 +1,4 @@
-"""How a top moves, as the headline says it, is what one sees of the sampled motion."""
+"""Headlines on starts, against what one sees of the sampled motion."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""What is said next to a boundary: true of the start itself, or of one that rounding makes of it.
+"""Statements next to a boundary are true of the start, or of one that rounding makes of it.
 
 A boundary is where a number vanishes, and a sentence says its sign, or that it is zero. Each number
 is walked by single last places from both sides, and is known with 40 digits here. A sign that is

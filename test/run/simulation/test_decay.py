@@ -1,4 +1,4 @@
-"""What friction at the spin does to the precession: the sentence against the sampled motion."""
+"""The sentence on friction at the spin, against the sampled motion."""
 
 import math
 import re
@@ -23,7 +23,7 @@ TOP, START = Top(0.000228, 0.0000572, 0.068), State.from_euler(theta=0.5, psi_do
 
 
 def say(motion):
-    """Return the numbers and the word of the sentence, None if there is none."""
+    """Return the numbers and the word of the sentence, None without one."""
     found = SENTENCE.search(write("start", Start.of(motion)))
     return found and (float(found[1]), found[2], float(found[3]), float(found[4]))
 

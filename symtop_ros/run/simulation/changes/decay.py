@@ -1,4 +1,4 @@
-"""What friction at the spin does to the precession, as a record."""
+"""The effect of friction at the spin on the precession, as a record."""
 
 import math
 from dataclasses import dataclass
