@@ -92,8 +92,8 @@ def show(recording: Path, web: bool) -> int:
             process.terminate()
     if status > 0:
         raise LogError(
-            "the viewer ended with an error: without a graphics card use --save OUT.html to write a "
-            "page for any browser, or --web"
+            "the viewer ended with an error: without a graphics card use --save OUT.html to write "
+            "a page for any browser, or --web"
         )
     return 0 if status == 0 else 1
 
