@@ -11,6 +11,25 @@ const readPixels = (picture) => {
   return context.getImageData(0, 0, canvas.width, canvas.height);
 };
 
+/** Hue in degrees, saturation and value of a pixel. */
+const findHue = (r, g, b) => {
+  const [most, least] = [Math.max(r, g, b), Math.min(r, g, b)];
+  const width = most - least || 1;
+  const turned = [(g - b) / width, 2 + (b - r) / width, 4 + (r - g) / width];
+  const hue = 60 * turned[[r, g, b].indexOf(most)];
+  return [(hue + 360) % 360, (most - least) / (most || 1), most / 255];
+};
+
+/** What a colour is of, as one names it: light and shadow change its value. */
+const NAMED = {
+  enamel: ([hue, saturation, value]) => hue > 342 && saturation > 0.55 && value < 0.75,
+  brass: ([hue, saturation]) => hue > 32 && hue < 48 && saturation > 0.3 && saturation < 0.8,
+  ball: ([hue, saturation, value]) => hue > 28 && hue < 42 && saturation > 0.9 && value > 0.4,
+  torque: ([hue, saturation]) => hue < 12 && saturation > 0.7,
+  L: ([hue, saturation]) => hue > 212 && hue < 230 && saturation > 0.7,
+  omega: ([hue, saturation]) => hue > 155 && hue < 172 && saturation > 0.7,
+};
+
 window.looks = {
   /** The time, fields, buttons of regular rates and rows of constants as texts. */
   readNumbers() {
@@ -43,6 +62,27 @@ window.looks = {
     const box = canvas.getBoundingClientRect();
     const size = box.width / width;
     return [box.left + (x / count) * size, box.top + (y / count) * size];
+  },
+
+  /** How many pixels of the scene have each named colour, and which are near to some places (px). */
+  nameColors({ places, radius }) {
+    const canvas = document.querySelector("canvas");
+    const { data, width, height } = readPixels(canvas);
+    const ratio = width / canvas.getBoundingClientRect().width;
+    const counts = Object.fromEntries(Object.keys(NAMED).map((name) => [name, 0]));
+    const near = Object.fromEntries(Object.keys(places).map((name) => [name, new Set()]));
+    for (let k = 0; k < width * height; k += 1) {
+      if (data[4 * k + 3] < 255) continue;
+      const seen = findHue(data[4 * k], data[4 * k + 1], data[4 * k + 2]);
+      const name = Object.keys(NAMED).find((each) => NAMED[each](seen));
+      if (!name) continue;
+      counts[name] += 1;
+      const [x, y] = [k % width, Math.floor(k / width)].map((each) => each / ratio);
+      for (const [of, [px, py]] of Object.entries(places))
+        if (Math.hypot(px - x, py - y) < radius) near[of].add(name);
+    }
+    const lists = Object.entries(near).map(([of, names]) => [of, [...names]]);
+    return { counts, near: Object.fromEntries(lists) };
   },
 
   /** How many colours the scene has: one if nothing is drawn. */
