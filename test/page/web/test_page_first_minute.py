@@ -8,6 +8,7 @@ from page.web.opened import find_time, read_motion, read_state
 from page.web.test_page_sizes import is_inside
 from trials import choose
 
+from symtop_ros.page.web.join import LANGUAGES
 from symtop_ros.physics import Motion, hurry
 
 PERIODS = 1.1  # of a nutation, in which all of it is seen
@@ -109,7 +110,7 @@ SMALL = [(360, 640), (683, 384)]  # the second one: a laptop at a zoom of 200 %
 
 
 @pytest.mark.parametrize("size", SMALL)
-@pytest.mark.parametrize("language", choose(["de", "en", "es", "fr", "tr"], ["fr"]))
+@pytest.mark.parametrize("language", choose(LANGUAGES, ["fr"]))
 def test_both_answers_have_one_size_and_the_second_question_is_seen(open_page, language, size):
     width, height = size
     window = {"viewport": {"width": width, "height": height}}

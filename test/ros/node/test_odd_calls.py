@@ -15,6 +15,7 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from ros.node.running_top import RunningTop, stamp_of, torque_of
 from trials import trials
 
+from symtop_ros.run.session.services import SERVICES
 from symtop_ros.run.simulation.changes.requests import KICK_FIELDS, START_FIELDS
 from symtop_ros.run.simulation.settings import PARAMETERS
 
@@ -53,9 +54,14 @@ CALLS = st.sampled_from(list(NAMES)).flatmap(
 )
 FRAMES = st.sampled_from(["world", "", "map", CONTROL * 100])
 TORQUES = st.tuples(st.lists(NUMBERS | SIZES, min_size=3, max_size=3), FRAMES)
-PLAIN = st.tuples(st.sampled_from(["hurry_precession", "reset", "get_state"]), st.none())
-PAUSES = st.tuples(st.sampled_from(["pause", "clamp"]), st.booleans())
-ACTS = CALLS | PLAIN | PAUSES | st.tuples(st.just("push"), TORQUES)
+PLAIN = [name for name, each in SERVICES.items() if each.kind == "plain"]
+SWITCHES = [name for name, each in SERVICES.items() if each.kind == "switch" and name != "record"]
+ACTS = (
+    CALLS
+    | st.tuples(st.sampled_from(PLAIN), st.none())
+    | st.tuples(st.sampled_from(SWITCHES), st.booleans())  # all of it is one record
+    | st.tuples(st.just("push"), TORQUES)
+)
 CHANGEABLE = [name for name in PARAMETERS if not PARAMETERS[name].read_only]
 RESTORED = {name: PARAMETERS[name].default for name in CHANGEABLE} | {"publish_rate": RATE}
 
@@ -71,7 +77,7 @@ class Watched(RunningTop):
 
     def restore(self):
         """The motion and the parameters of the beginning."""
-        for service in ("pause", "clamp"):
+        for service in SWITCHES:
             self.switch(service, False)
         assert self.change(RESTORED) == (True, "")
         assert self.set(START, theta=0.5, psi_dot=200.0)[0]
@@ -107,7 +113,7 @@ def act(run, name, argument):
         run.state()
     elif argument is None:
         assert_one_sentence(run.trigger(name)[1])
-    elif name in ("pause", "clamp"):
+    elif name in SWITCHES:
         assert_one_sentence(run.switch(name, argument)[1])
     else:
         for granted, reason in run.send(name, argument):
