@@ -2,5 +2,5 @@
 
 `arrays.py` has types and columns of arrays, `refusals.py` the one language of refusals, `units.py`
 the units that people type, `missing.py` what to install, `command.py` the options of all programs,
-`shutdown.py` the signals of those with ROS; `moved.py` finds modules by their old names.
+`shutdown.py` the signals of those with ROS.
 """

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from page.web.opened import FEW_FRAMES, read_motion
 
-# The camera of a motion whose tilt stays below 1.1 rad, its angle of view, and the lengths of arrows:
-# of a vector at the start, and of the largest torque.
+# The camera of a motion below 1.1 rad, its angle of view, and lengths of arrows: of a vector at the
+# start, and of the largest torque.
 EYE, TARGET = np.array([1.46, -1.7, 0.95]), np.array([0.0, 0.0, 0.33])
 ANGLE = math.radians(42)
 LENGTHS = {"L": 1.24, "omega": 1.13, "torque": 0.55}

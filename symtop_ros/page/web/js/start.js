@@ -11,7 +11,7 @@ import { Page } from "./page.js";
 import { chooseLanguage } from "./controls/language.js";
 import { NoPicture } from "./scene/painter.js";
 import { Scene } from "./scene/scene.js";
-import { TraceChart } from "./scene/trace_chart.js";
+import { TraceChart } from "./charts/trace_chart.js";
 import { offerSheets } from "./controls/sheets.js";
 import { createShoot } from "./scene/shots.js";
 import { copyPage, readData } from "./run/files.js";

@@ -3,7 +3,7 @@
 // The distance from the middle is theta, so that all tilts have a place; the direction is that of phi.
 
 import { find } from "../controls/document.js";
-import { draw } from "../charts/plot.js";
+import { draw } from "./plot.js";
 import { writeAngle } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
