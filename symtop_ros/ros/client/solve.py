@@ -7,7 +7,7 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
-from symtop_ros.base.refusals import refuse, require, validate_names
+from symtop_ros.base.refusals import RefusedError, refuse, require, validate_names
 from symtop_ros.base.units import parse_quantity
 from symtop_ros.ros.client.connection import Connection
 from symtop_ros.run.session.services import Response
@@ -20,6 +20,7 @@ SEEN = frozenset(
     ("precession_period", "dip", "nutation_period", "energy", "p_phi", "p_psi", "alpha", "a", "b")
 )
 KNOWN = SEEN | {"theta", "psi_dot"}  # of which a question is made
+BESIDE = ("phi", "psi")  # angles of a start that no question knows
 MEASURED = {"gravity": "m/s^2", "Ix": "kg m^2", "Iz": "kg m^2"}  # Ix about the pivot
 UNITS = {"mass": "kg", "size": "m", "distance": "m"}
 
@@ -36,6 +37,10 @@ def start_solved(top: Connection, values: dict[str, Any]) -> Response:
     chosen = values.pop("solution", 1.0)
     known = {name: value for name, value in values.items() if name in KNOWN}
     others = {name: value for name, value in values.items() if name not in KNOWN}
+    for name in others:
+        if name not in BESIDE:
+            asked = ", ".join(sorted(SEEN & known.keys()))
+            raise RefusedError(f"{name} must be given without {asked}, got both")
     own = json.loads(top.request("get_state")[1])["top"]
     found = solve_start(Top(**own), **known)
     numbers = range(1, len(found) + 1)

@@ -27,7 +27,7 @@ from std_srvs.srv import SetBool, Trigger
 from symtop_ros.base.refusals import RefusedError, attempt, refuse, show, validate_names
 from symtop_ros.run.session.services import ServiceKind
 from symtop_ros.run.simulation.presets import load_scene, scene_names
-from symtop_ros.run.simulation.settings import PARAMETERS, Settings
+from symtop_ros.run.simulation.settings import PARAMETERS, Settings, override_scene
 
 QOS = "qos_overrides."  # of topics, which declare these parameters themselves
 Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
@@ -75,13 +75,11 @@ def declare_parameters(node: Node) -> Settings:
     validate_names(scene, PARAMETERS, f"parameter in scene {name}")
     # /tf is shared by all tops, of other names or namespaces.
     defaults = {"top_frame": node.get_fully_qualified_name().lstrip("/"), **scene}
-    given = {name: each.value for name, each in node._parameter_overrides.items()}
-    settings = Settings.from_values(
-        {
-            key: defaults.get(key, parameter.default) if given.get(key) is None else given[key]
-            for key, parameter in PARAMETERS.items()
-        }
-    )
+    overrides = node._parameter_overrides.items()
+    given = {
+        key: each.value for key, each in overrides if key in PARAMETERS and each.value is not None
+    }
+    settings = Settings.from_values(override_scene(defaults, given))
     for key in PARAMETERS:
         _declare(node, _typed(key, settings.values[key]))
     _check_unknown_names(node)

@@ -160,6 +160,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
     motion = segment.without_pushes(stamp).motion
     top = motion.top
     verdict = perrys_rule(top, state)
+    rates = motion.euler_rates(state)
     w, x, y, z = state.orientation.tolist()
     return {
         "stamp": stamp * 1e-9,
@@ -173,7 +174,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "angular_momentum": top.angular_momentum(state).tolist(),
         "torque": motion.total_torque(state).tolist(),
         "euler_angles": state.euler_angles._asdict(),
-        "euler_rates": state.euler_rates._asdict(),
+        "euler_rates": rates._asdict(),
         "constants": constants_of_motion(top, state),
         **summarize_motion(motion, state),
         "friction": asdict(motion.friction),

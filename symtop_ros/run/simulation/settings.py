@@ -33,8 +33,11 @@ from symtop_ros.run.simulation.sensor.noise import MAX_NOISE
 
 NO_TORQUE: Vector = (0.0, 0.0, 0.0)
 PRECESSIONS = ("slow", "fast")
+ANGLES = ("theta", "phi", "psi")
+RATES = ("theta_dot", "phi_dot", "psi_dot")
 MAX_ANGLE = 1e3  # rad; beyond, the reduction of an angle to a turn loses digits
 MAX_RATE = 1e9  # rad/s; of any rate that is requested, and of the top after a kick
+MIN_MOMENT = 1e-30  # kg m^2
 MAX_MOMENT = 1e30  # kg m^2, J, N m or N m s; keeps every product of them finite
 MAX_SEED = 2**53  # a larger number may not be a double
 MAX_PUBLISH_RATE = 2000.0  # Hz
@@ -150,9 +153,9 @@ SEED = Parameter(
 )
 
 PARAMETERS: dict[str, Parameter] = {
-    "top.Ix": _moment(2.28e-4, "moment of inertia across the axis", "kg m^2", 1 / MAX_MOMENT),
+    "top.Ix": _moment(2.28e-4, "moment of inertia across the axis", "kg m^2", MIN_MOMENT),
     "top.Iz": _moment(
-        5.72e-5, "moment of inertia about the axis, at most 2 Ix", "kg m^2", 1 / MAX_MOMENT
+        5.72e-5, "moment of inertia about the axis, at most 2 Ix", "kg m^2", MIN_MOMENT
     ),
     "top.Mgl": _moment(0.068, "weight times distance of the centre of mass", "J", -MAX_MOMENT),
     "initial.theta": _number(0.0, "initial tilt", "rad", 0.0, math.pi),
@@ -327,7 +330,7 @@ class Settings:
     def from_scene(cls, name: object, **changes: Any) -> "Settings":
         """Return the settings of a scene, with changes (`__` for the dots in their names)."""
         named = {key.replace("__", "."): value for key, value in changes.items()}
-        return cls.from_values(load_scene(name) | named)
+        return cls.from_values(override_scene(load_scene(name), named))
 
 
 def list_body(motion: Motion) -> dict[str, float]:
@@ -339,6 +342,16 @@ def list_body(motion: Motion) -> dict[str, float]:
 def read_body(values: Mapping[str, Any]) -> tuple[Top, Friction]:
     """Return the top and the friction that parameters describe."""
     return Top(**_group(values, "top.")), Friction(**_group(values, "friction."))
+
+
+def override_scene(scene: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the parameters of a scene with others; a given rate ends its regular precession.
+
+    As in a request: else the rate would be read and silently replaced.
+    """
+    is_given = any(f"initial.{name}" in given for name in ("phi_dot", "theta_dot"))
+    regular = {"initial.precession": ""} if is_given else {}
+    return {**scene, **regular, **given}
 
 
 def _build_imu(clean: Mapping[str, Any]) -> Imu | None:

@@ -116,6 +116,12 @@ def _wrench(samples: Samples) -> Real:
     return wrench
 
 
+def _euler_angles(samples: Samples) -> Real:
+    """Euler's angles and their rates; phi' is exactly 0 while a hand holds the precession."""
+    state = samples.state
+    return np.stack([*state.euler_angles, *samples.segment.motion.euler_rates(state)], axis=-1)
+
+
 def _imu(samples: Samples) -> Real:
     """Orientation, angular velocity and specific force of the sensor, each with its covariance."""
     imu = samples.segment.rig.imu
@@ -210,9 +216,7 @@ STATE_TOPICS: dict[str, StateTopic] = {
         _state_topic(
             "~/euler_angles",
             messages.JOINT_STATE,
-            lambda samples: np.stack(
-                [*samples.state.euler_angles, *samples.state.euler_rates], axis=-1
-            ),
+            _euler_angles,
             names=lambda world, _: (world, *messages.JOINTS),
             angles="position",
         ),

@@ -83,6 +83,18 @@ def test_all_solutions_are_listed_and_one_is_started(ctl):
         ("start theta=90deg dip=0.1 solution=3", "solution must be one of 1, 2, got 3"),
         ("start theta=90deg dip=3", "dip must be > 0 and at most 1.57079632679489"),
         ("start dip=3", "known must be one of theta, precession_period / theta, psi_dot / "),
+        (
+            "start theta=60deg dip=5deg phi_dot=3",
+            "phi_dot must be given without dip, got both",
+        ),
+        (
+            "start theta=0.5 precession_period=2s phi_dot=0",
+            "phi_dot must be given without precession_period, got both",
+        ),
+        (
+            "start theta=0.5 dip=0.1 precession=slow",
+            "precession must be given without dip, got both",
+        ),
         ("start theta=9rpm", "theta must be a number in rad, °, deg or degrees, got '9rpm'"),
         ("body wheel", "part must be point:MASS,DISTANCE or rod, hoop, disc, ball:MASS,SIZE,"),
         ("body disc:1kg,0,1m", "radius must be > 0 m, got 0"),

@@ -77,7 +77,7 @@ NOISE = (
 )
 # Part of the interface: `ros2 param describe` shows them, and a launch file may rely on them.
 RANGES = {
-    ("top.Ix", "top.Iz"): (1 / 1e30, 1e30),
+    ("top.Ix", "top.Iz"): (1e-30, 1e30),
     ("top.Mgl",): (-1e30, 1e30),
     ("initial.theta",): (0.0, math.pi),
     ("initial.phi", "initial.psi"): (-1e3, 1e3),
@@ -164,3 +164,15 @@ def test_long_text_is_shortened_in_its_middle_and_soon():
         assert line.startswith("begin ")
         assert line.endswith(" end")
         assert "..." in line
+
+
+def test_a_rate_that_is_given_ends_the_regular_precession_of_a_scene():
+    assert Settings.from_scene("hurry_slow").initial.precession == "slow"
+    initial = Settings.from_scene("hurry_slow", initial__phi_dot=3.0).initial
+    assert (initial.precession, initial.phi_dot) == ("", 3.0)
+    both = {"initial__phi_dot": 3.0, "initial__precession": "fast"}
+    assert Settings.from_scene("hurry_slow", **both).initial.precession == "fast"
+
+
+def test_a_condition_is_written_in_round_numbers():
+    assert PARAMETERS["top.Ix"].condition == "1e-30 to 1e+30 kg m^2"

@@ -39,10 +39,12 @@ from symtop_ros.physics import (
 )
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import (
+    ANGLES,
     MAX_ANGLE,
     MAX_MOMENT,
     MAX_RATE,
     PRECESSIONS,
+    RATES,
     InitialConditions,
     Settings,
 )
@@ -54,8 +56,6 @@ KINDS = tuple(name for name, field in FIELDS.items() if "kick" in field)
 PUSHES = ("axle_impulse", "rate", "number")  # of a push
 KICK_FIELDS = (*KINDS, "hold", *PUSHES[1:])
 LARGEST_IMPULSE = 1e30  # N m s
-ANGLES = ("theta", "phi", "psi")
-RATES = ("theta_dot", "phi_dot", "psi_dot")
 DIRECT = ("orientation", "angular_velocity")
 START_FIELDS = (*ANGLES, *RATES, *DIRECT, "precession")
 
