@@ -651,7 +651,10 @@ class Motion:
 
     @property
     def mean_spin_rate(self) -> float:
-        """Mean psi' over a nutation in rad/s: p_psi/Iz of a clamped motion; nan where mean phi' is."""
+        """Mean psi' over a nutation in rad/s; nan where the mean phi' is.
+
+        Of a clamped motion it is p_psi/Iz.
+        """
         # psi' is omega_z as long as phi' is 0, and omega_z is constant.
         held = self.start.angular_velocity[2] if self.clamped else self._rates.mean_spin_rate
         return float(held)
@@ -715,7 +718,8 @@ class Motion:
     def fast_top_precession_rate(self) -> float:
         """Mean phi' of the fast top in rad/s: Mgl/p_psi (Goldstein, section 5.7).
 
-        It is nan if p_psi = 0, and for a clamped motion, which does not precess. It is the textbooks' approximation for p_psi^2 >> 4 Ix Mgl and an axis let go at rest. The
+        It is nan if p_psi = 0, and for a clamped motion, which does not precess. It is the
+        textbooks' approximation for p_psi^2 >> 4 Ix Mgl and an axis let go at rest. The
         exact value is `mean_precession_rate`.
 
         Examples

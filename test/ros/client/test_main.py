@@ -69,7 +69,9 @@ def test_a_hand_holds_the_precession_and_lets_it_go(ctl):
     assert ctl("clamp", "on").stdout.startswith("Clamped, the axle falls as if ")
     assert ctl("clamp", "on").stdout == "the precession is held already\n"
     refused = ctl("hurry")
-    assert refused.stderr.startswith("top_ctl: kick must come while the precession is free: ")
+    assert refused.stderr.startswith(
+        "top_ctl: kick must come while the precession is free, got it held: "
+    )
     assert json.loads(ctl("state", "--json").stdout)["clamped"]
     assert ctl("clamp", "off").stdout.startswith("Let go (")
 

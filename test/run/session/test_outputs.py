@@ -172,7 +172,10 @@ def test_the_clock_has_the_stamp_of_each_sample_and_is_sent_while_the_motion_res
 
 SLOW = {"initial__precession": "slow", "initial__psi_dot": 200.0}
 HEAVY = {"top__Mgl": 1e16}  # it swings at 7e9 rad/s
-NO_ROOT, TOO_FAST = "precession must be a rate that .* no real root$", "motion must be so slow "
+NO_ROOT, TOO_FAST = (
+    "initial.precession must be a rate that .* no real root$",
+    "motion must be so slow ",
+)
 
 
 IMPOSSIBLE = [

@@ -12,6 +12,7 @@ from typing import Any
 
 from symtop_ros.base.refusals import Words, refuse, show
 from symtop_ros.physics import KickVerdict, State, clamp_verdict, kick_verdict
+from symtop_ros.run.simulation.changes.obstacles import FRICTIONS, demand_free, demand_held_start
 from symtop_ros.run.simulation.changes.outcomes import (
     ClockJump,
     Outcome,
@@ -24,7 +25,6 @@ from symtop_ros.run.simulation.changes.outcomes import (
     Torque,
 )
 from symtop_ros.run.simulation.changes.requests import (
-    demand_free,
     plan_clamp,
     plan_kick,
     plan_pushes,
@@ -118,6 +118,8 @@ Ruled = tuple[Segment, Told]  # the segment that follows, and what is said of it
 
 def _restart(segment: Segment, act: Act, before: State) -> Ruled:
     start = act.start or before
+    if act.clamped:
+        demand_held_start(start, segment.motion.friction, segment.motion.applied_torque)
     segment = demand_a_day(segment.change(act.stamp, start, clamped=act.clamped))
     return segment, Start.of(segment.motion)
 
@@ -194,7 +196,8 @@ def _change_pace(segment: Segment, act: Act, _: State) -> Ruled:
 def _change_torque(segment: Segment, act: Act, before: State) -> Ruled:
     x, y, z = torque = act.request["torque"]
     if torque != segment.motion.applied_torque:
-        demand_free(segment.motion, "torque")
+        is_steady = isinstance(act.told, Torque) and act.told.kind == "steady"
+        demand_free(segment.motion, "steady_torque" if is_steady else "~/applied_torque")
         segment = segment.change(act.stamp, before, torque=torque)
     told = replace(act.told, torque=(x, y, z)) if isinstance(act.told, Torque) else None
     return segment, told
@@ -207,8 +210,9 @@ def _change_parameters(segment: Segment, act: Act, before: State) -> Ruled:
     values = list_body(motion)
     body = read_body(values | {name: float(request[name]) for name in values if name in request})
     if body != (motion.top, motion.friction):
-        if any(astuple(body[1])):
-            demand_free(motion, "friction")
+        for name, value in zip(FRICTIONS, astuple(body[1]), strict=True):
+            if value:
+                demand_free(motion, name)
         following = following.change(act.stamp, before, *body)
     if "real_time_factor" in request and act.factor != segment.factor:
         following = following.set_factor(float(request["real_time_factor"]), act.stamp)
