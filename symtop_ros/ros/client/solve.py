@@ -71,11 +71,12 @@ def _describe_rate(name: str, rate: float) -> str:
 
 
 def set_body(top: Connection, words: list[str]) -> Response:
-    """Give the top the moments of a body, and say what these are."""
+    """Give the top the moments and the mass of a body, and say what these are."""
     body = make_body(words)
     made = body.top
     moments = {"top.Ix": made.Ix, "top.Iz": made.Iz, "top.Mgl": made.Mgl}
-    granted, answer = top.request("set_parameters_atomically", moments)
+    weighed = {"mass": body.mass, "gravity": body.gravity}
+    granted, answer = top.request("set_parameters_atomically", moments | weighed)
     return granted, f"{describe_body(body)}\n{answer}".rstrip() if granted else answer
 
 

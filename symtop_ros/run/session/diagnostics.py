@@ -23,7 +23,6 @@ from symtop_ros.run.log.recorder import Recorder
 from symtop_ros.run.simulation.block import GAP
 from symtop_ros.run.simulation.changes.outcomes import Neglected
 from symtop_ros.run.simulation.segment import Segment
-from symtop_ros.run.simulation.sensor.imu import find_body
 from symtop_ros.run.simulation.simulation import Simulation
 from symtop_ros.run.wire.diagnostics import ERROR, OK, WARN, Status, write_text
 from symtop_ros.words import write
@@ -214,14 +213,17 @@ def _say_exchange(segment: Segment, stamp: int) -> str:
 def _describe_pivot(segment: Segment, motion: Motion, state: State) -> dict[str, Any]:
     """Return the force of the pivot on the top (world, N), and the mass (kg) that it is for.
 
-    The mass is that of the body that is chosen for the top; None if no body is such a top.
+    The mass is the parameter `mass`, or else that of the body that is chosen for the top; None if
+    no body is such a top.
     """
-    body = find_body(motion.top, segment.rig.gravity)
+    body = segment.rig.find_body(motion.top)
     force = body.pivot_force(motion, state).tolist() if body else [math.nan]
     is_known = body is not None and all(map(math.isfinite, force))
     return {
         "pivot_force": force if is_known else None,
         "pivot_force_of_mass": body.mass if body and is_known else None,
+        "mass_is_assumed": not segment.rig.mass,
+        "gravity": segment.rig.gravity,
     }
 
 

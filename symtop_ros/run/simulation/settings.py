@@ -17,7 +17,7 @@ from symtop_ros.base.refusals import (
     refuse,
     vector,
 )
-from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Top
+from symtop_ros.physics import STANDARD_GRAVITY, Body, Friction, Motion, Top
 from symtop_ros.run.simulation.presets import load_scene
 from symtop_ros.run.simulation.sensor.imu import (
     ALONG,
@@ -28,6 +28,7 @@ from symtop_ros.run.simulation.sensor.imu import (
     Imu,
     Magnetometer,
     Rig,
+    find_body,
 )
 from symtop_ros.run.simulation.sensor.noise import MAX_NOISE
 
@@ -203,7 +204,10 @@ PARAMETERS: dict[str, Parameter] = {
     ),
     "record.max_size": _number(0.0, "size at which a new log begins; 0: none", "B", 0.0, 1e15),
     "record.max_duration": _number(0.0, "length at which a new log begins; 0: none", "s", 0.0, 1e9),
-    "gravity": _fix(_number(STANDARD_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3)),
+    "mass": _moment(
+        0.0, "mass of the top; 0: a mass is assumed for the force of the pivot", "kg", 0.0
+    ),
+    "gravity": _number(STANDARD_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3),
     "imu.enabled": _flag(False, "publish ~/imu", read_only=True),
     "imu.position": _fix(_vector("place of the sensor, body frame", 3, MAX_DISTANCE, "m")),
     "imu.orientation": _fix(_vector("quaternion, sensor -> body", 4, 2.0, "x, y, z, w")),
@@ -278,6 +282,7 @@ class Settings:
     publish_tf: bool
     publish_clock: bool
     publish_markers: bool
+    mass: float  # kg; 0: a body is chosen
     gravity: float
     imu: Imu | None
     odometry: bool
@@ -307,6 +312,8 @@ class Settings:
             top, friction = read_body(clean)
         except ValueError as error:  # of the moments together; a friction has its limits above
             raise RefusedError(f"top.{error}") from None
+        if clean["mass"]:
+            Body.of(top, clean["gravity"], clean["mass"])  # refuses one that is too small
         x, y, z = clean["steady_torque"] or NO_TORQUE
         plain = {name: value for name, value in clean.items() if "." not in name}
         return cls(
@@ -321,10 +328,14 @@ class Settings:
         )
 
     def rig(self, begin: int) -> Rig:
-        """Return gravity and the sensor; its biases are zero at the stamp `begin` (ns)."""
-        return Rig(
-            self.gravity, self.imu and replace(self.imu, rate=self.publish_rate, begin=begin)
-        )
+        """Return gravity, mass and sensor, whose biases are zero at the stamp `begin` (ns)."""
+        imu = self.imu and replace(self.imu, rate=self.publish_rate, begin=begin)
+        return Rig(self.gravity, imu, self.mass)
+
+    @property
+    def body(self) -> Body | None:
+        """The body of the top: of its mass, or the chosen one; None if no body can be it."""
+        return find_body(self.top, self.gravity, self.mass)
 
     @classmethod
     def from_scene(cls, name: object, **changes: Any) -> "Settings":

@@ -14,7 +14,7 @@ import numpy as np
 from symtop_ros.base.arrays import Real, split, stack
 from symtop_ros.physics import State
 from symtop_ros.run.simulation.segment import Segment
-from symtop_ros.run.simulation.sensor.imu import EXACT, find_body
+from symtop_ros.run.simulation.sensor.imu import EXACT
 from symtop_ros.run.wire import messages
 from symtop_ros.run.wire.diagnostics import DIAGNOSTIC_ARRAY
 from symtop_ros.run.wire.layout import Layout
@@ -111,7 +111,7 @@ def _wrench(samples: Samples) -> Real:
     motion = samples.segment.motion
     state = samples.state
     wrench = _after_zeros(motion.total_torque(state))
-    body = find_body(motion.top, samples.segment.rig.gravity)
+    body = samples.segment.rig.find_body(motion.top)
     wrench[..., :3] = body.pivot_force(motion, state) if body else np.nan
     return wrench
 
@@ -156,7 +156,7 @@ def _magnetic_field(samples: Samples) -> Real:
 def _odometry(samples: Samples) -> Real:
     """Pose and twist of the centre of mass, the latter in its own frame, with covariances."""
     state = samples.state
-    body = find_body(samples.segment.motion.top, samples.segment.rig.gravity)
+    body = samples.segment.rig.find_body(samples.segment.motion.top)
     omega = state.angular_velocity
     arm = body.arm if body else np.nan
     x, y, _ = split(omega)

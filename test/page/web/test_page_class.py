@@ -46,6 +46,7 @@ def test_a_body_of_parts_is_that_of_python(opened):
     opened.tab.click("#use-body")
     parts = [Part("disc", 0.17, 0.105, 0.055), Part("point", 0.05, -0.08)]
     assert read_top(opened) == list(Body.of_parts(parts).top.moments)
+    assert (opened.read_events()[-1]["mass"], opened.read_run()["format"]) == (0.17 + 0.05, 4)
     wait_for_table(opened, "(0.22 kg)")
     opened.tab.locator("#parts .part button").nth(1).click()
     opened.tab.click("#use-body")

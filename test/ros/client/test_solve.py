@@ -66,6 +66,15 @@ def test_a_class_asks_for_the_spin(ctl):
     assert read(ctl)["seen_from_above"] == "clockwise"
 
 
+def test_the_mass_and_the_gravity_of_a_body_are_kept(ctl):
+    assert ctl("body disc:1.7kg,12.7cm,14.1cm point:0.9kg,-25.3cm gravity=9.80").returncode == 0
+    found = read(ctl)
+    assert (found["pivot_force_of_mass"], found["mass_is_assumed"]) == (1.7 + 0.9, False)
+    assert found["gravity"] == 9.80
+    # Little but the weight of a balanced body acts on its pivot.
+    assert found["pivot_force"][2] == pytest.approx(2.6 * 9.80, rel=0.1)
+
+
 def test_all_solutions_are_listed_and_one_is_started(ctl):
     answer = ctl("start theta=90deg dip=0.1rad phi=1 solution=2")
     assert [line[:3] for line in answer.stdout.splitlines()[:2]] == ["1: ", "2: "]

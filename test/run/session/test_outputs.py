@@ -230,7 +230,7 @@ def test_with_odometry_the_centre_of_mass_has_a_frame_on_the_axis():
     (frame,) = types.deserialize_cdr(sent, "tf2_msgs/msg/TFMessage").transforms
     assert (frame.header.frame_id, frame.child_frame_id) == ("top", "top_centre_of_mass")
     settings, place = session.simulation.settings, frame.transform.translation
-    arm = Body.of(settings.top, settings.gravity).arm
+    arm = settings.body.arm
     assert (place.x, place.y, place.z) == (0.0, 0.0, arm)
     session.apply_settings({"odometry.enabled": True, "top.Mgl": settings.top.Mgl / 2})
     assert len(host.publishers["tf_static"].sent) == 2  # it moves with the arm

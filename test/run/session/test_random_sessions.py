@@ -121,6 +121,8 @@ def draw_changes(rng):
         "real_time_factor": rng.choice((0.5, 1.0, 2.0)),
         "publish_rate": rng.choice((50.0, 100.0)),
         "publish_tf": rng.random() < 0.5,
+        "mass": rng.choice((0.0, 0.5, 2.0)),
+        "gravity": rng.choice((9.81, 9.80, 9.83)),
         "initial.theta": rng.uniform(0.0, 1.0),
         "initial.clamped": rng.random() < 0.5,
     }
@@ -168,6 +170,7 @@ def move(rng, folder):
         publish_rate=100.0,
         publish_clock=rng.random() < 0.3,
         imu__enabled=rng.random() < 0.3,
+        odometry__enabled=rng.random() < 0.3,
     )
     for _ in range(ACTS):
         advance(session, clock, rng.randint(1, 300) / 1024)
@@ -193,6 +196,7 @@ def list_exact(event):
     """The fields that an event and its repetition have in common to the last bit."""
     motion = event.motion
     body = motion.top, motion.friction, motion.applied_torque, motion.clamped
+    body += event.mass, event.gravity
     return event.kind, event.time, json.dumps(event.act), body
 
 

@@ -42,7 +42,6 @@ def test_sensors_frames_topics_and_the_log_are_chosen_at_the_start():
     fixed = {name for name, parameter in PARAMETERS.items() if parameter.read_only}
     groups = ("imu.", "magnetic_field.", "odometry.")
     assert fixed - {name for name in PARAMETERS if name.startswith(groups)} == {
-        "gravity",
         "publish_clock",
         "publish_markers",
         "record.directory",
@@ -89,6 +88,7 @@ RANGES = {
     ("real_time_factor",): (1e-3, 100.0),
     ("record.max_size",): (0.0, 1e15),
     ("record.max_duration",): (0.0, 1e9),
+    ("mass",): (0.0, 1e30),
     ("gravity",): (1e-3, 1e3),
     NOISE: (0.0, 1e6),
     ("imu.noise.seed", "magnetic_field.noise.seed"): (0, 2**53),

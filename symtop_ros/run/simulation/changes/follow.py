@@ -209,11 +209,16 @@ def _change_parameters(segment: Segment, act: Act, before: State) -> Ruled:
     motion = segment.motion
     values = list_body(motion)
     body = read_body(values | {name: float(request[name]) for name in values if name in request})
-    if body != (motion.top, motion.friction):
+    rig = replace(
+        segment.rig,
+        gravity=float(request.get("gravity", segment.rig.gravity)),
+        mass=float(request.get("mass", segment.rig.mass)),
+    )
+    if body != (motion.top, motion.friction) or rig != segment.rig:
         for name, value in zip(FRICTIONS, astuple(body[1]), strict=True):
             if value:
                 demand_free(motion, name)
-        following = following.change(act.stamp, before, *body)
+        following = replace(following.change(act.stamp, before, *body), rig=rig)
     if "real_time_factor" in request and act.factor != segment.factor:
         following = following.set_factor(float(request["real_time_factor"]), act.stamp)
     if following is not segment:

@@ -14,6 +14,7 @@ import { phrase } from "../words/wording.js";
 /**
  * The angles and rates of a scene are what a link that names it leaves open.
  * @typedef {{top: Top, friction: number[], torque: Vector, start: State, clamped?: boolean,
+ *   weighed?: import("../physics/course.js").Weighed,
  *   initial?: {[name: string]: number}}} Beginning
  */
 
@@ -151,7 +152,8 @@ export const readLink = (kernel, { precession, clamped: held, ...texts }, given,
     start = createStart(kernel, top, { ...given.initial, ...numbers }, precession);
   }
   const clamped = held === undefined ? given.clamped : readHeld(held);
-  return { top, friction, torque, start, clamped };
+  const isOwn = TOP_NAMES.every((each) => !(each in numbers));
+  return { top, friction, torque, start, clamped, weighed: isOwn ? given.weighed : undefined };
 };
 
 /** Refuse rates next to a regular precession, which has its own. @param {{[name: string]: number}} numbers */
