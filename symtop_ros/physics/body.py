@@ -210,9 +210,9 @@ class Body:
         Raises
         ------
         ValueError
-            If gravity or mass is refused, or if no body has these constants: a flat disc (Iz = 2 Ix)
-            has its centre in the pivot, and no weight that turns it. A mass is at least
-            Mgl^2/(gravity^2 (Ix - Iz/2)), that of a flat disc.
+            If gravity or mass is refused, or if no body has these constants: a flat disc
+            (Iz = 2 Ix) has its centre in the pivot, and no weight that turns it. A mass is at
+            least Mgl^2/(gravity^2 (Ix - Iz/2)), that of a flat disc.
 
         Examples
         --------

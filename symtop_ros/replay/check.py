@@ -7,6 +7,7 @@ from symtop_ros.base.refusals import one_line
 from symtop_ros.run.check.mismatch import Mismatch
 from symtop_ros.run.check.run import Findings, check_run
 from symtop_ros.run.check.samples import Deviation
+from symtop_ros.run.check.starts import SolvedStarts
 from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.names import KNOWN
 from symtop_ros.run.log.reader import LogError, list_problems
@@ -36,6 +37,7 @@ def check(log: TopLog, strict: bool = False) -> int:
     if found.samples_agree and not is_whole:
         print(_describe_damage(account, found))
     _print_topics(account, found)
+    _print_starts(found.starts)
     lacks = strict and bool(account.never_recorded)
     return 0 if found.samples_agree and not found.mismatches and is_whole and not lacks else 1
 
@@ -89,6 +91,17 @@ def _print_topics(account: Account, found: Findings) -> None:
     if others:
         more = f" and {len(others) - MAX_OTHERS} more" if len(others) > MAX_OTHERS else ""
         print(f"not compared, as not of {account.node}: {', '.join(others[:MAX_OTHERS])}{more}")
+
+
+def _print_starts(starts: SolvedStarts) -> None:
+    """Print how many starts from what was seen were solved again, if there are any."""
+    row = f"{'solved starts':{WIDTH}}"
+    if starts.compared:
+        wrong = len(starts.mismatches)
+        what = write_count(starts.compared, "start")
+        print(f"{row} {what} solved again, {f'{wrong} not' if wrong else 'all'} the same")
+    if starts.foreign:
+        print(f"{row} not compared: {write_count(starts.foreign, 'start')} of another version")
 
 
 def _describe_text(name: str, count: int, found: Findings) -> str:

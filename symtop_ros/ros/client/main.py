@@ -23,9 +23,9 @@ from sensor_msgs.msg import JointState
 from symtop_ros.base.refusals import MAX_SHOWN, one_line, plain
 from symtop_ros.base.shutdown import describe_failure, ros_context
 from symtop_ros.base.units import read_value
+from symtop_ros.ros.client.body import set_body
 from symtop_ros.ros.client.connection import Connection, UnreachableError
 from symtop_ros.ros.client.options import make_parser
-from symtop_ros.ros.client.solve import asks_to_solve, set_body, start_solved
 from symtop_ros.run.session.services import SERVICES, Response
 
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
@@ -85,8 +85,6 @@ def carry_out(options: argparse.Namespace, values: dict[str, Any], top: Connecti
         return top.request("pause", False)
     if options.command == "body":
         return set_body(top, options.parts)
-    if options.command == "start" and asks_to_solve(values):
-        return start_solved(top, values)
     service = BY_COMMAND[options.command]
     on = vars(options).get("switch", "on") == "on"  # `pause` has no word: it means on
     arguments = {"named": values, "switch": on, "plain": None}

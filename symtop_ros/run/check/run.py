@@ -7,6 +7,7 @@ from symtop_ros.base.refusals import one_line
 from symtop_ros.run.check.events import find_mismatches
 from symtop_ros.run.check.mismatch import Mismatch, is_of_this_version, list_other_versions
 from symtop_ros.run.check.samples import Deviation, LogCheck
+from symtop_ros.run.check.starts import SolvedStarts, solve_again
 from symtop_ros.run.check.texts import TextCheck
 from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.batch import BatchReader
@@ -26,6 +27,7 @@ class Findings:
     compared: dict[str, int]  # messages of other topics that were compared, by our names
     reasons: dict[str, str]  # why topics of the log, or messages of them, were not, by our names
     mismatches: list[Mismatch]  # in events, descriptions and diagnostics
+    starts: SolvedStarts  # from what was seen
     foreign: int  # events of another version, which are not computed
     versions: list[str]  # other versions that reported events
     first: int  # number of the first event; 1 unless the log begins later than the run
@@ -56,11 +58,13 @@ def check_run(log: TopLog) -> Findings:
     events = account.events
     own = sum(map(is_of_this_version, events))
     compared = Counter(texts.compared) + Counter({EVENTS.name: own})
+    starts = solve_again(events)
     return Findings(
         samples.deviations,
         dict(compared),
         texts.reasons,
-        [*find_mismatches(events), *texts.mismatches],
+        [*find_mismatches(events), *starts.mismatches, *texts.mismatches],
+        starts,
         len(events) - own,
         list_other_versions(events),
         events[0].number if events else 0,

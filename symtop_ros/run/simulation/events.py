@@ -58,7 +58,7 @@ MOTION: dict[str, Callable[[Motion], Any]] = {
     "motion.pushes": lambda motion: astuple(motion.pushes) if motion.pushes else (),
     "motion.clamped": lambda motion: motion.clamped,
 }
-# What the rig says of the body: one of them changed is another body, of which the motion is the same.
+# What the rig says of the body: if one of them changes, the motion is as before.
 BODY = ("gravity", "mass")
 SEGMENT: dict[str, Callable[[Segment], Any]] = {
     "motion.stamp": lambda segment: segment.stamp,

@@ -9,7 +9,7 @@ from exact_log import read_messages
 from rosbags.typesys import Stores, get_typestore
 from run.simulation.runs import HandClock
 
-from symtop_ros.physics import Body, ExactTimes
+from symtop_ros.physics import ExactTimes
 from symtop_ros.run.models.urdf import LENGTH
 from symtop_ros.run.session.diagnostics import log_status, pace_status
 from symtop_ros.run.session.outputs import ARROWS, PERIOD, Markers

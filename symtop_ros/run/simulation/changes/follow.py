@@ -31,6 +31,7 @@ from symtop_ros.run.simulation.changes.requests import (
     plan_release,
     plan_unclamp,
 )
+from symtop_ros.run.simulation.changes.seen import Solved
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import list_body, read_body
 from symtop_ros.run.wire.diagnostics import write_text
@@ -51,6 +52,7 @@ class Act:
     told: Outcome | None = None  # where no motion shows the outcome, as the path of a log
     left: Segment | None = None  # what an action has left that failed
     clamped: bool = False  # of a restart: whether a hand holds its precession
+    solved: Solved | None = None  # of a restart from what is seen
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +123,7 @@ def _restart(segment: Segment, act: Act, before: State) -> Ruled:
     if act.clamped:
         demand_held_start(start, segment.motion.friction, segment.motion.applied_torque)
     segment = demand_a_day(segment.change(act.stamp, start, clamped=act.clamped))
-    return segment, Start.of(segment.motion)
+    return segment, Start.of(segment.motion, act.solved)
 
 
 def _kick(segment: Segment, act: Act, before: State) -> Ruled:

@@ -43,6 +43,13 @@ from symtop_ros.run.simulation.changes.obstacles import (
     demand_held_start,
     demand_tilted,
 )
+from symtop_ros.run.simulation.changes.seen import (
+    SEEN,
+    SOLUTION,
+    Solved,
+    asks_to_solve,
+    solve_request,
+)
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import (
     ANGLES,
@@ -64,6 +71,8 @@ KICK_FIELDS = (*KINDS, "hold", *PUSHES[1:])
 LARGEST_IMPULSE = 1e30  # N m s
 DIRECT = ("orientation", "angular_velocity")
 START_FIELDS = (*ANGLES, *RATES, *DIRECT, "precession")
+# What ~/set_initial_conditions knows, besides what is seen of a motion.
+ALL_START_FIELDS = (*START_FIELDS, *SEEN, SOLUTION)
 
 
 def read_kick(texts: Mapping[str, str]) -> dict[str, Any]:
@@ -216,9 +225,21 @@ def start_motion(settings: Settings) -> Motion:
     return Motion(settings.top, start, *acting, clamped=clamped)
 
 
+def plan_start(
+    top: Top, defaults: InitialConditions, request: Mapping[str, Any]
+) -> tuple[State, Solved | None]:
+    """Return the state that a request asks for, and its solution if it says what is seen."""
+    if not asks_to_solve(request):
+        return initial_state(top, defaults, request), None
+    solved = solve_request(top, defaults, request, START_FIELDS)
+    if defaults.clamped:
+        solved = replace(solved, caveat="held")
+    return solved.start, solved
+
+
 def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, Any]) -> State:
     """Return the state that a request asks for."""
-    validate_names(request, START_FIELDS)
+    validate_names(request, ALL_START_FIELDS)
     _refuse_contradictions(request)
     if any(name in request for name in DIRECT):
         return _from_quaternion(request["orientation"], request["angular_velocity"])

@@ -1,6 +1,5 @@
 // Formulas of what is drawn and tabled, in doubles: curves, bars, arrows, and constants of a motion.
 
-
 /** @import { State } from "../physics/state.js" */
 /** @import { Top } from "../physics/kernel.js" */
 /**
