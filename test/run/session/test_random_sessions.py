@@ -95,6 +95,25 @@ def draw_values(rng):
     return {name: values[name] for name in rng.sample(sorted(values), rng.randint(0, 5))}
 
 
+def draw_question(rng):
+    """What is seen of a motion, of which some have none."""
+    theta = rng.uniform(0.1, 3.0)
+    question = rng.choice(
+        (
+            {"theta": theta, "precession_period": rng.uniform(0.2, 3.0)},
+            {"psi_dot": rng.uniform(100.0, 300.0), "precession_period": rng.uniform(0.2, 3.0)},
+            {"theta": theta, "psi_dot": rng.uniform(100.0, 300.0), "solution": 1},
+            {"theta": theta, "dip": rng.uniform(0.01, 1.0)},
+            {"theta": theta, "nutation_period": rng.uniform(0.05, 0.3)},
+            {"energy": 1.21, "p_phi": 0.01004, "p_psi": rng.uniform(0.01, 0.012)},
+            {"alpha": 600.0, "a": rng.uniform(40.0, 60.0), "b": 44.0},
+        )
+    )
+    others = {"phi": rng.uniform(-3.0, 3.0), "psi": 1.0, "solution": rng.randint(1, 3)}
+    chosen = rng.sample(sorted(others), rng.randint(0, 3))
+    return question | {name: others[name] for name in chosen}
+
+
 def draw_kick(rng):
     if rng.random() < 0.3:
         return {"angular_impulse": [rng.uniform(-1e-3, 1e-3) for _ in range(3)]}
@@ -132,7 +151,7 @@ def draw_changes(rng):
 def act(rng, session, clock):
     """Do something; what is refused changes nothing."""
     kinds = "start", "kick", "kick", "release", "change", "pause", "step", "torque", "jump", "reset"
-    kinds += ("clamp", "clamp")
+    kinds += ("clamp", "clamp", "ask", "ask")
     kind = rng.choice(kinds)
     if kind == "change":
         try:
@@ -148,6 +167,7 @@ def act(rng, session, clock):
     else:
         service, argument = {
             "start": ("set_initial_conditions", draw_values(rng)),
+            "ask": ("set_initial_conditions", draw_question(rng)),
             "kick": ("kick", draw_kick(rng)),
             "release": ("release", None),
             "clamp": ("clamp", not session.simulation.segment.motion.clamped),
@@ -188,6 +208,7 @@ def check(path):
     found = check_run(log)
     assert found.mismatches == []
     assert all(each.differing == 0 for each in found.deviations.values())
+    assert found.laws_hold
     assert log.account.problems == ()
     return list(log.account.events)
 

@@ -41,12 +41,12 @@ class Found:
 
     @property
     def phi_turns(self) -> float:
-        """phi' in turns a minute."""
+        """Precession rate in turns a minute."""
         return self.phi_dot * PER_MINUTE
 
     @property
     def psi_turns(self) -> float:
-        """psi' in turns a minute."""
+        """Spin rate in turns a minute."""
         return self.psi_dot * PER_MINUTE
 
     def start(self, phi: float, psi: float) -> State:
