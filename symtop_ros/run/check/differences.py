@@ -9,7 +9,7 @@ A derivative is taken within one motion at one pace: not across events, pushes, 
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -83,18 +83,13 @@ class Rows:
         return np.asarray(np.logical_and.reduce([self.known[name] for name in names]))
 
 
-@dataclass
 class DifferenceCheck:
     """The laws of motion, tried with the samples of a log."""
 
-    account: Account
-    laws: dict[str, Agreement] = field(
-        default_factory=lambda: {name: Agreement() for name in UNITS}
-    )
-
-    def __post_init__(self) -> None:
-        self._chronicle = Chronicle(self.account.events, self.account.ordered.places)
-        self._unknown = Unknown(self.account.unknown)
+    def __init__(self, account: Account) -> None:
+        self.laws = {name: Agreement() for name in UNITS}
+        self._chronicle = Chronicle(account.events, account.ordered.places)
+        self._unknown = Unknown(account.unknown)
         self._rows: Rows | None = None  # those before the next batch
         self._judged = 0  # of these, the rows whose derivatives have been compared
 

@@ -10,8 +10,7 @@ from physics.tops import ARTICLE
 from run.session.test_outputs import Program, advance, start
 from run.simulation.runs import Run
 
-from symtop_ros.physics import Motion, Top, solve_start
-from symtop_ros.physics.kernel.records import QUESTIONS
+from symtop_ros.physics import QUESTIONS, Motion, Top, solve_start
 from symtop_ros.replay.main import main
 from symtop_ros.run.check.run import check_run
 from symtop_ros.run.check.starts import solve_again

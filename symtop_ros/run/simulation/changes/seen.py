@@ -1,7 +1,7 @@
 """Starts from what is seen: a tilt and the time of one turn, a dip, constants of the motion.
 
-The questions are those of `physics.solve_start`. Which of several solutions is started, and what all
-of them are, is part of the outcome, so that a client need not compute anything.
+The questions are those of `physics.solve_start`. Which of several solutions is started, and all of
+them, are part of the outcome, so that a client need not compute anything.
 """
 
 import math
@@ -11,8 +11,7 @@ from typing import Any, Literal
 
 from symtop_ros.base.refusals import RefusedError, number, refuse, validate_names
 from symtop_ros.base.units import QUANTITIES
-from symtop_ros.physics import Solution, State, Top, solve_start
-from symtop_ros.physics.kernel.records import QUESTIONS
+from symtop_ros.physics import QUESTIONS, Solution, State, Top, solve_start
 from symtop_ros.run.simulation.settings import MAX_ANGLE, MAX_RATE, InitialConditions
 
 KNOWN = tuple(dict.fromkeys(name for each in QUESTIONS for name in each.split()))
