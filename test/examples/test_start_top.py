@@ -1,4 +1,4 @@
-"""The client in C++: built and run where rclcpp is at hand, else read by a compiler; its request."""
+"""The client in C++: built and run where rclcpp is at hand, else read by a compiler."""
 
 import re
 import shutil
