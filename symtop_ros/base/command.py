@@ -1,11 +1,13 @@
 """Words of the command line that the programs share, and their failures in one line."""
 
 import argparse
+import difflib
 import math
 import os
+import re
 import sys
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import Any, NoReturn
 
 from symtop_ros import __version__
 from symtop_ros.base.refusals import one_line, plain
@@ -28,9 +30,40 @@ def tell_failures(name: str, act: Callable[[], int]) -> int:
     return 1
 
 
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors name the word that is nearest to one that is unknown."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the usage and what is wrong, and end the program with status 2."""
+        super().error(message + _suggest(message, self._option_string_actions))
+
+
+def _suggest(message: str, options: Iterable[str]) -> str:
+    """Return what may have been meant by an unknown argument or choice, or nothing."""
+    if found := re.match(r"unrecognized arguments: -*([^\s:=]+)", message):
+        known = {option.lstrip("-"): option for option in options}
+    elif found := re.search(r"invalid choice: '([^']+)' \(choose from (.*)\)", message):
+        known = {word: word for word in re.findall(r"[\w-]+", found[2])}
+    else:
+        return ""
+    nearest = find_nearest(found[1], known)
+    return f" (nearest: {known[nearest]})" if nearest else ""
+
+
+def find_nearest(word: str, known: Iterable[str]) -> str:
+    """Return the known word that is most like another one; empty if none is like it.
+
+    Examples
+    --------
+    >>> find_nearest("hury", ["hurry", "delay"])
+    'hurry'
+    """
+    return next(iter(difflib.get_close_matches(word[:60], list(known), n=1, cutoff=0.6)), "")
+
+
 def new_parser(name: str, description: str, **more: Any) -> argparse.ArgumentParser:
     """Return the parser of a program, which has --version."""
-    parser = argparse.ArgumentParser(prog=name, description=description, **more)
+    parser = Parser(prog=name, description=description, **more)
     parser.add_argument("--version", action="version", version=f"{name} {__version__}")
     return parser
 

@@ -120,7 +120,7 @@ def solve_request(
 
 def find_starts(top: Top, request: Mapping[str, Any]) -> tuple[Found, ...]:
     """Return the starts that have what a request knows, numbered from 1 on."""
-    known = {
+    known: dict[str, Any] = {
         name: number(name, request[name], QUANTITIES[name]) for name in KNOWN if name in request
     }
     return tuple(Found.of(place, each) for place, each in enumerate(solve_start(top, **known), 1))
