@@ -45,7 +45,7 @@ NEAR = 1e-6  # of the time between two pushes, in which a sample may be before o
 
 @dataclass
 class Agreement:
-    """How a law of motion holds for samples."""
+    """Agreement of samples with a law of motion."""
 
     samples: int = 0  # that were compared
     wrong: int = 0  # of which the deviation exceeds its bound

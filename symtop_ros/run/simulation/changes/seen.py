@@ -65,7 +65,7 @@ class Solved:
     """All starts that have what was asked for, and which of them was taken."""
 
     taken: int  # its number, from 1 on
-    phi: float  # rad; of the start, beside what was asked for
+    phi: float  # rad; angles of the start, which no question knows
     psi: float
     Ix: float  # of the top for which it was solved
     Iz: float
