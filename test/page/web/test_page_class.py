@@ -64,6 +64,18 @@ def test_a_list_that_is_typed_is_not_said_to_move_as_the_top_does_until_it_is_us
     opened.until(lambda: opened.say("parts-text").startswith("This top is a body of parts"))
 
 
+def test_a_run_of_a_body_that_was_weighed_names_its_mass_and_has_its_force(opened):
+    opened.open_tab("start")
+    opened.tab.select_option("#bodies", "balanced_gyroscope")
+    run = opened.read_run()
+    opened.tab.reload()
+    opened.drop(run)
+    opened.until(lambda: opened.read_events() == run["events"])
+    opened.open_tab("start")
+    opened.until(lambda: "2.6 kg" in opened.say("parts-text"))
+    wait_for_table(opened, "(2.6 kg)")
+
+
 @pytest.mark.parametrize("name", BODIES)
 def test_bodies_of_the_classroom_are_those_of_python(opened, name):
     opened.open_tab("start")
