@@ -13,9 +13,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from symtop_ros.base.arrays import Mask, Real, Stamps
-from symtop_ros.run.check.stencils import EPS, REACH, WIDTH, find_slopes
+from symtop_ros.run.check.stencils import EPS, MARGIN, find_slopes
 from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.batch import Batch
 from symtop_ros.run.log.chronicle import Chronicle
@@ -35,11 +36,11 @@ INERTIA, WEIGHT = "L of omega", "torque of q"
 UNITS = {MOMENTUM: "N m", ATTITUDE: "1/s", INERTIA: "N m s", WEIGHT: "N m"}  # of deviations
 # EPS of the sizes of the terms: rotations of both sides round by six each, and their sums by some.
 TERMS = 32
-# Largest product of step and rate for which order 8 is better than order 6 by a factor of two.
+# Largest product of step and rate: twice that, and the samples would show a slower motion as well.
 FASTEST = 1.5
-LEAST = 4 * REACH  # samples of a stretch in which derivatives are taken: their bound needs some
+LEAST = 2 * MARGIN + 1  # samples of a stretch in which a derivative is taken
 GAP = 1.5  # usual steps; a longer one is a gap
-KEPT = 6 * REACH  # rows before new ones, so that each derivative has its neighbours
+KEPT = 2 * MARGIN  # rows before new ones, so that each derivative has its neighbours
 NEAR = 1e-6  # of the time between two pushes, in which a sample may be before or after one
 
 
@@ -102,7 +103,7 @@ class DifferenceCheck:
             self._compare_terms(rows)
             before = self._rows
             self._rows = rows if before is None else _append(before, rows)
-            self._compare_slopes(KEPT // 2)
+            self._compare_slopes(MARGIN)
 
     def finish(self) -> None:
         """Compare what is left at the end of the log."""
@@ -211,14 +212,14 @@ class DifferenceCheck:
         """Compare the derivative of some values with what it must be, where the rate suffices."""
         law = self.laws[name]
         found = find_slopes(times, values)
-        places = np.arange(REACH, len(times) - REACH)
+        places = np.arange(MARGIN, len(times) - MARGIN)
         chosen = (places >= wanted.start) & (places < wanted.stop)
         step = float(np.diff(times).max())
-        fastest = np.lib.stride_tricks.sliding_window_view(rates, WIDTH).max(axis=-1)
-        is_slow = fastest * step <= FASTEST
+        fastest = sliding_window_view(rates, KEPT + 1).max(axis=-1)
+        is_slow = (fastest * step <= FASTEST) & found.converges
         law.too_fast += int((chosen & ~is_slow).sum())
         chosen &= is_slow
-        right = expected[REACH:-REACH]
+        right = expected[MARGIN:-MARGIN]
         bound = found.truncation + found.rounding + TERMS * EPS * np.linalg.norm(right, axis=1)
         deviation = np.linalg.norm(found.values - right, axis=1)
         law.add(deviation[chosen], bound[chosen])

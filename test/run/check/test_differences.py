@@ -20,7 +20,7 @@ from symtop_ros.run.check.differences import (
     DifferenceCheck,
 )
 from symtop_ros.run.check.run import check_run
-from symtop_ros.run.check.stencils import REACH
+from symtop_ros.run.check.stencils import MARGIN
 from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.log.batch import BatchReader
 from symtop_ros.run.log.contents import DECODED
@@ -81,7 +81,7 @@ def test_every_scene_obeys_the_laws_of_motion_before_and_after_a_kick(scene, tmp
 def test_what_is_compared_is_all_but_the_ends_of_each_stretch(tmp_path):
     laws = laws_of(Run(seconds=2.0), tmp_path)  # kicked in the middle
     counts = [laws[name].samples for name in LAWS]
-    assert counts == [400 - 4 * REACH, 400 - 4 * REACH, 400, 400]
+    assert counts == [400 - 4 * MARGIN, 400 - 4 * MARGIN, 400, 400]
     assert laws[MOMENTUM].largest < 1e-8  # N m; the torque is 0.03 N m
     assert laws[ATTITUDE].largest < 1e-2  # 1/s; half of omega is 100 rad/s
 
@@ -103,7 +103,7 @@ ACTS = [
 def test_no_difference_crosses_an_event_a_push_or_a_pause(factor, tmp_path):
     laws = try_laws(record("cusps", tmp_path, ACTS, real_time_factor=factor, publish_rate=500.0))
     assert [each.wrong for each in laws.values()] == [0, 0, 0, 0]
-    # Of the pushes 16 samples apart no stretch is long enough: nothing is claimed.
+    # Of the pushes 17 samples apart no stretch is long enough: nothing is claimed.
     assert laws[MOMENTUM].samples == laws[ATTITUDE].samples > 1000
 
 
@@ -113,14 +113,14 @@ def test_no_difference_crosses_a_gap(tmp_path):
     run.messages = [each for each in run.messages if each[1] != stamp or each[0] == "events"]
     laws = laws_of(run, tmp_path)
     assert [each.wrong for each in laws.values()] == [0, 0, 0, 0]
-    assert laws[MOMENTUM].samples == 199 - 6 * REACH
+    assert laws[MOMENTUM].samples == 199 - 3 * 2 * MARGIN
 
 
 def test_where_the_rate_is_too_low_for_the_motion_nothing_is_claimed(tmp_path, capsys):
     run = Run(rate=20.0, seconds=4.0, hurried=False)
     path = run.write(tmp_path)
     laws = try_laws(TopLog(McapFile(path)))
-    assert (laws[ATTITUDE].samples, laws[ATTITUDE].too_fast) == (0, 80 - 2 * REACH)
+    assert (laws[ATTITUDE].samples, laws[ATTITUDE].too_fast) == (0, 80 - 2 * MARGIN)
     assert (laws[INERTIA].samples, laws[WEIGHT].samples) == (80, 80)
     assert main([str(path), "--check"]) == 0
     out = capsys.readouterr().out
@@ -226,7 +226,7 @@ def test_a_log_without_a_topic_tries_what_the_others_say(tmp_path):
     run = Run(seconds=1.0, hurried=False)
     run.messages = [each for each in run.messages if each[0] != "angular_momentum"]
     laws = laws_of(run, tmp_path)
-    assert [laws[name].samples for name in LAWS] == [0, 200 - 2 * REACH, 0, 200]
+    assert [laws[name].samples for name in LAWS] == [0, 200 - 2 * MARGIN, 0, 200]
     assert not any(each.wrong for each in laws.values())
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from drawn import Numbers
 
-from symtop_ros.run.check.stencils import EPS, REACH, WIDTH, find_slopes
+from symtop_ros.run.check.stencils import EPS, MARGIN, WIDTH, find_slopes
 
 
 def draw_times(random, count, jitter):
@@ -24,8 +24,8 @@ def test_order_eight_is_exact_for_polynomials_of_degree_eight_with_any_steps(jit
         values = np.array([[float(t**degree)] for t in exact])
         right = [float(degree * t ** (degree - 1)) if degree else 0.0 for t in exact]
         found = find_slopes(times, values)
-        error = np.abs(found.values[:, 0] - right[REACH:-REACH])
-        assert (error <= found.rounding + 8 * EPS * np.abs(right[REACH:-REACH])).all()
+        error = np.abs(found.values[:, 0] - right[MARGIN:-MARGIN])
+        assert (error <= found.rounding + 8 * EPS * np.abs(right[MARGIN:-MARGIN])).all()
 
 
 def test_the_error_is_within_the_difference_of_both_orders_up_to_three_halves_of_a_radian():
@@ -37,9 +37,18 @@ def test_the_error_is_within_the_difference_of_both_orders_up_to_three_halves_of
         weights = [1.0, random.power(-2, 0), random.power(-4, -1)]
         sums = list(zip(rates, phases, weights, strict=True))
         values = np.array([sum(w * np.sin(r * times + p) for r, p, w in sums)]).T
-        right = sum(w * r * np.cos(r * times + p) for r, p, w in sums)[REACH:-REACH]
+        right = sum(w * r * np.cos(r * times + p) for r, p, w in sums)[MARGIN:-MARGIN]
         found = find_slopes(times, values)
         error = np.abs(found.values[:, 0] - right)
         # NumPy rounds the argument of a sine of up to 90 rad, and its value, by an EPS each.
         noise = 200 * EPS * max(rates) * sum(weights)
         assert (error <= found.truncation + found.rounding + noise).all()
+
+
+@pytest.mark.parametrize("rate", [2.0, 2.5, 3.0])
+def test_samples_that_are_too_far_apart_do_not_converge(rate):
+    times = np.arange(60) / 256
+    found = find_slopes(times, np.sin(256 * rate * times)[:, np.newaxis])
+    assert not found.converges.any()
+    slow = find_slopes(times, np.sin(256 * times)[:, np.newaxis])
+    assert slow.converges.all()
