@@ -76,6 +76,14 @@ def test_a_run_of_a_body_that_was_weighed_names_its_mass_and_has_its_force(opene
     wait_for_table(opened, "(2.6 kg)")
 
 
+def test_a_scene_that_says_a_mass_has_the_force_of_it(opened):
+    opened.follow("scene=toy_gyroscope")
+    assert opened.read_events()[-1]["mass"] == 0.06
+    wait_for_table(opened, "(0.06 kg)")
+    opened.follow("scene=cusps")
+    assert "mass" not in opened.read_events()[-1]
+
+
 @pytest.mark.parametrize("name", BODIES)
 def test_bodies_of_the_classroom_are_those_of_python(opened, name):
     opened.open_tab("start")

@@ -138,3 +138,11 @@ def test_a_model_may_have_the_mass_of_its_scene():
     settings = Settings.from_scene("cusps", mass=0.5, gravity=9.80)
     assert settings.body.mass == 0.5
     assert initial_state(settings.top, settings.initial, {}).euler_angles.theta > 0
+
+
+@pytest.mark.parametrize(("scene", "mass"), [("bicycle_wheel", 1.5), ("toy_gyroscope", 0.06)])
+def test_a_scene_that_says_a_mass_has_the_force_of_it(scene, mass):
+    found = read(Run(scene))
+    assert (found["pivot_force_of_mass"], found["mass_is_assumed"]) == (mass, False)
+    # Its axis is carried by the pivot, whatever the centre of mass does on its circle.
+    assert found["pivot_force"][2] == pytest.approx(mass * 9.81, rel=1e-9)

@@ -9,7 +9,8 @@ import { phrase } from "../words/wording.js";
 /**
  * The initial conditions of a scene are the `initial.*` parameters of a node; orientation x, y, z, w.
  * @typedef {{name: string, title: string, story: string, top: Vector, friction: number[],
- *   torque: Vector, initial: {[name: string]: any}}} SceneFile
+ *   torque: Vector, initial: {[name: string]: any},
+ *   weighed: import("../physics/course.js").Weighed}} SceneFile
  */
 /**
  * The angles and rates of a scene are what a link that names it leaves open.
@@ -41,9 +42,9 @@ export const findScene = (scenes, name) => {
 };
 
 /** @param {Kernel} kernel @param {SceneFile} scene @returns {Beginning} */
-export const readScene = (kernel, { top: [Ix, Iz, Mgl], friction, torque, initial }) => {
+export const readScene = (kernel, { top: [Ix, Iz, Mgl], friction, torque, initial, weighed }) => {
   const { precession, orientation, angular_velocity, clamped, ...numbers } = initial;
-  const given = { top: { Ix, Iz, Mgl }, friction, torque, clamped };
+  const given = { top: { Ix, Iz, Mgl }, friction, torque, clamped, weighed };
   if (orientation.length) {
     const [x, y, z, w] = orientation;
     const omega = angular_velocity.length ? angular_velocity : [0, 0, 0];
