@@ -1,7 +1,6 @@
 """Words of the command line that the programs share, and their failures in one line."""
 
 import argparse
-import difflib
 import math
 import os
 import re
@@ -10,7 +9,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, NoReturn
 
 from symtop_ros import __version__
-from symtop_ros.base.refusals import one_line, plain
+from symtop_ros.base.refusals import MAX_SHOWN, one_line, plain
 
 
 def tell_failures(name: str, act: Callable[[], int]) -> int:
@@ -50,15 +49,18 @@ def _suggest(message: str, options: Iterable[str]) -> str:
     return f" (nearest: {known[nearest]})" if nearest else ""
 
 
-def find_nearest(word: str, known: Iterable[str]) -> str:
-    """Return the known word that is most like another one; empty if none is like it.
+def find_nearest(word: str, known: Iterable[str], likeness: float = 0.6) -> str:
+    """Return the known word that is most like another one; empty if none is so much like it.
 
     Examples
     --------
     >>> find_nearest("hury", ["hurry", "delay"])
     'hurry'
     """
-    return next(iter(difflib.get_close_matches(word[:60], list(known), n=1, cutoff=0.6)), "")
+    import difflib  # noqa: PLC0415 - few runs need it
+
+    found = difflib.get_close_matches(word[:MAX_SHOWN], list(known), n=1, cutoff=likeness)
+    return found[0] if found else ""
 
 
 def new_parser(name: str, description: str, **more: Any) -> argparse.ArgumentParser:

@@ -24,6 +24,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 from std_srvs.srv import SetBool, Trigger
 
+from symtop_ros.base.command import find_nearest
 from symtop_ros.base.refusals import RefusedError, attempt, refuse, show, validate_names
 from symtop_ros.run.session.services import ServiceKind
 from symtop_ros.run.simulation.presets import load_scene, scene_names
@@ -122,7 +123,7 @@ def _check_unknown_names(node: Node) -> None:
     ]
     for name in unknown:
         if name.partition(".")[0] in GROUPS:
-            condition = f"known (the nearest is {_find_nearest(name, known)})"
+            condition = f"known (the nearest is {find_nearest(name, known, likeness=0.0)})"
             raise refuse("parameter name", condition, name)
     _warn_of_unused(node, unknown, known)
 
@@ -138,17 +139,11 @@ def _warn_of_unused(node: Node, unknown: list[str], known: list[str]) -> None:
     """Warn about the first unknown names, and of the number of the others."""
     for name in unknown[:MAX_UNUSED]:
         node.get_logger().warning(
-            f"parameter {name!r} is unknown and not used (nearest: {_find_nearest(name, known)})"
+            f"parameter {name!r} is unknown and not used (nearest: {find_nearest(name, known, likeness=0.0)})"
         )
     more = len(unknown) - MAX_UNUSED
     if more > 0:
         node.get_logger().warning(f"{more} more parameters are unknown and not used")
-
-
-def _find_nearest(name: str, known: list[str]) -> str:
-    import difflib  # noqa: PLC0415 - few runs need it
-
-    return difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
 
 
 def _descriptor(description: str, condition: str, read_only: bool) -> ParameterDescriptor:
