@@ -138,8 +138,9 @@ def warn_of_unused_qos(node: Node) -> None:
 def _warn_of_unused(node: Node, unknown: list[str], known: list[str]) -> None:
     """Warn about the first unknown names, and of the number of the others."""
     for name in unknown[:MAX_UNUSED]:
+        nearest = find_nearest(name, known, likeness=0.0)
         node.get_logger().warning(
-            f"parameter {name!r} is unknown and not used (nearest: {find_nearest(name, known, likeness=0.0)})"
+            f"parameter {name!r} is unknown and not used (nearest: {nearest})"
         )
     more = len(unknown) - MAX_UNUSED
     if more > 0:
