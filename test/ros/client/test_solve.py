@@ -91,7 +91,7 @@ def test_all_solutions_are_listed_and_one_is_started(ctl):
     [
         ("start theta=90deg dip=0.1 solution=3", "solution must be 1 to 2, got 3"),
         ("start theta=90deg dip=3", "dip must be > 0 and at most 1.57079632679489"),
-        ("start dip=3", "known must be one of theta, precession_period / theta, psi_dot / "),
+        ("start dip=3", "a start must have one of theta, precession_period / theta, psi_dot / "),
         (
             "start theta=60deg dip=5deg phi_dot=3",
             "phi_dot must be given without dip, got both",

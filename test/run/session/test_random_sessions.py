@@ -140,22 +140,27 @@ def draw_changes(rng):
         "real_time_factor": rng.choice((0.5, 1.0, 2.0)),
         "publish_rate": rng.choice((50.0, 100.0)),
         "publish_tf": rng.random() < 0.5,
-        "mass": rng.choice((0.0, 0.5, 2.0)),
-        "gravity": rng.choice((9.81, 9.80, 9.83)),
         "initial.theta": rng.uniform(0.0, 1.0),
         "initial.clamped": rng.random() < 0.5,
     }
     return {name: values[name] for name in rng.sample(sorted(values), rng.randint(1, 3))}
 
 
+def draw_weights(rng):
+    """A mass and a gravity: with some of the tops above no body has that mass."""
+    values = {"mass": rng.choice((0.0, 0.5, 2.0)), "gravity": rng.choice((9.81, 9.80, 9.83))}
+    return {name: values[name] for name in rng.sample(sorted(values), rng.randint(1, 2))}
+
+
 def act(rng, session, clock):
     """Do something; what is refused changes nothing."""
     kinds = "start", "kick", "kick", "release", "change", "pause", "step", "torque", "jump", "reset"
-    kinds += ("clamp", "clamp", "ask", "ask")
+    kinds += ("clamp", "clamp", "ask", "ask", "weigh")
     kind = rng.choice(kinds)
-    if kind == "change":
+    if kind in ("change", "weigh"):
+        changes = draw_changes(rng) if kind == "change" else draw_weights(rng)
         try:
-            session.apply_settings(draw_changes(rng))
+            session.apply_settings(changes)
         except RefusedError:
             return
     elif kind == "torque":

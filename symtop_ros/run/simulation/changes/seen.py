@@ -106,6 +106,10 @@ def solve_request(
     for name in request:
         if name not in (*KNOWN, SOLUTION, *BESIDE):
             raise RefusedError(f"{name} must be given without {', '.join(asked)}, got both")
+    given = [name for name in KNOWN if name in request]
+    if not any({*given} == {*each.split()} for each in QUESTIONS):
+        rows = " / ".join(each.replace(" ", ", ") for each in QUESTIONS)
+        raise RefusedError(f"a start must have one of {rows}, got {', '.join(given) or 'none'}")
     found = find_starts(top, request)
     if any(abs(rate) > MAX_RATE for each in found for rate in astuple(each)[2:] if rate):
         condition = f"such that no rate exceeds {MAX_RATE:g} rad/s"
