@@ -5,7 +5,7 @@ import math
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NoReturn
 
 from symtop_ros import __version__
@@ -32,15 +32,17 @@ def tell_failures(name: str, act: Callable[[], int]) -> int:
 class Parser(argparse.ArgumentParser):
     """A parser whose errors name the word that is nearest to one that is unknown."""
 
+    forms: Mapping[str, str] = {}  # right forms by words that are no options
+
     def error(self, message: str) -> NoReturn:
         """Print the usage and what is wrong, and end the program with status 2."""
-        super().error(message + _suggest(message, self._option_string_actions))
+        super().error(message + _suggest(message, self._option_string_actions, self.forms))
 
 
-def _suggest(message: str, options: Iterable[str]) -> str:
+def _suggest(message: str, options: Iterable[str], forms: Mapping[str, str]) -> str:
     """Return what may have been meant by an unknown argument or choice, or nothing."""
     if found := re.match(r"unrecognized arguments: -*([^\s:=]+)", message):
-        known = {option.lstrip("-"): option for option in options}
+        known = {**forms, **{option.lstrip("-"): option for option in options}}
     elif found := re.search(r"invalid choice: '([^']+)' \(choose from (.*)\)", message):
         known = {word: word for word in re.findall(r"[\w-]+", found[2])}
     else:
@@ -63,7 +65,7 @@ def find_nearest(word: str, known: Iterable[str], likeness: float = 0.6) -> str:
     return found[0] if found else ""
 
 
-def new_parser(name: str, description: str, **more: Any) -> argparse.ArgumentParser:
+def new_parser(name: str, description: str, **more: Any) -> Parser:
     """Return the parser of a program, which has --version."""
     parser = Parser(prog=name, description=description, **more)
     parser.add_argument("--version", action="version", version=f"{name} {__version__}")

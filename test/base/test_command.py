@@ -4,6 +4,7 @@ import pytest
 
 from symtop_ros.base.command import new_parser
 from symtop_ros.ros.client.options import make_parser
+from symtop_ros.ros.node.options import make_parser as make_node_parser
 
 NEAREST = [
     ("hury", "(nearest: hurry)"),
@@ -18,6 +19,13 @@ def test_an_unknown_word_names_the_nearest_known_one(words, nearest, capsys):
         make_parser().parse_args(words.split())
     assert end.value.code == 2
     assert capsys.readouterr().err.rstrip().endswith(nearest)
+
+
+@pytest.mark.parametrize("words", ["hury_slow", "scene=hurry_slow", "--sceen hurry_slow"])
+def test_a_scene_without_its_option_names_the_option(words, capsys):
+    with pytest.raises(SystemExit):
+        make_node_parser().parse_args(words.split())
+    assert "(nearest: --scene" in capsys.readouterr().err
 
 
 def test_a_word_like_none_names_none(capsys):

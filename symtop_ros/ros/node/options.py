@@ -32,6 +32,7 @@ def make_parser() -> argparse.ArgumentParser:
         epilog=HELP.format(scenes=", ".join(scene_names())),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    parser.forms = {name: f"--scene {name}" for name in scene_names()}
     parser.add_argument("--scene", metavar="NAME", help="scene to start with (default cusps)")
     return parser
 
