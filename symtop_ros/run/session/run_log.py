@@ -139,17 +139,18 @@ class _Again:
             new = _list_values(event.motion, event.mass, event.gravity)
             self._simulation.restart_grid(event.time)
             if event.kind == "start":
-                self._prepare_start(event.motion, old, new)
+                self._prepare_start(event.motion)
             if changes := {key: value for key, value in new.items() if value != old[key]}:
                 self._session.apply_settings(changes)
             self._ask(event, name)
         self._compare(event, name)
 
-    def _prepare_start(self, motion: Motion, old: Values, new: Values) -> None:
+    def _prepare_start(self, motion: Motion) -> None:
         """Let a start begin held or free, and forces act on a motion that was held."""
         if self._simulation.settings.initial.clamped != motion.clamped:
             self._session.apply_settings({CLAMPED: motion.clamped})
-        if self._simulation.segment.motion.clamped and old != new:
+        is_forced = motion.friction or any(motion.applied_torque)
+        if self._simulation.segment.motion.clamped and is_forced:
             self._session.answer("clamp", lambda: False)
 
     def _ask(self, event: RunEvent, name: str) -> None:
