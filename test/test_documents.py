@@ -28,7 +28,7 @@ from symtop_ros.ros.client.connection import Connection
 from symtop_ros.run.simulation.run_file import write_run
 from symtop_ros.truth.judge.main import main as judge_main
 from symtop_ros.truth.testset.score import read_problems
-from workshop.load.domains import claim_domain
+from workshop.load.domains import claim_domain, release_domain
 
 pytestmark = pytest.mark.untraced
 DOMAIN = claim_domain()
@@ -69,8 +69,17 @@ def test_links_and_paths_lead_to_files_and_headings(page):
     assert [*broken_links(page)] == []
 
 
+@pytest.fixture
+def own_domain(monkeypatch, signals_as_before):
+    """A domain for a program of a page that starts nodes of its own."""
+    domain = claim_domain()
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    yield
+    release_domain(domain)
+
+
 @pytest.mark.parametrize("page", WITH_PYTHON, ids=lambda page: page.stem)
-def test_the_python_of_a_page_prints_what_the_page_shows(page):
+def test_the_python_of_a_page_prints_what_the_page_shows(page, own_domain):
     variables = {}
     for code, output in blocks(page, "python"):
         with contextlib.redirect_stdout(io.StringIO()) as printed:

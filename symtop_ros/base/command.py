@@ -3,12 +3,13 @@
 import argparse
 import math
 import os
+import re
 import sys
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NoReturn
 
 from symtop_ros import __version__
-from symtop_ros.base.refusals import one_line, plain
+from symtop_ros.base.refusals import MAX_SHOWN, one_line, plain
 
 
 def tell_failures(name: str, act: Callable[[], int]) -> int:
@@ -28,9 +29,45 @@ def tell_failures(name: str, act: Callable[[], int]) -> int:
     return 1
 
 
-def new_parser(name: str, description: str, **more: Any) -> argparse.ArgumentParser:
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors name the word that is nearest to one that is unknown."""
+
+    forms: Mapping[str, str] = {}  # right forms by words that are no options
+
+    def error(self, message: str) -> NoReturn:
+        """Print the usage and what is wrong, and end the program with status 2."""
+        super().error(message + _suggest(message, self._option_string_actions, self.forms))
+
+
+def _suggest(message: str, options: Iterable[str], forms: Mapping[str, str]) -> str:
+    """Return what may have been meant by an unknown argument or choice, or nothing."""
+    if found := re.match(r"unrecognized arguments: -*([^\s:=]+)", message):
+        known = {**forms, **{option.lstrip("-"): option for option in options}}
+    elif found := re.search(r"invalid choice: '([^']+)' \(choose from (.*)\)", message):
+        known = {word: word for word in re.findall(r"[\w-]+", found[2])}
+    else:
+        return ""
+    nearest = find_nearest(found[1], known)
+    return f" (nearest: {known[nearest]})" if nearest else ""
+
+
+def find_nearest(word: str, known: Iterable[str], likeness: float = 0.6) -> str:
+    """Return the known word that is most like another one; empty if none is so much like it.
+
+    Examples
+    --------
+    >>> find_nearest("hury", ["hurry", "delay"])
+    'hurry'
+    """
+    import difflib  # noqa: PLC0415 - few runs need it
+
+    found = difflib.get_close_matches(word[:MAX_SHOWN], list(known), n=1, cutoff=likeness)
+    return found[0] if found else ""
+
+
+def new_parser(name: str, description: str, **more: Any) -> Parser:
     """Return the parser of a program, which has --version."""
-    parser = argparse.ArgumentParser(prog=name, description=description, **more)
+    parser = Parser(prog=name, description=description, **more)
     parser.add_argument("--version", action="version", version=f"{name} {__version__}")
     return parser
 

@@ -25,7 +25,7 @@ from symtop_ros.physics.dynamics import (
 )
 from symtop_ros.physics.exchange import Exchange
 from symtop_ros.physics.kernel.door import kernel_version
-from symtop_ros.physics.kernel.records import Direction, Hold, Kind
+from symtop_ros.physics.kernel.records import QUESTIONS, Direction, Hold, Kind
 from symtop_ros.physics.kicks import (
     HOLDS,
     apply_impulse,
@@ -63,6 +63,7 @@ __all__ = [
     "HOLDS",
     "MOST_PUSHES",
     "PUSH_RATES",
+    "QUESTIONS",
     "SIZES",
     "STANDARD_GRAVITY",
     "Angles",

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.refusals import Words, require, show_limit
+from symtop_ros.base.refusals import Words, refuse, require, show_limit
 from symtop_ros.physics.dynamics import STANDARD_GRAVITY, specific_force
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import PART_KINDS
@@ -18,9 +18,10 @@ from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.parts import Part
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import validate_number, validate_one, validate_positive
+from symtop_ros.physics.values import EPS, validate_number, validate_one, validate_positive
 
 LONGEST_ARM = 10.0  # m, of a body that is chosen: a weight of 1e-9 J would have kilometres
+FLAT = 16 * EPS  # of Ix; a bound of ten roundings of half an EPS, and those of the comparison
 SAME = 1e-9  # relative difference of moments that are the same, up to the rounding of their user
 
 
@@ -195,29 +196,40 @@ class Body:
         return cls.about_pivot(found.mass, found.arm, Ix, found.Iz if Iz is None else Iz, gravity)
 
     @classmethod
-    def of(cls, top: Top, gravity: float = STANDARD_GRAVITY) -> "Body":
-        """Return the body that is chosen for a top.
+    def of(cls, top: Top, gravity: float = STANDARD_GRAVITY, mass: float | None = None) -> "Body":
+        """Return the body of a known mass that is a top, or else the body that is chosen for it.
 
         Parameters
         ----------
         top : Top
         gravity : float
             Acceleration of gravity in m/s^2, > 0.
+        mass : float, optional
+            In kg. The arm follows from it: Mgl/(mass gravity).
 
         Raises
         ------
         ValueError
-            If gravity is refused, or if no body has these constants: a flat disc (Iz = 2 Ix) has
-            its centre in the pivot, and no weight that turns it.
+            If gravity or mass is refused, or if no body has these constants: a flat disc
+            (Iz = 2 Ix) has its centre in the pivot, and no weight that turns it. A mass is at
+            least Mgl^2/(gravity^2 (Ix - Iz/2)), that of a flat disc.
 
         Examples
         --------
+        >>> article = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> round(Body.of(article, mass=0.5).arm, 6)
+        0.013863
+        >>> Body.of(article, mass=0.24)  # doctest: +ELLIPSIS
+        Traceback (most recent call last):
+        symtop_ros.base.refusals.RefusedError: mass must be at least 0.24096... kg for this top, ...
         >>> Body.of(Top(Ix=1.0, Iz=2.0, Mgl=1.0))  # doctest: +ELLIPSIS
         Traceback (most recent call last):
         symtop_ros.base.refusals.RefusedError: Iz must be < 2 Ix = 2 kg m^2 for a body with ...
         """
         validate_one(top)
         gravity = validate_positive("gravity", gravity, "m/s^2")
+        if mass is not None:
+            return _weigh(top, gravity, validate_positive("mass", mass, "kg"))
         if top.Mgl == 0:
             return cls(1.0, 0.0, top.Ix, top.Iz, gravity)
         # M r^2 <= Ix - Iz/2
@@ -285,3 +297,17 @@ class Body:
         require(is_own, "motion.top", f"{self.top}, that of the body", motion.top)
         force = specific_force(motion, state, (0.0, 0.0, self.arm), self.gravity)
         return self.mass * state.to_world(force)
+
+
+def _weigh(top: Top, gravity: float, mass: float) -> Body:
+    """Return the body of a given mass: M r^2 <= Ix - Iz/2, as for every rigid body."""
+    lever = top.Mgl / gravity  # M r
+    arm = lever / mass
+    most = top.Ix - top.Iz / 2
+    # A flat disc has just the least mass, and its three constants are rounded: each by some EPS of
+    # itself, so that both sides differ by some EPS of Ix.
+    if not lever * arm <= most + FLAT * top.Ix:
+        least = lever / most * lever if most > 0 else math.inf
+        condition = f"at least {show_limit(least)} kg for this top, Mgl^2/(gravity^2 (Ix - Iz/2))"
+        raise refuse("mass", condition, mass)
+    return Body(mass, arm, max(top.Ix - lever * arm, top.Iz / 2), top.Iz, gravity)

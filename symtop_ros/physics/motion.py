@@ -28,7 +28,7 @@ from symtop_ros.physics.jacobian import differentiate
 from symtop_ros.physics.kernel import door, states
 from symtop_ros.physics.kernel.records import Engine, Kind, PieceRecord, RatesRecord
 from symtop_ros.physics.pushes import Piece, Pushes
-from symtop_ros.physics.state import State
+from symtop_ros.physics.state import Angles, State
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import validate_array, validate_number, validate_vector
@@ -240,6 +240,37 @@ class Motion:
         if self.clamped:
             torque = torque + self.clamp_torque(state)
         return np.asarray(state.to_world(torque) + self.applied_torque)
+
+    def euler_rates(self, state: State) -> Angles:
+        """Return the rates of Euler's angles in states of this motion, in rad/s.
+
+        They are those of `State.euler_rates`, but for a motion that a hand holds: there phi' is 0
+        and psi' is omega_z, not what rounding leaves of them.
+
+        Parameters
+        ----------
+        state : State
+            One state or many of this motion.
+
+        Returns
+        -------
+        Angles
+            phi', theta', psi', each (...).
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motion, State, Top
+        >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
+        >>> held = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0), clamped=True)
+        >>> rates = held.euler_rates(held.at(0.1))
+        >>> rates.phi, rates.psi
+        (0.0, 200.0)
+        """
+        rates = state.euler_rates
+        if not self.clamped:
+            return rates
+        spin = state.angular_velocity[..., 2]
+        return Angles(0.0 * abs(rates.theta), rates.theta, spin if np.ndim(spin) else float(spin))
 
     def clamp_torque(self, state: State) -> Real:
         """Return the torque of the hand that holds phi, in the body frame in N m.
@@ -571,11 +602,11 @@ class Motion:
     def mean_precession_rate(self) -> float:
         """Mean phi' over a nutation in rad/s.
 
-        It is nan for an axis that rests on the vertical, and for one that passes through a pole,
-        as a clamped one does: there phi jumps by half a turn, to the left or to the right as
-        rounding will have it.
+        It is 0 while a hand holds it (`clamped`), and nan for an axis that rests on the vertical,
+        and for a free one that passes through a pole: there phi jumps by half a turn, to the left
+        or to the right as rounding will have it.
         """
-        return float(self._rates.mean_precession_rate)
+        return 0.0 if self.clamped else float(self._rates.mean_precession_rate)
 
     @property
     def precession_period(self) -> float:
@@ -620,8 +651,13 @@ class Motion:
 
     @property
     def mean_spin_rate(self) -> float:
-        """Mean psi' over a nutation in rad/s; nan where the mean phi' is."""
-        return float(self._rates.mean_spin_rate)
+        """Mean psi' over a nutation in rad/s; nan where the mean phi' is.
+
+        Of a clamped motion it is p_psi/Iz.
+        """
+        # psi' is omega_z as long as phi' is 0, and omega_z is constant.
+        held = self.start.angular_velocity[2] if self.clamped else self._rates.mean_spin_rate
+        return float(held)
 
     @property
     def precession_per_nutation(self) -> float:
@@ -680,9 +716,10 @@ class Motion:
 
     @property
     def fast_top_precession_rate(self) -> float:
-        """Mean phi' of the fast top in rad/s: Mgl/p_psi (Goldstein, section 5.7); nan if p_psi = 0.
+        """Mean phi' of the fast top in rad/s: Mgl/p_psi (Goldstein, section 5.7).
 
-        It is the textbooks' approximation for p_psi^2 >> 4 Ix Mgl and an axis let go at rest. The
+        It is nan if p_psi = 0, and for a clamped motion, which does not precess. It is the
+        textbooks' approximation for p_psi^2 >> 4 Ix Mgl and an axis let go at rest. The
         exact value is `mean_precession_rate`.
 
         Examples
@@ -694,13 +731,13 @@ class Motion:
         (5.944, 6.638)
         """
         p_psi = float(self.top.axial_momentum(self.start))
-        return self.top.Mgl / p_psi if p_psi else math.nan
+        return self.top.Mgl / p_psi if p_psi and not self.clamped else math.nan
 
     @property
     def fast_top_nutation_rate(self) -> float:
         """Nutation rate of the fast top in rad/s: |p_psi|/Ix (Goldstein, section 5.7).
 
-        The exact value is `nutation_rate`.
+        The exact value is `nutation_rate`. It is nan for a clamped motion, a pendulum's.
 
         Examples
         --------
@@ -710,4 +747,5 @@ class Motion:
         >>> round(motion.fast_top_nutation_rate, 2), round(motion.nutation_rate, 2)
         (50.18, 39.38)
         """
-        return abs(float(self.top.axial_momentum(self.start))) / self.top.Ix
+        rate = abs(float(self.top.axial_momentum(self.start))) / self.top.Ix
+        return math.nan if self.clamped else rate

@@ -1,12 +1,15 @@
 """`top_replay --check`: what was compared, what was not, and whether it agrees."""
 
 import sys
+from collections.abc import Mapping
 
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import one_line
+from symtop_ros.run.check.differences import UNITS, Agreement
 from symtop_ros.run.check.mismatch import Mismatch
 from symtop_ros.run.check.run import Findings, check_run
 from symtop_ros.run.check.samples import Deviation
+from symtop_ros.run.check.starts import SolvedStarts
 from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.names import KNOWN
 from symtop_ros.run.log.reader import LogError, list_problems
@@ -36,8 +39,11 @@ def check(log: TopLog, strict: bool = False) -> int:
     if found.samples_agree and not is_whole:
         print(_describe_damage(account, found))
     _print_topics(account, found)
+    _print_laws(found.laws)
+    _print_starts(found.starts)
     lacks = strict and bool(account.never_recorded)
-    return 0 if found.samples_agree and not found.mismatches and is_whole and not lacks else 1
+    agrees = found.samples_agree and found.laws_hold and not found.mismatches
+    return 0 if agrees and is_whole and not lacks else 1
 
 
 def _print_problem(text: str) -> None:
@@ -47,6 +53,8 @@ def _print_problem(text: str) -> None:
 def _print_verdict(found: Findings) -> None:
     if any(each.samples for each in found.deviations.values()):
         print(f"the samples {'agree' if found.samples_agree else 'DO NOT agree'} with the events")
+    if not found.laws_hold:
+        print("the samples DO NOT obey the laws of motion")
     if found.mismatches:
         print("events or descriptions of the motion DO NOT agree with the computation")
     if found.first > 1:
@@ -89,6 +97,32 @@ def _print_topics(account: Account, found: Findings) -> None:
     if others:
         more = f" and {len(others) - MAX_OTHERS} more" if len(others) > MAX_OTHERS else ""
         print(f"not compared, as not of {account.node}: {', '.join(others[:MAX_OTHERS])}{more}")
+
+
+def _print_laws(laws: Mapping[str, Agreement]) -> None:
+    """Print how well the samples obey each law of motion, or why it was not tried."""
+    for name, law in laws.items():
+        row = f"{name:{WIDTH}}"
+        slow = "the rate of the samples is too low for the motion"
+        if not law.samples:
+            print(f"{row} not compared: {slow if law.too_fast else 'too few samples in a stretch'}")
+            continue
+        what = "sample" if law.samples == 1 else "samples"
+        worst = f"largest deviation {law.largest:.1e} {UNITS[name]} ({law.share:.2g} of its bound)"
+        notes = f"; {law.wrong} beyond their bounds" * bool(law.wrong)
+        notes += f"; {law.too_fast} not compared: {slow}" * bool(law.too_fast)
+        print(f"{row}{law.samples:9} {what}, {worst}{notes}")
+
+
+def _print_starts(starts: SolvedStarts) -> None:
+    """Print how many starts from what was seen were solved again, if there are any."""
+    row = f"{'solved starts':{WIDTH}}"
+    if starts.compared:
+        wrong = len(starts.mismatches)
+        what = write_count(starts.compared, "start")
+        print(f"{row} {what} solved again, {f'{wrong} not' if wrong else 'all'} the same")
+    if starts.foreign:
+        print(f"{row} not compared: {write_count(starts.foreign, 'start')} of another version")
 
 
 def _describe_text(name: str, count: int, found: Findings) -> str:

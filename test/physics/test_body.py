@@ -220,3 +220,38 @@ def test_a_part_that_is_held_must_have_no_moment_about_the_axle(kind):
     with pytest.raises(RefusedError, match=f"spins must be true for a {kind}, which has a moment"):
         Part(kind, 1.0, -0.5, 0.1, spins=False)
     assert not Part("rod", 1.0, -0.5, 0.1, spins=False).spins
+
+
+def test_a_body_of_known_mass_has_the_arm_and_the_force_of_that_mass():
+    random = Numbers(98)
+    for _ in range(200):
+        gravity, arm = random.uniform(9.75, 9.85), random.uniform(-0.5, 0.5)
+        mass, Ix = random.power(-3, 2), random.power(-6, 0)
+        given = Body(mass, arm, Ix, Ix * random.uniform(0.01, 2), gravity)
+        found = Body.of(given.top, gravity, mass)
+        # Three roundings make Mgl, and two undo them.
+        assert found.arm == pytest.approx(arm, rel=4 * EPS)
+        # M r^2 is taken away from what it was added to: by some EPS of the sum.
+        assert found.Ix == pytest.approx(Ix, rel=0, abs=8 * EPS * given.top.Ix)
+        motion = Motion(given.top, State.from_euler(theta=0.5, psi_dot=20.0))
+        mine, its = (each.pivot_force(motion, motion.start) for each in (found, given))
+        assert np.abs(mine - its).max() <= 16 * EPS * np.abs(its).max()
+
+
+def test_a_flat_disc_has_the_least_mass_of_its_top_and_a_lighter_body_is_refused():
+    random = Numbers(99)
+    for _ in range(500):
+        mass, radius = random.power(-3, 2), random.power(-2, 0)
+        disc = Body.disc(mass, radius, radius * random.power(-3, 2), random.uniform(9.75, 9.85))
+        top = disc.top
+        assert Body.of(top, disc.gravity, mass).Ix == pytest.approx(disc.Ix, abs=32 * EPS * top.Ix)
+        # Lighter by so much that M r^2 exceeds Ix - Iz/2 by more than the rounding of Ix.
+        lighter = mass / (1 + 64 * EPS * top.Ix / (top.Ix - top.Iz / 2))
+        with pytest.raises(RefusedError, match=r"mass must be at least .* kg for this top, Mgl\^2"):
+            Body.of(top, disc.gravity, lighter)
+
+
+def test_a_body_without_weight_about_its_pivot_may_have_any_mass():
+    for mass in (2.0**-40, 1.0, 2.0**40):
+        body = Body.of(Top(Ix=1.0, Iz=2.0, Mgl=0.0), mass=mass)
+        assert (body.mass, body.arm, body.Ix) == (mass, 0.0, 1.0)

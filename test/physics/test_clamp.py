@@ -97,13 +97,27 @@ def test_constants_are_those_of_a_pendulum_and_p_phi_is_none():
     assert clamped.turning_angles == pendulum.turning_angles == (0.5, math.pi)
     assert clamped.nutation_period == pendulum.nutation_period
     assert not clamped.spin_reverses
-    assert all(map(math.isnan, (clamped.mean_precession_rate, clamped.mean_spin_rate)))
+    assert (clamped.mean_precession_rate, clamped.mean_spin_rate) == (0.0, 200.0)
+    assert math.isnan(clamped.fast_top_precession_rate)
+    assert math.isnan(clamped.fast_top_nutation_rate)
     times = np.linspace(0.0, 1.0, 9)
     states = clamped.at(times)
     energies = ARTICLE.energy(states)
     assert np.ptp(energies) <= 40 * EPS * energies.max()
     assert np.ptp(ARTICLE.axial_momentum(states)) == 0.0
     assert np.ptp(ARTICLE.vertical_momentum(states)) > ARTICLE.axial_momentum(CUSPS)
+
+
+def test_the_rates_of_its_states_are_those_of_a_held_precession():
+    clamped = Motion(ARTICLE, CUSPS, clamped=True)
+    states = clamped.at(np.linspace(0.0, 1.0, 9))
+    phi, theta, psi = clamped.euler_rates(states)
+    assert (phi == 0.0).all()
+    assert (psi == 200.0).all()
+    assert (theta == states.euler_rates.theta).all()
+    assert np.abs(states.euler_rates.psi - psi).max() > 0.0  # by rounding
+    free = Motion(ARTICLE, CUSPS)
+    assert free.euler_rates(CUSPS) == CUSPS.euler_rates
 
 
 def test_the_clamp_takes_phi_dot_and_keeps_theta_dot_and_the_spin_momentum():

@@ -126,6 +126,7 @@ def _read_values(name: str) -> dict[str, Any]:
         "top": settings.top.moments,
         "friction": dataclasses.astuple(settings.friction),
         "torque": settings.steady_torque,
+        "weighed": {"mass": settings.mass, "gravity": settings.gravity},
     }
 
 

@@ -70,7 +70,7 @@ def _find_ranges(motion: Motion) -> dict[str, tuple[float, float]]:
         return {}
     states = motion.at(np.linspace(0.0, _clip(0.01, motion.nutation_period, 10.0), 201))
     momentum = motion.top.angular_momentum(states)
-    rates = states.euler_rates
+    rates = motion.euler_rates(states)
     found = {}
     for entity, values in (
         (entities.THETA, np.asarray(states.euler_angles.theta)),

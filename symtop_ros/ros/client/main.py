@@ -20,18 +20,19 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
 from sensor_msgs.msg import JointState
 
-from symtop_ros.base.refusals import MAX_SHOWN, one_line, plain
+from symtop_ros.base.command import find_nearest
+from symtop_ros.base.refusals import MAX_SHOWN, one_line, plain, refuse
 from symtop_ros.base.shutdown import describe_failure, ros_context
 from symtop_ros.base.units import read_value
+from symtop_ros.ros.client.body import set_body
 from symtop_ros.ros.client.connection import Connection, UnreachableError
 from symtop_ros.ros.client.options import make_parser
-from symtop_ros.ros.client.solve import asks_to_solve, set_body, start_solved
 from symtop_ros.run.session.services import SERVICES, Response
 
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
-# Undoes a hurry with the default hurry_factor.
-DELAY = {"precession_rate_factor": 1 / 1.4}
+FACTOR = "precession_rate_factor"
+DELAY = {FACTOR: 1 / 1.4}  # undoes a hurry with the default hurry_factor
 LARGE = 1e6  # whose last digits count: a stamp in s
 PUSH = 1.0  # rad/s by which an arrow changes a rate
 WAIT = 0.1  # s between two checks that ROS is running
@@ -45,6 +46,8 @@ def main(args: list[str] | None = None) -> int:
     try:
         options = make_parser().parse_args(remove_ros_args(arguments)[1:])
         values = parse_values(vars(options).get("values", ()))
+        if options.command == "start":
+            check_start(values)
         with ros_context(arguments, is_last=args is None) as listen:
             node = rclpy.create_node("top_ctl", start_parameter_services=False)
             with closing(Connection(node, options.node, options.timeout)) as top:
@@ -83,10 +86,12 @@ def carry_out(options: argparse.Namespace, values: dict[str, Any], top: Connecti
         return True, ""
     if options.command == "resume":
         return top.request("pause", False)
+    if options.command == "delay":
+        return top.request("kick", {FACTOR: 1 / options.factor})
+    if options.command == "hurry" and options.factor is not None:
+        return top.request("kick", {FACTOR: options.factor})
     if options.command == "body":
         return set_body(top, options.parts)
-    if options.command == "start" and asks_to_solve(values):
-        return start_solved(top, values)
     service = BY_COMMAND[options.command]
     on = vars(options).get("switch", "on") == "on"  # `pause` has no word: it means on
     arguments = {"named": values, "switch": on, "plain": None}
@@ -135,6 +140,19 @@ def parse_values(words: Iterable[str]) -> dict[str, Any]:
             )
         values[name] = _value(name, text)
     return values
+
+
+def check_start(values: Iterable[str]) -> None:
+    """Refuse names that no start has, before a node is looked for."""
+    from symtop_ros.run.simulation.changes.requests import ALL_START_FIELDS  # takes a while
+
+    for name in values:
+        if name not in ALL_START_FIELDS:
+            nearest = find_nearest(name, ALL_START_FIELDS)
+            condition = f"one of {', '.join(ALL_START_FIELDS)}"
+            if nearest:
+                condition += f" (the nearest is {nearest})"
+            raise refuse("field name", condition, name)
 
 
 def _value(name: str, text: str) -> Any:

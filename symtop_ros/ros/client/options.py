@@ -3,7 +3,7 @@
 import argparse
 import math
 
-from symtop_ros.base.command import new_parser, positive
+from symtop_ros.base.command import decimal, new_parser, positive
 from symtop_ros.run.session.services import SERVICES
 
 
@@ -31,6 +31,12 @@ def make_parser() -> argparse.ArgumentParser:
     for command in ("record", "clamp"):
         parsers[command].add_argument("switch", choices=("on", "off"))
     parsers["state"].add_argument("--json", action="store_true", help="as JSON in one line")
+    parsers["hurry"].add_argument(
+        "factor", nargs="?", type=decimal, help="of phi' (default: the parameter hurry_factor)"
+    )
+    commands.add_parser("delay", help="divide the precession rate, by 1.4 or FACTOR").add_argument(
+        "factor", nargs="?", type=positive, default=1.4, help="by which phi' is divided"
+    )
     commands.add_parser(
         "body",
         help="a top of parts: disc:170g,5.5cm,10.5cm point:0.9kg,-25.3cm (mass, size, distance "

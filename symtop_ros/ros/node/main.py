@@ -3,14 +3,17 @@
 import argparse
 import gc
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
 
+from symtop_ros.base.refusals import RefusedError, one_line
 from symtop_ros.base.shutdown import run_with_ros
 from symtop_ros.ros.node.host import shorten_slice, use_profile
-from symtop_ros.ros.node.options import make_parser
+from symtop_ros.ros.node.options import SCENE, find_fault, make_parser
 from symtop_ros.ros.node.top_node import TopNode
 
 # s that a tick may wait for the thread that writes the log, or for the first sample after a kick. A
@@ -26,15 +29,22 @@ def main(args: list[str] | None = None) -> int:
     shorten_slice()
     # Fast DDS announces this node every 0.1 s instead of 3 s: the file says why.
     use_profile("fastdds_discovery.xml")
-    return run_with_ros(make_parser(), args, _run)
+    words = sys.argv[1:] if args is None else args
+    if fault := find_fault(words):
+        print(f"top_node: {one_line(fault)}", file=sys.stderr)
+        return 2
+    return run_with_ros(make_parser(), args, partial(_run, words))
 
 
-def _run(_: argparse.Namespace, listen: Callable[[], None]) -> int:
+def _run(words: Sequence[str], options: argparse.Namespace, listen: Callable[[], None]) -> int:
     """Spin until shutdown; return 1 if a tick or the recording failed (both were reported)."""
     # Not rclpy's EventsExecutor, under which no request is answered (rclpy 7.1 and 9.1): other
     # threads stand still as it waits. It is created before a signal can shut ROS down, as the node.
+    if fault := find_fault(words, options.scene):
+        raise RefusedError(fault)
+    scene = [] if options.scene is None else [Parameter(SCENE, value=options.scene)]
     executor = SingleThreadedExecutor()
-    top = TopNode()
+    top = TopNode(parameter_overrides=scene)
     gc.freeze()  # collecting garbage among the objects of the start would delay ticks
     try:
         listen()

@@ -24,10 +24,11 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 from std_srvs.srv import SetBool, Trigger
 
+from symtop_ros.base.command import find_nearest
 from symtop_ros.base.refusals import RefusedError, attempt, refuse, show, validate_names
 from symtop_ros.run.session.services import ServiceKind
 from symtop_ros.run.simulation.presets import load_scene, scene_names
-from symtop_ros.run.simulation.settings import PARAMETERS, Settings
+from symtop_ros.run.simulation.settings import PARAMETERS, Settings, override_scene
 
 QOS = "qos_overrides."  # of topics, which declare these parameters themselves
 Handler = Callable[[Any, Any], Any]  # of rclpy: from request and response to the response
@@ -75,13 +76,11 @@ def declare_parameters(node: Node) -> Settings:
     validate_names(scene, PARAMETERS, f"parameter in scene {name}")
     # /tf is shared by all tops, of other names or namespaces.
     defaults = {"top_frame": node.get_fully_qualified_name().lstrip("/"), **scene}
-    given = {name: each.value for name, each in node._parameter_overrides.items()}
-    settings = Settings.from_values(
-        {
-            key: defaults.get(key, parameter.default) if given.get(key) is None else given[key]
-            for key, parameter in PARAMETERS.items()
-        }
-    )
+    overrides = node._parameter_overrides.items()
+    given = {
+        key: each.value for key, each in overrides if key in PARAMETERS and each.value is not None
+    }
+    settings = Settings.from_values(override_scene(defaults, given))
     for key in PARAMETERS:
         _declare(node, _typed(key, settings.values[key]))
     _check_unknown_names(node)
@@ -124,7 +123,7 @@ def _check_unknown_names(node: Node) -> None:
     ]
     for name in unknown:
         if name.partition(".")[0] in GROUPS:
-            condition = f"known (the nearest is {_find_nearest(name, known)})"
+            condition = f"known (the nearest is {find_nearest(name, known, likeness=0.0)})"
             raise refuse("parameter name", condition, name)
     _warn_of_unused(node, unknown, known)
 
@@ -139,18 +138,13 @@ def warn_of_unused_qos(node: Node) -> None:
 def _warn_of_unused(node: Node, unknown: list[str], known: list[str]) -> None:
     """Warn about the first unknown names, and of the number of the others."""
     for name in unknown[:MAX_UNUSED]:
+        nearest = find_nearest(name, known, likeness=0.0)
         node.get_logger().warning(
-            f"parameter {name!r} is unknown and not used (nearest: {_find_nearest(name, known)})"
+            f"parameter {name!r} is unknown and not used (nearest: {nearest})"
         )
     more = len(unknown) - MAX_UNUSED
     if more > 0:
         node.get_logger().warning(f"{more} more parameters are unknown and not used")
-
-
-def _find_nearest(name: str, known: list[str]) -> str:
-    import difflib  # noqa: PLC0415 - few runs need it
-
-    return difflib.get_close_matches(name, known, n=1, cutoff=0.0)[0]
 
 
 def _descriptor(description: str, condition: str, read_only: bool) -> ParameterDescriptor:

@@ -59,7 +59,9 @@ def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Even
     else:
         following = event.segment()
         before = following.state_at(event.stamp) if is_known else event.state_before()
-        outcome = Start.of(following.motion) if event.name in RESTARTS else act.told
+        outcome = act.told
+        if event.name in RESTARTS:
+            outcome = Start.of(following.motion, act.solved)
         change = Change(act, before, following, outcome)
     right = Event.of(change, event.number, event.values.get("top_frame", ""))
     given = {} if is_known else {n: event.values[n] for n in BEFORE if n in event.values}
@@ -72,7 +74,7 @@ def read_act(event: Event) -> Act:
     What a request leaves open is taken from the event itself: initial conditions that come from
     parameters, the paths of logs, factors of real time, and what a bug of the node left.
     """
-    given = event.segment()
+    given, told = event.segment(), event.outcome()
     request: Mapping[str, Any] = event.request
     match event.name:
         case name if name in KICKS:
@@ -87,9 +89,10 @@ def read_act(event: Event) -> Act:
         request,
         start=given.motion.start,
         factor=given.factor,
-        told=event.outcome(),
+        told=told,
         left=given if event.name == "failure" else None,
         clamped=given.motion.clamped,
+        solved=told.solved if isinstance(told, Start) else None,
     )
 
 

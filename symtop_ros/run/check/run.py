@@ -4,9 +4,11 @@ from collections import Counter
 from dataclasses import dataclass
 
 from symtop_ros.base.refusals import one_line
+from symtop_ros.run.check.differences import Agreement, DifferenceCheck
 from symtop_ros.run.check.events import find_mismatches
 from symtop_ros.run.check.mismatch import Mismatch, is_of_this_version, list_other_versions
 from symtop_ros.run.check.samples import Deviation, LogCheck
+from symtop_ros.run.check.starts import SolvedStarts, solve_again
 from symtop_ros.run.check.texts import TextCheck
 from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.batch import BatchReader
@@ -26,6 +28,8 @@ class Findings:
     compared: dict[str, int]  # messages of other topics that were compared, by our names
     reasons: dict[str, str]  # why topics of the log, or messages of them, were not, by our names
     mismatches: list[Mismatch]  # in events, descriptions and diagnostics
+    starts: SolvedStarts  # from what was seen
+    laws: dict[str, Agreement]  # of motion, tried without the kernel
     foreign: int  # events of another version, which are not computed
     versions: list[str]  # other versions that reported events
     first: int  # number of the first event; 1 unless the log begins later than the run
@@ -34,6 +38,11 @@ class Findings:
     def samples_agree(self) -> bool:
         """True if the samples agree with the events."""
         return all(each.is_rounding for each in self.deviations.values())
+
+    @property
+    def laws_hold(self) -> bool:
+        """True if the samples agree with each other by the laws of motion."""
+        return not any(each.wrong for each in self.laws.values())
 
     @property
     def unjudged(self) -> int:
@@ -52,33 +61,40 @@ def check_run(log: TopLog) -> Findings:
     """
     account = log.account
     _demand_fields(log, account)
-    samples, texts = check_messages(log)
+    samples, texts, differences = check_messages(log)
     events = account.events
     own = sum(map(is_of_this_version, events))
     compared = Counter(texts.compared) + Counter({EVENTS.name: own})
+    starts = solve_again(events)
     return Findings(
         samples.deviations,
         dict(compared),
         texts.reasons,
-        [*find_mismatches(events), *texts.mismatches],
+        [*find_mismatches(events), *starts.mismatches, *texts.mismatches],
+        starts,
+        differences.laws,
         len(events) - own,
         list_other_versions(events),
         events[0].number if events else 0,
     )
 
 
-def check_messages(log: TopLog) -> tuple[LogCheck, TextCheck]:
+def check_messages(log: TopLog) -> tuple[LogCheck, TextCheck, DifferenceCheck]:
     """Compare all messages of a log but the events with what these give."""
     samples, texts = LogCheck(log.account), TextCheck(log.account)
+    differences = DifferenceCheck(log.account)
     reader = BatchReader()
     reader.frame = log.account.frame
     for run in log.list_messages():
         chosen = [each for each in run if each[1] in DECODED]
         data = [(name, message.data) for _, name, message in chosen]
-        samples.add_batch(reader.read(data, [place for place, *_ in chosen]))
+        batch = reader.read(data, [place for place, *_ in chosen])
+        samples.add_batch(batch)
+        differences.add_batch(batch)
         for place, name, message in run:
             texts.add(place, name, message)
-    return samples, texts
+    differences.finish()
+    return samples, texts, differences
 
 
 def _demand_fields(log: TopLog, account: Account) -> None:

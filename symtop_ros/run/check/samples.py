@@ -145,6 +145,10 @@ def _compare(name: str, columns: Columns, segment: Segment) -> tuple[Real, Real]
     computed = np.broadcast_to(topic.compute(samples), columns.numbers.shape)
     difference = np.abs(columns.numbers - computed)
     difference[np.isnan(columns.numbers) & np.isnan(computed)] = 0.0  # a force that is unknown
+    if topic.angles and segment.motion.clamped:
+        # Logs up to version 0.5 have what rounding left of phi', and took it from psi'.
+        older = [*samples.state.euler_angles, *samples.state.euler_rates]
+        difference[columns.numbers == np.stack(older, axis=-1)] = 0.0
     computed, scale = np.nan_to_num(computed), np.empty(computed.shape)
     for place in topic.format.quantities.values():
         scale[:, place] = np.abs(computed[:, place]).max(initial=0.0)

@@ -24,7 +24,7 @@ from symtop_ros.run.session.outputs import list_fixed_frames
 from symtop_ros.run.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
-from symtop_ros.run.simulation.sensor.imu import Rig, find_body
+from symtop_ros.run.simulation.sensor.imu import Rig
 from symtop_ros.run.simulation.topics import (
     APPLIED_TORQUE,
     CLOCK,
@@ -107,9 +107,7 @@ class TextCheck:
         link = re.search(r'<link name="([^"]*)"/>', text)  # the first is that of the world
         world = html.unescape(link[1]) if link else ""
         right = [
-            robot_description(
-                top, world, frame, tf_moves_it=moves, body=find_body(top, rig.gravity)
-            )
+            robot_description(top, world, frame, tf_moves_it=moves, body=rig.find_body(top))
             for top, rig, frame in self._kinds
             for moves in (True, False)
         ]
@@ -127,7 +125,7 @@ class TextCheck:
         right = [
             encode_transforms(stamp, list_fixed_frames(frame, rig.imu, body))
             for top, rig, frame in self._kinds
-            for body in (None, find_body(top, rig.gravity))
+            for body in (None, rig.find_body(top))
         ]
         wrong = Mismatch(name, message.log_time, "frames", "those of the run", "others")
         return [] if message.data in right else [wrong]

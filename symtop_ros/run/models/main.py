@@ -5,8 +5,7 @@ import sys
 from pathlib import Path
 
 from symtop_ros.base.command import decimal, new_parser, tell_failures
-from symtop_ros.base.refusals import number
-from symtop_ros.physics import STANDARD_GRAVITY, Body
+from symtop_ros.physics import Body
 from symtop_ros.run.models import FORMATS
 from symtop_ros.run.simulation.changes.requests import initial_state
 from symtop_ros.run.simulation.settings import Settings
@@ -18,12 +17,14 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _write(options: argparse.Namespace) -> int:
-    settings = Settings.from_scene(options.scene)
-    gravity = number("gravity", options.gravity, "m/s^2", 1e-3, 1e3)
+    given = {"gravity": options.gravity, "mass": options.mass}
+    settings = Settings.from_scene(
+        options.scene, **{name: value for name, value in given.items() if value is not None}
+    )
     text = FORMATS[options.format](
         settings.top,
         initial_state(settings.top, settings.initial, {}),
-        Body.of(settings.top, gravity),
+        Body.of(settings.top, settings.gravity, settings.mass or None),
     )
     if options.output:
         options.output.write_text(text, encoding="utf-8")
@@ -40,9 +41,8 @@ def make_parser() -> argparse.ArgumentParser:
     parser = new_parser("top_model", "Write a top and its start as a model for other engines.")
     parser.add_argument("--format", choices=sorted(FORMATS), required=True)
     parser.add_argument("--scene", default="cusps", help="name of a scene, default cusps")
-    parser.add_argument(
-        "--gravity", default=STANDARD_GRAVITY, type=decimal, help="m/s^2, default 9.81"
-    )
+    parser.add_argument("--gravity", type=decimal, help="m/s^2, default that of the scene (9.81)")
+    parser.add_argument("--mass", type=decimal, help="kg; default: a mass is assumed")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="default: standard output"
     )

@@ -23,7 +23,6 @@ from symtop_ros.run.log.recorder import Recorder
 from symtop_ros.run.simulation.block import GAP
 from symtop_ros.run.simulation.changes.outcomes import Neglected
 from symtop_ros.run.simulation.segment import Segment
-from symtop_ros.run.simulation.sensor.imu import find_body
 from symtop_ros.run.simulation.simulation import Simulation
 from symtop_ros.run.wire.diagnostics import ERROR, OK, WARN, Status, write_text
 from symtop_ros.words import write
@@ -160,6 +159,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
     motion = segment.without_pushes(stamp).motion
     top = motion.top
     verdict = perrys_rule(top, state)
+    rates = motion.euler_rates(state)
     w, x, y, z = state.orientation.tolist()
     return {
         "stamp": stamp * 1e-9,
@@ -173,7 +173,7 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "angular_momentum": top.angular_momentum(state).tolist(),
         "torque": motion.total_torque(state).tolist(),
         "euler_angles": state.euler_angles._asdict(),
-        "euler_rates": state.euler_rates._asdict(),
+        "euler_rates": rates._asdict(),
         "constants": constants_of_motion(top, state),
         **summarize_motion(motion, state),
         "friction": asdict(motion.friction),
@@ -213,14 +213,17 @@ def _say_exchange(segment: Segment, stamp: int) -> str:
 def _describe_pivot(segment: Segment, motion: Motion, state: State) -> dict[str, Any]:
     """Return the force of the pivot on the top (world, N), and the mass (kg) that it is for.
 
-    The mass is that of the body that is chosen for the top; None if no body is such a top.
+    The mass is the parameter `mass`, or else that of the body that is chosen for the top; None if
+    no body is such a top.
     """
-    body = find_body(motion.top, segment.rig.gravity)
+    body = segment.rig.find_body(motion.top)
     force = body.pivot_force(motion, state).tolist() if body else [math.nan]
     is_known = body is not None and all(map(math.isfinite, force))
     return {
         "pivot_force": force if is_known else None,
         "pivot_force_of_mass": body.mass if body and is_known else None,
+        "mass_is_assumed": not segment.rig.mass,
+        "gravity": segment.rig.gravity,
     }
 
 

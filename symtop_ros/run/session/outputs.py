@@ -19,7 +19,7 @@ from symtop_ros.run.models.urdf import LENGTH, robot_description
 from symtop_ros.run.simulation.block import Block
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.host import Host
-from symtop_ros.run.simulation.sensor.imu import ALONG, Imu, find_body
+from symtop_ros.run.simulation.sensor.imu import ALONG, Imu
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.run.simulation.topics import (
     APPLIED_TORQUE,
@@ -173,11 +173,11 @@ class Outputs:
             settings.world_frame,
             settings.top_frame,
             tf_moves_it=self._samples["tf"].is_published,
-            body=find_body(settings.top, settings.gravity),
+            body=settings.body,
         )
         self._description.send(stamp, lambda: encode_string(urdf))
         if self._fixed_frames:
-            body = settings.odometry and find_body(settings.top, settings.gravity)
+            body = settings.odometry and settings.body
             transforms = list_fixed_frames(settings.top_frame, settings.imu, body or None)
             self._fixed_frames.send(stamp, lambda: messages.encode_transforms(stamp, transforms))
 

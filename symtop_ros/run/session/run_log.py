@@ -95,7 +95,7 @@ class _Again:
         self._session = Session(
             Settings.from_values(
                 {
-                    **_list_values(first.motion),
+                    **_list_values(first.motion, first.mass, first.gravity),
                     **{f"initial.{name}": value for name, value in _start_values(first).items()},
                     CLAMPED: first.motion.clamped,
                     "publish_rate": rate,
@@ -134,21 +134,23 @@ class _Again:
     def do(self, event: RunEvent, name: str, *, is_first: bool) -> None:
         """Do what an event says, at its time."""
         if not is_first:
-            old = _list_values(self._simulation.segment.motion)
-            new = _list_values(event.motion)
+            segment = self._simulation.segment
+            old = _list_values(segment.motion, segment.rig.mass, segment.rig.gravity)
+            new = _list_values(event.motion, event.mass, event.gravity)
             self._simulation.restart_grid(event.time)
             if event.kind == "start":
-                self._prepare_start(event.motion, old, new)
+                self._prepare_start(event.motion)
             if changes := {key: value for key, value in new.items() if value != old[key]}:
                 self._session.apply_settings(changes)
             self._ask(event, name)
         self._compare(event, name)
 
-    def _prepare_start(self, motion: Motion, old: Values, new: Values) -> None:
+    def _prepare_start(self, motion: Motion) -> None:
         """Let a start begin held or free, and forces act on a motion that was held."""
         if self._simulation.settings.initial.clamped != motion.clamped:
             self._session.apply_settings({CLAMPED: motion.clamped})
-        if self._simulation.segment.motion.clamped and old != new:
+        is_forced = motion.friction or any(motion.applied_torque)
+        if self._simulation.segment.motion.clamped and is_forced:
             self._session.answer("clamp", lambda: False)
 
     def _ask(self, event: RunEvent, name: str) -> None:
@@ -204,6 +206,7 @@ def _start_values(event: RunEvent) -> dict[str, Any]:
     }
 
 
-def _list_values(motion: Motion) -> Values:
+def _list_values(motion: Motion, mass: float, gravity: float) -> Values:
     """Return the parameters that say what moves, and what acts on it."""
-    return {**list_body(motion), "steady_torque": list(motion.applied_torque)}
+    body = {**list_body(motion), "mass": mass, "gravity": gravity}
+    return {**body, "steady_torque": list(motion.applied_torque)}

@@ -58,6 +58,8 @@ MOTION: dict[str, Callable[[Motion], Any]] = {
     "motion.pushes": lambda motion: astuple(motion.pushes) if motion.pushes else (),
     "motion.clamped": lambda motion: motion.clamped,
 }
+# What the rig says of the body: if one of them changes, the motion is as before.
+BODY = ("gravity", "mass")
 SEGMENT: dict[str, Callable[[Segment], Any]] = {
     "motion.stamp": lambda segment: segment.stamp,
     "motion.elapsed": lambda segment: segment.begin_time,
@@ -139,7 +141,7 @@ class Event:
     def has_motion_of(self, other: "Event | None") -> bool:
         """Return True if it says the same of the motion itself as another event."""
         return other is not None and all(
-            self.values.get(name) == other.values.get(name) for name in MOTION
+            self.values.get(name) == other.values.get(name) for name in (*MOTION, *BODY)
         )
 
     @property

@@ -22,7 +22,7 @@ from symtop_ros.base.refusals import (
     validate_names,
     vector,
 )
-from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.physics import Body, ExactTimes, Friction, Motion, State, Top
 from symtop_ros.run.simulation.changes.requests import (
     KICK_FIELDS,
     find_hold,
@@ -30,7 +30,7 @@ from symtop_ros.run.simulation.changes.requests import (
     read_kick,
     read_pushes,
 )
-from symtop_ros.run.simulation.events import KICKS, MOTION, RELEASE, RESTARTS, Event
+from symtop_ros.run.simulation.events import BODY, KICKS, MOTION, RELEASE, RESTARTS, Event
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import PARAMETERS
 from symtop_ros.run.wire.layout import NANOSECONDS
@@ -39,7 +39,10 @@ from symtop_ros.run.wire.layout import NANOSECONDS
 # there a double in s has its own ns.
 TABLE = json.loads(Path(__file__).with_name("run_fields.json").read_text(encoding="utf-8"))
 FORMATS: list[int] = TABLE["formats"]  # that are read
-CLAMPED = FORMATS[-1]  # of a run in which the precession is held; others are of the one before
+# Formats by what a run has that readers of the one before would not know.
+PLAIN, CLAMPED, WEIGHED = FORMATS[1:]
+# Mass and gravity of a body, as events of a run have them that do not say so.
+ASSUMED = {name: TABLE["event"][name]["absent"] for name in BODY}
 KINDS: list[str] = TABLE["event"]["kind"]["words"]
 ACTS = ("start", *KICKS, "clamp", "unclamp")
 MAX_BYTES = 100_000_000
@@ -55,6 +58,8 @@ class RunEvent:
     time: int  # ns of the run
     motion: Motion
     act: Mapping[str, Any]  # of a kick or a push, the fields of ~/kick; else empty
+    mass: float = ASSUMED["mass"]  # kg; 0: a body is chosen
+    gravity: float = ASSUMED["gravity"]  # m/s^2
 
     def end_pushes(self, time: int) -> "RunEvent":
         """Return the event with the pushes that were given up to a time in ns of the run."""
@@ -63,6 +68,12 @@ class RunEvent:
         given = self.motion.piece_at(ExactTimes(time - self.time)).number
         motion = self.motion.end_pushes(given)
         return replace(self, motion=motion, act={**self.act, "number": given})
+
+    @property
+    def body(self) -> dict[str, float]:
+        """Mass and gravity that are not those of a body that is chosen."""
+        given = {name: getattr(self, name) for name in BODY}
+        return {name: value for name, value in given.items() if value != ASSUMED[name]}
 
     def to_json(self) -> dict[str, Any]:
         """Return the event as it stands in run.json."""
@@ -77,6 +88,7 @@ class RunEvent:
             "friction": astuple(motion.friction),
             "torque": motion.applied_torque,
             **({"clamped": True} if motion.clamped else {}),
+            **self.body,
             **({"act": self.act} if self.act else {}),
             **({"hold": find_hold(self.act)} if self.kind == "kick" else {}),
         }
@@ -102,7 +114,9 @@ class RunRecorder:
         segment = event.segment()
         previous = self._segment
         values = event.values
-        is_new = event.name in RESTARTS or any(values.get(k) != self._values.get(k) for k in MOTION)
+        is_new = event.name in RESTARTS or any(
+            values.get(k) != self._values.get(k) for k in (*MOTION, *BODY)
+        )
         if previous and is_new:
             # Within one motion its own time counts, in pauses, steps and jumps of the clock too.
             self._begin += previous.elapsed_at(event.previous_end) - segment.elapsed
@@ -113,7 +127,8 @@ class RunRecorder:
         act = _read_act(event, segment.motion) if kind in KICKS else {}
         if kind not in KINDS or (kind in KICKS and not act):
             kind = "change"
-        return RunEvent(kind, max(0, round(self._begin)), segment.motion, act)
+        time, rig = max(0, round(self._begin)), segment.rig
+        return RunEvent(kind, time, segment.motion, act, rig.mass, rig.gravity)
 
     def time_at(self, stamp: int) -> int:
         """Return the time of the run (ns) at a stamp (ns) after the last event."""
@@ -152,12 +167,17 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
 def write_run(events: Iterable[RunEvent], end: int) -> dict[str, Any]:
     """Return the content of run.json, of a run that has reached a time in ns."""
     listed = [*events]
-    is_clamped = any(event.motion.clamped for event in listed)
     return {
-        "format": CLAMPED if is_clamped else CLAMPED - 1,
+        "format": _find_format(listed),
         "events": [event.to_json() for event in listed],
         "end": end / NANOSECONDS,
     }
+
+
+def _find_format(events: Sequence[RunEvent]) -> int:
+    if any(event.body for event in events):
+        return WEIGHED
+    return CLAMPED if any(event.motion.clamped for event in events) else PLAIN
 
 
 def read_run(path: Path) -> tuple[list[RunEvent], int]:
@@ -214,7 +234,10 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
     pushes = read_pushes(act) if kind == "push" else None
     acting = Friction(*values["friction"]), values["torque"], pushes, values["clamped"]
     motion = Motion(top, start, *acting)
-    return RunEvent(kind, time, motion, name_pushes(pushes) if pushes else act)
+    mass, gravity = values["mass"], values["gravity"]
+    if mass:
+        Body.of(top, gravity, mass)  # refuses one that is too small
+    return RunEvent(kind, time, motion, name_pushes(pushes) if pushes else act, mass, gravity)
 
 
 def _read_kick(given: Any) -> Mapping[str, Any]:

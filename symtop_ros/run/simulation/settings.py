@@ -17,7 +17,7 @@ from symtop_ros.base.refusals import (
     refuse,
     vector,
 )
-from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Top
+from symtop_ros.physics import STANDARD_GRAVITY, Body, Friction, Motion, Top
 from symtop_ros.run.simulation.presets import load_scene
 from symtop_ros.run.simulation.sensor.imu import (
     ALONG,
@@ -28,13 +28,17 @@ from symtop_ros.run.simulation.sensor.imu import (
     Imu,
     Magnetometer,
     Rig,
+    find_body,
 )
 from symtop_ros.run.simulation.sensor.noise import MAX_NOISE
 
 NO_TORQUE: Vector = (0.0, 0.0, 0.0)
 PRECESSIONS = ("slow", "fast")
+ANGLES = ("theta", "phi", "psi")
+RATES = ("theta_dot", "phi_dot", "psi_dot")
 MAX_ANGLE = 1e3  # rad; beyond, the reduction of an angle to a turn loses digits
 MAX_RATE = 1e9  # rad/s; of any rate that is requested, and of the top after a kick
+MIN_MOMENT = 1e-30  # kg m^2
 MAX_MOMENT = 1e30  # kg m^2, J, N m or N m s; keeps every product of them finite
 MAX_SEED = 2**53  # a larger number may not be a double
 MAX_PUBLISH_RATE = 2000.0  # Hz
@@ -150,9 +154,9 @@ SEED = Parameter(
 )
 
 PARAMETERS: dict[str, Parameter] = {
-    "top.Ix": _moment(2.28e-4, "moment of inertia across the axis", "kg m^2", 1 / MAX_MOMENT),
+    "top.Ix": _moment(2.28e-4, "moment of inertia across the axis", "kg m^2", MIN_MOMENT),
     "top.Iz": _moment(
-        5.72e-5, "moment of inertia about the axis, at most 2 Ix", "kg m^2", 1 / MAX_MOMENT
+        5.72e-5, "moment of inertia about the axis, at most 2 Ix", "kg m^2", MIN_MOMENT
     ),
     "top.Mgl": _moment(0.068, "weight times distance of the centre of mass", "J", -MAX_MOMENT),
     "initial.theta": _number(0.0, "initial tilt", "rad", 0.0, math.pi),
@@ -200,7 +204,10 @@ PARAMETERS: dict[str, Parameter] = {
     ),
     "record.max_size": _number(0.0, "size at which a new log begins; 0: none", "B", 0.0, 1e15),
     "record.max_duration": _number(0.0, "length at which a new log begins; 0: none", "s", 0.0, 1e9),
-    "gravity": _fix(_number(STANDARD_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3)),
+    "mass": _moment(
+        0.0, "mass of the top; 0: a mass is assumed for the force of the pivot", "kg", 0.0
+    ),
+    "gravity": _number(STANDARD_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3),
     "imu.enabled": _flag(False, "publish ~/imu", read_only=True),
     "imu.position": _fix(_vector("place of the sensor, body frame", 3, MAX_DISTANCE, "m")),
     "imu.orientation": _fix(_vector("quaternion, sensor -> body", 4, 2.0, "x, y, z, w")),
@@ -275,6 +282,7 @@ class Settings:
     publish_tf: bool
     publish_clock: bool
     publish_markers: bool
+    mass: float  # kg; 0: a body is chosen
     gravity: float
     imu: Imu | None
     odometry: bool
@@ -304,6 +312,8 @@ class Settings:
             top, friction = read_body(clean)
         except ValueError as error:  # of the moments together; a friction has its limits above
             raise RefusedError(f"top.{error}") from None
+        if clean["mass"]:
+            Body.of(top, clean["gravity"], clean["mass"])  # refuses one that is too small
         x, y, z = clean["steady_torque"] or NO_TORQUE
         plain = {name: value for name, value in clean.items() if "." not in name}
         return cls(
@@ -318,16 +328,20 @@ class Settings:
         )
 
     def rig(self, begin: int) -> Rig:
-        """Return gravity and the sensor; its biases are zero at the stamp `begin` (ns)."""
-        return Rig(
-            self.gravity, self.imu and replace(self.imu, rate=self.publish_rate, begin=begin)
-        )
+        """Return gravity, mass and sensor, whose biases are zero at the stamp `begin` (ns)."""
+        imu = self.imu and replace(self.imu, rate=self.publish_rate, begin=begin)
+        return Rig(self.gravity, imu, self.mass)
+
+    @property
+    def body(self) -> Body | None:
+        """The body of the top: of its mass, or the chosen one; None if no body can be it."""
+        return find_body(self.top, self.gravity, self.mass)
 
     @classmethod
     def from_scene(cls, name: object, **changes: Any) -> "Settings":
         """Return the settings of a scene, with changes (`__` for the dots in their names)."""
         named = {key.replace("__", "."): value for key, value in changes.items()}
-        return cls.from_values(load_scene(name) | named)
+        return cls.from_values(override_scene(load_scene(name), named))
 
 
 def list_body(motion: Motion) -> dict[str, float]:
@@ -339,6 +353,16 @@ def list_body(motion: Motion) -> dict[str, float]:
 def read_body(values: Mapping[str, Any]) -> tuple[Top, Friction]:
     """Return the top and the friction that parameters describe."""
     return Top(**_group(values, "top.")), Friction(**_group(values, "friction."))
+
+
+def override_scene(scene: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the parameters of a scene with others; a given rate ends its regular precession.
+
+    As in a request: else the rate would be read and silently replaced.
+    """
+    is_given = any(f"initial.{name}" in given for name in ("phi_dot", "theta_dot"))
+    regular = {"initial.precession": ""} if is_given else {}
+    return {**scene, **regular, **given}
 
 
 def _build_imu(clean: Mapping[str, Any]) -> Imu | None:

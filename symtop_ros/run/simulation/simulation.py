@@ -356,7 +356,11 @@ class Simulation:
         old, stamp = self.settings, self.stamp
         for timeline in self.timeline.change_settings(settings, stamp):
             self.apply(timeline)
-        if (settings.top, settings.publish_tf) != (old.top, old.publish_tf):
+        if (settings.top, settings.body, settings.publish_tf) != (
+            old.top,
+            old.body,
+            old.publish_tf,
+        ):
             self._sink.send_description(stamp, settings)
         if settings.publish_rate != old.publish_rate:
             self.restart_grid(stamp)

@@ -14,7 +14,7 @@ import numpy as np
 from symtop_ros.base.arrays import Real, split, stack
 from symtop_ros.physics import State
 from symtop_ros.run.simulation.segment import Segment
-from symtop_ros.run.simulation.sensor.imu import EXACT, find_body
+from symtop_ros.run.simulation.sensor.imu import EXACT
 from symtop_ros.run.wire import messages
 from symtop_ros.run.wire.diagnostics import DIAGNOSTIC_ARRAY
 from symtop_ros.run.wire.layout import Layout
@@ -111,9 +111,15 @@ def _wrench(samples: Samples) -> Real:
     motion = samples.segment.motion
     state = samples.state
     wrench = _after_zeros(motion.total_torque(state))
-    body = find_body(motion.top, samples.segment.rig.gravity)
+    body = samples.segment.rig.find_body(motion.top)
     wrench[..., :3] = body.pivot_force(motion, state) if body else np.nan
     return wrench
+
+
+def _euler_angles(samples: Samples) -> Real:
+    """Euler's angles and their rates; phi' is exactly 0 while a hand holds the precession."""
+    state = samples.state
+    return np.stack([*state.euler_angles, *samples.segment.motion.euler_rates(state)], axis=-1)
 
 
 def _imu(samples: Samples) -> Real:
@@ -150,7 +156,7 @@ def _magnetic_field(samples: Samples) -> Real:
 def _odometry(samples: Samples) -> Real:
     """Pose and twist of the centre of mass, the latter in its own frame, with covariances."""
     state = samples.state
-    body = find_body(samples.segment.motion.top, samples.segment.rig.gravity)
+    body = samples.segment.rig.find_body(samples.segment.motion.top)
     omega = state.angular_velocity
     arm = body.arm if body else np.nan
     x, y, _ = split(omega)
@@ -210,9 +216,7 @@ STATE_TOPICS: dict[str, StateTopic] = {
         _state_topic(
             "~/euler_angles",
             messages.JOINT_STATE,
-            lambda samples: np.stack(
-                [*samples.state.euler_angles, *samples.state.euler_rates], axis=-1
-            ),
+            _euler_angles,
             names=lambda world, _: (world, *messages.JOINTS),
             angles="position",
         ),

@@ -52,7 +52,7 @@ window.judgeCases = async (cases) => {
         world: state.toWorld(state.omega),
         torques: Object.values(findFrameTorques(top, theta, phi, psi)),
         constants: Object.values(findConstants(top, state)),
-        pivot: Object.values(findPivotForce(top, state, 2.0)),
+        pivot: Object.values(findPivotForce(top, state, 2.0, 9.75)),
         potential: [...[0.3, 1.0, 2.5].map((tilt) => potential.at(tilt)), potential.energy],
       },
     });

@@ -27,7 +27,10 @@ def draw_start(rng):
     }
     optional = {"axial": draw_size(span), "transverse": draw_size(span)}
     optional["precession"] = rng.choice(("fast", "slow"))
-    return values | {name: value for name, value in optional.items() if rng.random() < 0.3}
+    chosen = {name: value for name, value in optional.items() if rng.random() < 0.3}
+    if "precession" in chosen:  # which has these rates
+        del values["theta_dot"], values["phi_dot"]
+    return values | chosen
 
 
 def write_address(values):

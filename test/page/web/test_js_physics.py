@@ -102,17 +102,16 @@ def draw_in_python(top, state):
     }
 
 
-MASS = 2.0  # kg, of the body whose pivot is asked
+MASS, GRAVITY = 2.0, 9.75  # kg, m/s^2: of the body whose pivot is asked
 
 
 def find_pivot_force(top, state, fastest):
     """Return the size of the force and its part along the vertical, and the size of its terms."""
-    gravity = physics.STANDARD_GRAVITY
-    arm = (0.0, 0.0, top.Mgl / (MASS * gravity))
-    felt = physics.specific_force(physics.Motion(top, state), state, arm, gravity)
+    arm = (0.0, 0.0, top.Mgl / (MASS * GRAVITY))
+    felt = physics.specific_force(physics.Motion(top, state), state, arm, GRAVITY)
     force = MASS * state.to_world(felt)
     turning = fastest * fastest * (1 + top.Iz / top.Ix) + abs(top.Mgl) / top.Ix
-    terms = abs(top.Mgl) / gravity * turning + MASS * gravity
+    terms = abs(top.Mgl) / GRAVITY * turning + MASS * GRAVITY
     return [math.hypot(*force), float(force[2])], 4 * terms
 
 

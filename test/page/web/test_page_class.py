@@ -46,6 +46,7 @@ def test_a_body_of_parts_is_that_of_python(opened):
     opened.tab.click("#use-body")
     parts = [Part("disc", 0.17, 0.105, 0.055), Part("point", 0.05, -0.08)]
     assert read_top(opened) == list(Body.of_parts(parts).top.moments)
+    assert (opened.read_events()[-1]["mass"], opened.read_run()["format"]) == (0.17 + 0.05, 4)
     wait_for_table(opened, "(0.22 kg)")
     opened.tab.locator("#parts .part button").nth(1).click()
     opened.tab.click("#use-body")
@@ -61,6 +62,26 @@ def test_a_list_that_is_typed_is_not_said_to_move_as_the_top_does_until_it_is_us
     assert opened.say("parts-text") == "This list is not used yet:"
     opened.tab.click("#use-body")
     opened.until(lambda: opened.say("parts-text").startswith("This top is a body of parts"))
+
+
+def test_a_run_of_a_body_that_was_weighed_names_its_mass_and_has_its_force(opened):
+    opened.open_tab("start")
+    opened.tab.select_option("#bodies", "balanced_gyroscope")
+    run = opened.read_run()
+    opened.tab.reload()
+    opened.drop(run)
+    opened.until(lambda: opened.read_events() == run["events"])
+    opened.open_tab("start")
+    opened.until(lambda: "2.6 kg" in opened.say("parts-text"))
+    wait_for_table(opened, "(2.6 kg)")
+
+
+def test_a_scene_that_says_a_mass_has_the_force_of_it(opened):
+    opened.follow("scene=toy_gyroscope")
+    assert opened.read_events()[-1]["mass"] == 0.06
+    wait_for_table(opened, "(0.06 kg)")
+    opened.follow("scene=cusps")
+    assert "mass" not in opened.read_events()[-1]
 
 
 @pytest.mark.parametrize("name", BODIES)

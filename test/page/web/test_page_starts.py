@@ -119,6 +119,7 @@ def test_a_reset_of_a_loaded_run_keeps_its_torque(opened):
 REFUSED = [
     ("precession=medium", "precession must be slow or fast, got medium"),
     ("precession=", "precession must be slow or fast, got nothing"),
+    ("theta=1&precession=slow&phi_dot=3", "precession must be given without phi_dot, got both"),
     ("torque=1,2", "torque must have 3 elements (N m), got 2"),
     ("torque=1,2,soon", "torque must be a number, got soon"),
     ("orientation=1,0,0,0", "orientation in a link must be given with angular_velocity, and "),

@@ -29,6 +29,7 @@ from symtop_ros.run.simulation.settings import PARAMETERS
 
 STEP = 1 / 64  # s between two acts
 COEFFICIENTS = {name: (k + 1) * 2.0**-20 for k, name in enumerate(FRICTION_KINDS)}
+WANTED = {"mass": 0.5}  # kg; a lighter one no body of the top has
 NOT_DRAWN = ("record.", "publish_clock", "real_time_priority")  # of the process, not of the motion
 
 
@@ -48,7 +49,7 @@ def draw_value(name):
         return not given
     if limits is None:
         return None
-    wanted = given * 1.25 or 2.0**-12
+    wanted = given * 1.25 or WANTED.get(name, 2.0**-12)
     return type(given)(min(max(wanted, limits[0]), limits[1]))
 
 

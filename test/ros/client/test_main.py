@@ -64,12 +64,35 @@ def test_start_kick_and_state_work_together(ctl):
     assert ctl("resume").returncode == 0
 
 
+def test_a_factor_may_follow_hurry_and_delay(ctl):
+    for word, factor in (("hurry", 1.25), ("delay", 1 / 1.25)):
+        assert ctl("start").returncode == 0
+        assert ctl("pause").returncode == 0
+        before = json.loads(ctl("state", "--json").stdout)["euler_rates"]["phi"]
+        assert ctl(word, "1.25").returncode == 0
+        after = json.loads(ctl("state", "--json").stdout)["euler_rates"]["phi"]
+        assert after == pytest.approx(factor * before, rel=1e-13)
+        assert ctl("resume").returncode == 0
+    assert ctl("delay").returncode == 0
+
+
+def test_a_name_of_no_start_is_refused_before_a_node_is_looked_for(ctl):
+    result = main(["--node", "/missing", "start", "thetta=0.5"])
+    assert result == 1
+    result = ctl("start", "thetta=0.5")
+    assert result.returncode == 1
+    assert result.stderr.startswith("top_ctl: field name must be one of theta, phi, ")
+    assert result.stderr.endswith("(the nearest is theta), got 'thetta'\n")
+
+
 def test_a_hand_holds_the_precession_and_lets_it_go(ctl):
     assert ctl("start", "theta=0.5", "psi_dot=200").returncode == 0
     assert ctl("clamp", "on").stdout.startswith("Clamped, the axle falls as if ")
     assert ctl("clamp", "on").stdout == "the precession is held already\n"
     refused = ctl("hurry")
-    assert refused.stderr.startswith("top_ctl: kick must come while the precession is free: ")
+    assert refused.stderr.startswith(
+        "top_ctl: kick must come while the precession is free, got it held: "
+    )
     assert json.loads(ctl("state", "--json").stdout)["clamped"]
     assert ctl("clamp", "off").stdout.startswith("Let go (")
 

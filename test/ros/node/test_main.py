@@ -11,11 +11,13 @@ from exact_log import assert_exact
 from geometry_msgs.msg import QuaternionStamped
 from odd_values import assert_one_sentence
 from programs import command, environment, execute, run, running, set_parameters, write_without
+from rcl_interfaces.srv import GetParameters
 from ros.node.listener import Listener
 from std_srvs.srv import Trigger
 from trials import choose
 
 from symtop_ros.ros.client.connection import Connection
+from symtop_ros.ros.node.options import find_fault
 from workshop.load.domains import claim_domain
 
 DOMAIN = claim_domain()
@@ -23,6 +25,63 @@ SIGNALS = signal.SIGHUP, signal.SIGINT, signal.SIGTERM
 HEAD = "/**:\n  ros__parameters:\n"
 FILES = {"alias": "    a: &a 1.0\n    top: {Ix: *a}\n"}
 FILES["no_list"] = "    initial: {orientation: 5}\n"
+
+
+WRONG_FORMS = [
+    (
+        "scene:=hurry_slow",
+        "scene must be given as a parameter (--scene hurry_slow, or --ros-args -p ",
+    ),
+    (
+        "--ros-args -r scene:=disc",
+        "scene must be given as a parameter (--scene disc, or --ros-args ",
+    ),
+    (
+        "publish_rate:=100",
+        "publish_rate must be given as a parameter (--ros-args -p publish_rate:=",
+    ),
+    ("--ros-args -r top.Mgl:=1", "top.Mgl must be given as a parameter (--ros-args -p top.Mgl:=1)"),
+    (
+        "--scene disc --ros-args -p scene:=free",
+        "scene must be given once, got --scene disc and -p ",
+    ),
+    ("--scene cups", "scene must be one of above_fast_root, "),
+]
+
+
+@pytest.mark.parametrize(("words", "reason"), WRONG_FORMS)
+def test_a_wrong_form_is_answered_with_the_right_one(words, reason):
+    result = run("top_node", *words.split(), domain=DOMAIN)
+    assert result.returncode == (1 if "--scene" in words else 2)
+    assert result.stderr.startswith(f"top_node: {reason}")
+    assert result.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "fault"),
+    [
+        ("--ros-args -p scene:=disc --param top.Mgl:=1", ""),
+        ("--ros-args -r __node:=other -r imu:=/imu -r /top/kick:=push", ""),
+        ("--ros-args -r gravity:=9.8", "gravity must be given as a parameter"),
+    ],
+)
+def test_a_remapping_of_other_names_is_none_of_a_parameter(words, fault):
+    assert find_fault(words.split()).startswith(fault)
+    assert bool(find_fault(words.split())) == bool(fault)
+
+
+def test_a_scene_may_be_a_plain_option():
+    with (
+        running(command("top_node", "--scene", "looping"), DOMAIN) as node,
+        Listener(DOMAIN) as user,
+    ):
+        top = Connection(user.node, timeout=300.0)
+        (value,) = top.call(
+            GetParameters, "get_parameters", GetParameters.Request(names=["scene"])
+        ).values
+        assert value.string_value == "looping"
+        node.send_signal(signal.SIGINT)
+        assert node.wait(timeout=300) == 0
 
 
 @pytest.fixture(autouse=True)

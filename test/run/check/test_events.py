@@ -17,7 +17,16 @@ from symtop_ros.run.wire.layout import Reader
 
 # Not said elsewhere in a log: the scene's name, the paths of logs, the frame of /tf, whether
 # another version wrote it, and why a torque changed. `GIVEN` is of the first event.
-GIVEN = ("top", "friction", "applied_torque", "gravity", "motion.", "imu.", "magnetic_field.")
+GIVEN = (
+    "top",
+    "friction",
+    "applied_torque",
+    "gravity",
+    "mass",
+    "motion.",
+    "imu.",
+    "magnetic_field.",
+)
 FREE = (
     "request.scene",
     "outcome.path",

@@ -156,3 +156,19 @@ def test_where_the_motion_is_not_known_a_number_is_that_of_an_event_by_its_own_s
     check = LogCheck(make_account([event], places=[0], stretches=stretches))
     check.add("torque", Columns(stamps, numbers, np.arange(1, 11)))
     assert check.deviations["torque"].unjudged == 1
+
+
+def test_the_rounded_rates_of_a_held_precession_in_older_logs_are_accepted_and_no_others():
+    """Up to version 0.5 phi' and psi' were those of the state, not exactly 0 and omega_z."""
+    event = start_event(Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0), clamped=True))
+    stamps = np.arange(1, 101) * 5_000_000
+    samples = Samples.at(event.segment(), stamps)
+    now = SAMPLE_TOPICS["euler_angles"].compute(samples)
+    older = np.stack([*samples.state.euler_angles, *samples.state.euler_rates], axis=-1)
+    assert (now != older).any()
+    wrong = older.copy()
+    wrong[7, 3] += 1e-16
+    for numbers, differing in ((now, 0), (older, 0), (wrong, 1)):
+        check = LogCheck(make_account([event], places=[0]))
+        check.add("euler_angles", Columns(stamps, numbers, np.arange(1, 101)))
+        assert check.deviations["euler_angles"].differing == differing

@@ -11,7 +11,7 @@ from symtop_ros.physics import clamp_verdict, kick_verdict, perrys_rule
 from symtop_ros.run.session.diagnostics import balance_status, motion_status, summarize_state
 from symtop_ros.run.simulation.settings import Settings
 
-HELD = "must come while the precession is free: release it first (~/clamp with false)"
+HELD = "must come while the precession is free, got it held: release it first (~/clamp with false)"
 
 
 @pytest.fixture(name="held")
@@ -33,9 +33,8 @@ def test_it_stops_the_precession_and_says_what_follows():
     assert (granted, answer) == (True, str(clamp_verdict(ARTICLE, before)))
     assert motion.kind == "clamped"
     assert run.sink.events[-1].name == "clamp"
-    rates = run.simulation.state.euler_rates
-    former = before.euler_rates
-    assert abs(rates.phi) <= 4 * EPS * former.phi
+    rates = motion.euler_rates(run.simulation.state)
+    assert rates.phi == 0.0
     p_psi = [float(ARTICLE.axial_momentum(each)) for each in (before, run.simulation.state)]
     assert p_psi[0] == p_psi[1]
     run.advance(0.15)
@@ -80,12 +79,12 @@ def test_what_would_act_on_a_held_precession_is_refused_and_changes_nothing(
 
 
 def test_torques_and_friction_are_refused_while_it_is_held(held):
-    with pytest.raises(ValueError, match="torque must come while the precession is free"):
+    with pytest.raises(ValueError, match="~/applied_torque must come while the precession is free"):
         held.simulation.hold_torque((0.0, 0.0, 1e-4))
     timeline, stamp = held.simulation.timeline, held.simulation.stamp
-    for changes in ({"friction.axial": 1e-6}, {"steady_torque": [0.0, 0.0, 1e-4]}):
-        settings = Settings.from_values({**timeline.settings.values, **changes})
-        with pytest.raises(ValueError, match="must come while the precession is free"):
+    for name, value in (("friction.axial", 1e-6), ("steady_torque", [0.0, 0.0, 1e-4])):
+        settings = Settings.from_values({**timeline.settings.values, name: value})
+        with pytest.raises(ValueError, match=f"^{name} must come while the precession is free"):
             timeline.change_settings(settings, stamp)
     assert find_motion(held).clamped
     held.change({"top.Mgl": 0.05})  # another weight falls as well
@@ -93,15 +92,55 @@ def test_torques_and_friction_are_refused_while_it_is_held(held):
     assert find_motion(held).top.Mgl == 0.05
 
 
-@pytest.mark.parametrize(
-    ("scene", "reason"), [("sleeping", "a tilted axis"), ("friction", "without friction")]
-)
-def test_a_vertical_axis_or_friction_refuses_the_clamp(scene, reason):
-    run = Run(scene, 0.1)
+TORQUE = "steady_torque plus ~/applied_torque"
+OBSTACLES = [
+    ({"scene": "sleeping"}, "theta must be > 0 and < pi rad for ~/clamp (no phi on the ", "0"),
+    (
+        {"friction.axial": 2.0**-20},
+        "friction.axial must be 0 for ~/clamp, got",
+        "9.5367431640625e-07",
+    ),
+    ({"friction.transverse": 0.5}, "friction.transverse must be 0 for ~/clamp, got", "0.5"),
+    ({"steady_torque": [0.0, 0.0, 0.5]}, f"{TORQUE} must be 0 for ~/clamp, got", "[0.0, 0.0, 0.5]"),
+]
+
+
+@pytest.mark.parametrize(("changes", "reason", "got"), OBSTACLES)
+def test_a_clamp_is_refused_by_the_name_and_the_value_of_its_obstacle(changes, reason, got):
+    run = Run(seconds=0.1, **changes)
     granted, answer = run.ask("clamp", True)
     assert not granted
-    assert reason in answer
+    assert answer.startswith(reason)
+    assert answer.endswith(f"got {got}")
     assert not find_motion(run).clamped
+
+
+NOT_HELD = [
+    ({"theta": 0.0}, {}, "for a start on the vertical (theta = 0 rad), got True"),
+    ({}, {"friction.axial": 0.5}, "together with friction.axial = 0.5, got True"),
+    ({}, {"steady_torque": [0.0, 0.5, 0.0]}, f"together with {TORQUE} = [0.0, 0.5, 0.0], got True"),
+]
+
+
+@pytest.mark.parametrize(("start", "changes", "reason"), NOT_HELD)
+def test_a_start_that_cannot_be_held_names_the_parameter_that_would_hold_it(start, changes, reason):
+    run = Run("cusps", initial__clamped=True)
+    run.ask("clamp", False)
+    run.change(changes)
+    before = run.simulation.segment
+    granted, answer = run.ask("set_initial_conditions", start)
+    assert not granted
+    assert answer == f"initial.clamped must be false {reason}"
+    assert run.simulation.segment is before
+    if not start:
+        assert run.ask("reset") == (False, answer)
+    with pytest.raises(ValueError, match=r"initial\.clamped must be false "):
+        Run(
+            "cusps",
+            initial__clamped=True,
+            **changes,
+            **{f"initial.{k}": v for k, v in start.items()},
+        )
 
 
 @pytest.mark.parametrize("service", ["reset", "set_initial_conditions"])
@@ -137,6 +176,11 @@ def test_the_state_and_the_diagnostics_say_that_a_hand_holds_it(held):
     verdict = str(clamp_verdict(ARTICLE, segment.motion.start))
     assert (found["clamped"], found["kind"], found["verdict"]) == (True, "clamped", verdict)
     assert (found["why"], found["perrys_rule_holds"]) == ("", None)
+    assert (found["mean_precession_rate"], found["fast_top_precession_rate"]) == (0.0, None)
+    spin = float(ARTICLE.axial_momentum(segment.motion.start)) / ARTICLE.Iz
+    assert found["mean_spin_rate"] == pytest.approx(spin, rel=2 * EPS)
+    assert (found["euler_rates"]["phi"], found["seen_from_above"]) == (0.0, "")
+    assert found["euler_rates"]["psi"] == found["mean_spin_rate"]
     hand = np.array(found["torque"]) - ARTICLE.gravity_torque(held.simulation.state)
     assert np.linalg.norm(hand) > 0
     motion = motion_status(segment, stamp, 1)

@@ -20,7 +20,6 @@ from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.changes.outcomes import Pause, Step
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment, to_nanoseconds
-from symtop_ros.run.simulation.sensor.imu import find_body
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.run.simulation.topics import STATE_TOPICS, Samples
 from symtop_ros.words import write
@@ -77,7 +76,7 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
         state = segment.state_at(0)
         for topic in STATE_TOPICS.values():
             numbers = topic.compute(Samples(segment, 0, state))
-            if topic.name == "torque" and not find_body(motion.top, segment.rig.gravity):
+            if topic.name == "torque" and not segment.rig.find_body(motion.top):
                 numbers = numbers[topic.format.quantities["torque"]]  # the force is unknown
             assert np.isfinite(numbers).all()
         json.loads(json.dumps(summarize_state(segment, 0), allow_nan=False))
@@ -149,7 +148,10 @@ REFUSED = [
     ({}, "kick", {**PUSHES, "axle_impulse": 1e9}, "axle_impulse must be such that angular_"),
     ({}, "kick", {"axle_impulse": 1e-5, "hold": "spin_rate"}, "hold must be given without axle_"),
     ({}, "release", None, "release must follow pushes that have not ended, got none"),
-    (SLEEPING, "kick", PUSHES, "axis must be tilted (phi' is undefined on the vertical"),
+    (SLEEPING, "kick", PUSHES, "theta must be > 0 and < pi rad for axle_impulse (no phi' "),
+    (SLEEPING, "kick", {"precession_rate": 1.0}, "theta must be > 0 and < pi rad for precession_"),
+    ({}, "kick", {"precession_rate": 1e200}, "precession_rate must be such that angular_velocity"),
+    ({}, "kick", {"precession_rate_change": -1e300}, "precession_rate_change must be such that "),
     ({}, "step", {"duration": 1.0, "speed": 2.0}, "field name must be one of duration, got "),
     ({}, "step", {}, "duration must be 0 to 1e+09 s, got none"),
     ({}, "step", {"duration": 1e15}, "duration must be 0 to 1e+09 s, got "),
@@ -279,7 +281,7 @@ def test_the_state_has_the_time_of_a_turn_and_the_force_of_the_pivot():
     slow, fast = found["regular_precession_rates"]
     assert found["regular_precession_periods"] == [2 * math.pi / slow, 2 * math.pi / fast]
     assert found["seen_from_above"] == "counterclockwise"
-    body = find_body(segment.motion.top, segment.rig.gravity)
+    body = segment.rig.find_body(segment.motion.top)
     x, y, z = found["pivot_force"]
     turning = body.mass * body.arm * math.sin(0.5) * slow**2  # towards the vertical
     assert math.hypot(x, y) == pytest.approx(turning)

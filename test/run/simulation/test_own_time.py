@@ -247,7 +247,7 @@ def test_a_reset_to_a_start_that_is_refused_leaves_time_and_motion_as_they_are()
     events = len(run.sink.events)
     now = simulation.now
     done, refusal = simulation.take_turn("reset", lambda: attempt(lambda: reset(simulation)))
-    assert (done, refusal.startswith("precession must be")) == (False, True)
+    assert (done, refusal.startswith("initial.precession must be")) == (False, True)
     assert (simulation.now, len(run.sink.events)) == (now, events)
     run.advance(0.1)
     assert run.stamps == sorted(set(run.stamps))

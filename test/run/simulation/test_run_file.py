@@ -36,7 +36,7 @@ def test_a_run_without_an_end_ends_with_its_last_event(tmp_path):
 NO_RUNS = [
     (b"\xff" * 100, "must be a run of the page"),
     ([], "must be a run of the page"),
-    ({"format": 4, "events": []}, "must be a run of the page"),
+    ({"format": 5, "events": []}, "must be a run of the page"),
     ({"format": 1, "events": []}, "events must be "),
     ({"format": 1, "events": [3]}, r"events\[0\]: kind must be "),
     (change(0, kind="torque"), r'events\[0\]: kind must be "start" for the first event, got '),

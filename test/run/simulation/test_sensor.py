@@ -197,7 +197,7 @@ def test_noise_of_the_magnetometer_has_its_own_seed_and_a_random_walk():
 def test_the_simulation_equips_its_motions_and_tells_of_its_frames():
     run = Run(**{"imu.enabled": True, "imu.position": list(PLACE), "odometry.enabled": True})
     settings = run.sink.descriptions[0]
-    body = Body.of(settings.top, settings.gravity)
+    body = settings.body
     frames = list_fixed_frames(settings.top_frame, settings.imu, body)
     assert [each.child for each in frames] == ["top_imu", "top_centre_of_mass"]
     assert frames[0].translation == PLACE

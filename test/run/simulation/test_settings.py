@@ -42,7 +42,6 @@ def test_sensors_frames_topics_and_the_log_are_chosen_at_the_start():
     fixed = {name for name, parameter in PARAMETERS.items() if parameter.read_only}
     groups = ("imu.", "magnetic_field.", "odometry.")
     assert fixed - {name for name in PARAMETERS if name.startswith(groups)} == {
-        "gravity",
         "publish_clock",
         "publish_markers",
         "record.directory",
@@ -77,7 +76,7 @@ NOISE = (
 )
 # Part of the interface: `ros2 param describe` shows them, and a launch file may rely on them.
 RANGES = {
-    ("top.Ix", "top.Iz"): (1 / 1e30, 1e30),
+    ("top.Ix", "top.Iz"): (1e-30, 1e30),
     ("top.Mgl",): (-1e30, 1e30),
     ("initial.theta",): (0.0, math.pi),
     ("initial.phi", "initial.psi"): (-1e3, 1e3),
@@ -89,6 +88,7 @@ RANGES = {
     ("real_time_factor",): (1e-3, 100.0),
     ("record.max_size",): (0.0, 1e15),
     ("record.max_duration",): (0.0, 1e9),
+    ("mass",): (0.0, 1e30),
     ("gravity",): (1e-3, 1e3),
     NOISE: (0.0, 1e6),
     ("imu.noise.seed", "magnetic_field.noise.seed"): (0, 2**53),
@@ -164,3 +164,15 @@ def test_long_text_is_shortened_in_its_middle_and_soon():
         assert line.startswith("begin ")
         assert line.endswith(" end")
         assert "..." in line
+
+
+def test_a_rate_that_is_given_ends_the_regular_precession_of_a_scene():
+    assert Settings.from_scene("hurry_slow").initial.precession == "slow"
+    initial = Settings.from_scene("hurry_slow", initial__phi_dot=3.0).initial
+    assert (initial.precession, initial.phi_dot) == ("", 3.0)
+    both = {"initial__phi_dot": 3.0, "initial__precession": "fast"}
+    assert Settings.from_scene("hurry_slow", **both).initial.precession == "fast"
+
+
+def test_a_condition_is_written_in_round_numbers():
+    assert PARAMETERS["top.Ix"].condition == "1e-30 to 1e+30 kg m^2"

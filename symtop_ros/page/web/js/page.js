@@ -229,7 +229,7 @@ export class Page {
   showParts(facts) {
     if (!this.parts || !this.top) return;
     const { kernel } = this.top;
-    this.parts.show(facts, (parts) => kernel.findBody(parts));
+    this.parts.show(facts, (parts) => kernel.findBody(parts, facts.weighed.gravity));
     this.charts.mass = this.parts.mass;
   }
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from symtop_ros.base.refusals import Words, refuse, show
 from symtop_ros.physics import KickVerdict, State, clamp_verdict, kick_verdict
+from symtop_ros.run.simulation.changes.obstacles import FRICTIONS, demand_free, demand_held_start
 from symtop_ros.run.simulation.changes.outcomes import (
     ClockJump,
     Outcome,
@@ -24,13 +25,13 @@ from symtop_ros.run.simulation.changes.outcomes import (
     Torque,
 )
 from symtop_ros.run.simulation.changes.requests import (
-    demand_free,
     plan_clamp,
     plan_kick,
     plan_pushes,
     plan_release,
     plan_unclamp,
 )
+from symtop_ros.run.simulation.changes.seen import Solved
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import list_body, read_body
 from symtop_ros.run.wire.diagnostics import write_text
@@ -51,6 +52,7 @@ class Act:
     told: Outcome | None = None  # where no motion shows the outcome, as the path of a log
     left: Segment | None = None  # what an action has left that failed
     clamped: bool = False  # of a restart: whether a hand holds its precession
+    solved: Solved | None = None  # of a restart from what is seen
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,8 +120,10 @@ Ruled = tuple[Segment, Told]  # the segment that follows, and what is said of it
 
 def _restart(segment: Segment, act: Act, before: State) -> Ruled:
     start = act.start or before
+    if act.clamped:
+        demand_held_start(start, segment.motion.friction, segment.motion.applied_torque)
     segment = demand_a_day(segment.change(act.stamp, start, clamped=act.clamped))
-    return segment, Start.of(segment.motion)
+    return segment, Start.of(segment.motion, act.solved)
 
 
 def _kick(segment: Segment, act: Act, before: State) -> Ruled:
@@ -194,7 +198,8 @@ def _change_pace(segment: Segment, act: Act, _: State) -> Ruled:
 def _change_torque(segment: Segment, act: Act, before: State) -> Ruled:
     x, y, z = torque = act.request["torque"]
     if torque != segment.motion.applied_torque:
-        demand_free(segment.motion, "torque")
+        is_steady = isinstance(act.told, Torque) and act.told.kind == "steady"
+        demand_free(segment.motion, "steady_torque" if is_steady else "~/applied_torque")
         segment = segment.change(act.stamp, before, torque=torque)
     told = replace(act.told, torque=(x, y, z)) if isinstance(act.told, Torque) else None
     return segment, told
@@ -206,10 +211,16 @@ def _change_parameters(segment: Segment, act: Act, before: State) -> Ruled:
     motion = segment.motion
     values = list_body(motion)
     body = read_body(values | {name: float(request[name]) for name in values if name in request})
-    if body != (motion.top, motion.friction):
-        if any(astuple(body[1])):
-            demand_free(motion, "friction")
-        following = following.change(act.stamp, before, *body)
+    rig = replace(
+        segment.rig,
+        gravity=float(request.get("gravity", segment.rig.gravity)),
+        mass=float(request.get("mass", segment.rig.mass)),
+    )
+    if body != (motion.top, motion.friction) or rig != segment.rig:
+        for name, value in zip(FRICTIONS, astuple(body[1]), strict=True):
+            if value:
+                demand_free(motion, name)
+        following = replace(following.change(act.stamp, before, *body), rig=rig)
     if "real_time_factor" in request and act.factor != segment.factor:
         following = following.set_factor(float(request["real_time_factor"]), act.stamp)
     if following is not segment:

@@ -4,7 +4,7 @@
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from symtop_ros.base.arrays import Vector
@@ -22,6 +22,7 @@ from symtop_ros.physics import (
     push_axle,
 )
 from symtop_ros.run.simulation.changes.decay import Decay
+from symtop_ros.run.simulation.changes.seen import Solved
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.words import write
 
@@ -52,14 +53,24 @@ class Start:
     verdict: Verdict | None  # None of a motion whose precession is held
     clamp: ClampVerdict | None = None  # of such a motion
     decay: Decay | None = None  # None if friction does not change the precession
+    solved: Solved | None = None  # None if the start was not asked for by what is seen
+
+    @property
+    def kind(self) -> Literal["solved"] | None:
+        """Kind of its sentence."""
+        return "solved" if self.solved else None
 
     @classmethod
-    def of(cls, motion: Motion) -> "Start":
+    def of(cls, motion: Motion, solved: Solved | None = None) -> "Start":
         """Return the outcome of the start of a motion."""
         if motion.clamped:
-            return cls(motion.kind, None, None, clamp_verdict(motion.top, motion.start))
+            held = clamp_verdict(motion.top, motion.start)
+            return cls(motion.kind, None, None, held, solved=solved)
         verdict = perrys_rule(motion.top, motion.start)
-        return cls(motion.kind, Neglected.of(motion), verdict, decay=Decay.of(motion))
+        neglected = Neglected.of(motion)
+        if solved and neglected:
+            solved = replace(solved, caveat=neglected.forces)
+        return cls(motion.kind, neglected, verdict, decay=Decay.of(motion), solved=solved)
 
 
 @dataclass(frozen=True, slots=True)

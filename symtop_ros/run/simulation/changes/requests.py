@@ -37,12 +37,27 @@ from symtop_ros.physics import (
     regular_precession_rates,
     set_precession_rate,
 )
+from symtop_ros.run.simulation.changes.obstacles import (
+    demand_clampable,
+    demand_free,
+    demand_held_start,
+    demand_tilted,
+)
+from symtop_ros.run.simulation.changes.seen import (
+    SEEN,
+    SOLUTION,
+    Solved,
+    asks_to_solve,
+    solve_request,
+)
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import (
+    ANGLES,
     MAX_ANGLE,
     MAX_MOMENT,
     MAX_RATE,
     PRECESSIONS,
+    RATES,
     InitialConditions,
     Settings,
 )
@@ -54,10 +69,10 @@ KINDS = tuple(name for name, field in FIELDS.items() if "kick" in field)
 PUSHES = ("axle_impulse", "rate", "number")  # of a push
 KICK_FIELDS = (*KINDS, "hold", *PUSHES[1:])
 LARGEST_IMPULSE = 1e30  # N m s
-ANGLES = ("theta", "phi", "psi")
-RATES = ("theta_dot", "phi_dot", "psi_dot")
 DIRECT = ("orientation", "angular_velocity")
 START_FIELDS = (*ANGLES, *RATES, *DIRECT, "precession")
+# What ~/set_initial_conditions knows, besides what is seen of a motion.
+ALL_START_FIELDS = (*START_FIELDS, *SEEN, SOLUTION)
 
 
 def read_kick(texts: Mapping[str, str]) -> dict[str, Any]:
@@ -86,7 +101,13 @@ def plan_kick(
     hold = find_hold(request)
     if "hold" in request and FIELDS[kind]["holds"] != "chosen":
         raise RefusedError(f"hold must be given without {kind}, got both")
-    after = KICKS[kind](motion.top, state, _read_amount(kind, request[kind]), hold)
+    amount = _read_amount(kind, request[kind])
+    if kind != "angular_impulse":
+        demand_tilted(state, kind)
+    try:
+        after = KICKS[kind](motion.top, state, amount, hold)
+    except ValueError:  # such an amount that the kernel has no state
+        raise _refuse_rates(kind, request) from None
     _limit_rates(kind, request, after)
     return motion.restart(after), hold
 
@@ -129,6 +150,7 @@ def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> tup
     validate_names(request, KICK_FIELDS)
     demand_free(motion, "pushes")
     pushes = read_pushes(request)
+    demand_tilted(state, "axle_impulse")
     first = push_axle(motion.top, state, pushes.impulse)
     pushed = Motion(motion.top, first, motion.friction, motion.applied_torque, pushes)
     # Under gravity alone all pushes are tried; else it would take their time to reach the last.
@@ -142,8 +164,8 @@ def plan_clamp(motion: Motion, state: State) -> Motion:
     """Return the motion that follows if a hand begins to hold the precession of a motion."""
     if motion.clamped:
         raise RefusedError("clamp must come while the precession is free, got it held")
-    forces = motion.friction, motion.applied_torque
-    return Motion(motion.top, state, *forces, clamped=True)
+    demand_clampable(motion, state)
+    return Motion(motion.top, state, clamped=True)
 
 
 def plan_unclamp(motion: Motion, state: State) -> Motion:
@@ -151,14 +173,6 @@ def plan_unclamp(motion: Motion, state: State) -> Motion:
     if not motion.clamped:
         raise RefusedError("unclamp must come while the precession is held, got it free")
     return motion.restart(state)
-
-
-def demand_free(motion: Motion, what: str) -> None:
-    """Refuse what would act on a precession that a hand holds."""
-    if motion.clamped:
-        raise RefusedError(
-            f"{what} must come while the precession is free: release it first (~/clamp with false)"
-        )
 
 
 def plan_release(segment: Segment, stamp: int) -> tuple[Segment, Pushes]:
@@ -193,24 +207,39 @@ def name_pushes(pushes: Pushes) -> dict[str, float]:
 
 def _limit_rates(kind: str, request: Mapping[str, Any], after: State) -> None:
     if max(map(abs, after.angular_velocity.tolist())) > MAX_RATE:
-        what = "such that angular_velocity has components of at most"
-        raise refuse(kind, f"{what} {MAX_RATE:g} rad/s (body frame)", request[kind])
+        raise _refuse_rates(kind, request)
+
+
+def _refuse_rates(kind: str, request: Mapping[str, Any]) -> RefusedError:
+    what = "such that angular_velocity has components of at most"
+    return refuse(kind, f"{what} {MAX_RATE:g} rad/s (body frame)", request[kind])
 
 
 def start_motion(settings: Settings) -> Motion:
     """Return the motion of a scene from its initial conditions."""
-    return Motion(
-        settings.top,
-        initial_state(settings.top, settings.initial, {}),
-        settings.friction,
-        settings.steady_torque,
-        clamped=settings.initial.clamped,
-    )
+    start = initial_state(settings.top, settings.initial, {})
+    clamped = settings.initial.clamped
+    acting = settings.friction, settings.steady_torque
+    if clamped:
+        demand_held_start(start, *acting)
+    return Motion(settings.top, start, *acting, clamped=clamped)
+
+
+def plan_start(
+    top: Top, defaults: InitialConditions, request: Mapping[str, Any]
+) -> tuple[State, Solved | None]:
+    """Return the state that a request asks for, and its solution if it says what is seen."""
+    if not asks_to_solve(request):
+        return initial_state(top, defaults, request), None
+    solved = solve_request(top, defaults, request, START_FIELDS)
+    if defaults.clamped:
+        solved = replace(solved, caveat="held")
+    return solved.start, solved
 
 
 def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, Any]) -> State:
     """Return the state that a request asks for."""
-    validate_names(request, START_FIELDS)
+    validate_names(request, ALL_START_FIELDS)
     _refuse_contradictions(request)
     if any(name in request for name in DIRECT):
         return _from_quaternion(request["orientation"], request["angular_velocity"])
@@ -219,7 +248,8 @@ def initial_state(top: Top, defaults: InitialConditions, request: Mapping[str, A
     values = {name: getattr(defaults, name) for name in (*ANGLES, *RATES, "precession")}
     if "phi_dot" in request or "theta_dot" in request:
         values["precession"] = ""  # a requested rate replaces the default of regular precession
-    return _from_euler(top, {**values, **request})
+    name = "precession" if "precession" in request else "initial.precession"
+    return _from_euler(top, {**values, **request}, name)
 
 
 def _refuse_contradictions(request: Mapping[str, Any]) -> None:
@@ -244,20 +274,21 @@ def _from_quaternion(orientation: Any, angular_velocity: Any) -> State:
     return State((w, x, y, z), omega)
 
 
-def _from_euler(top: Top, values: Mapping[str, Any]) -> State:
+def _from_euler(top: Top, values: Mapping[str, Any], name: str) -> State:
     theta = number("theta", values["theta"], "rad", 0.0, math.pi)
     angles = {name: number(name, values[name], "rad", -MAX_ANGLE, MAX_ANGLE) for name in ANGLES}
     rates = {name: number(name, values[name], "rad/s", -MAX_RATE, MAX_RATE) for name in RATES}
     if values["precession"]:
         which = choice("precession", values["precession"], PRECESSIONS)
         rates |= {
-            "phi_dot": _regular_rate(top, which, theta, rates["psi_dot"]),
+            "phi_dot": _regular_rate(top, which, theta, rates["psi_dot"], name),
             "theta_dot": 0.0,
         }
     return State.from_euler(**angles, **rates)
 
 
-def _regular_rate(top: Top, which: str, theta: float, psi_dot: float) -> float:
+def _regular_rate(top: Top, which: str, theta: float, psi_dot: float, name: str) -> float:
+    """Return a root of regular precession; `name` is that of what asks for it."""
     rates = regular_precession_rates(top, theta=theta, psi_dot=psi_dot)
     roots = [float(rate) for rate in rates if abs(rate) <= MAX_RATE]
     if len(roots) > PRECESSIONS.index(which):
@@ -267,7 +298,8 @@ def _regular_rate(top: Top, which: str, theta: float, psi_dot: float) -> float:
         count = "every rate, none of them slow or fast"
     if len(roots) < len(rates):
         count += f" up to {MAX_RATE:g} rad/s"
+    exists = "a rate that exists" + (", or empty" if name.startswith("initial.") else "")
     raise RefusedError(
-        f'precession must be a rate that exists, got "{which}": at theta {theta:g} rad and psi_dot '
+        f'{name} must be {exists}, got "{which}": at theta {theta:g} rad and psi_dot '
         f"{psi_dot:g} rad/s regular precession has {count}"
     )

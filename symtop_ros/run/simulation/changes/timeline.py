@@ -15,7 +15,7 @@ from symtop_ros.physics import State
 from symtop_ros.run.simulation.budget import Shortfall
 from symtop_ros.run.simulation.changes.follow import Act, Change, Request, demand_a_day, follow
 from symtop_ros.run.simulation.changes.outcomes import Failure, Pace, Torque
-from symtop_ros.run.simulation.changes.requests import initial_state, start_motion
+from symtop_ros.run.simulation.changes.requests import initial_state, plan_start, start_motion
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import MAX_MOMENT, NO_TORQUE, Settings
 from symtop_ros.run.wire.layout import NANOSECONDS
@@ -67,8 +67,8 @@ class Timeline:
         clamped = self.settings.initial.clamped
         if values is None:
             return self.follow(Act("reset", stamp, {}, self.start, clamped=clamped))
-        start = initial_state(self.settings.top, self.settings.initial, values)
-        act = Act("start", stamp, values, start, clamped=clamped)
+        start, solved = plan_start(self.settings.top, self.settings.initial, values)
+        act = Act("start", stamp, values, start, clamped=clamped, solved=solved)
         return replace(self, start=start).follow(act)
 
     def move(self, stamp: int, now: int) -> "Timeline":

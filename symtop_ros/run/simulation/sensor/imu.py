@@ -1,6 +1,6 @@
 """The sensor on the top, exact or with noise: an IMU, and a magnetometer in its frame.
 
-A `Rig` is the sensor and gravity: all that samples depend on besides the motion.
+A `Rig` is gravity, the mass and the sensor: all that samples depend on besides the motion.
 """
 
 import math
@@ -222,15 +222,18 @@ CONSUMER = Imu(CENTRE, ALONG, 2.4e-4, 1e-5, 1.7e-3, 1e-4)
 
 @dataclass(frozen=True)
 class Rig:
-    """Gravity and the sensor: all that samples depend on besides the motion."""
+    """Gravity, mass and sensor: all that samples depend on besides the motion."""
 
     gravity: float = STANDARD_GRAVITY  # m/s^2
     imu: Imu | None = None  # the sensor on the top, or None
+    mass: float = 0.0  # kg of the top; 0: a body is chosen
 
     @cached_property
     def values(self) -> Mapping[str, str]:
         """The values for an event, in decimals that read back to the same doubles."""
         values = {"gravity": repr(self.gravity)}
+        if self.mass:
+            values["mass"] = repr(self.mass)
         if imu := self.imu:
             values |= {
                 "imu.mount": write_text((*imu.position, *imu.orientation)),
@@ -248,13 +251,20 @@ class Rig:
                 }
         return values
 
+    def find_body(self, top: Top) -> Body | None:
+        """Return the body of a top; None if no body can be it."""
+        return find_body(top, self.gravity, self.mass)
+
     @classmethod
     def from_values(cls, values: Mapping[str, str]) -> "Rig":
         """Return the rig of an event."""
         gravity = float(values["gravity"])
         if not 0 < gravity < math.inf:
             raise ValueError(f"gravity must be > 0 m/s^2, got {gravity:g}")
-        return cls(gravity, _read_imu(values) if "imu.mount" in values else None)
+        mass = float(values.get("mass", "0"))  # a log of before has none
+        if not 0 <= mass < math.inf:
+            raise ValueError(f"mass must be >= 0 kg, got {mass:g}")
+        return cls(gravity, _read_imu(values) if "imu.mount" in values else None, mass)
 
 
 def _read_imu(values: Mapping[str, str]) -> Imu:
@@ -278,9 +288,9 @@ def _read_magnetometer(values: Mapping[str, str]) -> Magnetometer:
 
 
 @lru_cache(maxsize=8)
-def find_body(top: Top, gravity: float) -> Body | None:
-    """Return the body that is chosen for a top; None if no body can be it."""
+def find_body(top: Top, gravity: float, mass: float = 0.0) -> Body | None:
+    """Return the body of a top: of its mass, or the chosen one; None if no body can be it."""
     try:
-        return Body.of(top, gravity)
+        return Body.of(top, gravity, mass or None)
     except ValueError:
         return None

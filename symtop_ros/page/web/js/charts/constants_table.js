@@ -29,11 +29,13 @@ let shown = ""; // a table that stays as it is can be read, and its text marked
 
 /**
  * The force of the pivot, where nothing but the weight of a body of known mass acts.
- * @param {import("../run/telling.js").Sample} sample @param {number} mass in kg
+ * @param {import("../run/telling.js").Sample} sample
+ * @param {number} assumed mass in kg, where none is known
  */
-const listForce = ({ state, course: { top, clamped, isDriven } }, mass) => {
+const listForce = ({ state, course: { top, clamped, isDriven, weighed } }, assumed) => {
+  const mass = weighed.mass || assumed;
   if (!Number.isFinite(mass) || clamped || isDriven) return [];
-  const { size, upward } = findPivotForce(top, state, mass);
+  const { size, upward } = findPivotForce(top, state, mass, weighed.gravity);
   const text = phrase("table.newtons", { size: shorten(size), upward: shorten(upward) });
   return [[phrase("table.pivot_force", { mass: shorten(mass, 3) }), text]];
 };
@@ -41,7 +43,7 @@ const listForce = ({ state, course: { top, clamped, isDriven } }, mass) => {
 /**
  * @param {string[][]} rates names and texts
  * @param {import("../run/telling.js").Sample} sample of now
- * @param {number} mass in kg; NaN if no body is the top
+ * @param {number} mass in kg, of a body that is the top; NaN if there is none
  */
 export const showConstants = (rates, sample, mass) => {
   const { state, course } = sample;

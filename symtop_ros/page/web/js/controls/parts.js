@@ -140,13 +140,14 @@ export class Parts {
    * Follow the top: the list that made it stays, for another one there is the disc that moves as it.
    * @param {Facts} facts @param {(parts: Part[]) => {mass: number, top: Top}} findBody
    */
-  show({ body, disc: [mass, size, distance] }, findBody) {
+  show({ body, weighed, disc: [mass, size, distance] }, findBody) {
     const own = this.used && findBody(this.used);
     const isOwn = own && String(Object.values(own.top)) === String([body.Ix, body.Iz, body.Mgl]);
     this.mass = isOwn ? own.mass : mass;
     if (this.isTyped) return;
-    const about = phrase(isOwn ? "page.parts_own" : mass ? "page.parts_disc" : "page.parts_none");
-    write(find("parts-text"), about);
+    const disc = weighed.mass ? "page.parts_weighed" : "page.parts_disc";
+    const about = isOwn ? "page.parts_own" : mass ? disc : "page.parts_none";
+    write(find("parts-text"), phrase(about, { mass: shorten(weighed.mass, 3) }));
     if (isOwn) return;
     this.used = null;
     if (!this.place.contains(document.activeElement))

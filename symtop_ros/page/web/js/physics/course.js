@@ -1,12 +1,19 @@
 // A motion from a start, with friction, torque and pushes, computed by the kernel at any time.
 
-import { NO_FRICTION, pack } from "./kernel.js";
+import { GRAVITY, NO_FRICTION, pack } from "./kernel.js";
 import { NAMES } from "./records.js";
 import { State } from "./state.js";
 
 /** @import { Kernel, Pushes, Top, Vector } from "./kernel.js" */
 /** What moves since a push: its time in ns, and the number of pushes. @typedef {{course: Course, begin: number, number: number}} Piece */
 
+/**
+ * Of the body: its mass in kg, 0 if it is not known, and gravity in m/s^2. The motion does not depend on
+ * them, the force of the pivot does.
+ * @typedef {{mass: number, gravity: number}} Weighed
+ */
+/** @type {Weighed} */
+export const UNWEIGHED = { mass: 0, gravity: GRAVITY };
 export const NANO = 1e9; // ns in a second
 export const MOST_STEPS = 100_000; // of an integration, for one state: some seconds
 
@@ -19,6 +26,7 @@ export class Course {
    * @param {Vector} torque
    * @param {Pushes | null} pushes of which the first leaves the start
    * @param {boolean} clamped a hand holds phi
+   * @param {Weighed} weighed
    */
   constructor(
     kernel,
@@ -28,6 +36,7 @@ export class Course {
     torque = [0, 0, 0],
     pushes = null,
     clamped = false,
+    weighed = UNWEIGHED,
   ) {
     this.kernel = kernel;
     this.top = top;
@@ -36,6 +45,7 @@ export class Course {
     this.torque = torque;
     this.pushes = pushes;
     this.clamped = clamped;
+    this.weighed = weighed;
     const given = { orientation: start.given, angular_velocity: start.omega, friction, torque };
     /** The numbers of the motion, as the kernel takes them. */
     this.packed = pack({ ...top, ...given });
@@ -76,8 +86,9 @@ export class Course {
 
   /** The course that gets only so many of its pushes. @param {Pushes} pushes @param {number} number */
   endPushes(pushes, number) {
-    const { kernel, top, start, friction, torque } = this;
-    const ended = new Course(kernel, top, start, friction, torque, { ...pushes, number });
+    const { kernel, top, start, friction, torque, weighed } = this;
+    const left = { ...pushes, number };
+    const ended = new Course(kernel, top, start, friction, torque, left, false, weighed);
     ended.pieces = this.pieces;
     return ended;
   }
@@ -111,12 +122,12 @@ export class Course {
    * The course that goes on from a state, with what is changed; nothing pushes or holds it else.
    * @param {State} start
    * @param {{top?: Top, friction?: number[], torque?: Vector, pushes?: Pushes | null,
-   *   clamped?: boolean}} changes
+   *   clamped?: boolean, weighed?: Weighed}} changes
    */
   continue(start, changes = {}) {
     const { top = this.top, friction = this.friction, torque = this.torque } = changes;
-    const { pushes, clamped } = changes;
-    return new Course(this.kernel, top, start, friction, torque, pushes, clamped);
+    const { pushes, clamped, weighed = this.weighed } = changes;
+    return new Course(this.kernel, top, start, friction, torque, pushes, clamped, weighed);
   }
 
   /** The parameters of a top and its friction, by the names of a node. */

@@ -1,7 +1,5 @@
 // Formulas of what is drawn and tabled, in doubles: curves, bars, arrows, and constants of a motion.
 
-import { GRAVITY } from "./kernel.js";
-
 /** @import { State } from "../physics/state.js" */
 /** @import { Top } from "../physics/kernel.js" */
 /**
@@ -70,18 +68,33 @@ export const findSizes = ({ Ix, Iz, Mgl }, state) => {
 export const findCriticalSpin = ({ Ix, Iz, Mgl }) =>
   (2 * Math.sqrt(Ix) * Math.sqrt(Math.max(Mgl, 0))) / Iz;
 
+const FLAT = 16 * Number.EPSILON; // of Ix, as in physics/body.py
+
+/**
+ * Refuse a mass that no body with these moments has: M r^2 <= Ix - Iz/2.
+ * @param {Top} top @param {import("./course.js").Weighed} weighed
+ */
+export const demandMass = ({ Ix, Iz, Mgl }, { mass, gravity }) => {
+  const lever = Mgl / gravity;
+  const most = Ix - Iz / 2;
+  if (mass === 0 || lever * (lever / mass) <= most + FLAT * Ix) return;
+  const least = most > 0 ? (lever / most) * lever : Infinity;
+  const condition = `at least ${least} kg for this top, Mgl^2/(gravity^2 (Ix - Iz/2))`;
+  throw new RangeError(`mass must be ${condition}, got ${mass}`);
+};
+
 /**
  * The force of the pivot on a top on which only its weight acts, in N: its size, and its part along the
  * vertical. It is M (a + g), with the acceleration of the end of the arm by Euler's equations.
- * @param {Top} top @param {State} state @param {number} mass in kg
+ * @param {Top} top @param {State} state @param {number} mass in kg @param {number} gravity in m/s^2
  */
-export const findPivotForce = ({ Ix, Iz, Mgl }, state, mass) => {
+export const findPivotForce = ({ Ix, Iz, Mgl }, state, mass, gravity) => {
   const [x, y, z] = state.omega;
   const [gx, gy, gz] = state.vertical;
   // Iz omega_z of each acceleration across the axis, and what the weight gives.
   const across = (/** @type {number} */ rate, /** @type {number} */ g) =>
-    (Mgl / GRAVITY) * ((Iz / Ix) * z * rate - (Mgl / Ix) * g) + mass * GRAVITY * g;
-  const along = mass * GRAVITY * gz - (Mgl / GRAVITY) * (x * x + y * y);
+    (Mgl / gravity) * ((Iz / Ix) * z * rate - (Mgl / Ix) * g) + mass * gravity * g;
+  const along = mass * gravity * gz - (Mgl / gravity) * (x * x + y * y);
   const force = [across(x, gx), across(y, gy), along];
   const upward = force[0] * gx + force[1] * gy + force[2] * gz;
   return { size: Math.hypot(...force), upward };

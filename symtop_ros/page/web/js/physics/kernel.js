@@ -187,23 +187,24 @@ export class Kernel {
 
   /**
    * The disc on an axle that moves as a top does: mass, radius, distance; NaN if there is none.
-   * @param {Top} top @returns {number[]} in kg and m
+   * @param {Top} top @param {number} gravity in m/s^2 @returns {number[]} in kg and m
    */
-  findDisc({ Ix, Iz, Mgl }) {
-    return [...this.call("find_disc", [Ix, Iz, Mgl], GRAVITY, room(3))[0]];
+  findDisc({ Ix, Iz, Mgl }, gravity) {
+    return [...this.call("find_disc", [Ix, Iz, Mgl], gravity, room(3))[0]];
   }
 
   /**
    * The body that parts on an axle make, and the top that it is.
-   * @param {Part[]} parts @returns {{mass: number, arm: number, top: Top}}
+   * @param {Part[]} parts @param {number} gravity in m/s^2
+   * @returns {{mass: number, arm: number, top: Top}}
    */
-  findBody(parts) {
+  findBody(parts, gravity) {
     const kinds = Int32Array.from(parts, ({ kind }) => NAMES.part_kind.indexOf(kind));
     const numbers = parts.flatMap(({ mass, size, distance }) => [mass, size, distance]);
     const given = [kinds, numbers, parts.length];
     const [body] = this.call("find_body", ...given, room("body"), room(1));
     const { mass, arm, Ix, Iz } = body;
-    const [top] = this.call("find_body_top", [mass, arm, Ix, Iz], GRAVITY, room("top"));
+    const [top] = this.call("find_body_top", [mass, arm, Ix, Iz], gravity, room("top"));
     return { mass, arm, top };
   }
 

@@ -1,6 +1,6 @@
 // What a page asks of its top: kicks, pushes, torques, starts, and the time of the run.
 
-import { Course, NANO } from "../physics/course.js";
+import { Course, NANO, UNWEIGHED } from "../physics/course.js";
 import { NAMES } from "../physics/records.js";
 import { cross, scale, subtract } from "../scene/matrices.js";
 import { readPushes } from "./run.js";
@@ -182,16 +182,22 @@ const letGo = (top, { hold }) => {
 };
 
 /** The present motion, without the torque of a button. @param {LocalTop} top @returns {Beginning} */
-export const present = ({ course: { top, friction, start }, steady }) => ({
+export const present = ({ course: { top, friction, start, weighed }, steady }) => ({
   top,
   friction,
   start,
   torque: steady,
+  weighed,
 });
 
+/** What is known of another body than the present one: gravity. @param {LocalTop} top */
+const forget = (top) =>
+  top.run.moments.length ? { ...top.course.weighed, mass: UNWEIGHED.mass } : UNWEIGHED;
+
 /** @param {LocalTop} top @param {Beginning} beginning @param {import("./run.js").Asked} asked */
-const begin = (top, { top: own, friction, torque, start, clamped = false }, asked = {}) => {
-  const course = new Course(top.kernel, own, start, friction, torque, null, clamped);
+const begin = (top, { clamped = false, ...beginning }, asked = {}) => {
+  const { top: own, friction, torque, start, weighed = forget(top) } = beginning;
+  const course = new Course(top.kernel, own, start, friction, torque, null, clamped, weighed);
   top.held.clear(); // a hand that is still there holds nothing of another motion
   top.add("start", course, asked);
   top.initial = { start, clamped };
@@ -251,13 +257,17 @@ const setParameter = (top, { name, value }) => {
   else own[/** @type {keyof typeof own} */ (key)] = value;
   const made_by = { kind: "parameter", name: key, value };
   const { clamped } = top.course;
-  top.add("change", top.course.continue(top.state, { top: own, friction, clamped }), { made_by });
+  const weighed = group === "friction" ? top.course.weighed : forget(top);
+  const course = top.course.continue(top.state, { top: own, friction, clamped, weighed });
+  top.add("change", course, { made_by });
 };
 
 /** Another top: that of a body of parts. @param {LocalTop} top @param {EventActs["body"]} asked */
 const takeBody = (top, { parts }) => {
-  const own = top.kernel.findBody(parts).top;
-  top.add("change", top.course.continue(top.state, { top: own, clamped: top.course.clamped }));
+  const { clamped, weighed } = top.course;
+  const { mass, top: own } = top.kernel.findBody(parts, weighed.gravity);
+  const changes = { top: own, clamped, weighed: { ...weighed, mass } };
+  top.add("change", top.course.continue(top.state, changes));
 };
 
 /** What starts have what is known of them. @param {LocalTop} top @param {ViewActs["solve"]} asked */

@@ -9,11 +9,13 @@ import { phrase } from "../words/wording.js";
 /**
  * The initial conditions of a scene are the `initial.*` parameters of a node; orientation x, y, z, w.
  * @typedef {{name: string, title: string, story: string, top: Vector, friction: number[],
- *   torque: Vector, initial: {[name: string]: any}}} SceneFile
+ *   torque: Vector, initial: {[name: string]: any},
+ *   weighed: import("../physics/course.js").Weighed}} SceneFile
  */
 /**
  * The angles and rates of a scene are what a link that names it leaves open.
  * @typedef {{top: Top, friction: number[], torque: Vector, start: State, clamped?: boolean,
+ *   weighed?: import("../physics/course.js").Weighed,
  *   initial?: {[name: string]: number}}} Beginning
  */
 
@@ -40,16 +42,16 @@ export const findScene = (scenes, name) => {
 };
 
 /** @param {Kernel} kernel @param {SceneFile} scene @returns {Beginning} */
-export const readScene = (kernel, { top: [Ix, Iz, Mgl], friction, torque, initial }) => {
+export const readScene = (kernel, { top: [Ix, Iz, Mgl], friction, torque, initial, weighed }) => {
   const { precession, orientation, angular_velocity, clamped, ...numbers } = initial;
-  const given = { top: { Ix, Iz, Mgl }, friction, torque, clamped };
+  const given = { top: { Ix, Iz, Mgl }, friction, torque, clamped, weighed };
   if (orientation.length) {
     const [x, y, z, w] = orientation;
     const omega = angular_velocity.length ? angular_velocity : [0, 0, 0];
     return { ...given, start: new State(kernel, [w, x, y, z], omega) };
   }
   const start = precession
-    ? createStart(kernel, given.top, { ...numbers, theta_dot: 0 }, precession)
+    ? createStart(kernel, given.top, numbers, precession)
     : createStart(kernel, given.top, numbers);
   return { ...given, start, initial: numbers };
 };
@@ -65,15 +67,15 @@ export const createStart = (kernel, top, numbers, precession) => {
   const { phi = 0, theta = 0, psi = 0, phi_dot = 0, theta_dot = 0, psi_dot = 0 } = numbers;
   if (!(theta >= 0 && theta <= Math.PI))
     throw new RangeError(`theta must be 0 to pi rad, got ${writeShort(theta)}`);
-  let rate = phi_dot;
+  const rates = { phi: phi_dot, theta: theta_dot, psi: psi_dot };
   if (precession !== undefined) {
     if (!PRECESSIONS.includes(precession))
       throw new RangeError(`precession must be slow or fast, got ${precession || "nothing"}`);
     const roots = kernel.findRegularRates(top, theta, psi_dot);
     if (!roots.length) throw new RangeError(phrase("refused.no_root"));
-    rate = precession === "fast" ? roots[roots.length - 1] : roots[0];
+    rates.phi = precession === "fast" ? roots[roots.length - 1] : roots[0];
+    rates.theta = 0;
   }
-  const rates = { phi: rate, theta: theta_dot, psi: psi_dot };
   return State.fromEuler(kernel, { phi, theta, psi }, rates);
 };
 
@@ -146,9 +148,19 @@ export const readLink = (kernel, { precession, clamped: held, ...texts }, given,
   const isNamed = precession !== undefined || ANGLES.some((each) => each in numbers);
   let { start } = given;
   if (vectors.orientation || vectors.angular_velocity) start = readState(kernel, vectors, isNamed);
-  else if (isNamed) start = createStart(kernel, top, { ...given.initial, ...numbers }, precession);
+  else if (isNamed) {
+    if (precession !== undefined) demandRegular(numbers);
+    start = createStart(kernel, top, { ...given.initial, ...numbers }, precession);
+  }
   const clamped = held === undefined ? given.clamped : readHeld(held);
-  return { top, friction, torque, start, clamped };
+  const isOwn = TOP_NAMES.every((each) => !(each in numbers));
+  return { top, friction, torque, start, clamped, weighed: isOwn ? given.weighed : undefined };
+};
+
+/** Refuse rates next to a regular precession, which has its own. @param {{[name: string]: number}} numbers */
+const demandRegular = (numbers) => {
+  for (const name of ["phi_dot", "theta_dot"])
+    if (numbers[name]) throw new RangeError(`precession must be given without ${name}, got both`);
 };
 
 /** @param {string} text of a link */

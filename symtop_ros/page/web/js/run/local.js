@@ -9,7 +9,7 @@ import { findScene, OPENING, readScene } from "./links.js";
 import { Frames } from "./frames.js";
 import { recall, remember, rememberRun } from "./memory.js";
 import { readRun } from "./reader.js";
-import { Run } from "./run.js";
+import { isOfKnownWeight, Run } from "./run.js";
 import { State } from "../physics/state.js";
 import { Telling } from "./telling.js";
 import { Trace } from "./trace.js";
@@ -250,7 +250,9 @@ export class LocalTop {
     const run = this.run.copy();
     if (this.held.has("press")) run.release(this.time);
     const isClamped = run.moments.some(({ course }) => course.clamped);
-    const format = this.content.run_fields.formats.at(isClamped ? -1 : -2); // as run_file.py
+    const isWeighed = run.moments.some(({ course }) => isOfKnownWeight(course.weighed));
+    const [, plain, clamped, weighed] = this.content.run_fields.formats; // as run_file.py
+    const format = isWeighed ? weighed : isClamped ? clamped : plain;
     return { format, events: run.records, end: this.end / NANO };
   }
 

@@ -257,7 +257,11 @@ const listChanges = (before, after) => {
 };
 
 /** @param {Course} course @returns {{[name: string]: number | number[]}} */
-const listParameters = ({ parameters, torque }) => ({ ...parameters, steady_torque: torque });
+const listParameters = ({ parameters, weighed, torque }) => ({
+  ...parameters,
+  ...weighed,
+  steady_torque: torque,
+});
 
 /** @param {Request} request @returns {Promise<{granted: boolean, answer: string}>} */
 const post = async (request) => {

@@ -3,7 +3,8 @@
 // Between two events the motion is computed by the kernel, at any time. So a run is its events, and
 // nothing else has to be kept of it. Times are whole nanoseconds, as those of a node.
 
-import { Course, MOST_STEPS, NANO } from "../physics/course.js";
+import { Course, MOST_STEPS, NANO, UNWEIGHED } from "../physics/course.js";
+import { demandMass } from "../physics/formulas.js";
 import { nameEvent } from "./reader.js";
 import { State } from "../physics/state.js";
 
@@ -24,7 +25,8 @@ import { State } from "../physics/state.js";
 /**
  * An event as in run.json; its time is in s, and whole nanoseconds.
  * @typedef {{kind: Kind, time: number, top: [number, number, number], orientation: Quaternion,
- *   angular_velocity: Vector, friction: number[], torque: Vector, clamped?: boolean} & Asked} EventRecord
+ *   angular_velocity: Vector, friction: number[], torque: Vector, clamped?: boolean, mass?: number,
+ *   gravity?: number} & Asked} EventRecord
  */
 /**
  * A course in a run: its times count from `since`, in ns of the run.
@@ -185,7 +187,7 @@ export class Run {
   /** The events as in run.json. @returns {EventRecord[]} */
   get records() {
     return this.moments.map(({ kind, time, asked, course }) => {
-      const { top, start, friction, torque, clamped } = course;
+      const { top, start, friction, torque, clamped, weighed } = course;
       return {
         kind,
         time: time / NANO,
@@ -195,6 +197,7 @@ export class Run {
         friction,
         torque,
         ...(clamped ? { clamped } : {}),
+        ...listWeighed(weighed),
         ...asked,
       };
     });
@@ -229,16 +232,28 @@ export class Run {
   }
 
   /** @param {EventRecord} event */
-  append({ kind, time, top, orientation, angular_velocity, friction, torque, clamped, ...asked }) {
+  append({ kind, time, top, orientation, angular_velocity, friction, torque, ...others }) {
+    const { clamped, mass = UNWEIGHED.mass, gravity = UNWEIGHED.gravity, ...asked } = others;
     const [Ix, Iz, Mgl] = top;
     const start = new State(this.kernel, orientation, angular_velocity);
+    const weighed = { mass, gravity };
+    demandMass({ Ix, Iz, Mgl }, weighed);
     const pushes = kind === "push" && asked.act ? readPushes(asked.act) : null;
     const body = { Ix, Iz, Mgl };
-    const course = new Course(this.kernel, body, start, friction, torque, pushes, clamped);
+    const course = new Course(this.kernel, body, start, friction, torque, pushes, clamped, weighed);
     course.demandPushes();
     this.add(kind, Math.round(time * NANO), course, asked);
   }
 }
+
+/** @param {import("../physics/course.js").Weighed} weighed */
+export const isOfKnownWeight = (weighed) => Object.keys(listWeighed(weighed)).length > 0;
+
+/** What is not that of a body that is not weighed. @param {import("../physics/course.js").Weighed} weighed */
+const listWeighed = ({ mass, gravity }) => ({
+  ...(mass === UNWEIGHED.mass ? {} : { mass }),
+  ...(gravity === UNWEIGHED.gravity ? {} : { gravity }),
+});
 
 /** The pushes that the fields of ~/kick ask for. @param {{[name: string]: any}} act @returns {Pushes} */
 export const readPushes = ({ axle_impulse: impulse, rate, number }) => ({ impulse, rate, number });

@@ -171,7 +171,7 @@ export const describe = (run, time) => {
   return {
     histories: { radians: listHistory(run, "radians"), degrees: listHistory(run, "degrees") },
     top: course.parameters,
-    disc: run.kernel.findDisc(course.top),
+    disc: run.kernel.findDisc(course.top, course.weighed.gravity),
     start,
     roots,
     push_roots: findPushRoots(course),
@@ -185,6 +185,7 @@ export const describe = (run, time) => {
     ledger: findLedger(announced),
     energies: phrase("ledger", nameLedger(announced)),
     body: course.top,
+    weighed: course.weighed,
     impulses: phrase("impulses", { kind: nameHalf(course), subject: nameSubject(course.top) }),
     outlooks: describeOutlooks(HELD.includes(kind) || course.clamped ? null : course),
     isHeld: course.clamped,
