@@ -36,9 +36,9 @@ TABLE = {
     "numpy rerun rerun_cli",
     "ros/node": "__init__ base/command base/shutdown physics run/session run/simulation run/wire | "
     "geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces std_srvs",
-    # of session only the table of services, which imports nothing; physics only in body.py, and
-    # simulation for the names of a start
-    "ros/client": "base/command base/shutdown physics run/session run/simulation run/wire | "
+    # of session only the table of services, which imports nothing; physics and words only in body.py
+    # and spread.py, and simulation for the names of a start
+    "ros/client": "base/command base/shutdown physics run/session run/simulation run/wire words | "
     "rcl_interfaces rclpy sensor_msgs std_srvs",
     "ros/live": "base/command base/shutdown replay run/log run/simulation run/wire | rclpy rerun",
     # client, live and rclpy: only in bridge.py, which main.py imports for --node

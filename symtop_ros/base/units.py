@@ -74,6 +74,26 @@ def parse_quantity(name: str, text: str, unit: str) -> float:
     return float(found[1]) * size if size >= 1 or 1 / size % 1 else float(found[1]) / (1 / size)
 
 
+LITERAL = re.compile(r"[-+]?(\d*)(?:\.(\d*))?(?:[eE]([-+]?\d+))?((?![\d.]).*)?", re.DOTALL)
+
+
+def halve_last_digit(text: str) -> str:
+    """Return half a unit of the last digit of a number as it was typed, with the same unit.
+
+    Empty if it is no such number.
+
+    Examples
+    --------
+    >>> halve_last_digit("57.6 s"), halve_last_digit("-3.20e2rpm"), halve_last_digit("45deg")
+    ('5e-2 s', '5e-1rpm', '5e-1deg')
+    """
+    found = LITERAL.fullmatch(text.strip())
+    if not found or not (found[1] or found[2]):
+        return ""
+    exponent = int(found[3] or 0) - len(found[2] or "") - 1
+    return f"5e{exponent}{found[4] or ''}"
+
+
 def _list(units: dict[str, float]) -> str:
     *first, last = units
     return f"{', '.join(first)} or {last}" if first else last

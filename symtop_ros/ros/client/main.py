@@ -27,6 +27,7 @@ from symtop_ros.base.units import read_value
 from symtop_ros.ros.client.body import set_body
 from symtop_ros.ros.client.connection import Connection, UnreachableError
 from symtop_ros.ros.client.options import make_parser
+from symtop_ros.ros.client.spread import describe_spread
 from symtop_ros.run.session.services import SERVICES, Response
 
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
@@ -96,6 +97,8 @@ def carry_out(options: argparse.Namespace, values: dict[str, Any], top: Connecti
     on = vars(options).get("switch", "on") == "on"  # `pause` has no word: it means on
     arguments = {"named": values, "switch": on, "plain": None}
     granted, text = top.request(service, arguments[SERVICES[service].kind])
+    if options.command == "start" and granted:
+        text = f"{text} {describe_spread(top, options.values, values)}".rstrip()
     if options.command == "state" and granted and not options.json:
         text = _readable(json.loads(text))
     return granted, text

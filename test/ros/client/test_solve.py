@@ -1,12 +1,16 @@
 """Questions of textbooks that top_ctl solves, typed, and their published answers."""
 
+import itertools
 import json
+import math
+import re
 import subprocess
 
 import pytest
 from programs import PATIENT, running_node
 
 from symtop_ros.base.refusals import RefusedError
+from symtop_ros.physics import Top, solve_start
 from symtop_ros.ros.client.body import make_body
 from symtop_ros.ros.client.main import main
 from workshop.load.domains import claim_domain
@@ -63,6 +67,32 @@ def test_a_class_asks_for_the_spin(ctl):
     assert read(ctl)["seen_from_above"] == "counterclockwise"
     assert ctl("start theta=90deg precession_period=2.20s solution=2").returncode == 0
     assert read(ctl)["seen_from_above"] == "clockwise"
+
+
+def test_an_answer_says_how_far_the_start_moves_for_the_last_digits_that_were_typed(ctl):
+    assert ctl("body bicycle_wheel").returncode == 0
+    wheel = Top(**read(ctl)["top"])
+    answer = ctl("start theta=90.0deg precession_period=57.6s").stdout
+    found = re.search(r"Within the last digits typed: .*psi' (\S+) to (\S+) rad/s\.", answer)
+    tilts = (math.pi / 180 * each for each in (89.95, 90.05))
+    corners = [
+        solve_start(wheel, theta=theta, precession_period=period)[0].psi_dot
+        for theta, period in itertools.product(tilts, (57.55, 57.65))
+    ]
+    low, high = map(float, found.groups())
+    width = max(corners) - min(corners)
+    assert min(corners) - width / 10 <= low <= min(corners)
+    assert max(corners) <= high <= max(corners) + width / 10
+
+
+def test_what_has_no_last_digit_is_not_said_to_move(ctl):
+    assert "last digits" not in ctl("start theta=0.5 psi_dot=200").stdout  # no question
+    assert ctl("body point:165g,4cm Ix=4e-4 Iz=1.2e-4").returncode == 0
+    top = Top(**read(ctl)["top"])
+    least = 2 * math.sqrt((top.Ix - top.Iz) * math.cos(0.5) * top.Mgl) / top.Iz
+    typed = math.ceil(10 * least) / 10  # half a unit of its last digit below there is no start
+    answer = ctl(f"start theta=0.5 psi_dot={typed:.1f} solution=1").stdout
+    assert answer.rstrip().endswith("there may be more or fewer such starts.")
 
 
 def test_the_mass_and_the_gravity_of_a_body_are_kept(ctl):
