@@ -39,10 +39,10 @@ class Cause:
     parameters: tuple[str, ...]
     offset: Offset
     cost: float  # mean square of the distances of quaternions
-    # standard deviations of the parameters and of the rotations (rad); none if they were not asked
-    # for, or cannot be given
+    # standard deviations of the parameters, and of the angles (rad) of world and body; none if they
+    # were not asked for, or cannot be given
     deviations: tuple[float, ...] = ()
-    turn_deviation: float = 0.0
+    turn_deviations: tuple[float, ...] = ()
     independent: float | None = (
         None  # number of independent estimates, if deviations were asked for
     )
@@ -84,8 +84,9 @@ class Cause:
         """True if all parameters and the rotations are many deviations from zero."""
         sizes = [abs(getattr(self.offset, name)) for name in self.parameters]
         pairs = [*zip(sizes, self.deviations, strict=True)] if self.deviations else []
-        turned = [(self.turns, self.turn_deviation)] if self.level != "none" else []
-        return all(size > SIGNIFICANT * deviation for size, deviation in [*pairs, *turned])
+        turned = zip(self.offset.angles, self.turn_deviations, strict=False)
+        pairs += [(size, deviation) for size, deviation in turned if deviation]
+        return all(size > SIGNIFICANT * deviation for size, deviation in pairs)
 
 
 @dataclass(frozen=True, eq=False)

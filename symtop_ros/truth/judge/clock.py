@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.arrays import Real, Stamps, compose, find_rotation_vectors, invert
+from symtop_ros.base.measured import format_measured
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.judge.compare import Offset, to_rotation
 from symtop_ros.truth.judge.estimates import Estimates
@@ -126,8 +127,8 @@ def format_clocks(clocks: list[Clock]) -> str:
         {
             "source": clock.source,
             "estimates": clock.estimates,
-            "delay": _write_measured(clock.delay, clock.delay_deviation),
-            "rate": _write_measured(clock.rate, clock.rate_deviation),
+            "delay": format_measured(clock.delay, clock.delay_deviation),
+            "rate": format_measured(clock.rate, clock.rate_deviation),
             "fault": _write_fault(clock),
             "jitter": {"kind": clock.kind, "value": clock.jitter},
         }
@@ -139,7 +140,3 @@ def format_clocks(clocks: list[Clock]) -> str:
 def _write_fault(clock: Clock) -> dict[str, Any] | None:
     counted = {**asdict(clock), "independent": round(clock.independent), "kind": clock.fault}
     return counted if clock.fault else None
-
-
-def _write_measured(value: float, deviation: float | None) -> dict[str, Any]:
-    return {"value": value, "deviation": None if deviation is None else {"value": deviation}}

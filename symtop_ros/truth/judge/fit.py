@@ -10,7 +10,7 @@ from symtop_ros.base.arrays import Mask, Real, compose, find_rotation_vectors, i
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
 from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.noise import Remainder, find_deviations
+from symtop_ros.truth.judge.noise import Influences, Remainder, find_influences
 from symtop_ros.truth.judge.truth import Truth
 
 SAMPLES = 500  # estimates that a search takes, spread over the run
@@ -175,11 +175,12 @@ class Fit:
         body = to_rotation(model).inv().apply(left) if len(left) else left
         return Remainder((left, body), float(np.ptp(self.some.stamps)) / NANOSECONDS)
 
-    def find_deviations(self, offset: Offset, free: list[int], remainder: Remainder) -> Real:
-        """Return the standard deviations of the columns, (11,); 0 in columns that are not free."""
-        deviations = np.zeros(COLUMNS)
-        deviations[free] = find_deviations(self.derive_vectors(offset, free), remainder)
-        return deviations
+    def find_influences(self, offset: Offset, free: list[int], remainder: Remainder) -> Influences:
+        """Return the changes of all columns, (n, 11), by each estimate."""
+        values = np.zeros((len(remainder.frames[0]), COLUMNS))
+        columns = self.derive_vectors(offset, free)
+        values[:, free] = find_influences(columns, remainder.frames[0])
+        return Influences(values, len(free), remainder.independent)
 
 
 def _move(offset: Offset, step: Real) -> Offset:

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.base.arrays import Real
+from symtop_ros.base.arrays import Real, find_rotation_vectors
 from symtop_ros.base.counts import write_count
+from symtop_ros.base.measured import format_measured
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.causes import Cause, Finding
@@ -168,19 +169,33 @@ UNITS = {"delay": 1e3, "clock": 1e6, "scale": 100.0}  # ms, ppm and %; others ar
 
 def _list_parts(cause: Cause) -> list[dict[str, Any]]:
     """Return the parts of an explanation as records for sentences."""
-    world, body = cause.offset.angles
     change = [{"kind": "change"}] if cause.change else []
     parameters = [
         {
             "kind": name,
-            "value": UNITS.get(name, 1.0) * float(getattr(cause.offset, name)),
-            **_write_deviation(deviation, UNITS.get(name, 1.0)),
+            "value": _write_parameter(name, getattr(cause.offset, name), deviation),
+            "begin": cause.offset.begin / NANOSECONDS,
         }
         for name, deviation in zip_longest(cause.parameters, cause.deviations)
     ]
-    deviation = _write_deviation(cause.turn_deviation)
-    turns = {"kind": cause.level, "world": world, "body": body, **deviation}
+    turns = {"kind": cause.level, **_write_turns(cause)}
     return [*change, *parameters, *([turns] if cause.level != "none" else [])]
+
+
+def _write_parameter(name: str, value: float, deviation: float | None) -> str:
+    unit = UNITS.get(name, 1.0)
+    return format_measured(unit * value, unit * deviation if deviation else None)
+
+
+def _write_turns(cause: Cause) -> dict[str, str]:
+    """Return the angles of the rotations; that of a heading has a sign."""
+    world, body = cause.offset.angles
+    if cause.level == "heading":
+        world = float(find_rotation_vectors(cause.offset.world)[2])
+    turns = zip_longest((world, body), cause.turn_deviations)
+    return {
+        name: format_measured(*each) for name, each in zip(("world", "body"), turns, strict=True)
+    }
 
 
 def _write_whole(cause: Cause) -> dict[str, Any]:
@@ -201,28 +216,28 @@ def _write_fault(cause: Cause | None) -> dict[str, Any] | None:
     return {**_write_counted(cause), "kind": cause.fault} if cause and cause.fault else None
 
 
-def _write_deviation(deviation: float | None, unit: float = 1.0) -> dict[str, Any]:
-    return {"deviation": {"value": unit * deviation} if deviation else None}
-
-
 def _describe_cause(cause: Cause) -> dict[str, Any]:
     """Return what was fitted, for JSON, with standard deviations."""
     offset = cause.offset
-    world, body = cause.offset.angles
+    world, body = zip_longest(offset.angles, cause.turn_deviations)
     return {
+        "begin": offset.begin,
         "delay": offset.delay,
         "drift": offset.drift,
         "body_drift": offset.spin,
         "clock_rate": offset.clock,
         "gyroscope_scale": offset.scale,
-        "world_offset": {"angle": world, "w_x_y_z": offset.world.tolist()},
-        "body_offset": {"angle": body, "w_x_y_z": offset.body.tolist()},
+        "world_offset": _describe_turn(*world, offset.world),
+        "body_offset": _describe_turn(*body, offset.body),
         "deviations": dict(zip(cause.parameters, cause.deviations, strict=False)),
-        "rotation_deviation": (cause.turn_deviation or None) if cause.level != "none" else None,
         "independent_estimates": cause.independent,
         "correlation_time": cause.correlation_time,
         "no_deviations_as": cause.fault or None,
     }
+
+
+def _describe_turn(angle: float, deviation: float | None, q: Real) -> dict[str, Any]:
+    return {"angle": angle, "deviation": deviation or None, "w_x_y_z": q.tolist()}
 
 
 def _describe_finding(found: Finding) -> dict[str, Any]:
@@ -237,7 +252,6 @@ def _describe_finding(found: Finding) -> dict[str, Any]:
         "mistake": best.change or None,
         **_describe_cause(best),
         **({"delay": None} if is_hidden else {}),
-        "parameter_deviation": best.deviations[0] if best.deviations else None,
         "delay_period": found.period,
         "not_identifiable": list(found.hidden),
         "residual_rms": best.residual,

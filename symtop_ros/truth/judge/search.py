@@ -14,7 +14,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.judge.causes import CHANGES, Cause, Finding, set_parameter
-from symtop_ros.truth.judge.choice import SIMPLER, SMALL, choose, judge
+from symtop_ros.truth.judge.choice import SIMPLER, SMALL, choose, judge, select
 from symtop_ros.truth.judge.compare import MOST_STEPS, NONE, STEP, Offset, compare
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES, Fit
@@ -83,20 +83,28 @@ class Search:
             return Finding(start, (), self.hidden)
         if len(self.more) < PER_PARAMETER:
             return Finding(start, (), self.hidden, explained=False, fault="few")
-        coarse = self.refine(start.kind, start.offset)
-        best, others = choose([coarse, *self.list_causes()], self.fits, self.fit.rounding)
-        if best.kind == start.kind:  # there may be a parameter that only more estimates show
-            small = [
-                self.refine(("", "none", each), start.offset, with_more=True)
-                for each in ((), *((name,) for name in self.names))
-            ]
-            best, others = choose(small, self.of_more, self.fit.rounding)
+        best, others = self.choose()
         best = self.refine(best.kind, best.offset, with_more=True)
         is_named, is_less = judge(best, start, self.of_more[best.change])
         if not is_named:
             candidate = best if is_less else None
             return Finding(start, (), self.hidden, False, best.fault, candidate=candidate)
         return replace(Finding(best, tuple(others), self.hidden), **self.find_period(best))
+
+    def choose(self) -> tuple[Cause, list[Cause]]:
+        """Return the best explanation and its equals: found in some estimates, chosen by more.
+
+        What noise hides in some of them more may show.
+        """
+        none = self.refine(("", "none", ()), self.fit.start)
+        small = [replace(none, parameters=(name,)) for name in self.names]
+        found = self.select_in_more([none, *self.list_causes()], small)
+        return choose(found, self.of_more, self.fit.rounding)
+
+    def select_in_more(self, found: Sequence[Cause], others: Sequence[Cause] = ()) -> list[Cause]:
+        """Return the best of some explanations, and others, as the least squares of more."""
+        good = [*others, *select(found, self.fits, self.fit.rounding)]
+        return [refine(self.of_more[e.change], e.kind, e.offset, is_sure=False) for e in good]
 
     def is_still(self) -> bool:
         """Return True if the estimates keep one attitude while the top turns."""

@@ -54,7 +54,7 @@ def explain(
         if turned or each.level == "none"
     ]
     return min(
-        select(causes, search.fits, search.fit.rounding),
+        select(search.select_in_more(causes), search.of_more, search.fit.rounding),
         key=lambda each: (len(each.parameters), abs(each.offset.delay)),
     )
 
