@@ -10,7 +10,9 @@ from documents import ROOT
 PACKAGE = ROOT / "symtop_ros"
 # Files next to the rooms, and what every folder may use of the ground floor.
 TOP = {"__init__", "__main__", "programs"}
-GROUND = {"base/arrays", "base/counts", "base/measured", "base/refusals", "base/units"}
+GROUND = {
+    f"base/{name}" for name in ("arrays", "counts", "header", "measured", "refusals", "units")
+}
 # Rooms of several folders.
 DIVIDED = ("run", "ros", "page", "truth")
 # Folder -> folders of the package, and files of `base` | other packages. Each entry is exact: an
@@ -46,8 +48,7 @@ TABLE = {
     "truth/imu": "base/command physics run/log run/simulation run/wire | numpy yaml",
     "truth/testset": " | numpy",
     # of judge the reader of tables and topics, the noise, and the look of figures
-    "truth/fit": "__init__ base/command physics run/log run/wire truth/judge words | "
-    "matplotlib numpy scipy",
+    "truth/fit": "base/command physics run/log run/wire truth/judge words | matplotlib numpy scipy",
     "truth/judge": "base/command base/shutdown physics run/log run/models run/simulation run/wire "
     "truth/testset words | matplotlib numpy rclpy scipy",
 }

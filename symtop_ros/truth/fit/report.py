@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from symtop_ros import __version__
 from symtop_ros.base.counts import write_count
+from symtop_ros.base.header import make_header
 from symtop_ros.base.measured import format_measured
 from symtop_ros.truth.fit.check import FAILS, Check
 from symtop_ros.truth.fit.record import Known
@@ -16,7 +17,6 @@ from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import Value, convert, list_values
 from symtop_ros.words import write
 
-SCHEMA = "symtop_ros/fit/1"
 LABELS = {
     "spin": "spin (omega_z)",
     "theta_dot": "theta'",
@@ -72,8 +72,7 @@ class Report:
             if each.is_known
         }
         return {
-            "schema": SCHEMA,
-            "version": __version__,
+            **make_header("fit", [Path(self.source)]),
             "source": self.source,
             "kind": record.kind.name,
             "rows": self.rows,
