@@ -105,6 +105,7 @@ class Finding:
     still: bool = False  # True: the estimates do not move, and the top does
     period: float | None = None  # s; delays that differ by it are as good, with `repeated`
     repeated: Offset = NONE
+    nearest: Cause | None = None  # what leaves least, if it is not named
 
 
 def set_parameter(offset: Offset, name: str, value: float) -> Offset:

@@ -111,10 +111,8 @@ class Errors:
 def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors:
     """Return the errors of estimates after an offset is removed."""
     stamps = offset.shift(estimates.stamps)
-    exact, rates, known = truth.states_at(stamps, estimates.of_sensor)
-    chosen, exact, rates = estimates.select(known), exact[known], rates[known]
-    world, body = offset.turn_world(chosen.stamps), offset.turn_body(chosen.stamps)
-    q = compose(compose(invert(world), chosen.orientations), invert(body))
+    chosen, exact, rates = find_exact(estimates, truth, offset)
+    q, body = undo(chosen, offset), offset.turn_body(chosen.stamps)
     total = measure_angles(q, exact, np.zeros(4))
     w, x, y, z = compose(q, invert(exact)).T
     tilt = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
@@ -127,8 +125,23 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
     )
     early, late = truth.count_outside(stamps)
     unjudged = int(truth.find_unjudged(stamps).sum())
-    unknown = int((~known).sum()) - late - early - unjudged
+    unknown = len(stamps) - len(chosen) - late - early - unjudged
     return Errors(chosen.stamps, total, tilt, heading, rate, unknown, late, early, unjudged)
+
+
+def find_exact(
+    estimates: Estimates, truth: Truth, offset: Offset = NONE
+) -> tuple[Estimates, Real, Real]:
+    """Return the estimates that are known, with exact attitudes (n, 4) and rates (n, 3)."""
+    stamps = offset.shift(estimates.stamps)
+    exact, rates, known = truth.states_at(stamps, estimates.of_sensor)
+    return estimates.select(known), exact[known], rates[known]
+
+
+def undo(estimates: Estimates, offset: Offset) -> Real:
+    """Return the attitudes (n, 4) without the rotations of an offset."""
+    world, body = offset.turn_world(estimates.stamps), offset.turn_body(estimates.stamps)
+    return compose(compose(invert(world), estimates.orientations), invert(body))
 
 
 def to_rotation(q: Real) -> Rotation:

@@ -17,9 +17,12 @@ from symtop_ros.truth.judge.causes import Cause, Finding
 from symtop_ros.truth.judge.compare import NONE, PERCENTILES, Errors, compare
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.mistakes import find_mistakes
+from symtop_ros.truth.judge.outliers import count_outliers, trim
+from symtop_ros.truth.judge.relative import LABEL, Relative, measure_relative
 from symtop_ros.truth.judge.search import find_causes
+from symtop_ros.truth.judge.summary import format_row, summarize
 from symtop_ros.truth.judge.truth import Truth
-from symtop_ros.truth.judge.wanted import align, explain
+from symtop_ros.truth.judge.wanted import align, explain, find_nearest
 from symtop_ros.words import write
 
 NOTHING = 1e-6  # rad; an error below this is not worth a sentence
@@ -44,6 +47,9 @@ class Judgement:
     removed: tuple[str, ...]  # "offset", "delay" and "drift", if they were taken away
     left_out: int  # messages without a readable attitude
     notes: tuple[str, ...]  # likely mistakes, and what is odd about the file
+    outliers: int = 0  # estimates that are far off what explains the others
+    robust: bool = False  # True: they were left out of it
+    relative: Relative | None = None  # errors of turns over a lag
 
     def facts(self) -> dict[str, Any]:
         """Return all figures, for JSON."""
@@ -59,10 +65,13 @@ class Judgement:
             "seconds": float(errors.seconds[-1]),
             "removed": list(self.removed),
             **{name: summarize(values) for name, values in errors.quantities.items()},
+            "relative": self.relative.facts() if self.relative else None,
             "growth_rms": [None if np.isnan(x) else float(x) for x in errors.growth()],
             "aligned": self.aligned,
             "fitted": None if self.fitted is None else _describe_cause(self.fitted),
             "found": None if self.found is None else _describe_finding(self.found),
+            "outliers": self.outliers,
+            "robust": self.robust,
             "notes": list(self.notes),
         }
 
@@ -74,8 +83,9 @@ class Judgement:
         lines = [
             f"{self.source}: {write_count(facts['estimates'], 'estimate')} in "
             f"{facts['seconds']:.6g} s{removed}",
-            _head(18),
-            *(_row(QUANTITIES[name], 18, facts[name]) for name in QUANTITIES if name in facts),
+            _head(LABEL),
+            *(format_row(label, LABEL, facts[k]) for k, label in QUANTITIES.items() if k in facts),
+            *([self.relative.format()] if self.relative else []),
             f"attitude, rms: {growth[0]:.2e} rad in the first tenth, {growth[-1]:.2e} in the last",
             self._explain(),
             *self._remarks(),
@@ -118,7 +128,12 @@ class Judgement:
             for number, what in counts
             if number
         ]
-        return left_out + [f"note: {note}" for note in self.notes]
+        return [*left_out, *self._count_outliers(), *(f"note: {note}" for note in self.notes)]
+
+    def _count_outliers(self) -> list[str]:
+        counted = write_count(self.outliers, "estimate", "are")
+        record = {"counted": counted, "robust": self.robust}
+        return [write("outliers", record)] if self.outliers or self.robust else []
 
 
 HIDDEN = {
@@ -133,25 +148,44 @@ def judge(
     source: str,
     removed: tuple[str, ...] = (),
     aligned: str | None = None,
+    robust: bool = False,
+    lag: int | None = None,
 ) -> Judgement:
     """Compare estimates with the exact motion.
 
     `removed` may name "offset", "delay", "drift"; with a stated model of `aligned` nothing else is
-    looked for.
+    looked for. With `robust` causes and models are those of the estimates without outliers. With a
+    lag (ns) the errors of the turns over it are measured as well.
     """
     if not len(compare(estimates, truth).total):
         raise RefusedError(_describe_absence(estimates, truth, source))
+    run = truth.select(estimates)
+    used = run
+    if robust:
+        used = trim(run, truth, lambda some: find_nearest(some, truth, aligned))
+    found, fitted, taken, notes = None, None, NONE, estimates.notes
     if aligned is not None:
-        fitted = align(estimates, truth, aligned)
-        errors = compare(estimates, truth, fitted.offset)
-        own = estimates.left_out, estimates.notes
-        return Judgement(source, errors, None, aligned, fitted, (), *own)
-    found = find_causes(estimates, truth)
-    taken = explain(estimates, truth, removed).offset if removed else NONE
-    errors = compare(estimates, truth, taken)
-    mistakes = (f"likely mistake: {each}" for each in find_mistakes(estimates, truth, found))
-    own = estimates.left_out, (*mistakes, *estimates.notes)
-    return Judgement(source, errors, found, None, None, removed, *own)
+        fitted = align(used, truth, aligned)
+        nearest, taken, removed = fitted, fitted.offset, ()
+    else:
+        found = find_causes(used, truth)
+        nearest = found.nearest or found.best
+        taken = explain(used, truth, removed).offset if removed else NONE
+        mistakes = (f"likely mistake: {each}" for each in find_mistakes(used, truth, found))
+        notes = (*mistakes, *notes)
+    return Judgement(
+        source=source,
+        errors=compare(estimates, truth, taken),
+        found=found,
+        aligned=aligned,
+        fitted=fitted,
+        removed=removed,
+        left_out=estimates.left_out,
+        notes=notes,
+        outliers=len(run) - len(used) if robust else count_outliers(run, truth, nearest),
+        robust=robust,
+        relative=None if lag is None else measure_relative(estimates, truth, taken, lag),
+    )
 
 
 def _choose_key(found: Finding) -> str:
@@ -300,7 +334,7 @@ def format_judgements(judgements: Sequence[Judgement]) -> str:
     if len(judgements) == 1:
         return judgements[0].format()
     width = max(len(each.source) for each in judgements)
-    rows = [_row(each.source, width, each.facts()["attitude"]) for each in judgements]
+    rows = [format_row(each.source, width, each.facts()["attitude"]) for each in judgements]
     notes = [
         f"{each.source}: {line}"
         for each in judgements
@@ -320,17 +354,3 @@ def tell_limit(error: float, limit: float | None, verb: str = "is") -> int:
 
 def _head(width: int) -> str:
     return f"{'':{width}}{'rms':>10}{'mean':>10}" + "".join(f"{f'{p} %':>10}" for p in PERCENTILES)
-
-
-def _row(label: str, width: int, summary: dict[str, float]) -> str:
-    return f"{label:{width}}" + "".join(f"{x:10.2e}" for x in summary.values())
-
-
-def summarize(values: Real) -> dict[str, float]:
-    """Return root mean square, mean and percentiles."""
-    marks = np.percentile(values, PERCENTILES).tolist()
-    return {
-        "rms": float(np.sqrt((values**2).mean())),
-        "mean": float(values.mean()),
-        **{f"p{p}": x for p, x in zip(PERCENTILES, marks, strict=True)},
-    }

@@ -13,6 +13,7 @@ from symtop_ros.base.refusals import one_line
 from symtop_ros.truth.judge.clock import format_clocks, measure_clock
 from symtop_ros.truth.judge.judgement import Judgement, format_judgements, judge, tell_limit
 from symtop_ros.truth.judge.problems import run_testset
+from symtop_ros.truth.judge.relative import read_lag
 from symtop_ros.truth.judge.runs import (
     ATTITUDES,
     Run,
@@ -50,6 +51,10 @@ def _find_fault(options: argparse.Namespace, rest: list[str]) -> str | None:
         "LOG with --topic or --estimates, --scene with --estimates, --live with --topic, or "
         "--testset is needed": options.testset is None and not (estimates and run),
         "--live judges one --topic": options.live and len(options.topic) > 1,
+        "--robust and --rpe judge what was recorded: no --live, no --clock, no --testset": (
+            (options.robust or options.rpe)
+            and (options.live or options.clock or options.testset is not None)
+        ),
         "--aligned states what is removed: no --remove, no --live": (
             options.aligned and (options.remove or options.live)
         ),
@@ -109,6 +114,18 @@ def make_parser() -> argparse.ArgumentParser:
         help="print how late the stamps of these estimates are, how fast the delay grows, and "
         "their jitter; --aligned names the rotations that are fitted with it (default none)",
     )
+    parser.add_argument(
+        "--robust",
+        action="store_true",
+        help="leave outliers out of causes and models: estimates more than five deviations off",
+    )
+    parser.add_argument(
+        "--rpe",
+        type=read_lag,
+        metavar="TIME",
+        help="measure the errors of the turns over a time as well, such as 1s or 50ms: the "
+        "relative pose error of evo",
+    )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FOLDER", help="folder for JSON, plots and problems"
@@ -158,7 +175,15 @@ def _measure_clocks(options: argparse.Namespace, run: Run, sources: list[Source]
 
 def _judge(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:
     judgements = [
-        judge(each.estimates, run.truth, each.name, tuple(options.remove), options.aligned)
+        judge(
+            each.estimates,
+            run.truth,
+            each.name,
+            tuple(options.remove),
+            options.aligned,
+            options.robust,
+            options.rpe,
+        )
         for each in sources
     ]
     text = _dump(judgements, options) if options.json or options.output else ""

@@ -97,7 +97,8 @@ class Search:
         is_named, is_less = judge(best, start, self.of_more[best.change])
         if not is_named:
             candidate = best if is_less else None
-            return Finding(start, (), self.hidden, False, best.fault, candidate=candidate)
+            found = Finding(start, (), self.hidden, False, best.fault, candidate=candidate)
+            return replace(found, nearest=best)
         return replace(Finding(best, tuple(others), self.hidden), **self.find_period(best))
 
     def choose(self) -> tuple[Cause, list[Cause]]:

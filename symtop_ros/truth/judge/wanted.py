@@ -85,3 +85,8 @@ def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = No
         if fit.hides(found.offset, others, PARAMETERS[name]):
             raise RefusedError(f"--aligned must be a model that this motion can show, got {model}")
     return found
+
+
+def find_nearest(run: Estimates, truth: Truth, model: str | None) -> Cause:
+    """Return what leaves least, whether it is named or not: of a stated model, or of all causes."""
+    return Search(run, truth).choose()[0] if model is None else align(run, truth, model)
