@@ -99,7 +99,8 @@ class Search:
             candidate = best if is_less else None
             found = Finding(start, (), self.hidden, False, best.fault, candidate=candidate)
             return replace(found, nearest=best)
-        return replace(Finding(best, tuple(others), self.hidden), **self.find_period(best))
+        equals = tuple(self.refine(each.kind, each.offset, with_more=True) for each in others)
+        return replace(Finding(best, equals, self.hidden), **self.find_period(best))
 
     def choose(self) -> tuple[Cause, list[Cause]]:
         """Return the best explanation and its equals: found in some estimates, chosen by more.
