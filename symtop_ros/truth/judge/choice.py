@@ -38,7 +38,7 @@ def select(found: Sequence[Cause], fits: Mapping[str, Fit], rounding: float) -> 
     lowest = min(found, key=lambda each: each.cost)
     left = fits[lowest.change].find_remainder(lowest.offset)
     is_noise = not left.find_fault(lowest.count) and left.has_shape_of_noise
-    factor = min(1 + CHANCE / (3 * left.independent), SIMPLER) if is_noise else SIMPLER
+    factor = min(1 + CHANCE / left.numbers, SIMPLER) if is_noise else SIMPLER
     most = factor * lowest.cost + rounding
     known = fits[lowest.change].exact(lowest.offset)[1]
     if known.all():

@@ -56,6 +56,16 @@ class Remainder:
         return len(self.frames[0]) / (1 + 4 * self._correlation)
 
     @property
+    def numbers(self) -> float:
+        """Number of independent numbers: three of each estimate if its components are alike.
+
+        It is one if the noise is about one axis of the world or of the body.
+        """
+        sizes = (np.linalg.eigvalsh(frame.T @ frame) for frame in self.frames)
+        alike = min(float(s.sum() ** 2 / max((s**2).sum(), 1e-300)) for s in sizes)
+        return self.independent * max(alike, 1.0)
+
+    @property
     def correlation_time(self) -> float:
         """Time in s after which errors have changed; 0 for white noise."""
         return 2 * self._correlation * self.seconds / max(len(self.frames[0]) - 1, 1)

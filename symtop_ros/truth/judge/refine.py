@@ -49,7 +49,7 @@ def weigh(fit: Fit, cause: Cause, left: Remainder) -> Cause:
 
     Errors that are no noise may pull it far away: then it stays where it is.
     """
-    most = cause.cost * (1 + CHANCE / (3 * left.independent))
+    most = cause.cost * (1 + CHANCE / left.numbers)
     moved = cause.offset
     for _ in range(ROUNDS):
         values = find_white_influences(fit, moved, cause.columns)
