@@ -14,7 +14,7 @@ from symtop_ros.base.measured import format_measured
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.causes import Cause, Finding
-from symtop_ros.truth.judge.compare import NONE, PERCENTILES, Errors, compare
+from symtop_ros.truth.judge.compare import NONE, PERCENTILES, Errors, Offset, compare
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.mistakes import find_mistakes
 from symtop_ros.truth.judge.outliers import count_outliers, trim
@@ -159,33 +159,46 @@ def judge(
     """
     if not len(compare(estimates, truth).total):
         raise RefusedError(_describe_absence(estimates, truth, source))
-    run = truth.select(estimates)
-    used = run
+    run = used = truth.select(estimates)
     if robust:
         used = trim(run, truth, lambda some: find_nearest(some, truth, aligned))
-    found, fitted, taken, notes = None, None, NONE, estimates.notes
-    if aligned is not None:
-        fitted = align(used, truth, aligned)
-        nearest, taken, removed = fitted, fitted.offset, ()
-    else:
-        found = find_causes(used, truth)
-        nearest = found.nearest or found.best
-        taken = explain(used, truth, removed).offset if removed else NONE
-        mistakes = (f"likely mistake: {each}" for each in find_mistakes(used, truth, found))
-        notes = (*mistakes, *notes)
+    said = _align(used, truth, aligned) if aligned else _explain(used, truth, removed)
     return Judgement(
         source=source,
-        errors=compare(estimates, truth, taken),
-        found=found,
+        errors=compare(estimates, truth, said.taken),
+        found=said.found,
         aligned=aligned,
-        fitted=fitted,
+        fitted=said.fitted,
         removed=removed,
         left_out=estimates.left_out,
-        notes=notes,
-        outliers=len(run) - len(used) if robust else count_outliers(run, truth, nearest),
+        notes=(*said.mistakes, *estimates.notes),
+        outliers=len(run) - len(used) if robust else count_outliers(run, truth, said.nearest),
         robust=robust,
-        relative=None if lag is None else measure_relative(estimates, truth, taken, lag),
+        relative=None if lag is None else measure_relative(estimates, truth, said.taken, lag),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Said:
+    """What is said of estimates, what leaves least of them, and what is taken away."""
+
+    nearest: Cause
+    taken: Offset
+    found: Finding | None = None
+    fitted: Cause | None = None
+    mistakes: tuple[str, ...] = ()
+
+
+def _align(used: Estimates, truth: Truth, model: str) -> _Said:
+    fitted = align(used, truth, model)
+    return _Said(fitted, fitted.offset, fitted=fitted)
+
+
+def _explain(used: Estimates, truth: Truth, removed: tuple[str, ...]) -> _Said:
+    found = find_causes(used, truth)
+    taken = explain(used, truth, removed).offset if removed else NONE
+    mistakes = (f"likely mistake: {each}" for each in find_mistakes(used, truth, found))
+    return _Said(found.nearest or found.best, taken, found, mistakes=tuple(mistakes))
 
 
 def _choose_key(found: Finding) -> str:
