@@ -18,13 +18,13 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.judge.compare import Offset, to_rotation
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.noise import sum_lags
+from symtop_ros.truth.judge.refine import RESOLUTION
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.judge.wanted import align
 from symtop_ros.words import write
 
 FEWEST = 10  # estimates
 SIGNIFICANT = 3.0  # standard deviations, below which jitter may be noise
-RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time in whole ns
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,16 +55,16 @@ def measure_clock(estimates: Estimates, truth: Truth, source: str, model: str = 
     _demand_enough(len(left), source)
     kind, jitter = _find_jitter(left, *directions)
     seconds = float(stamps[-1] - stamps[0]) * 1e-9
-    delay, rate = fitted.deviations or (0.0, 0.0)
+    delay, rate = fitted.deviations or (RESOLUTION, RESOLUTION / seconds)
     return Clock(
         source=source,
         estimates=len(left),
         independent=fitted.independent or float(len(left)),
         correlation_time=fitted.correlation_time,
         delay=1e6 * fitted.offset.delay,
-        delay_deviation=None if fitted.fault else 1e6 * math.hypot(delay, RESOLUTION),
+        delay_deviation=None if fitted.fault else 1e6 * delay,
         rate=1e6 * fitted.offset.clock,
-        rate_deviation=None if fitted.fault else 1e6 * math.hypot(rate, RESOLUTION / seconds),
+        rate_deviation=None if fitted.fault else 1e6 * rate,
         fault=fitted.fault,
         kind=kind,
         jitter=1e6 * jitter,

@@ -93,6 +93,11 @@ class Fit:
         left = subtract(self.some.orientations[both], model[both])
         return float((left**2).sum(axis=1).mean()) if both.any() else np.inf
 
+    @property
+    def seconds(self) -> float:
+        """Time from the first to the last estimate in s."""
+        return float(np.ptp(self.some.stamps)) / NANOSECONDS
+
     @cached_property
     def fastest(self) -> float:
         """Largest angular velocity of the motion in rad/s."""
@@ -188,7 +193,7 @@ class Fit:
         q, model = self.residuals(offset)
         left = find_rotation_vectors(compose(q, invert(model)))
         body = to_rotation(model).inv().apply(left) if len(left) else left
-        return Remainder((left, body), float(np.ptp(self.some.stamps)) / NANOSECONDS)
+        return Remainder((left, body), self.seconds)
 
     def find_influences(self, offset: Offset, free: list[int]) -> Real:
         """Return the changes of all columns, (n, 11), by each estimate."""

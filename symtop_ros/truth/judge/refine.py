@@ -5,6 +5,7 @@ their power. So what is left is whitened by an autoregression, in the frame of t
 body, whichever it describes better, and the least squares of that have a deviation by the sandwich.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -17,6 +18,7 @@ from symtop_ros.truth.judge.fit import COLUMNS, PARAMETERS, ROUNDING, Fit, move
 from symtop_ros.truth.judge.lasting import find_noise
 from symtop_ros.truth.judge.noise import CHANCE, Influences, Remainder, find_influences
 
+RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time in whole ns
 ROUNDS = 3  # of noise and least squares: the noise hardly depends on the offset
 
 
@@ -60,8 +62,12 @@ def weigh(fit: Fit, cause: Cause, left: Remainder) -> Cause:
         values = fit.find_influences(cause.offset, cause.columns)
     # The power of slow noise is as uncertain as so few estimates make it, also after whitening.
     influences = Influences(values, cause.count, left.independent)
-    slopes = [np.eye(COLUMNS)[PARAMETERS[name]] for name in cause.parameters]
-    own = tuple(influences.find_deviation(each) for each in slopes)
+    # All estimates may have one stamp, as those of a clock that stands still.
+    least = {"delay": RESOLUTION, "clock": RESOLUTION / max(fit.seconds, 1e-9)}
+    own = tuple(
+        math.hypot(influences.find_deviation(np.eye(COLUMNS)[PARAMETERS[name]]), least.get(name, 0))
+        for name in cause.parameters
+    )
     turns = tuple(influences.find_deviation(each) for each in _list_turns(cause.offset))
     return replace(cause, deviations=own, turn_deviations=turns)
 
