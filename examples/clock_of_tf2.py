@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from symtop_ros.base.arrays import Stamps
+from symtop_ros.base.measured import format_measured
 from symtop_ros.truth.judge.clock import Clock, measure_clock
 from symtop_ros.truth.judge.compare import compare
 from symtop_ros.truth.judge.estimates import Estimates
@@ -29,8 +30,7 @@ def look_up(rate: int, times: Stamps) -> tuple[Estimates, Estimates]:
 
 def describe_delay(clock: Clock) -> str:
     """Return how late transforms are; errors of interpolation are no noise to deviate by."""
-    deviation = clock.delay_deviation
-    return f"late by {clock.delay:.4f}{'' if deviation is None else f' +- {deviation:.2g}'} us"
+    return f"late by {format_measured(clock.delay, clock.delay_deviation)} us"
 
 
 def main() -> None:

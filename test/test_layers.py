@@ -10,7 +10,9 @@ from documents import ROOT
 PACKAGE = ROOT / "symtop_ros"
 # Files next to the rooms, and what every folder may use of the ground floor.
 TOP = {"__init__", "__main__", "programs"}
-GROUND = {"base/arrays", "base/counts", "base/measured", "base/refusals", "base/units"}
+GROUND = {
+    f"base/{name}" for name in ("arrays", "counts", "header", "measured", "refusals", "units")
+}
 # Rooms of several folders.
 DIVIDED = ("run", "ros", "page", "truth")
 # Folder -> folders of the package, and files of `base` | other packages. Each entry is exact: an
@@ -36,8 +38,8 @@ TABLE = {
     "numpy rerun rerun_cli",
     "ros/node": "__init__ base/command base/shutdown physics run/session run/simulation run/wire | "
     "geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces std_srvs",
-    # of session only the table of services, which imports nothing; physics and words only in body.py
-    # and spread.py, and simulation for the names of a start
+    # of session only the table of services, which imports nothing; physics and words only in
+    # body.py and spread.py, and simulation for the names of a start
     "ros/client": "base/command base/shutdown physics run/session run/simulation run/wire words | "
     "rcl_interfaces rclpy sensor_msgs std_srvs",
     "ros/live": "base/command base/shutdown replay run/log run/simulation run/wire | rclpy rerun",
@@ -47,8 +49,7 @@ TABLE = {
     "truth/imu": "base/command physics run/log run/simulation run/wire | numpy yaml",
     "truth/testset": " | numpy",
     # of judge the reader of tables and topics, the noise, and the look of figures
-    "truth/fit": "__init__ base/command physics run/log run/wire truth/judge words | "
-    "matplotlib numpy scipy",
+    "truth/fit": "base/command physics run/log run/wire truth/judge words | matplotlib numpy scipy",
     "truth/judge": "base/command base/shutdown physics run/log run/models run/simulation run/wire "
     "truth/testset words | matplotlib numpy rclpy scipy",
 }

@@ -38,6 +38,21 @@ def write_measured(value: float, deviation: float) -> tuple[str, str]:
     return texts[0] + end, texts[1] + end
 
 
+def format_measured(value: float, deviation: float | None, width: int = 0) -> str:
+    """Return a value and its deviation as one text; None: there is no deviation.
+
+    The value takes at least `width` characters, as in a column.
+
+    Examples
+    --------
+    >>> from symtop_ros.base.measured import format_measured
+    >>> format_measured(431.274183, 1.7e-06), format_measured(0.25, None)
+    ('431.2741830 +- 0.0000017', '0.25')
+    """
+    number, spread = write_measured(value, deviation or 0.0)
+    return f"{number:>{width}} +- {spread}" if deviation else f"{number:>{width}}"
+
+
 def _find_exponent(value: float) -> int:
     return int(f"{value:e}".partition("e")[2]) if value else -999
 

@@ -1,7 +1,11 @@
 """`top_replay --check`: what was compared, what was not, and whether it agrees."""
 
+import json
+import math
 import sys
 from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any
 
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import one_line
@@ -20,8 +24,11 @@ WIDTH = 28  # of a topic in its line
 MAX_OTHERS = 20  # topics of others that are named
 
 
-def check(log: TopLog, strict: bool = False) -> int:
-    """Print the results of a check; return 0 if everything agrees and nothing is missing."""
+def check(log: TopLog, strict: bool = False, header: Mapping[str, Any] | None = None) -> int:
+    """Print the results of a check; return 0 if everything agrees and nothing is missing.
+
+    With a header they are JSON that begins with it.
+    """
     account = log.account
     found = check_run(log)
     unreached = sum(each.unreached for each in found.deviations.values())
@@ -35,15 +42,53 @@ def check(log: TopLog, strict: bool = False) -> int:
     for line in list_problems([_describe(account, each) for each in found.mismatches]):
         _print_problem(line)
     is_whole = not (account.problems or account.doubts or found.unjudged)
+    lacks = strict and bool(account.never_recorded)
+    agrees = found.samples_agree and found.laws_hold and not found.mismatches
+    is_good = agrees and is_whole and not lacks
+    if header is not None:
+        print(json.dumps({**header, **_list_facts(account, found, is_good)}, indent=1))
+        return int(not is_good)
     _print_verdict(found)
     if found.samples_agree and not is_whole:
         print(_describe_damage(account, found))
     _print_topics(account, found)
     _print_laws(found.laws)
     _print_starts(found.starts)
-    lacks = strict and bool(account.never_recorded)
-    agrees = found.samples_agree and found.laws_hold and not found.mismatches
-    return 0 if agrees and is_whole and not lacks else 1
+    return int(not is_good)
+
+
+def _list_facts(account: Account, found: Findings, is_good: bool) -> dict[str, Any]:
+    """Return the results for JSON."""
+    topics = {
+        topic.name: _describe_topic(found, name, topic.count)
+        for name, topic in account.topics.items()
+    }
+    return {
+        "node": account.node,
+        "good": is_good,
+        "samples_agree": found.samples_agree,
+        "laws_hold": found.laws_hold,
+        "laws": {name: {**asdict(each), "unit": UNITS[name]} for name, each in found.laws.items()},
+        "starts_solved_again": found.starts.compared,
+        "first_event": found.first or None,
+        "foreign_events": found.foreign,
+        "other_versions": found.versions,
+        "problems": [*map(one_line, account.lines)],
+        "mismatches": [asdict(each) for each in found.mismatches],
+        "topics": topics,
+        "never_recorded": [KNOWN[name].ros_name for name in account.never_recorded],
+        "others": sorted(map(one_line, account.others)),
+    }
+
+
+def _describe_topic(found: Findings, name: str, count: int) -> dict[str, Any]:
+    """Return what was compared of a topic."""
+    if deviation := found.deviations.get(name):
+        sizes = {each: getattr(deviation, each) for each in ("largest", "relative")}
+        finite = {each: size if math.isfinite(size) else None for each, size in sizes.items()}
+        return {"messages": count, **asdict(deviation), **finite}
+    reason = None if found.compared.get(name) == count else found.reasons.get(name)
+    return {"messages": count, "compared": found.compared.get(name, 0), "reason": reason}
 
 
 def _print_problem(text: str) -> None:

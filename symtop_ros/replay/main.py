@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from symtop_ros.base.command import has_screen, tell_failures
+from symtop_ros.base.header import make_header
 from symtop_ros.base.refusals import number
 from symtop_ros.page.web.join import write_file
 from symtop_ros.replay.check import check
@@ -32,6 +33,8 @@ def main(args: list[str] | None = None) -> int:
         parser.error("--rate goes with --mcap")
     if options.strict and not options.check:
         parser.error("--strict goes with --check")
+    if options.json and not options.check:
+        parser.error("--json goes with --check")
     return tell_failures("top_replay", lambda: _run(options))
 
 
@@ -44,7 +47,7 @@ def _run(options: argparse.Namespace) -> int:
         return _repair(McapFile(_only_file(options.files)), options.repair)
     with _open_file(options.files, options.node) as log:
         _print_problems(log.account)
-        return check(log, options.strict) if options.check else _show(log, options)
+        return _check(log, options) if options.check else _show(log, options)
 
 
 def _only_file(paths: Sequence[Path]) -> Path:
@@ -61,6 +64,11 @@ def _repair(file: McapFile, target: Path) -> int:
     _print_problems(account)
     print(f"wrote {repair(file, target, account)} to {target}")
     return 0
+
+
+def _check(log: TopLog, options: argparse.Namespace) -> int:
+    header = make_header("check", options.files) if options.json else None
+    return check(log, options.strict, header)
 
 
 def _show(log: TopLog, options: argparse.Namespace) -> int:

@@ -83,6 +83,9 @@ def make_parser() -> argparse.ArgumentParser:
         help="with --check: status 1 as well if the log lacks topics of the node",
     )
     parser.add_argument(
+        "--json", action="store_true", help="with --check: print JSON in place of text"
+    )
+    parser.add_argument(
         "--rate", type=decimal, help=f"samples per second for --mcap (default {RATE:g})"
     )
     return parser

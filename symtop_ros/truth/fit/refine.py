@@ -5,7 +5,7 @@ of the order that Hannan and Quinn's criterion chooses: flicker has another powe
 on average. Noise of any other correlation is left to the sandwich of `truth/judge/noise.py`.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -14,46 +14,16 @@ from symtop_ros.base.arrays import Mask, Real
 from symtop_ros.truth.fit.model import Model
 from symtop_ros.truth.fit.record import Record, find_spread
 from symtop_ros.truth.fit.search import minimise
+from symtop_ros.truth.judge.lasting import Noise, find_lasting, measure_noise
 from symtop_ros.truth.judge.noise import Remainder, sum_influences
 
 OUTLIER = 5.0  # deviations; a normal number is farther once in two million
 ROUNDS = 8  # of weights and least squares
 MANY = 0.02  # part of the rows; with more outliers there are too few neighbours
-ORDERS = 12  # of an autoregression, at most
-PER_ORDER = 20  # rows for each order
 SETTLED = 1e-7  # of the scale of a parameter
 FIXED = 12.0  # deviations of rounding, of which a step has 3.5
 DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
-
-
-@dataclass(frozen=True, eq=False)
-class Noise:
-    """The noise of a record.
-
-    Attributes
-    ----------
-    kept : ndarray (n,)
-        True for rows that are no outliers and, if noise lasts, follow enough that are none.
-    sigma : ndarray (r,)
-        Deviations of what is new in each row.
-    lasting : ndarray (q, r)
-        Coefficients of the autoregression, of the row before first; q = 0 for white noise.
-    outliers : int
-    """
-
-    kept: Mask
-    sigma: Real
-    lasting: Real
-    outliers: int
-
-    def whiten(self, rows: Real) -> Real:
-        """Return what is new in the kept rows (n, r, ...), in deviations."""
-        shape = (-1, *[1] * (rows.ndim - 2))
-        new = rows.copy()
-        for lag, each in enumerate(self.lasting, 1):
-            new[lag:] -= each.reshape(shape) * rows[:-lag]
-        return np.asarray((new / self.sigma.reshape(shape))[self.kept])
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,13 +151,9 @@ def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
     lasting = np.zeros((0, left.shape[1]))
     if lasts and outliers < MANY * len(record):
         lasting = np.where(fixed, 0.0, find_lasting(left, good, record.follows, len(x)))
-    kept = good & find_runs(good, record.follows, len(lasting))
-    if not kept.any():
-        kept, lasting = np.ones(len(record), dtype=bool), lasting[:0]
-    new = Noise(kept, np.ones(left.shape[1]), lasting, outliers).whiten(left)
-    free = max(len(new) - len(x) / left.shape[1], 1.0)
-    sigma = np.maximum(np.sqrt((new**2).sum(axis=0) / free), least)
-    return Noise(kept, np.where(fixed, sigma * np.sqrt(len(new)), sigma), lasting, outliers)
+    noise = measure_noise(left, good, record.follows, lasting, len(x))
+    sigma = np.maximum(noise.sigma, least)
+    return replace(noise, sigma=np.where(fixed, sigma * np.sqrt(noise.kept.sum()), sigma))
 
 
 def find_rounding(record: Record, width: int) -> tuple[Real, Mask]:
@@ -199,57 +165,3 @@ def find_rounding(record: Record, width: int) -> tuple[Real, Mask]:
     if len(rounding) != width:  # residuals of attitudes are no differences of columns
         return np.zeros(width), np.zeros(width, dtype=bool)
     return rounding, np.ptp(record.values, axis=0) < FIXED * rounding
-
-
-def find_runs(good: Mask, follows: Mask, length: int) -> Mask:
-    """Return True (n,) for rows that follow so many good ones, each a step after the other."""
-    found = np.ones(len(good), dtype=bool)
-    for lag in range(1, length + 1):
-        found[:lag] = False
-        found[lag:] &= good[:-lag] & _link(follows, lag)
-    return found
-
-
-def _link(follows: Mask, lag: int) -> Mask:
-    """Return True (n - lag,) for rows that come after `lag` steps without a gap."""
-    count = np.concatenate([[0], np.cumsum(~follows)])
-    return np.asarray(count[lag + 1 :] == count[1:-lag])
-
-
-def find_lasting(left: Real, good: Mask, follows: Mask, parameters: int) -> Real:
-    """Return the coefficients (q, r) of autoregressions of one order for all columns.
-
-    A fit takes the share p/(n r) of the power of noise away; it is given back to the correlations.
-    """
-    most = min(ORDERS, len(left) // PER_ORDER)
-    covariances = find_covariances(left, good, follows, most)
-    total = covariances[0] + 2 * covariances[1:].sum(axis=0)
-    share = parameters / (len(left) * left.shape[1])
-    covariances = covariances + share * np.maximum(total, covariances[0])
-    fits = [solve_order(covariances, order) for order in range(most + 1)]
-    loglog = np.log(np.log(max(len(left), 16)))
-    cost = [
-        len(left) * np.log(new / covariances[0]).sum() + 2 * order * left.shape[1] * loglog
-        for order, (_, new) in enumerate(fits)
-    ]
-    return fits[int(np.argmin(cost))][0]
-
-
-def find_covariances(left: Real, good: Mask, follows: Mask, most: int) -> Real:
-    """Return the covariances (most + 1, r) of good rows at lags without a gap."""
-    found = [(left[good] ** 2).mean(axis=0) + 1e-300]
-    for lag in range(1, most + 1):
-        pairs = good[lag:] & good[:-lag] & _link(follows, lag)
-        products = (left[lag:] * left[:-lag])[pairs]
-        found.append(products.sum(axis=0) / max(len(products) + lag, 1))
-    return np.array(found)
-
-
-def solve_order(covariances: Real, order: int) -> tuple[Real, Real]:
-    """Return coefficients (q, r) and the variance (r,) of what is new, by Yule and Walker."""
-    places = np.abs(np.subtract.outer(np.arange(order), np.arange(order)))
-    slopes = np.zeros((order, covariances.shape[1]))
-    for column, own in enumerate(covariances.T):
-        slopes[:, column] = np.linalg.lstsq(own[places], own[1 : order + 1], rcond=None)[0]
-    new = covariances[0] - (slopes * covariances[1 : order + 1]).sum(axis=0)
-    return slopes, np.maximum(new, 1e-6 * covariances[0])

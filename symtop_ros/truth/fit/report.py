@@ -2,13 +2,14 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from symtop_ros import __version__
 from symtop_ros.base.counts import write_count
-from symtop_ros.base.measured import write_measured
+from symtop_ros.base.header import make_header
+from symtop_ros.base.measured import format_measured
 from symtop_ros.truth.fit.check import FAILS, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
@@ -16,7 +17,6 @@ from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import Value, convert, list_values
 from symtop_ros.words import write
 
-SCHEMA = "symtop_ros/fit/1"
 LABELS = {
     "spin": "spin (omega_z)",
     "theta_dot": "theta'",
@@ -72,8 +72,7 @@ class Report:
             if each.is_known
         }
         return {
-            "schema": SCHEMA,
-            "version": __version__,
+            **make_header("fit", [Path(self.source)]),
             "source": self.source,
             "kind": record.kind.name,
             "rows": self.rows,
@@ -120,16 +119,16 @@ class Report:
         return "\n".join([*lines, *(f"note: {note}" for note in record.notes)])
 
     def _write_row(self, value: Value) -> str:
-        number, deviation = write_measured(value.value, value.deviation)
+        measured = format_measured(value.value, value.deviation, 12)
         label = LABELS.get(value.name, value.name)
         when = " (first row)" if value.name in ANGLES else ""
-        return f"  {label:18}{number:>12} +- {deviation} {value.unit}{when}".rstrip()
+        return f"  {label:18}{measured} {value.unit}{when}".rstrip()
 
     def _write(self, unknown: Unknown) -> str:
-        record = {f"n{k}": number for k, number in enumerate(unknown.numbers)}
+        record: dict[str, Any] = {f"n{k}": number for k, number in enumerate(unknown.numbers)}
         if unknown.kind in {"weak", "together"}:  # the last two are a value with its deviation
-            value, deviation = write_measured(*unknown.numbers[-2:])
-            record |= {"value": value, "deviation": deviation}  # type: ignore[dict-item]
+            value, deviation = unknown.numbers[-2:]
+            record["value"] = format_measured(value, deviation)
         return write(f"unknown.{unknown.kind}", {**record, "names": unknown.names})
 
     @property

@@ -12,7 +12,9 @@ import numpy as np
 from symtop_ros.base.arrays import Real, compose, invert
 from symtop_ros.truth.judge.compare import NONE, Offset
 from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import PARAMETERS
+from symtop_ros.truth.judge.fit import PARAMETERS, Fit
+from symtop_ros.truth.judge.permutations import list_permutations
+from symtop_ros.truth.judge.truth import Truth
 
 # Which rotations are free, with their columns of derivatives, and how much each counts when the
 # simplest explanation is looked for.
@@ -39,10 +41,10 @@ class Cause:
     parameters: tuple[str, ...]
     offset: Offset
     cost: float  # mean square of the distances of quaternions
-    # standard deviations of the parameters and of the rotations (rad); none if they were not asked
-    # for, or cannot be given
+    # standard deviations of the parameters, and of the angles (rad) of world and body; none if they
+    # were not asked for, or cannot be given
     deviations: tuple[float, ...] = ()
-    turn_deviation: float = 0.0
+    turn_deviations: tuple[float, ...] = ()
     independent: float | None = (
         None  # number of independent estimates, if deviations were asked for
     )
@@ -84,8 +86,9 @@ class Cause:
         """True if all parameters and the rotations are many deviations from zero."""
         sizes = [abs(getattr(self.offset, name)) for name in self.parameters]
         pairs = [*zip(sizes, self.deviations, strict=True)] if self.deviations else []
-        turned = [(self.turns, self.turn_deviation)] if self.level != "none" else []
-        return all(size > SIGNIFICANT * deviation for size, deviation in [*pairs, *turned])
+        turned = zip(self.offset.angles, self.turn_deviations, strict=False)
+        pairs += [(size, deviation) for size, deviation in turned if deviation]
+        return all(size > SIGNIFICANT * deviation for size, deviation in pairs)
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +105,7 @@ class Finding:
     still: bool = False  # True: the estimates do not move, and the top does
     period: float | None = None  # s; delays that differ by it are as good, with `repeated`
     repeated: Offset = NONE
+    nearest: Cause | None = None  # what leaves least, if it is not named
 
 
 def set_parameter(offset: Offset, name: str, value: float) -> Offset:
@@ -115,7 +119,7 @@ def _turn(change: Callable[[Real], Real]) -> Undoing:
 
 
 # Undoing each: its weight, and the rotations that may be free with it.
-CHANGES: dict[str, tuple[float, tuple[str, ...], Undoing]] = {
+CONVENTIONS: dict[str, tuple[float, tuple[str, ...], Undoing]] = {
     "": (0.0, ALL, lambda e: e),
     "order": (1.0, ALL, _turn(lambda q: q[:, [3, 0, 1, 2]])),
     "conjugate": (1.0, ALL, _turn(invert)),
@@ -126,3 +130,19 @@ CHANGES: dict[str, tuple[float, tuple[str, ...], Undoing]] = {
     "frd": (1.0, ALL[:2], _turn(lambda q: compose(q, FLIP_BODY))),
     "ned_frd": (1.0, ALL[:2], _turn(lambda q: compose(compose(FLIP_WORLD, q), FLIP_BODY))),
 }
+# A half turn of one frame is simpler than mixed columns that are the same.
+PERMUTED = {each.name: each for each in list_permutations()}
+CHANGES = CONVENTIONS | {name: (1.5, ALL[:2], _turn(each.undo)) for name, each in PERMUTED.items()}
+
+
+class Fits(dict[str, Fit]):
+    """Fits of estimates of which a change is undone, made when they are asked for."""
+
+    def __init__(self, estimates: Estimates, truth: Truth) -> None:
+        super().__init__()
+        self._estimates, self._truth = estimates, truth
+
+    def __missing__(self, change: str) -> Fit:
+        """Return the fit of a change."""
+        self[change] = Fit(CHANGES[change][2](self._estimates), self._truth)
+        return self[change]

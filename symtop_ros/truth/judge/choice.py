@@ -23,11 +23,8 @@ from collections.abc import Mapping, Sequence
 
 from symtop_ros.truth.judge.causes import Cause
 from symtop_ros.truth.judge.fit import PARAMETERS, Fit
-from symtop_ros.truth.judge.noise import PER_PARAMETER
+from symtop_ros.truth.judge.noise import CHANCE, PER_PARAMETER
 
-# Noise makes the squares smaller by chance: by less than this, in units of the variance of one
-# independent number, of the thousands of values that are tried.
-CHANCE = 36.0
 SIMPLER = 4.0  # if no noise is left, simpler causes count with at most twice the error (squared)
 TIE = 1.5  # explanations that are as good, by their mean squares
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
@@ -41,7 +38,7 @@ def select(found: Sequence[Cause], fits: Mapping[str, Fit], rounding: float) -> 
     lowest = min(found, key=lambda each: each.cost)
     left = fits[lowest.change].find_remainder(lowest.offset)
     is_noise = not left.find_fault(lowest.count) and left.has_shape_of_noise
-    factor = min(1 + CHANCE / (3 * left.independent), SIMPLER) if is_noise else SIMPLER
+    factor = min(1 + CHANCE / left.numbers, SIMPLER) if is_noise else SIMPLER
     most = factor * lowest.cost + rounding
     known = fits[lowest.change].exact(lowest.offset)[1]
     if known.all():

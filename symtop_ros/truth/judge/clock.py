@@ -13,17 +13,18 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.arrays import Real, Stamps, compose, find_rotation_vectors, invert
+from symtop_ros.base.measured import format_measured
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.judge.compare import Offset, to_rotation
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.noise import sum_lags
+from symtop_ros.truth.judge.refine import RESOLUTION
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.judge.wanted import align
 from symtop_ros.words import write
 
 FEWEST = 10  # estimates
 SIGNIFICANT = 3.0  # standard deviations, below which jitter may be noise
-RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time in whole ns
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,16 +55,16 @@ def measure_clock(estimates: Estimates, truth: Truth, source: str, model: str = 
     _demand_enough(len(left), source)
     kind, jitter = _find_jitter(left, *directions)
     seconds = float(stamps[-1] - stamps[0]) * 1e-9
-    delay, rate = fitted.deviations or (0.0, 0.0)
+    delay, rate = fitted.deviations or (RESOLUTION, RESOLUTION / seconds)
     return Clock(
         source=source,
         estimates=len(left),
         independent=fitted.independent or float(len(left)),
         correlation_time=fitted.correlation_time,
         delay=1e6 * fitted.offset.delay,
-        delay_deviation=None if fitted.fault else 1e6 * math.hypot(delay, RESOLUTION),
+        delay_deviation=None if fitted.fault else 1e6 * delay,
         rate=1e6 * fitted.offset.clock,
-        rate_deviation=None if fitted.fault else 1e6 * math.hypot(rate, RESOLUTION / seconds),
+        rate_deviation=None if fitted.fault else 1e6 * rate,
         fault=fitted.fault,
         kind=kind,
         jitter=1e6 * jitter,
@@ -126,8 +127,8 @@ def format_clocks(clocks: list[Clock]) -> str:
         {
             "source": clock.source,
             "estimates": clock.estimates,
-            "delay": _write_measured(clock.delay, clock.delay_deviation),
-            "rate": _write_measured(clock.rate, clock.rate_deviation),
+            "delay": format_measured(clock.delay, clock.delay_deviation),
+            "rate": format_measured(clock.rate, clock.rate_deviation),
             "fault": _write_fault(clock),
             "jitter": {"kind": clock.kind, "value": clock.jitter},
         }
@@ -139,7 +140,3 @@ def format_clocks(clocks: list[Clock]) -> str:
 def _write_fault(clock: Clock) -> dict[str, Any] | None:
     counted = {**asdict(clock), "independent": round(clock.independent), "kind": clock.fault}
     return counted if clock.fault else None
-
-
-def _write_measured(value: float, deviation: float | None) -> dict[str, Any]:
-    return {"value": value, "deviation": None if deviation is None else {"value": deviation}}

@@ -97,12 +97,14 @@ class Estimates:
         """Return at least so many of the estimates, and less than twice, spread over the run.
 
         One is drawn at random of each so many that follow each other: of two publishers that take
-        turns, every other estimate would be that of one.
+        turns, every other estimate would be that of one. The first one is kept, as drifts count
+        from it.
         """
         width = max(1, len(self) // most)
         if width == 1:
             return self
         draws = np.random.default_rng(0).integers(0, width, len(self) // width)
+        draws[0] = 0
         chosen = np.zeros(len(self), dtype=bool)
         chosen[np.arange(len(draws)) * width + draws] = True
         return self.select(chosen)

@@ -1,5 +1,6 @@
 """Least squares of estimates: rotations, a delay, drifts, the rate of a clock, a scale."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -10,7 +11,7 @@ from symtop_ros.base.arrays import Mask, Real, compose, find_rotation_vectors, i
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
 from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.noise import Remainder, find_deviations
+from symtop_ros.truth.judge.noise import Remainder, find_influences
 from symtop_ros.truth.judge.truth import Truth
 
 SAMPLES = 500  # estimates that a search takes, spread over the run
@@ -26,6 +27,7 @@ PARAMETERS = {"delay": 6, "drift": 7, "clock": 8, "spin": 9, "scale": 10}
 DELAY, DRIFT, CLOCK, SPIN, SCALE = PARAMETERS.values()
 COLUMNS = 11
 SPEED_STEP = 500  # ns, in which a fast top turns by 0.1 mrad
+GAP = 5.0  # medians of the steps between estimates; a longer step ends a run of noise
 RANK = 1e-7  # singular values below this part of the largest are zero
 
 
@@ -91,6 +93,11 @@ class Fit:
         left = subtract(self.some.orientations[both], model[both])
         return float((left**2).sum(axis=1).mean()) if both.any() else np.inf
 
+    @property
+    def seconds(self) -> float:
+        """Time from the first to the last estimate in s."""
+        return float(np.ptp(self.some.stamps)) / NANOSECONDS
+
     @cached_property
     def fastest(self) -> float:
         """Largest angular velocity of the motion in rad/s."""
@@ -112,7 +119,7 @@ class Fit:
             sizes = np.linalg.norm(columns, axis=0) + np.finfo(float).tiny
             left = self.find_left(best).ravel()
             step[free] = np.linalg.lstsq(columns / sizes, left, rcond=RANK)[0] / sizes
-            tried = (_move(best, step * part) for part in STEPS)
+            tried = (move(best, step * part) for part in STEPS)
             found = ((each, new) for each in tried if (new := self.cost(each)) < cost)
             before, (best, cost) = cost, next(found, (best, cost))
             if not before - cost > ENOUGH * cost:
@@ -138,6 +145,19 @@ class Fit:
             turns = self.scaling(offset).derive(offset.scale)[known]
             columns[:, :, SCALE] = to_rotation(world).apply(turns)
         return np.asarray(columns.reshape(-1, COLUMNS)[:, free])
+
+    def derive_frames(self, offset: Offset, free: list[int]) -> Iterator[tuple[Real, Real]]:
+        """Yield derivatives (n, 3, free) and what is left (n, 3), in the world and in the body."""
+        columns, left = self.derive_vectors(offset, free), self.find_left(offset)
+        yield columns, left
+        to_body = to_rotation(self.residuals(offset)[1]).inv().as_matrix()
+        yield to_body @ columns, (to_body @ left[..., np.newaxis])[..., 0]
+
+    def find_follows(self, offset: Offset) -> Mask:
+        """Return True (n,) for known estimates that come soon after the one before."""
+        stamps = self.some.stamps[self.exact(offset)[1]]
+        steps = np.diff(stamps, prepend=stamps[:1])
+        return np.asarray((steps <= GAP * np.median(steps)) & (np.arange(len(steps)) > 0))
 
     def derive_vectors(self, offset: Offset, free: list[int]) -> Real:
         """Return the derivatives as vectors, (n, 3, free)."""
@@ -173,16 +193,17 @@ class Fit:
         q, model = self.residuals(offset)
         left = find_rotation_vectors(compose(q, invert(model)))
         body = to_rotation(model).inv().apply(left) if len(left) else left
-        return Remainder((left, body), float(np.ptp(self.some.stamps)) / NANOSECONDS)
+        return Remainder((left, body), self.seconds)
 
-    def find_deviations(self, offset: Offset, free: list[int], remainder: Remainder) -> Real:
-        """Return the standard deviations of the columns, (11,); 0 in columns that are not free."""
-        deviations = np.zeros(COLUMNS)
-        deviations[free] = find_deviations(self.derive_vectors(offset, free), remainder)
-        return deviations
+    def find_influences(self, offset: Offset, free: list[int]) -> Real:
+        """Return the changes of all columns, (n, 11), by each estimate."""
+        columns = self.derive_vectors(offset, free)
+        values = np.zeros((len(columns), COLUMNS))
+        values[:, free] = find_influences(columns, self.find_left(offset))
+        return values
 
 
-def _move(offset: Offset, step: Real) -> Offset:
+def move(offset: Offset, step: Real) -> Offset:
     """Return the offset changed by a step in its columns; a delay stays within its bound."""
     moved = {name: getattr(offset, name) + float(step[k]) for name, k in PARAMETERS.items()}
     moved["delay"] = min(max(moved["delay"], -MOST_DELAY), MOST_DELAY)

@@ -8,17 +8,21 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.base.arrays import Real
+from symtop_ros.base.arrays import Real, find_rotation_vectors
 from symtop_ros.base.counts import write_count
+from symtop_ros.base.measured import format_measured
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.causes import Cause, Finding
-from symtop_ros.truth.judge.compare import NONE, PERCENTILES, Errors, compare
+from symtop_ros.truth.judge.compare import NONE, PERCENTILES, Errors, Offset, compare
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.mistakes import find_mistakes
+from symtop_ros.truth.judge.outliers import count_outliers, trim
+from symtop_ros.truth.judge.relative import LABEL, Relative, measure_relative
 from symtop_ros.truth.judge.search import find_causes
+from symtop_ros.truth.judge.summary import format_row, summarize
 from symtop_ros.truth.judge.truth import Truth
-from symtop_ros.truth.judge.wanted import align, explain
+from symtop_ros.truth.judge.wanted import align, explain, find_nearest
 from symtop_ros.words import write
 
 NOTHING = 1e-6  # rad; an error below this is not worth a sentence
@@ -43,6 +47,9 @@ class Judgement:
     removed: tuple[str, ...]  # "offset", "delay" and "drift", if they were taken away
     left_out: int  # messages without a readable attitude
     notes: tuple[str, ...]  # likely mistakes, and what is odd about the file
+    outliers: int = 0  # estimates that are far off what explains the others
+    robust: bool = False  # True: they were left out of it
+    relative: Relative | None = None  # errors of turns over a lag
 
     def facts(self) -> dict[str, Any]:
         """Return all figures, for JSON."""
@@ -58,10 +65,13 @@ class Judgement:
             "seconds": float(errors.seconds[-1]),
             "removed": list(self.removed),
             **{name: summarize(values) for name, values in errors.quantities.items()},
+            "relative": self.relative.facts() if self.relative else None,
             "growth_rms": [None if np.isnan(x) else float(x) for x in errors.growth()],
             "aligned": self.aligned,
             "fitted": None if self.fitted is None else _describe_cause(self.fitted),
             "found": None if self.found is None else _describe_finding(self.found),
+            "outliers": self.outliers,
+            "robust": self.robust,
             "notes": list(self.notes),
         }
 
@@ -73,8 +83,9 @@ class Judgement:
         lines = [
             f"{self.source}: {write_count(facts['estimates'], 'estimate')} in "
             f"{facts['seconds']:.6g} s{removed}",
-            _head(18),
-            *(_row(QUANTITIES[name], 18, facts[name]) for name in QUANTITIES if name in facts),
+            _head(LABEL),
+            *(format_row(label, LABEL, facts[k]) for k, label in QUANTITIES.items() if k in facts),
+            *([self.relative.format()] if self.relative else []),
             f"attitude, rms: {growth[0]:.2e} rad in the first tenth, {growth[-1]:.2e} in the last",
             self._explain(),
             *self._remarks(),
@@ -117,7 +128,12 @@ class Judgement:
             for number, what in counts
             if number
         ]
-        return left_out + [f"note: {note}" for note in self.notes]
+        return [*left_out, *self._count_outliers(), *(f"note: {note}" for note in self.notes)]
+
+    def _count_outliers(self) -> list[str]:
+        counted = write_count(self.outliers, "estimate", "are")
+        record = {"counted": counted, "robust": self.robust}
+        return [write("outliers", record)] if self.outliers or self.robust else []
 
 
 HIDDEN = {
@@ -132,25 +148,57 @@ def judge(
     source: str,
     removed: tuple[str, ...] = (),
     aligned: str | None = None,
+    robust: bool = False,
+    lag: int | None = None,
 ) -> Judgement:
     """Compare estimates with the exact motion.
 
     `removed` may name "offset", "delay", "drift"; with a stated model of `aligned` nothing else is
-    looked for.
+    looked for. With `robust` causes and models are those of the estimates without outliers. With a
+    lag (ns) the errors of the turns over it are measured as well.
     """
     if not len(compare(estimates, truth).total):
         raise RefusedError(_describe_absence(estimates, truth, source))
-    if aligned is not None:
-        fitted = align(estimates, truth, aligned)
-        errors = compare(estimates, truth, fitted.offset)
-        own = estimates.left_out, estimates.notes
-        return Judgement(source, errors, None, aligned, fitted, (), *own)
-    found = find_causes(estimates, truth)
-    taken = explain(estimates, truth, removed).offset if removed else NONE
-    errors = compare(estimates, truth, taken)
-    mistakes = (f"likely mistake: {each}" for each in find_mistakes(estimates, truth, found))
-    own = estimates.left_out, (*mistakes, *estimates.notes)
-    return Judgement(source, errors, found, None, None, removed, *own)
+    run = used = truth.select(estimates)
+    if robust:
+        used = trim(run, truth, lambda some: find_nearest(some, truth, aligned))
+    said = _align(used, truth, aligned) if aligned else _explain(used, truth, removed)
+    return Judgement(
+        source=source,
+        errors=compare(estimates, truth, said.taken),
+        found=said.found,
+        aligned=aligned,
+        fitted=said.fitted,
+        removed=removed,
+        left_out=estimates.left_out,
+        notes=(*said.mistakes, *estimates.notes),
+        outliers=len(run) - len(used) if robust else count_outliers(run, truth, said.nearest),
+        robust=robust,
+        relative=None if lag is None else measure_relative(estimates, truth, said.taken, lag),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Said:
+    """What is said of estimates, what leaves least of them, and what is taken away."""
+
+    nearest: Cause
+    taken: Offset
+    found: Finding | None = None
+    fitted: Cause | None = None
+    mistakes: tuple[str, ...] = ()
+
+
+def _align(used: Estimates, truth: Truth, model: str) -> _Said:
+    fitted = align(used, truth, model)
+    return _Said(fitted, fitted.offset, fitted=fitted)
+
+
+def _explain(used: Estimates, truth: Truth, removed: tuple[str, ...]) -> _Said:
+    found = find_causes(used, truth)
+    taken = explain(used, truth, removed).offset if removed else NONE
+    mistakes = (f"likely mistake: {each}" for each in find_mistakes(used, truth, found))
+    return _Said(found.nearest or found.best, taken, found, mistakes=tuple(mistakes))
 
 
 def _choose_key(found: Finding) -> str:
@@ -168,19 +216,33 @@ UNITS = {"delay": 1e3, "clock": 1e6, "scale": 100.0}  # ms, ppm and %; others ar
 
 def _list_parts(cause: Cause) -> list[dict[str, Any]]:
     """Return the parts of an explanation as records for sentences."""
-    world, body = cause.offset.angles
     change = [{"kind": "change"}] if cause.change else []
     parameters = [
         {
             "kind": name,
-            "value": UNITS.get(name, 1.0) * float(getattr(cause.offset, name)),
-            **_write_deviation(deviation, UNITS.get(name, 1.0)),
+            "value": _write_parameter(name, getattr(cause.offset, name), deviation),
+            "begin": cause.offset.begin / NANOSECONDS,
         }
         for name, deviation in zip_longest(cause.parameters, cause.deviations)
     ]
-    deviation = _write_deviation(cause.turn_deviation)
-    turns = {"kind": cause.level, "world": world, "body": body, **deviation}
+    turns = {"kind": cause.level, **_write_turns(cause)}
     return [*change, *parameters, *([turns] if cause.level != "none" else [])]
+
+
+def _write_parameter(name: str, value: float, deviation: float | None) -> str:
+    unit = UNITS.get(name, 1.0)
+    return format_measured(unit * value, unit * deviation if deviation else None)
+
+
+def _write_turns(cause: Cause) -> dict[str, str]:
+    """Return the angles of the rotations; that of a heading has a sign."""
+    world, body = cause.offset.angles
+    if cause.level == "heading":
+        world = float(find_rotation_vectors(cause.offset.world)[2])
+    turns = zip_longest((world, body), cause.turn_deviations)
+    return {
+        name: format_measured(*each) for name, each in zip(("world", "body"), turns, strict=True)
+    }
 
 
 def _write_whole(cause: Cause) -> dict[str, Any]:
@@ -201,28 +263,28 @@ def _write_fault(cause: Cause | None) -> dict[str, Any] | None:
     return {**_write_counted(cause), "kind": cause.fault} if cause and cause.fault else None
 
 
-def _write_deviation(deviation: float | None, unit: float = 1.0) -> dict[str, Any]:
-    return {"deviation": {"value": unit * deviation} if deviation else None}
-
-
 def _describe_cause(cause: Cause) -> dict[str, Any]:
     """Return what was fitted, for JSON, with standard deviations."""
     offset = cause.offset
-    world, body = cause.offset.angles
+    world, body = zip_longest(offset.angles, cause.turn_deviations)
     return {
+        "begin": offset.begin,
         "delay": offset.delay,
         "drift": offset.drift,
         "body_drift": offset.spin,
         "clock_rate": offset.clock,
         "gyroscope_scale": offset.scale,
-        "world_offset": {"angle": world, "w_x_y_z": offset.world.tolist()},
-        "body_offset": {"angle": body, "w_x_y_z": offset.body.tolist()},
+        "world_offset": _describe_turn(*world, offset.world),
+        "body_offset": _describe_turn(*body, offset.body),
         "deviations": dict(zip(cause.parameters, cause.deviations, strict=False)),
-        "rotation_deviation": (cause.turn_deviation or None) if cause.level != "none" else None,
         "independent_estimates": cause.independent,
         "correlation_time": cause.correlation_time,
         "no_deviations_as": cause.fault or None,
     }
+
+
+def _describe_turn(angle: float, deviation: float | None, q: Real) -> dict[str, Any]:
+    return {"angle": angle, "deviation": deviation or None, "w_x_y_z": q.tolist()}
 
 
 def _describe_finding(found: Finding) -> dict[str, Any]:
@@ -237,7 +299,6 @@ def _describe_finding(found: Finding) -> dict[str, Any]:
         "mistake": best.change or None,
         **_describe_cause(best),
         **({"delay": None} if is_hidden else {}),
-        "parameter_deviation": best.deviations[0] if best.deviations else None,
         "delay_period": found.period,
         "not_identifiable": list(found.hidden),
         "residual_rms": best.residual,
@@ -286,7 +347,7 @@ def format_judgements(judgements: Sequence[Judgement]) -> str:
     if len(judgements) == 1:
         return judgements[0].format()
     width = max(len(each.source) for each in judgements)
-    rows = [_row(each.source, width, each.facts()["attitude"]) for each in judgements]
+    rows = [format_row(each.source, width, each.facts()["attitude"]) for each in judgements]
     notes = [
         f"{each.source}: {line}"
         for each in judgements
@@ -306,17 +367,3 @@ def tell_limit(error: float, limit: float | None, verb: str = "is") -> int:
 
 def _head(width: int) -> str:
     return f"{'':{width}}{'rms':>10}{'mean':>10}" + "".join(f"{f'{p} %':>10}" for p in PERCENTILES)
-
-
-def _row(label: str, width: int, summary: dict[str, float]) -> str:
-    return f"{label:{width}}" + "".join(f"{x:10.2e}" for x in summary.values())
-
-
-def summarize(values: Real) -> dict[str, float]:
-    """Return root mean square, mean and percentiles."""
-    marks = np.percentile(values, PERCENTILES).tolist()
-    return {
-        "rms": float(np.sqrt((values**2).mean())),
-        "mean": float(values.mean()),
-        **{f"p{p}": x for p, x in zip(PERCENTILES, marks, strict=True)},
-    }

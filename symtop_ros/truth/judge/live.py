@@ -19,7 +19,8 @@ from symtop_ros.run.simulation.topics import DEFAULT_NAME, EVENTS, Topic
 from symtop_ros.run.wire.names import full_name
 from symtop_ros.truth.judge.compare import Errors, compare
 from symtop_ros.truth.judge.estimates import decode_estimates
-from symtop_ros.truth.judge.judgement import summarize, tell_limit
+from symtop_ros.truth.judge.judgement import tell_limit
+from symtop_ros.truth.judge.summary import summarize
 from symtop_ros.truth.judge.truth import Truth
 
 PERIOD = 1.0  # s between two lines

@@ -5,12 +5,15 @@ import json
 import sys
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from symtop_ros.base.command import new_parser, positive, tell_failures
+from symtop_ros.base.header import make_header
 from symtop_ros.base.refusals import one_line
 from symtop_ros.truth.judge.clock import format_clocks, measure_clock
 from symtop_ros.truth.judge.judgement import Judgement, format_judgements, judge, tell_limit
 from symtop_ros.truth.judge.problems import run_testset
+from symtop_ros.truth.judge.relative import read_lag
 from symtop_ros.truth.judge.runs import (
     ATTITUDES,
     Run,
@@ -48,6 +51,10 @@ def _find_fault(options: argparse.Namespace, rest: list[str]) -> str | None:
         "LOG with --topic or --estimates, --scene with --estimates, --live with --topic, or "
         "--testset is needed": options.testset is None and not (estimates and run),
         "--live judges one --topic": options.live and len(options.topic) > 1,
+        "--robust and --rpe judge what was recorded: no --live, no --clock, no --testset": (
+            (options.robust or options.rpe)
+            and (options.live or options.clock or options.testset is not None)
+        ),
         "--aligned states what is removed: no --remove, no --live": (
             options.aligned and (options.remove or options.live)
         ),
@@ -107,6 +114,18 @@ def make_parser() -> argparse.ArgumentParser:
         help="print how late the stamps of these estimates are, how fast the delay grows, and "
         "their jitter; --aligned names the rotations that are fitted with it (default none)",
     )
+    parser.add_argument(
+        "--robust",
+        action="store_true",
+        help="leave outliers out of causes and models: estimates more than five deviations off",
+    )
+    parser.add_argument(
+        "--rpe",
+        type=read_lag,
+        metavar="TIME",
+        help="measure the errors of the turns over a time as well, such as 1s or 50ms: the "
+        "relative pose error of evo",
+    )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FOLDER", help="folder for JSON, plots and problems"
@@ -148,19 +167,29 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
 def _measure_clocks(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:
     model = options.aligned or "none"
     clocks = [measure_clock(each.estimates, run.truth, each.name, model) for each in sources]
-    facts = json.dumps([asdict(each) for each in clocks], indent=1)
-    print(facts if options.json else format_clocks(clocks))
+    header = _make_header("clock", options)
+    facts = [header | asdict(each) for each in clocks]
+    print(json.dumps(facts, indent=1) if options.json else format_clocks(clocks))
     return 0
 
 
 def _judge(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:
     judgements = [
-        judge(each.estimates, run.truth, each.name, tuple(options.remove), options.aligned)
+        judge(
+            each.estimates,
+            run.truth,
+            each.name,
+            tuple(options.remove),
+            options.aligned,
+            options.robust,
+            options.rpe,
+        )
         for each in sources
     ]
-    print(_dump(judgements) if options.json else format_judgements(judgements))
+    text = _dump(judgements, options) if options.json or options.output else ""
+    print(text if options.json else format_judgements(judgements))
     if options.output:
-        _write(judgements, options.output)
+        _write(judgements, text, options.output)
     largest = max(float(each.errors.total.max()) for each in judgements)
     return tell_limit(largest, options.max_error)
 
@@ -173,16 +202,21 @@ def _read_clock(options: argparse.Namespace) -> None:
         options.topic = [options.clock]
 
 
-def _dump(judgements: list[Judgement]) -> str:
+def _make_header(kind: str, options: argparse.Namespace) -> dict[str, Any]:
+    return make_header(kind, [*options.files, *filter(None, [options.estimates])])
+
+
+def _dump(judgements: list[Judgement], options: argparse.Namespace) -> str:
     """Return an object for one judgement, a list for several."""
-    facts = [each.facts() for each in judgements]
+    header = _make_header("judge", options)
+    facts = [header | each.facts() for each in judgements]
     return json.dumps(facts[0] if len(facts) == 1 else facts, indent=1)
 
 
-def _write(judgements: list[Judgement], folder: Path) -> None:
+def _write(judgements: list[Judgement], text: str, folder: Path) -> None:
     """Write judge.json, and the plot of one source if Matplotlib is installed."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "judge.json").write_text(_dump(judgements) + "\n", encoding="utf-8")
+    (folder / "judge.json").write_text(text + "\n", encoding="utf-8")
     if len(judgements) > 1:
         return
     try:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.truth.judge.causes import CHANGES, Finding
+from symtop_ros.truth.judge.causes import CHANGES, PERMUTED, Finding
 from symtop_ros.truth.judge.compare import NONE, Errors, Offset, compare
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.fit import SAMPLES
@@ -43,7 +43,11 @@ def _name_changes(found: Finding, of_sensor: bool) -> list[str]:
     if list(several) == [""]:
         return []
     names = {"": "none", "frame": "body" if of_sensor else "sensor"}
-    return [", or ".join(write(f"change.{names.get(name, name)}", {}) for name in several)]
+    return [", or ".join(_name_change(names.get(name, name)) for name in several)]
+
+
+def _name_change(name: str) -> str:
+    return PERMUTED[name].describe() if name in PERMUTED else write(f"change.{name}", {})
 
 
 def _find_rates(some: Estimates, truth: Truth, offset: Offset) -> Iterator[str]:

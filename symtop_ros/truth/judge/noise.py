@@ -16,6 +16,9 @@ from scipy.special import ndtr
 from symtop_ros.base.arrays import Real
 
 PER_PARAMETER = 10  # independent estimates for each parameter, at least
+# Noise makes the squares smaller by chance: by less than this, in units of the variance of one
+# independent number, of the thousands of values that are tried.
+CHANCE = 36.0
 WANDERING = 0.1  # part of the run; a longer correlation time is no noise
 # Ten squares of normal numbers add up to more than 40 once in 50 000 times.
 LAGS, WHITE = 10, 40.0
@@ -51,6 +54,16 @@ class Remainder:
         """Number of estimates that are independent: n if the noise is white."""
         # The correlations r^k of an autoregression add up to twice their squares, if r is near 1.
         return len(self.frames[0]) / (1 + 4 * self._correlation)
+
+    @property
+    def numbers(self) -> float:
+        """Number of independent numbers: three of each estimate if its components are alike.
+
+        It is one if the noise is about one axis of the world or of the body.
+        """
+        sizes = (np.linalg.eigvalsh(frame.T @ frame) for frame in self.frames)
+        alike = min(float(s.sum() ** 2 / max((s**2).sum(), 1e-300)) for s in sizes)
+        return self.independent * max(alike, 1.0)
 
     @property
     def correlation_time(self) -> float:
@@ -147,20 +160,29 @@ def _sum_squares(left: Real) -> float:
     return max(float(((covariances[1:] / covariances[0]) ** 2 - chance).sum()), 0.0)
 
 
-def find_deviations(columns: Real, remainder: Remainder) -> Real:
-    """Return the standard deviations (p,) of parameters with derivatives (n, 3, p).
+@dataclass(frozen=True, eq=False)
+class Influences:
+    """Changes of parameters (n, p) by each estimate."""
 
-    The parameters make what is left smaller than the errors, and the variance is itself uncertain:
-    both are made good for, the latter as by Student's distribution.
-    """
-    left = remainder.frames[0]
-    count = columns.shape[2]
+    values: Real
+    free: int  # parameters that are fitted; the others do not change
+    independent: float  # number of estimates that are
+
+    def find_deviation(self, slope: Real) -> float:
+        """Return the standard deviation of a combination (p,) of the parameters.
+
+        The parameters make what is left smaller than the errors, and the variance is itself
+        uncertain: both are made good for, the latter as by Student's distribution.
+        """
+        return float(np.sqrt(sum_influences(self.values @ slope, self.free, self.independent)))
+
+
+def find_influences(columns: Real, left: Real) -> Real:
+    """Return the changes (n, p) of parameters with derivatives (n, 3, p) by what is left (n, 3)."""
     sizes = np.sqrt((columns**2).sum(axis=(0, 1))) + np.finfo(float).tiny
     columns = columns / sizes
     inverse = np.linalg.pinv(np.einsum("tij,tik->jk", columns, columns), hermitian=True)
-    influences = np.einsum("tij,ti->tj", columns, left) @ inverse
-    found = [sum_influences(each, count, remainder.independent) for each in influences.T]
-    return np.asarray(np.sqrt(found) / sizes)
+    return np.asarray(np.einsum("tij,ti->tj", columns, left) @ inverse / sizes)
 
 
 def sum_influences(values: Real, parameters: int, independent: float) -> float:

@@ -9,6 +9,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from symtop_ros.base.header import make_header
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
 from symtop_ros.run.models import FORMATS, FREE_FORMATS, UNSAID, name_file
 from symtop_ros.run.models.descriptions import describe
@@ -16,7 +17,7 @@ from symtop_ros.run.models.snippets import format_snippets, format_world_snippet
 from symtop_ros.truth.judge.judgement import tell_limit
 from symtop_ros.truth.judge.scoreboard import Entry, format_json, format_table, read_entries
 from symtop_ros.truth.testset import score
-from symtop_ros.truth.testset.tables import VERSION, format_problems, tabulate
+from symtop_ros.truth.testset.tables import format_problems, tabulate
 
 ALL = "all"  # in place of a name: writes every problem into its own folder, or scores them
 SOURCE = score.FILE.parent
@@ -68,12 +69,15 @@ def run_testset(options: argparse.Namespace) -> int:
 def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> int:
     """Score a trajectory, or all of a folder."""
     path: Path = options.files[0]
+    header = make_header("scores" if options.testset == ALL else "score", [path])
+    header |= {"testset": score.describe_testset()}
     if options.testset == ALL:
         entries = read_entries(problems, path)
-        print((format_json if options.json else format_table)(entries, problems))
+        text = format_table(entries, problems)
+        print(format_json(header, entries, problems) if options.json else text)
     else:
         entries = [Entry(path.stem, score.score_file(problems, options.testset, path))]
-        facts = json.dumps(entries[0].facts(), indent=1)
+        facts = json.dumps(header | entries[0].facts(), indent=1)
         print(facts if options.json else entries[0].score.format())
     return tell_limit(max(each.error for each in entries), options.max_error)
 
@@ -89,7 +93,8 @@ def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
     }
     shared = {README: _read_readme(), **_read_shared()}
     _write_files(folder, {**texts, **shared, CHECKSUMS: _sum_up(texts)})
-    print(f"wrote the test set {VERSION} to {folder}: {len(facts)} problems, {len(models)} models")
+    what = f"the test set {score.VERSION} to {folder}: {len(facts)} problems, {len(models)} models"
+    print(f"wrote {what}")
 
 
 def _write_problem(problems: dict[str, score.Problem], name: str, folder: Path) -> None:

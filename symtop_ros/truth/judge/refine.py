@@ -1,12 +1,25 @@
-"""The least squares of a kind of cause next to an offset."""
+"""The least squares of a kind of cause next to an offset, with the weights of its noise.
 
+Least squares of errors that last are poor: at the frequency of a derivative there may be little of
+their power. So what is left is whitened by an autoregression, in the frame of the world or of the
+body, whichever it describes better, and the least squares of that have a deviation by the sandwich.
+"""
+
+import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
-from symtop_ros.truth.judge.causes import LEVELS, Cause
+from symtop_ros.base.arrays import Real, find_rotation_vectors
+from symtop_ros.truth.judge.causes import Cause
 from symtop_ros.truth.judge.compare import Offset
-from symtop_ros.truth.judge.fit import PARAMETERS, ROUNDING, Fit
+from symtop_ros.truth.judge.fit import COLUMNS, PARAMETERS, ROUNDING, Fit, move
+from symtop_ros.truth.judge.lasting import find_noise
+from symtop_ros.truth.judge.noise import CHANCE, Influences, Remainder, find_influences
+
+RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time in whole ns
+ROUNDS = 3  # of noise and least squares: the noise hardly depends on the offset
 
 
 def refine(
@@ -16,10 +29,10 @@ def refine(
     cause = Cause(*kind, offset, np.inf)
     best = fit.refine(offset, cause.columns)
     found = replace(cause, offset=best, cost=fit.cost(best))
-    return add_deviations(fit, found) if is_sure else found
+    return make_sure(fit, found) if is_sure else found
 
 
-def add_deviations(fit: Fit, cause: Cause) -> Cause:
+def make_sure(fit: Fit, cause: Cause) -> Cause:
     """Return a cause with its standard deviations, or with the reason why it lacks them."""
     if cause.cost <= ROUNDING:
         return replace(cause, independent=float(len(fit.some)))
@@ -30,9 +43,54 @@ def add_deviations(fit: Fit, cause: Cause) -> Cause:
         correlation_time=left.correlation_time,
         fault=left.find_fault(cause.count),
     )
-    if found.fault or not found.count:
-        return found
-    sure = fit.find_deviations(cause.offset, cause.columns, left)
-    own = tuple(float(sure[PARAMETERS[name]]) for name in cause.parameters)
-    turn = float(np.linalg.norm(sure[list(LEVELS[cause.level][0])]))
-    return replace(found, deviations=own, turn_deviation=turn)
+    return found if found.fault or not found.count else weigh(fit, found, left)
+
+
+def weigh(fit: Fit, cause: Cause, left: Remainder) -> Cause:
+    """Return a cause as the least squares of whitened errors, with their deviations.
+
+    Errors that are no noise may pull it far away: then it stays where it is.
+    """
+    most = cause.cost * (1 + CHANCE / left.numbers)
+    moved = cause.offset
+    for _ in range(ROUNDS):
+        values = find_white_influences(fit, moved, cause.columns)
+        moved = move(moved, values.sum(axis=0))
+    if fit.cost(moved) <= most:
+        cause = replace(cause, offset=moved, cost=fit.cost(moved))
+    else:
+        values = fit.find_influences(cause.offset, cause.columns)
+    # The power of slow noise is as uncertain as so few estimates make it, also after whitening.
+    influences = Influences(values, cause.count, left.independent)
+    # All estimates may have one stamp, as those of a clock that stands still.
+    least = {"delay": RESOLUTION, "clock": RESOLUTION / max(fit.seconds, 1e-9)}
+    own = tuple(
+        math.hypot(influences.find_deviation(np.eye(COLUMNS)[PARAMETERS[name]]), least.get(name, 0))
+        for name in cause.parameters
+    )
+    turns = tuple(influences.find_deviation(each) for each in _list_turns(cause.offset))
+    return replace(cause, deviations=own, turn_deviations=turns)
+
+
+def find_white_influences(fit: Fit, offset: Offset, free: list[int]) -> Real:
+    """Return the changes (m, 11) by each estimate in the frame in which its noise is smaller."""
+    follows = fit.find_follows(offset)
+    frames = [
+        (find_noise(left, follows, len(free)), columns, left)
+        for columns, left in fit.derive_frames(offset, free)
+    ]
+    noise, columns, left = min(frames, key=lambda each: float(np.log(each[0].sigma).sum()))
+    values = np.zeros((int(noise.kept.sum()), COLUMNS))
+    values[:, free] = find_influences(noise.whiten(columns), noise.whiten(left))
+    return values
+
+
+def _list_turns(offset: Offset) -> Iterator[Real]:
+    """Yield what changes the angle of each rotation: a turn about its own axis."""
+    for q, places in ((offset.world, slice(0, 3)), (offset.body, slice(3, 6))):
+        slope = np.zeros(COLUMNS)
+        vector = find_rotation_vectors(q)
+        size = float(np.linalg.norm(vector))
+        # without an angle there is no axis; that of a heading is as good as any
+        slope[places] = vector / size if size else [0.0, 0.0, 1.0]
+        yield slope

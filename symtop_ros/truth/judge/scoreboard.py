@@ -65,20 +65,8 @@ class Entry:
         return (found[1], float(found[2])) if found and float(found[2]) else None
 
     def facts(self) -> dict[str, Any]:
-        """Return the score as numbers for JSON; errors are those at the times of the problem."""
-        rates = self.score.rates
-        return {
-            "problem": self.problem["name"],
-            "level": self.problem["level"],
-            "entry": self.name,
-            "max_error": self.error,
-            "limits": self.limits,
-            "float32_limits": float(self.score.in_float32_limits.max()),
-            "times": self.problem["times"],
-            "errors": self.score.angles.tolist(),
-            "rate_errors": None if rates is None else rates.tolist(),
-            "start": self.score.start,
-        }
+        """Return the score as numbers for JSON."""
+        return {"entry": self.name, **self.score.facts()}
 
 
 def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
@@ -187,9 +175,12 @@ def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> s
     return "\n".join(lines)
 
 
-def format_json(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> str:
+def format_json(
+    header: Mapping[str, Any], entries: Sequence[Entry], problems: Mapping[str, Problem]
+) -> str:
     """Return the same as JSON, with the errors at each time."""
     facts = {
+        **header,
         "scores": [each.facts() for each in entries],
         "orders": [
             {"problem": problem, "method": method, "order": order}

@@ -8,13 +8,22 @@ found is said of all.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 from typing import Any
 
 import numpy as np
 
-from symtop_ros.base.arrays import Real
-from symtop_ros.truth.judge.causes import CHANGES, Cause, Finding, set_parameter
-from symtop_ros.truth.judge.choice import SIMPLER, SMALL, choose, judge
+from symtop_ros.base.arrays import Real, compose
+from symtop_ros.truth.judge.causes import (
+    CHANGES,
+    CONVENTIONS,
+    PERMUTED,
+    Cause,
+    Finding,
+    Fits,
+    set_parameter,
+)
+from symtop_ros.truth.judge.choice import SIMPLER, SMALL, choose, judge, select
 from symtop_ros.truth.judge.compare import MOST_STEPS, NONE, STEP, Offset, compare
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES, Fit
@@ -24,6 +33,9 @@ from symtop_ros.truth.judge.refine import refine
 from symtop_ros.truth.judge.truth import Truth
 
 MOST_SAMPLES = 200_000  # estimates from which a cause that was found is estimated again
+TURNING = {"drift", "spin", "scale"}  # parameters with a direction in space
+SAME_VALUE = 4  # digits in which values of a parameter are one
+PERMUTED_LEVELS = CHANGES[next(iter(PERMUTED))][1]
 VALLEYS, FINER = 4, 31  # of each table that are refined, and values that are tried in each
 # Estimates that stay this close (rad) to one attitude do not move, and the exact attitudes move so
 # many times as far.
@@ -51,10 +63,7 @@ class Search:
         self.more = run.thin(MOST_SAMPLES)
         self.truth = truth
         self.run = run
-        self.fits, self.of_more = (
-            {name: Fit(change[2](those), truth) for name, change in CHANGES.items()}
-            for those in (self.some, self.more)
-        )
+        self.fits, self.of_more = (Fits(those, truth) for those in (self.some, self.more))
         self.fit = self.fits[""]
         self.tables = Tables(truth, self.fit.fastest)
         self.hidden = HIDDEN.get(truth.kind, ())
@@ -83,20 +92,30 @@ class Search:
             return Finding(start, (), self.hidden)
         if len(self.more) < PER_PARAMETER:
             return Finding(start, (), self.hidden, explained=False, fault="few")
-        coarse = self.refine(start.kind, start.offset)
-        best, others = choose([coarse, *self.list_causes()], self.fits, self.fit.rounding)
-        if best.kind == start.kind:  # there may be a parameter that only more estimates show
-            small = [
-                self.refine(("", "none", each), start.offset, with_more=True)
-                for each in ((), *((name,) for name in self.names))
-            ]
-            best, others = choose(small, self.of_more, self.fit.rounding)
+        best, others = self.choose()
         best = self.refine(best.kind, best.offset, with_more=True)
         is_named, is_less = judge(best, start, self.of_more[best.change])
         if not is_named:
             candidate = best if is_less else None
-            return Finding(start, (), self.hidden, False, best.fault, candidate=candidate)
-        return replace(Finding(best, tuple(others), self.hidden), **self.find_period(best))
+            found = Finding(start, (), self.hidden, False, best.fault, candidate=candidate)
+            return replace(found, nearest=best)
+        equals = tuple(self.refine(each.kind, each.offset, with_more=True) for each in others)
+        return replace(Finding(best, equals, self.hidden), **self.find_period(best))
+
+    def choose(self) -> tuple[Cause, list[Cause]]:
+        """Return the best explanation and its equals: found in some estimates, chosen by more.
+
+        What noise hides in some of them more may show.
+        """
+        none = self.refine(("", "none", ()), self.fit.start)
+        small = [replace(none, parameters=(name,)) for name in self.names]
+        found = self.select_in_more([none, *self.list_causes()], small)
+        return choose(found, self.of_more, self.fit.rounding)
+
+    def select_in_more(self, found: Sequence[Cause], others: Sequence[Cause] = ()) -> list[Cause]:
+        """Return the best of some explanations, and others, as the least squares of more."""
+        good = [*others, *select(found, self.fits, self.fit.rounding)]
+        return [refine(self.of_more[e.change], e.kind, e.offset, is_sure=False) for e in good]
 
     def is_still(self) -> bool:
         """Return True if the estimates keep one attitude while the top turns."""
@@ -108,11 +127,44 @@ class Search:
         """Yield explanations with every change, and none or one parameter."""
         of_other = self.truth.states_at(self.some.stamps, not self.some.of_sensor)[0]
         differs = np.abs(of_other - self.fit.exact(self.fit.start)[0]).max() > SMALL
-        for change in CHANGES:
+        for change in CONVENTIONS:
             if change != "frame" or differs:
                 found = [each for name in ("", *self.names) for each in self.search(change, name)]
+                found += self.shift_periods(found)
                 yield from found
-                yield from self.shift_periods(found)
+                if change in ("", "conjugate"):
+                    yield from self.permute(found)
+
+    def permute(self, found: Sequence[Cause]) -> Iterator[Cause]:
+        """Yield mixed columns, with the parameters of explanations by two rotations.
+
+        Any signed permutation is a rotation of both frames, some of the conjugate.
+        """
+        both = [each for each in found if each.level == "both" and each.cost <= HOPELESS]
+        lowest = min((each.cost for each in both), default=0.0)
+        good = [each for each in both if each.cost <= SIMPLER * lowest + self.fit.rounding]
+        kinds: dict[tuple[str, ...], Offset] = {(): self.fit.start}
+        for each, sign in product(good, (1, -1)):
+            for name in each.parameters:  # a turned world may turn the other way round
+                value = getattr(each.offset, name) * (sign if name in TURNING else 1)
+                rounded = f"{value:.{SAME_VALUE}g}"
+                kinds[name, rounded] = set_parameter(self.fit.start, name, value)
+        for (kind, start), level in product(kinds.items(), PERMUTED_LEVELS):
+            yield from self._permute(level, kind[:1], start)
+
+    def _permute(self, level: str, parameters: tuple[str, ...], start: Offset) -> Iterator[Cause]:
+        """Yield the best of the permutations with a parameter and with rotations of a level."""
+        exact, known = self.fit.exact(start)
+        exact = compose(start.turn_world(self.some.stamps), exact)
+        exact = compose(exact, start.turn_body(self.some.stamps))
+        q = np.stack([each.undo(self.some.orientations) for each in PERMUTED.values()])
+        models = q, np.broadcast_to(exact, q.shape), np.broadcast_to(known * 1.0, q.shape[:2])
+        costs, worlds, _ = fit_rotations(models, level)
+        names = [*PERMUTED]
+        for place in np.argsort(costs)[:VALLEYS].tolist():
+            if costs[place] <= HOPELESS:
+                near = replace(start, world=worlds[place])
+                yield self.refine((names[place], level, parameters), near)
 
     def shift_periods(self, causes: Sequence[Cause]) -> Iterator[Cause]:
         """Yield the best delay again, changed by periods of the nutation, with fewer rotations.

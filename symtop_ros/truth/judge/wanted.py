@@ -54,7 +54,7 @@ def explain(
         if turned or each.level == "none"
     ]
     return min(
-        select(causes, search.fits, search.fit.rounding),
+        select(search.select_in_more(causes), search.of_more, search.fit.rounding),
         key=lambda each: (len(each.parameters), abs(each.offset.delay)),
     )
 
@@ -85,3 +85,8 @@ def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = No
         if fit.hides(found.offset, others, PARAMETERS[name]):
             raise RefusedError(f"--aligned must be a model that this motion can show, got {model}")
     return found
+
+
+def find_nearest(run: Estimates, truth: Truth, model: str | None) -> Cause:
+    """Return what leaves least, whether it is named or not: of a stated model, or of all causes."""
+    return Search(run, truth).choose()[0] if model is None else align(run, truth, model)

@@ -3,6 +3,7 @@
     python score.py                          # lists the problems
     python score.py cusps trajectory.csv     # scores a trajectory
     python score.py cusps.turned turned.csv  # that of another description of the body
+    python score.py cusps trajectory.csv --json --max-error 1e-6  # for continuous integration
 
 A trajectory is a table with the columns t, w, x, y, z, and wx, wy, wz if it has angular velocities
 in the body frame, or omega_x, omega_y, omega_z in the world frame, in any order. Commas,
@@ -20,12 +21,14 @@ from bisect import bisect
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+VERSION = "6.0"  # of the test set
 FILE = Path(__file__).with_name("problems.json")
 PACKED = ".json.xz"  # of the same file in the package, which writes the set from it
 QUATERNION = ("w", "x", "y", "z")
@@ -153,6 +156,21 @@ class Score:
     def _divide(self, limits: str) -> Real:
         return np.asarray(self.angles / np.array(self.problem.facts[limits]), dtype=np.float64)
 
+    def facts(self) -> dict[str, Any]:
+        """Return the score as numbers, for JSON; errors are those at the times of the problem."""
+        facts = self.problem.facts
+        return {
+            "problem": facts["name"],
+            "level": facts["level"],
+            "max_error": float(self.angles.max()),
+            "limits": float(self.in_limits.max()),
+            "float32_limits": float(self.in_float32_limits.max()),
+            "times": facts["times"],
+            "errors": self.angles.tolist(),
+            "rate_errors": None if self.rates is None else self.rates.tolist(),
+            "start": self.start,
+        }
+
     def format(self) -> str:
         """Return the score in a line.
 
@@ -183,17 +201,35 @@ def read_problems(path: Path = FILE) -> dict[str, Problem]:
     >>> len(read_problems())
     70
     """
+    found: list[dict[str, Any]] = []
+    for text in _read_texts(path).values():
+        facts = json.loads(text)
+        found += facts.get("problems", [facts])
+    return {each["name"]: Problem(each) for each in found}
+
+
+def describe_testset(path: Path = FILE) -> dict[str, Any]:
+    """Return the version of the test set, and the SHA-256 of its problems by the names of files.
+
+    Examples
+    --------
+    >>> [*describe_testset()["sha256"]]
+    ['problems.json']
+    """
+    texts = _read_texts(path).items()
+    return {"version": VERSION, "sha256": {name: sha256(text).hexdigest() for name, text in texts}}
+
+
+def _read_texts(path: Path) -> dict[str, bytes]:
+    """Return the contents of problems.json, or of the files of copied problems, by their names."""
     packed = path.with_suffix(PACKED)
     if path.exists():
-        found = json.loads(path.read_bytes())["problems"]
-    elif packed.exists():
+        return {path.name: path.read_bytes()}
+    if packed.exists():
         from symtop_ros.truth.testset.tables import unpack  # a copy of this file has no package
 
-        found = unpack(packed.read_bytes())
-    else:
-        copies = sorted(path.parent.glob("*.json"))
-        found = [json.loads(each.read_text(encoding="utf-8")) for each in copies]
-    return {each["name"]: Problem(each) for each in found}
+        return {path.name: unpack(packed.read_bytes()).encode()}
+    return {each.name: each.read_bytes() for each in sorted(path.parent.glob("*.json"))}
 
 
 def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
@@ -464,25 +500,47 @@ def measure_angles(orientations: Real, high: Real, low: Real) -> Real:
 
 
 def main(args: Sequence[str] | None = None) -> int:
-    """List the problems, or score a trajectory; return 0 (good) or 1 (failed)."""
+    """List the problems, or score a trajectory; return 0 (good) or 1 (failed, or too far off)."""
     parser = argparse.ArgumentParser(description="Score a trajectory against the test set.")
     parser.add_argument("problem", nargs="?", help="name of a problem; default: list all")
     parser.add_argument("trajectory", nargs="?", type=Path, help="CSV: t, w, x, y, z, wx, wy, wz")
+    parser.add_argument("--json", action="store_true", help="print JSON in place of text")
+    parser.add_argument(
+        "--max-error", type=float, metavar="RAD", help="status 1 if the attitude error is larger"
+    )
     options = parser.parse_args(args)
-    problems = read_problems()
     try:
-        print(
-            score_file(problems, options.problem, options.trajectory).format()
-            if options.problem
-            else list_problems(problems)
-        )
+        return _run(options, read_problems())
     except ValueError as error:
         print(error, file=sys.stderr)
-        return 1
     except OSError as error:
         print(f"{error.filename}: {error.strerror}", file=sys.stderr)
-        return 1
-    return 0
+    return 1
+
+
+def _run(options: argparse.Namespace, problems: dict[str, Problem]) -> int:
+    if not options.problem:
+        print(list_problems(problems))
+        return 0
+    score = score_file(problems, options.problem, options.trajectory)
+    print(_dump(score, options.trajectory) if options.json else score.format())
+    error, limit = float(score.angles.max()), options.max_error
+    if limit is None or error <= limit:
+        return 0
+    print(f"the attitude is off by {error:.3g} rad, limit {limit:g} rad", file=sys.stderr)
+    return 1
+
+
+def _dump(score: Score, path: Path) -> str:
+    """Return a score as JSON, as `top_judge --testset PROBLEM FILE --json` has it."""
+    header = {
+        "schema": "symtop_ros/score/1",
+        "version": VERSION,
+        "files": [{"name": str(path), "sha256": sha256(path.read_bytes()).hexdigest()}],
+        "testset": describe_testset(),
+        "entry": path.stem,
+    }
+    return json.dumps(header | score.facts(), indent=1)
 
 
 def list_problems(problems: dict[str, Problem]) -> str:

@@ -134,12 +134,17 @@ class Made:
 def integrate_rates(truth, stamps, factor):
     """Attitudes that follow from rates in the body frame, times a factor; exact at the first stamp.
 
-    Rates of the middle of steps of at most 20 us: at 300 rad/s they turn by 6 mrad.
+    Magnus' series of fourth order in steps of at most 100 us: at 300 rad/s they turn by 0.03 rad.
     """
     begin, end = int(stamps[0]), int(stamps[-1])
-    marks = np.unique(np.concatenate((stamps, np.arange(begin, end, 20_000))))
-    middles = (marks[:-1] + marks[1:]) // 2
-    turns = truth.states_at(middles)[1] * np.diff(marks)[:, np.newaxis] / SECOND * factor
+    marks = np.unique(np.concatenate((stamps, np.arange(begin, end, 100_000))))
+    widths = np.diff(marks)
+    early, late = (
+        factor * truth.states_at(marks[:-1] + np.rint(part * widths).astype(np.int64))[1]
+        for part in (0.5 - 3**0.5 / 6, 0.5 + 3**0.5 / 6)
+    )
+    steps = widths[:, np.newaxis] / SECOND
+    turns = (early + late) / 2 * steps + 3**0.5 / 12 * steps**2 * np.cross(early, late)
     attitude = truth.states_at(stamps[:1])[0][0]
     path = []
     wanted = set(stamps.tolist())

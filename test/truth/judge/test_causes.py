@@ -257,7 +257,7 @@ def test_the_command_prints_a_sentence_or_json(tmp_path, capsys):
     path.write_text(write_rows(found, header=("t", "w", "x", "y", "z")))
     assert main(["--clock", str(path), "--scene", "cusps"]) == 0
     text = capsys.readouterr().out
-    assert "the stamps of 2000 estimates are late by 2000 " in text
+    assert "the stamps of 2000 estimates are late by " in text
     assert main(["--clock", str(path), "--scene", "cusps", "--json"]) == 0
     (clock,) = json.loads(capsys.readouterr().out)
     assert clock["kind"] == "none"

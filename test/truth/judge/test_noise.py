@@ -1,5 +1,7 @@
 """Deviations that are honest in noise of any kind: their pulls, and what is too little for them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -10,8 +12,10 @@ from symtop_ros.base.arrays import compose, invert
 from symtop_ros.truth.judge import search
 from symtop_ros.truth.judge.clock import measure_clock
 from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.judge.fit import Fit
 from symtop_ros.truth.judge.judgement import judge
 from symtop_ros.truth.judge.noise import Remainder
+from symtop_ros.truth.judge.refine import refine
 from symtop_ros.truth.judge.search import find_causes
 from symtop_ros.truth.judge.truth import scene_truth
 from symtop_ros.truth.judge.wanted import align
@@ -29,12 +33,12 @@ def correlate(random, shape, kept):
     return numbers
 
 
-def make_noisy(rate, seconds, time, axes, in_world, seed):
+def make_noisy(rate, seconds, time, axes, in_world, seed, truth=TRUTH):
     """Exact attitudes with noise (rad) of a correlation time (s) in axes of the body or world."""
     stamps = SECOND + np.arange(rate * seconds) * (SECOND // rate)
     kept = np.exp(-1 / (rate * time)) if time else 0.0
     left = SIZE * np.array(axes) * correlate(np.random.default_rng(seed), (len(stamps), 3), kept)
-    parts = wxyz(Rotation.from_rotvec(left)), TRUTH.states_at(stamps)[0]
+    parts = wxyz(Rotation.from_rotvec(left)), truth.states_at(stamps)[0]
     return Estimates.of(stamps, compose(*parts[:: 1 if in_world else -1]))
 
 
@@ -80,6 +84,47 @@ def test_no_deviation_is_wrong_by_a_factor(name):
     found, _ = measure(ROWS[name], range(8))
     # Of eight normal numbers the root mean square is 0.25 to 1.9 with a probability of 0.9998.
     assert all(0.25 < each < 1.9 for each in found), found
+
+
+MADE = {"drift": 0.0517, "scale": 1.0313e-3, "clock": 1.0731e-4}
+NUTATING = "cusps", "looping", "unidirectional", "hanging", "disc"
+
+
+def measure_made(row, name, seeds):
+    """Return the root mean square of pulls of a parameter, and the part of files given."""
+    rate, seconds, time, axes, in_world, _ = row
+    pulls = []
+    for seed in seeds:
+        truth = scene_truth(NUTATING[seed % len(NUTATING)])
+        noisy = make_noisy(rate, seconds, time, axes, in_world, seed, truth)
+        noise = [noisy.orientations, invert(truth.states_at(noisy.stamps)[0])]
+        made = Made(**{name: MADE[name]}).make(truth, noisy.stamps)
+        parts = compose(*noise) if in_world else compose(*noise[::-1]), made.orientations
+        q = compose(*parts[:: 1 if in_world else -1])
+        run = Fit(Estimates.of(noisy.stamps, q), truth)
+        start = replace(run.start, **{name: MADE[name]})
+        found = refine(run, ("", "none", (name,)), start, is_sure=True)
+        if not found.fault:
+            pulls.append((getattr(found.offset, name) - MADE[name]) / found.deviations[0])
+    return float(np.sqrt(np.mean(np.square(pulls)))), len(pulls)
+
+
+FIVE = [name for name in ROWS if "heading" not in name]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("parameter", MADE)
+@pytest.mark.parametrize("name", FIVE)
+def test_the_pulls_of_drift_scale_and_clock_of_nutating_tops_are_about_one(name, parameter):
+    found, given = measure_made(ROWS[name], parameter, range(200))
+    assert 0.8 <= found <= 1.25, found
+    assert given == 200
+
+
+@pytest.mark.parametrize("parameter", MADE)
+def test_whitened_noise_gives_no_deviation_that_is_wrong_by_a_factor(parameter):
+    found, _ = measure_made(ROWS["50 ms"], parameter, range(8))
+    assert 0.25 < found < 1.9  # as above
 
 
 @pytest.mark.parametrize("seed", choose(range(16), range(2)))

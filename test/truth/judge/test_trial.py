@@ -19,7 +19,7 @@ from symtop_ros.base.arrays import Real, Stamps, compose
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.settings import Settings
-from symtop_ros.truth.judge.causes import CHANGES, LEVELS
+from symtop_ros.truth.judge.causes import CONVENTIONS, LEVELS
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.fit import PARAMETERS
 from symtop_ros.truth.judge.search import find_causes
@@ -368,6 +368,6 @@ def find_fault(number):
 def test_the_trial_has_every_cause():
     kinds = (draw_own(draw_stamps(number)[0])[1] for number in OWN)
     changes, levels, parameters = zip(*kinds, strict=True)
-    assert set(changes) == {*CHANGES} - {"frame"}  # test_compare.py has it
+    assert set(changes) == {*CONVENTIONS} - {"frame"}  # test_compare.py has it
     assert set(levels) == set(LEVELS)
     assert set(parameters) == {(), *((name,) for name in PARAMETERS)}

@@ -1,0 +1,53 @@
+"""Estimates that are no part of the noise of the others, and how to do without them."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from symtop_ros.base.arrays import Mask, Real
+from symtop_ros.truth.judge.causes import CHANGES, Cause
+from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.judge.fit import Fit
+from symtop_ros.truth.judge.truth import Truth
+
+FAR = 5.0  # deviations of a component; a normal number is farther once in two million
+NORMAL = 1.4826  # deviations of normal numbers in medians of their sizes
+ROUNDS = 6  # of causes and outliers
+FEWEST = 0.5  # part of the estimates that is kept, at least
+
+
+def find_outliers(fit: Fit, cause: Cause) -> Mask:
+    """Return True (n,) for estimates that a cause leaves far off, by the spread of the others.
+
+    In both frames: noise about an axis of one has a component in the other that swings, and is far
+    off its own median more often than normal numbers are.
+    """
+    _, known = fit.exact(cause.offset)
+    found = np.zeros(len(fit.some), dtype=bool)
+    least = float(np.sqrt(fit.rounding))
+    frames = fit.find_remainder(cause.offset).frames
+    found[known] = np.all([_find_far(each, least) for each in frames], axis=0)
+    return found
+
+
+def _find_far(left: Real, least: float) -> Mask:
+    """Return True (n,) for rows of which a component is far off."""
+    spread = np.maximum(NORMAL * np.median(np.abs(left), axis=0), least)
+    return np.asarray((np.abs(left) > FAR * spread).any(axis=1))
+
+
+def trim(run: Estimates, truth: Truth, find: Callable[[Estimates], Cause]) -> Estimates:
+    """Return the estimates without outliers, which a cause of the others leaves far off."""
+    kept = np.ones(len(run), dtype=bool)
+    for _ in range(ROUNDS):
+        cause = find(run.select(kept))
+        fit = Fit(CHANGES[cause.change][2](run), truth)
+        before, kept = kept, ~find_outliers(fit, cause)
+        if (kept == before).all() or kept.mean() < FEWEST:
+            break
+    return run.select(kept)
+
+
+def count_outliers(run: Estimates, truth: Truth, cause: Cause) -> int:
+    """Return how many estimates a cause leaves far off."""
+    return int(find_outliers(Fit(CHANGES[cause.change][2](run), truth), cause).sum())
