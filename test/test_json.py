@@ -25,7 +25,7 @@ HEADER = ("t", "w", "x", "y", "z", "wx", "wy", "wz")
 TEXT = (ROOT / "docs/json.md").read_text(encoding="utf-8")
 # Names in records that are no keys of the schema: of topics, numbers and files.
 OF_DATA = re.compile(r"/|\.json$|\d+$")
-VALUES = {"values", "errors"}  # their keys are names of quantities and of descriptions
+VALUES = {"values", "errors", "laws"}  # their keys are names of quantities, descriptions and laws
 
 
 def list_keys(record, inside=""):
