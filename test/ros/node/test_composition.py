@@ -1,6 +1,5 @@
 """The node in the process of a user: with other nodes in one executor, of one thread or several."""
 
-import threading
 import time
 
 import pytest
@@ -79,16 +78,13 @@ def test_two_tops_and_two_nodes_of_a_user_share_an_executor(kind, context, tmp_p
     executor = kind(context=context)
     for node in (*tops, *users):
         executor.add_node(node)
-    thread = threading.Thread(target=executor.spin)
-    thread.start()
     try:
         deadline = time.monotonic() + TIMEOUT
         while not all(user.is_done and user.samples > 20 for user in users):
             assert time.monotonic() < deadline, [(u.samples, len(u.answers)) for u in users]
-            time.sleep(0.01)
+            executor.spin_once(timeout_sec=0.1)
     finally:
         executor.shutdown()
-        thread.join()
         for node in (*users, *tops):
             node.destroy_node()
     assert all(each.result().result.successful for user in users for each in user.answers)
