@@ -198,7 +198,7 @@ COUNTS = 1999, 2000
 PUBLISHERS = [f"{mixed}, {count}" for mixed in MIXED for count in COUNTS]
 
 
-@pytest.mark.parametrize("publishers", choose(PUBLISHERS, PUBLISHERS[::5]))  # each of all
+@pytest.mark.parametrize("publishers", choose(PUBLISHERS, PUBLISHERS[::10]))  # each of all
 def test_two_publishers_on_one_topic_are_not_explained(publishers):
     kind, which, count = publishers.split(", ")
     stamps = SECOND + np.arange(int(count)) * (SECOND // 400)
@@ -231,7 +231,7 @@ def test_correlations_that_swing_are_correlations():
 
 
 @pytest.mark.parametrize("axes", [EVEN, (0, 0, 1), (1, 1, 10)])
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", choose(range(5), range(1)))
 def test_white_noise_is_white_whatever_its_axes(axes, seed):
     left = np.random.default_rng(seed).normal(size=(2000, 3)) * axes * SIZE
     remainder = Remainder((left, left), 10.0)

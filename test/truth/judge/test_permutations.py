@@ -73,7 +73,7 @@ def assert_named(places, signs, made):
     return True
 
 
-SOME = [7, 50, 93, 136, 179, 222, 265, 308]
+SOME = [7, 179, 308]
 
 
 @pytest.mark.parametrize("number", choose(range(len(EVERY)), SOME))

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 from drawn import Numbers
+from trials import choose
 from truth.judge.cases import SECOND, Made, heading, write_rows
 
 from symtop_ros.base.arrays import compose
@@ -126,7 +127,7 @@ def test_outliers_are_counted_and_may_be_left_out(count, model):
     assert robust.facts()["outliers"] == count
 
 
-@pytest.mark.parametrize("axes", [(1, 1, 1), (0, 0, 1)])
+@pytest.mark.parametrize("axes", choose([(1, 1, 1), (0, 0, 1)], [(0, 0, 1)]))
 def test_noise_has_no_outliers(axes):
     exact = TRUTH.states_at(STAMPS)[0]
     vectors = 1e-3 * Numbers(7).normals(len(STAMPS), 3) * axes
