@@ -1,6 +1,7 @@
 """Records in JSON: each says first what it is, and docs/json.md explains every key."""
 
 import json
+import math
 import re
 from hashlib import sha256
 
@@ -127,6 +128,15 @@ def test_a_check_says_what_it_is(tmp_path, capsys):
     assert record["topics"]["/top/orientation"]["samples"] > 0
     with pytest.raises(SystemExit):
         replay([str(path), "--json"])
+
+
+def test_a_number_that_is_not_finite_is_null_in_the_record_of_a_check(tmp_path, capsys):
+    run = Run()
+    for name in ("torque", "angular_momentum"):
+        run.change(run.places(name)[100], lambda numbers: numbers + math.inf)
+    assert replay([str(run.write(tmp_path)), "--check", "--json"]) == 1
+    record = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert not record["laws_hold"]
 
 
 def test_a_fit_says_what_it_is(tmp_path, capsys):

@@ -51,6 +51,14 @@ def split(v: Real) -> list[Any]:
     return v.tolist() if v.ndim == 1 else [v[..., k] for k in range(v.shape[-1])]
 
 
+def axis_of(quaternions: Real) -> Real:
+    """Return the symmetry axis in the world frame (n, 3) from those x, y, z, w of messages."""
+    x, y, z, w = quaternions.T
+    return np.stack(
+        [2 * (x * z + w * y), 2 * (y * z - w * x), (w * w + z * z) - (x * x + y * y)], axis=1
+    )
+
+
 def rotate(w: Any, x: Any, y: Any, z: Any, v: Real) -> Real:
     """Return q v q*, (..., 3), for the components (...) of q.
 

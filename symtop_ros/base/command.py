@@ -52,7 +52,7 @@ def _suggest(message: str, options: Iterable[str], forms: Mapping[str, str]) -> 
 
 
 def find_nearest(word: str, known: Iterable[str], likeness: float = 0.6) -> str:
-    """Return the known word that is most like another one; empty if none is so much like it.
+    """Return the known word that is most like a word; empty if no known word is like it enough.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a record in JSON says of itself, before anything else."""
+"""The head of records in JSON: schema, version, and digests of the files."""
 
 from collections.abc import Iterator, Sequence
 from hashlib import file_digest

@@ -78,7 +78,7 @@ LITERAL = re.compile(r"[-+]?(\d*)(?:\.(\d*))?(?:[eE]([-+]?\d+))?((?![\d.]).*)?",
 
 
 def halve_last_digit(text: str) -> str:
-    """Return half a unit of the last digit of a number as it was typed, with the same unit.
+    """Return half a unit of the last digit of a typed number, with the same unit.
 
     Empty if it is no such number.
 

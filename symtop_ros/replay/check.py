@@ -68,7 +68,10 @@ def _list_facts(account: Account, found: Findings, is_good: bool) -> dict[str, A
         "good": is_good,
         "samples_agree": found.samples_agree,
         "laws_hold": found.laws_hold,
-        "laws": {name: {**asdict(each), "unit": UNITS[name]} for name, each in found.laws.items()},
+        "laws": {
+            name: _keep_finite({**asdict(each), "unit": UNITS[name]})
+            for name, each in found.laws.items()
+        },
         "starts_solved_again": found.starts.compared,
         "first_event": found.first or None,
         "foreign_events": found.foreign,
@@ -84,11 +87,18 @@ def _list_facts(account: Account, found: Findings, is_good: bool) -> dict[str, A
 def _describe_topic(found: Findings, name: str, count: int) -> dict[str, Any]:
     """Return what was compared of a topic."""
     if deviation := found.deviations.get(name):
-        sizes = {each: getattr(deviation, each) for each in ("largest", "relative")}
-        finite = {each: size if math.isfinite(size) else None for each, size in sizes.items()}
-        return {"messages": count, **asdict(deviation), **finite}
+        figures = {**asdict(deviation), "relative": deviation.relative}
+        return {"messages": count, **_keep_finite(figures)}
     reason = None if found.compared.get(name) == count else found.reasons.get(name)
     return {"messages": count, "compared": found.compared.get(name, 0), "reason": reason}
+
+
+def _keep_finite(figures: Mapping[str, Any]) -> dict[str, Any]:
+    """Return figures as JSON has them: None for a number that is not finite."""
+    return {
+        name: None if isinstance(each, float) and not math.isfinite(each) else each
+        for name, each in figures.items()
+    }
 
 
 def _print_problem(text: str) -> None:

@@ -10,9 +10,9 @@ from dataclasses import replace
 import numpy as np
 import rerun as rr
 
-from symtop_ros.base.arrays import Real, Stamps
+from symtop_ros.base.arrays import Real, Stamps, axis_of
 from symtop_ros.replay.view.entities import GHOST, GHOST_TRACE, WHITE, Stream, create_body
-from symtop_ros.replay.view.quantities import axis_of, find_step
+from symtop_ros.replay.view.quantities import find_step
 from symtop_ros.replay.view.surroundings import Trace
 from symtop_ros.run.simulation.budget import StepBudget
 from symtop_ros.run.simulation.events import KICKS, RESTARTS

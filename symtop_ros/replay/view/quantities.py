@@ -6,7 +6,7 @@ from functools import reduce
 
 import numpy as np
 
-from symtop_ros.base.arrays import Real, Stamps
+from symtop_ros.base.arrays import Real, Stamps, axis_of
 from symtop_ros.physics import EffectivePotential, Motion, Top
 from symtop_ros.run.log.batch import Columns
 from symtop_ros.run.simulation.events import RESTARTS, Event
@@ -44,14 +44,6 @@ def attitudes(samples: ColumnsByTopic) -> tuple[Stamps, Real] | None:
         if topic in samples:
             return samples[topic].stamps, read(samples[topic].numbers)
     return None
-
-
-def axis_of(quaternions: Real) -> Real:
-    """Return the symmetry axis in the world frame (n, 3) from quaternions x, y, z, w."""
-    x, y, z, w = quaternions.T
-    return np.stack(
-        [2 * (x * z + w * y), 2 * (y * z - w * x), (w * w + z * z) - (x * x + y * y)], axis=1
-    )
 
 
 def find_step(stamps: Stamps, rate: float) -> int:

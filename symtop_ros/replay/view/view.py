@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import rerun as rr
 
-from symtop_ros.base.arrays import Real, rotate
+from symtop_ros.base.arrays import Real, axis_of, rotate
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.replay.view import entities, quantities, surroundings, torques
 from symtop_ros.replay.view.blueprint import Framing, create_blueprint
@@ -208,7 +208,7 @@ class View:
             stamps, quaternions = found
             self._stream.send_turns(entities.BODY, stamps, quaternions)
             self._stream.send_lines(
-                entities.TRACE, *self._trace.strips(stamps, quantities.axis_of(quaternions))
+                entities.TRACE, *self._trace.strips(stamps, axis_of(quaternions))
             )
             if self._ghost:
                 self._ghost.send(stamps, self._trace.length)

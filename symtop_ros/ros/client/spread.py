@@ -1,4 +1,4 @@
-"""How far a start that was asked for moves while what was typed is off by its last digits.
+"""The spread of a start: how far it moves while what was typed is off by its last digits.
 
 The library is imported where it is needed, so that other commands start without it.
 """
@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import TYPE_CHECKING, Any, Literal
 
+from symtop_ros.base.refusals import RefusedError
 from symtop_ros.base.units import QUANTITIES, halve_last_digit, parse_quantity
-from symtop_ros.ros.client.connection import Connection
+from symtop_ros.ros.client.connection import Connection, UnreachableError
 
 if TYPE_CHECKING:
     from symtop_ros.physics import Solution
@@ -50,13 +51,17 @@ def describe_spread(top: Connection, words: Sequence[str], values: Mapping[str, 
     half_widths = {name: find_half_width(name, texts[name]) for name in known}
     if not any(half_widths.values()):
         return ""
-    own = json.loads(top.request("get_state")[1])["top"]
-    starts = solve_start(Top(**own), half_widths=half_widths, **known)
-    return write("spread", find_spread(starts[int(values.get(SOLUTION, 1)) - 1]))
+    try:
+        own = json.loads(top.request("get_state")[1])["top"]
+        starts = solve_start(Top(**own), half_widths=half_widths, **known)
+    except (UnreachableError, RefusedError):  # the start stands: the node went, or has another top
+        return ""
+    taken = int(values.get(SOLUTION, 1))
+    return write("spread", find_spread(starts[taken - 1])) if taken <= len(starts) else ""
 
 
 def find_half_width(name: str, text: str) -> float:
-    """Return half a unit of the last digit of a number as it was typed, in SI; 0 if it has none."""
+    """Return half a unit of the last digit of a typed number, in SI; 0 without a last digit."""
     half = halve_last_digit(text)
     return parse_quantity(name, half, QUANTITIES[name]) if half else 0.0
 

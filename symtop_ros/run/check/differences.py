@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from symtop_ros.base.arrays import Mask, Real, Stamps
+from symtop_ros.base.arrays import Mask, Real, Stamps, axis_of
 from symtop_ros.run.check.stencils import EPS, MARGIN, find_slopes
 from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.batch import Batch
@@ -147,7 +147,7 @@ class DifferenceCheck:
         chosen = rows.has("orientation", "angular_velocity", "angular_momentum")
         q, omega, L = (rows.vectors[name][chosen] for name in VECTORS if name != "torque")
         Ix, Iz, _ = segment.motion.top.moments
-        axis = _find_axis(q)
+        axis = axis_of(q)
         along = _dot(omega, axis)
         expected = Ix * (omega - along * axis) + Iz * along * axis
         bound = TERMS * EPS * max(Ix, Iz) * np.linalg.norm(omega, axis=1)
@@ -274,17 +274,11 @@ def _turn(omega: Real, q: Real) -> Real:
     return np.concatenate([across, -_dot(omega, vector)], axis=1) / 2
 
 
-def _find_axis(q: Real) -> Real:
-    """Return the axis of the body in the world, of quaternions x, y, z, w."""
-    x, y, z, w = q.T
-    return np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), w * w + z * z - x * x - y * y], 1)
-
-
 def _find_torque(q: Real, omega: Real, segment: Segment) -> tuple[Real, Real]:
     """Return the torque on a top (n, 3), and the sizes of its terms (n,)."""
     motion = segment.motion
     Mgl, friction = motion.top.Mgl, motion.friction
-    axis = _find_axis(q)
+    axis = axis_of(q)
     along, speed = _dot(omega, axis), np.linalg.norm(omega, axis=1)
     x, y, _ = axis.T
     weight = Mgl * np.stack([-y, x, np.zeros_like(x)], axis=1)

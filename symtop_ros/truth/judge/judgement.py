@@ -180,7 +180,7 @@ def judge(
 
 @dataclass(frozen=True, eq=False)
 class _Said:
-    """What is said of estimates, what leaves least of them, and what is taken away."""
+    """The causes of the errors of estimates: the nearest, those that are named, what is removed."""
 
     nearest: Cause
     taken: Offset

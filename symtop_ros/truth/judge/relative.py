@@ -65,7 +65,9 @@ def pair(stamps: Stamps, lag: int) -> tuple[Places, Places]:
     They are within half of a median step of it.
     """
     if len(stamps) < 2:
-        raise RefusedError("--rpe must have at least 2 estimates that can be judged, got 1")
+        raise RefusedError(
+            f"--rpe must have at least 2 estimates that can be judged, got {len(stamps)}"
+        )
     later = stamps + lag
     near = np.clip(np.searchsorted(stamps, later), 1, len(stamps) - 1)
     near -= later - stamps[near - 1] < stamps[near] - later

@@ -186,6 +186,9 @@ def test_where_the_last_digits_decide_whether_there_is_a_start_the_page_says_so(
     said = opened.tab.locator("#solutions .spread").all_inner_texts()
     unknown = "within the last digits typed there may be more or fewer such starts"
     assert said == [unknown] * len(opened.list_solutions())
+    opened.ask("alpha a b", "600.0 1/s^2", "50.00 1/s", "44.00 1/s")
+    said = opened.tab.locator("#solutions .spread").all_inner_texts()
+    assert [each.partition(":")[0] for each in said] == ["within the last digits typed"] * 2
     opened.ask("theta psi_dot", "pi/6", "pi*50")
     said = opened.tab.locator("#solutions .spread").all_inner_texts()
     assert said == [""] * len(opened.list_solutions())

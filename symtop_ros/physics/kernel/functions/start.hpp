@@ -115,15 +115,25 @@ symtop_status symtop_find_tilt_accelerations(const symtop_start* start, symtop_h
   return SYMTOP_OK;
 }
 
+namespace symtop {
+
+// A top, and what is seen of it.
+inline symtop_status accept_question(const symtop_top& top, symtop_question seen) {
+  const symtop_status status = accept(top);
+  if (status != SYMTOP_OK) return status;
+  return is_number_of(read_number(seen), SYMTOP_GOLDSTEIN) ? SYMTOP_OK : SYMTOP_BAD_QUESTION;
+}
+
+}  // namespace symtop
+
 symtop_status symtop_solve_start(const symtop_top* top, symtop_question seen, const double known[3],
                                  symtop_solutions* solutions) {
   using namespace symtop;
   symtop_status status = admit({top, known, solutions});
   if (status != SYMTOP_OK) return status;
   const symtop_top given = *top;
-  status = accept(given);
+  status = accept_question(given, seen);
   if (status != SYMTOP_OK) return status;
-  if (!is_number_of(read_number(seen), SYMTOP_GOLDSTEIN)) return SYMTOP_BAD_QUESTION;
   const double numbers[] = {known[0], known[1], known[2]};
   *solutions = solve_start(given, seen, numbers);
   return SYMTOP_OK;
@@ -136,9 +146,8 @@ symtop_status symtop_find_spreads(const symtop_top* top, symtop_question seen,
   symtop_status status = admit({top, known, half_widths, spreads});
   if (status != SYMTOP_OK) return status;
   const symtop_top given = *top;
-  status = accept(given);
+  status = accept_question(given, seen);
   if (status != SYMTOP_OK) return status;
-  if (!is_number_of(read_number(seen), SYMTOP_GOLDSTEIN)) return SYMTOP_BAD_QUESTION;
   const double numbers[] = {known[0], known[1], known[2]};
   const double widths[] = {half_widths[0], half_widths[1], half_widths[2]};
   *spreads = find_spreads(given, seen, numbers, widths);

@@ -106,7 +106,8 @@ export const parseQuantity = (text, units, isInDegrees = inDegrees()) => {
   return units === UNITS.rad && isInDegrees && !factors.includes("pi") ? value * DEGREE : value;
 };
 
-const LITERAL = /^[-+]?(\d*)(?:[.,](\d*))?(?:e([-+]?\d+))?((?!\s*(?:[*/\d.,]|pi|\u03c0)).*)$/i;
+const LITERAL =
+  /^[-+]?(\d*)(?:[.,](\d*))?(?:e([-+]?\d+))?((?![\d.,])(?!\s*(?:[*/]|pi|\u03c0)).*)$/i;
 
 /**
  * Half a unit of the last digit of a number as it is typed, in the same unit: "5e-2 s" of "57.6 s". Null
