@@ -61,7 +61,7 @@ UPRIGHT = State(UNIT, (0, 0, 200.0))
 HANGING = State((0, 1, 0, 0), (0, 0, 200.0))
 BOTH = State([UNIT, (0, 1, 0, 0)], [REST] * 2)
 TILTED_BY = partial(State.from_euler, theta=0.5)
-TOO_LONG = "within ten million steps of integration (a minute or two) of what is reached"
+TOO_LONG = "within ten million steps of integration (up to a minute) of what is reached"
 LATE_DERIVATIVES = "s of the start for derivatives with friction or a torque"
 RESOLVED = "a time at which double precision resolves the derivatives"
 TOO_LATE = 1e17, -1e20, [1.0, 1e17], ExactTimes(2**63 - 1, 1e40)

@@ -12,10 +12,17 @@
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && __GNUC__ >= 12 && \
     !defined(__AVX512F__) && !defined(__SANITIZE_THREAD__)
 #define SYMTOP_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
+#define SYMTOP_HAS_CLONES
 #else
 #define SYMTOP_CLONES
 #endif
 #define SYMTOP_INLINE inline __attribute__((always_inline))
+// Before a loop over a few vectors, whose sums then stay in registers. WebAssembly has none here.
+#ifdef __wasm__
+#define SYMTOP_UNROLL
+#else
+#define SYMTOP_UNROLL _Pragma("GCC unroll 10")
+#endif
 
 namespace symtop {
 

@@ -22,7 +22,7 @@ from symtop_ros.physics.times import ExactTimes, to_rough_seconds
 # In one call of the kernel, some ms.
 STATES = 2**16
 STEPS = 256.0
-LONGEST_WAY = 1e7  # steps, a minute or two; of kernel/driven/trail.hpp
+LONGEST_WAY = 1e7  # steps, up to a minute; of kernel/driven/trail.hpp
 MOST_DECAYS = 1e5  # decay times on the way to a time, some seconds; of kernel/driven/motion.hpp
 WHY_NOT_PUSHED = {
     VERTICAL: "the axis is vertical then, and no side is that of phi",
@@ -101,7 +101,7 @@ def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
         return refuse("t", f"before {show_limit(reached)} s ({why})", t)
     if status == TOO_LONG:
         # No time can be named: back in time friction drives a top, and the steps become shorter.
-        way = "ten million steps of integration (a minute or two)"
+        way = "ten million steps of integration (up to a minute)"
         return refuse("t", f"within {way} of what is reached, {reached:.3g} s", t)
     end = abs(reached)
     why = "the motion then becomes too fast"

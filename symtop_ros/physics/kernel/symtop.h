@@ -139,7 +139,7 @@ SYMTOP_API symtop_status symtop_continue(symtop_motion* motion, double t, const 
                               symtop_motion** continued);
 
 /* The state at one time in s of either sign. A driven motion is integrated as far as it takes, but
- * not if more than 1e7 steps seem to be left, a minute or two: SYMTOP_TOO_LONG. To go further, first
+ * not if more than 1e7 steps seem to be left, up to a minute: SYMTOP_TOO_LONG. To go further, first
  * reach times on the way. */
 SYMTOP_API symtop_status symtop_state(symtop_motion* motion, double t, double orientation[4],
                            double angular_velocity[3]);

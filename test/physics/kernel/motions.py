@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 from physics.exact_motions import read_motions
 
-from symtop_ros.physics import ExactTimes, Motion
+from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 from symtop_ros.physics.kernel import door, records
 
 MOTIONS = read_motions()
@@ -139,6 +139,22 @@ def list_driven(numbers):
     motion = UNDER_GRAVITY[0].motion
     pushed = (0.0, 0.01 * motion.top.Mgl, 0.0)
     yield Sample(motion, UNDER_GRAVITY[0].times[0] * TIMES[:7], pushed)
+    yield from list_weak()
+
+
+def list_weak():
+    """Driven motions with a number that is small or smaller than products by halves can take."""
+    top = Top(1.0, 0.375, 0.75)
+    for tiny in (0x1.8p-199, 0x1.8p-201, 0x1.23456789abcdep-480, 0x1.23456789abcdep-530):
+        tilted = State((1.0, tiny, -1.5 * tiny, 0.25), (tiny, 0.0, 3.0))
+        ordinary = State((1.0, 0.5, 0.25, -0.125), (0.5, -0.25, 3.0))
+        for start, friction, torque in (
+            (tilted, Friction(0.01, 0.02), (0.0, 0.0, 0.0)),
+            (ordinary, Friction(tiny, 3.0 * tiny), (0.0, 0.0, 0.0)),
+            (ordinary, Friction(0.0, 0.01), (tiny, 0.0, 2.0 * tiny)),
+        ):
+            # 1e-7 is a small part of a step, of which powers are tiny, too
+            yield Sample(Motion(top, start, friction, torque), np.array([1e-7, 0.3, 2.5, -1.0]))
 
 
 def encode(samples):

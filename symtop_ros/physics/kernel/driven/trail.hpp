@@ -4,9 +4,10 @@
 // whatever was asked before. Some knots and pieces are kept, so that one can go back.
 #pragma once
 
-#include <cstdlib>
+#include <memory>
+#include <new>
 
-#include "series.hpp"
+#include "stepper.hpp"
 
 namespace symtop {
 
@@ -14,10 +15,10 @@ namespace symtop {
 // up to the present one. So few that the two arrays are no mappings of their own: for a short motion
 // that would take as long as all of its steps.
 const int KEPT = 512, RECENT = 16;
-// Steps from what has been reached, a minute or two. A way is judged after the first ones, some tenths
+// Steps from what has been reached, up to a minute. A way is judged after the first ones, some tenths
 // of a second: friction may have slowed the top by then.
 const double LONGEST_WAY = 1e7;
-const long UNJUDGED = 50000;
+const long UNJUDGED = 200000;
 
 enum Progress {
   ARRIVED, IS_TOO_FAST, IS_TOO_STIFF, IS_TOO_LONG, NEEDS_STEPS, HAS_NO_MEMORY
@@ -27,21 +28,14 @@ class Trail {
  public:
   // False if there is no memory.
   bool prepare(const DrivenArguments& top, int direction) {
-    kept_ = static_cast<Knot*>(std::malloc((KEPT + 1) * sizeof(Knot)));
-    recent_ = static_cast<Piece*>(std::malloc(RECENT * sizeof(Piece)));
+    kept_.reset(new (std::nothrow) Knot[KEPT + 1]);
+    recent_.reset(new (std::nothrow) Piece[RECENT]);
     if (!kept_ || !recent_) return false;
     direction_ = direction;
     stepper_.equations.prepare(top);
     kept_[0] = start(top);
     kept_count_ = spacing_ = 1;
     return true;
-  }
-  Trail() = default;
-  Trail(const Trail&) = delete;
-  Trail& operator=(const Trail&) = delete;
-  ~Trail() {
-    std::free(kept_);
-    std::free(recent_);
   }
 
   // Integrates towards a time, and returns the time reached; *steps is lowered by those taken. It stops
@@ -66,18 +60,18 @@ class Trail {
 
   // Write the state at t + rest; the time has been reached.
   void read(double t, double rest, double orientation[4], double omega[3]) const {
-    Double2 v[VARIABLES];
     const Piece& piece = present();
-    piece.evaluate(piece.locate(t, rest), v);
+    const Variables now = piece.evaluate(piece.locate(t, rest));
+    const Double2 w = pick(now.q, W), x = pick(now.q, X), y = pick(now.q, Y), z = pick(now.q, Z);
+    const Double2 omega_x = pick(now.rates, OMEGA_X), omega_y = pick(now.rates, OMEGA_Y);
     Double2 c, s;
-    find_unit(v[SPIN] * stepper_.equations.half_rest, c, s);
-    const Double2 q[4] = {v[W] * c - v[Z] * s, v[X] * c + v[Y] * s, v[Y] * c - v[X] * s,
-                          v[Z] * c + v[W] * s};
+    find_unit(pick(now.rates, SPIN) * stepper_.equations.half_rest, c, s);
+    const Double2 q[4] = {w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s};
     const Double2 c2 = c * c - s * s, s2 = scale(c * s, 2.0);
     for (int k = 0; k < 4; k++) orientation[k] = q[k].high;
-    omega[0] = (v[OMEGA_X] * c2 + v[OMEGA_Y] * s2).high;
-    omega[1] = (v[OMEGA_Y] * c2 - v[OMEGA_X] * s2).high;
-    omega[2] = v[OMEGA_Z].high;
+    omega[0] = (omega_x * c2 + omega_y * s2).high;
+    omega[1] = (omega_y * c2 - omega_x * s2).high;
+    omega[2] = now.rates.high[OMEGA_Z];
   }
 
   double decay() const { return stepper_.equations.decay; }
@@ -85,9 +79,9 @@ class Trail {
  private:
   Stepper stepper_;
   int direction_ = 1;
-  Knot* kept_ = nullptr;  // knots over the whole integration, with `spacing_` pieces between two
+  std::unique_ptr<Knot[]> kept_;  // knots over the whole integration, with `spacing_` pieces between two
   long kept_count_ = 0, spacing_ = 1;
-  Piece* recent_ = nullptr;  // a ring: the last pieces up to the present one
+  std::unique_ptr<Piece[]> recent_;  // a ring: the last pieces up to the present one
   int recent_count_ = 0, last_ = 0;
   long count_ = 0;  // pieces before the present one
 
@@ -107,9 +101,11 @@ class Trail {
     Double2 norm = {0.0, 0.0};
     for (double q : top.orientation) norm = norm + Double2{q, 0.0} * q;
     norm = root(norm);
-    for (int k = 0; k < 4; k++) knot.values[W + k] = Double2{top.orientation[k], 0.0} / norm;
-    for (int k = 0; k < 3; k++) knot.values[OMEGA_X + k] = {top.omega[k], 0.0};
-    knot.values[ONE] = {1.0, 0.0};
+    for (int k = 0; k < 4; k++) {
+      const Double2 q = Double2{top.orientation[k], 0.0} / norm;
+      knot.now.q.high[k] = q.high, knot.now.q.low[k] = q.low;
+    }
+    for (int k = 0; k < 3; k++) knot.now.rates.high[k] = top.omega[k];
     return knot;
   }
 

@@ -1,0 +1,123 @@
+// Steps of a driven motion, whose length follows from the last two coefficients (A. Jorba and M. Zou, A
+// software package for the numerical integration of ODEs, Experimental Mathematics 14 (2005) 99).
+#pragma once
+
+#include "series.hpp"
+
+namespace symtop {
+
+// Size of the last terms of a step, for variables of size 1. It is far below EPS, because what is left
+// out has the same sign in many steps, while rounding has not: with 1e-19 steps would be 8 % longer,
+// and errors after a thousand seconds ten times as large.
+const double LAST = 1e-20;
+// The terms of an axis near the vertical may be larger than this by a factor, compared with its tilt:
+// so that steps do not become shorter at ordinary tilts.
+const double CLOSER = 8.0;
+const double LONGEST = 16.0;  // in units of about 1/rate; so the powers of a step stay in range
+// rad by which the frame turns in a step. Further on the terms of a sine would exceed their sum, and
+// rounding with them.
+const double LARGEST_TURN = 2.0;
+const double LARGEST_ANGULAR_VELOCITY = 1e100;
+const int LENGTH_BITS = 10;  // a length has so few bits that the sum of lengths, the time, is exact
+const double LARGEST_SPIN = 1e15;  // rad of half the spin angle; far beyond, no digit of it is left
+
+// The root of order n of x, 0.6 % off at most for n >= 29: a length needs no more, and the last bit of
+// the C library's power depends on the version. The logarithm to base 2 runs straight between powers
+// of two, at most 0.09 below itself, and 2^f on 0 to 1 is a parabola, at most 0.3 % off.
+inline double find_root(double x, int n) {
+  int exponent;
+  const double digits = std::frexp(x, &exponent);
+  const double logarithm = ((exponent - 2) + 2 * digits) / n;
+  const double whole = std::floor(logarithm), f = logarithm - whole;
+  return std::ldexp(1 + f * (0.6565 + 0.3435 * f), static_cast<int>(whole));
+}
+
+class Stepper {
+ public:
+  DrivenEquations equations;
+
+  void step(const Knot& knot, int direction, Piece& piece) {
+    piece.start = knot;
+    const double rate = equations.estimate_rate(knot.now);
+    if (!(rate < LARGEST_ANGULAR_VELOCITY)) return piece.rest_until(knot.t);
+    int exponent = 0;
+    if (rate) std::frexp(1 / rate, &exponent);
+    set_unit(std::ldexp(1.0, exponent));
+    piece.unit = unit_;
+    const SumOf<Lanes> rates = scale(knot.now.rates, Lanes{unit_, unit_, unit_, 1.0});
+    piece.terms[0][0] = knot.now.q.high, piece.rests[0][0] = knot.now.q.low;
+    piece.terms[0][1] = rates.high, piece.rests[0][1] = rates.low;
+    series_.expand(in_unit_, equations.share, equations.has_torque, piece);
+    if (!is_moving(piece)) return piece.rest_until(direction * INFINITY);
+    double length = direction * find_length(piece.terms) * unit_;
+    piece.end = knot.t + length;
+    piece.find_end();
+    while (std::fabs(piece.following.now.rates.high[SPIN] * equations.half_rest.high) > LARGEST_SPIN) {
+      length /= 2;
+      piece.end = knot.t + length;
+      piece.find_end();
+    }
+  }
+
+ private:
+  double unit_ = 0.0;
+  Coefficients in_unit_;
+  TaylorSeries series_;
+
+  void set_unit(double unit) {
+    if (unit != unit_) in_unit_ = equations.coefficients.in_unit(unit);
+    unit_ = unit;
+  }
+
+  static bool is_moving(const Piece& piece) {
+    bool moves = false;
+    for (int k = 0; k < LANES; k++) moves |= piece.terms[1][0][k] != 0 || piece.terms[1][1][k] != 0;
+    return moves;
+  }
+
+  // The components that say how far an axis near the vertical is from it: what is small of q, x and y
+  // above, and w and z below; and omega across.
+  struct Swing {
+    int q[2];
+
+    double find_largest(const Lanes row[2]) const {
+      return std::fmax(std::fmax(std::fabs(row[0][q[0]]), std::fabs(row[0][q[1]])),
+                       std::fmax(std::fabs(row[1][OMEGA_X]), std::fabs(row[1][OMEGA_Y])));
+    }
+
+    // How far the axis swings in a step: its terms count by this size.
+    double measure(const Lanes terms[][2]) const {
+      double size = 0.0;
+      for (int order = 0; order < 4; order++)
+        size = std::fmax(size, CLOSER * find_largest(terms[order]));
+      return size > 1.0 || size == 0 ? 1.0 : size;
+    }
+  };
+
+  double find_length(const Lanes terms[][2]) const {
+    const Lanes q = terms[0][0], rates = terms[0][1];
+    const double spin = equations.share.high * rates[OMEGA_Z];
+    const double turn = std::sqrt(rates[OMEGA_X] * rates[OMEGA_X] +
+                                  rates[OMEGA_Y] * rates[OMEGA_Y] + spin * spin);
+    double length = LARGEST_TURN / std::fmax(turn, LARGEST_TURN / LONGEST);
+    const double axial = std::fmax(1.0, std::fabs(rates[OMEGA_Z]));
+    // cos^2 and sin^2 of half the tilt: tan(theta/2)^2 = lower/upper.
+    const double upper = q[W] * q[W] + q[Z] * q[Z], lower = q[X] * q[X] + q[Y] * q[Y];
+    const bool swings = CLOSER * CLOSER * std::fmin(upper, lower) < 1;
+    const Swing swing = upper > lower ? Swing{{X, Y}} : Swing{{W, Z}};
+    const double size = swings ? swing.measure(terms) : 1.0;
+    for (int order = DRIVEN_TERMS - 1; order <= DRIVEN_TERMS; order++) {
+      const Lanes *row = terms[order];
+      double largest = std::fabs(row[1][OMEGA_Z]) / axial;
+      for (int k = W; k <= Z; k++) largest = std::fmax(largest, std::fabs(row[0][k]));
+      for (int k = OMEGA_X; k <= OMEGA_Y; k++) largest = std::fmax(largest, std::fabs(row[1][k]));
+      if (swings) largest = std::fmax(largest, swing.find_largest(row) / size);
+      if (largest) length = std::fmin(length, find_root(LAST / largest, order));
+    }
+    int exponent;
+    const double fraction = std::frexp(length, &exponent);
+    return std::ldexp(std::floor(std::ldexp(fraction, LENGTH_BITS)), exponent - LENGTH_BITS);
+  }
+};
+
+}  // namespace symtop
