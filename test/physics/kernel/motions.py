@@ -24,6 +24,8 @@ STAMPS = np.array([0, 1, -1000, 10**6, 10**9 + 7, -(10**9), 3, 10**10], np.int64
 ELAPSED = Fraction(2**60 + 1, 2**30)  # ns
 LONGEST = 5.0  # s of a driven motion
 FACTOR = np.array([1.4])
+# Products by halves take 2^-200 and more; products of two such numbers are below the range of doubles.
+TINY = [1.5 * 2.0**-199, 1.5 * 2.0**-201, (1 + 2.0**-52) * 2.0**-480, 1.1 * 2.0**-530]
 # Names of enums that programs are told.
 NAMES = {
     "kinds": records.KINDS,
@@ -145,7 +147,7 @@ def list_driven(numbers):
 def list_weak():
     """Driven motions with a number that is small or smaller than products by halves can take."""
     top = Top(1.0, 0.375, 0.75)
-    for tiny in (0x1.8p-199, 0x1.8p-201, 0x1.23456789abcdep-480, 0x1.23456789abcdep-530):
+    for tiny in TINY:
         tilted = State((1.0, tiny, -1.5 * tiny, 0.25), (tiny, 0.0, 3.0))
         ordinary = State((1.0, 0.5, 0.25, -0.125), (0.5, -0.25, 3.0))
         for start, friction, torque in (
