@@ -6,11 +6,11 @@ rounding of a double, because errors of one sign add up over the steps. A term i
 the largest error of exp(i x), x up to the turn of a step, if the first terms are exact and the
 others are doubles, in parts of 2^-53.
 
-Beyond the largest terms each further one gains a factor of about n/x. A turn of 2 rad with ten terms
-errs as little as one of 3.5 rad with fourteen; and a term in two doubles costs as much as some five in
-one, so that the shorter steps take less time (`kernel/driven/piece.hpp`). The last terms of a step are
-1e-20, which is 9e-5 of 2^-53: with eight terms, 8e-4, rounding would be the larger part of what adds
-up.
+Beyond the largest terms each further one gains a factor of about n/x. A turn of 2 rad with ten
+terms errs as little as one of 3.5 rad with fourteen; and a term in two doubles costs as much as
+some five in one, so that the shorter steps take less time (`kernel/driven/piece.hpp`). The last
+terms of a step are 1e-20, which is 9e-5 of 2^-53: with eight terms, 8e-4, rounding would be the
+larger part of what adds up.
 """
 
 from fractions import Fraction

@@ -18,9 +18,9 @@ MODULE = ROOT / "symtop_ros/page/web/kernel.wasm"
 DIGEST = MODULE.with_suffix(".sha256")  # of the sources and of the command
 # The functions of the header: one that is added there is exported here.
 FUNCTIONS = re.findall(r"^SYMTOP_API .*?symtop_(\w+)\(", (SOURCES / "symtop.h").read_text(), re.M)
-# Vectors of WebAssembly would take 1.4 instead of 2.5 ms for 10 s of friction, and 70 instead of 90 ns
-# for a state without; browsers of before 2023 have none. With -O2 it would be a fifth larger, set-up
-# and states a tenth faster, and friction slower.
+# Vectors of WebAssembly would take 1.4 instead of 2.5 ms for 10 s of friction, and 70 instead of
+# 90 ns for a state without; browsers of before 2023 have none. With -O2 it would be a fifth larger,
+# set-up and states a tenth faster, and friction slower.
 OPTIONS = (
     "-target",
     "wasm32-wasi",
