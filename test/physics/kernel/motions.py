@@ -148,8 +148,8 @@ def list_weak():
     """Driven motions with a number that is small or smaller than products by halves can take."""
     top = Top(1.0, 0.375, 0.75)
     for tiny in TINY:
-        tilted = State((1.0, tiny, -1.5 * tiny, 0.25), (tiny, 0.0, 3.0))
-        ordinary = State((1.0, 0.5, 0.25, -0.125), (0.5, -0.25, 3.0))
+        tilted = State((0.96, tiny, -1.5 * tiny, 0.28), (tiny, 0.0, 3.0))
+        ordinary = State((0.5, 0.5, -0.5, 0.5), (0.5, -0.25, 3.0))
         for start, friction, torque in (
             (tilted, Friction(0.01, 0.02), (0.0, 0.0, 0.0)),
             (ordinary, Friction(tiny, 3.0 * tiny), (0.0, 0.0, 0.0)),
