@@ -24,8 +24,8 @@ STAMPS = np.array([0, 1, -1000, 10**6, 10**9 + 7, -(10**9), 3, 10**10], np.int64
 ELAPSED = Fraction(2**60 + 1, 2**30)  # ns
 LONGEST = 5.0  # s of a driven motion
 FACTOR = np.array([1.4])
-# Products by halves take 2^-200 and more. Products of smaller ones leave the range of doubles.
-TINY = [1.5 * 2.0**-199, 1.5 * 2.0**-201, (1 + 2.0**-52) * 2.0**-480, 1.1 * 2.0**-530]
+# Products by halves take 2^-200 and more. Of the smallest ones halves of products would round.
+TINY = [1.5 * 2.0**-199, 1.5 * 2.0**-201, 1.1 * 2.0**-1010, 1.3 * 2.0**-1014, 1.7 * 2.0**-1021]
 # Names of enums that programs are told.
 NAMES = {
     "kinds": records.KINDS,
