@@ -4,8 +4,11 @@ test_exact_motions.py compares it with many digits.
 """
 
 import math
+import shutil
+import subprocess
 from fractions import Fraction
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +18,7 @@ from physics.tops import ARTICLE, CUSPS, EPS, distance, error, follow_exactly
 from trials import choose, seeds
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
+from symtop_ros.physics.kernel import door
 
 pytestmark = pytest.mark.untraced
 FRICTION = Friction(2e-6, 1e-5)
@@ -136,6 +140,15 @@ def test_reach_goes_as_far_as_its_steps_and_then_the_rest(t):
     assert reached[0] != t
     assert reached[-1] == t
     assert motion.at(t) == Motion(ARTICLE, CUSPS, FRICTION).at(t)
+
+
+@pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")
+def test_products_by_halves_lose_the_doubles_that_fused_products_lose(tmp_path):
+    program, source = tmp_path / "products", Path(__file__).with_name("products.cpp")
+    options = ("-std=c++17", "-O2", "-ffp-contract=off", "-Wno-psabi", "-I", door.FILE.parent)
+    subprocess.run(["g++", *options, source, "-o", program], check=True)
+    printed = subprocess.check_output([program], text=True)
+    assert printed == "0 wrong, 1000000 taken, others refused\n"
 
 
 def draw(rng):
