@@ -24,7 +24,8 @@ from setuptools.errors import CompileError
 KERNEL = Path("symtop_ros/physics/kernel")
 SOURCE = "symtop.cpp"
 # No fused products and sums, so that states have the same bits on every machine
-# (design/fused_products.py). -fno-fast-math stands behind all that CXXFLAGS may say.
+# (design/fused_products.py). -fno-fast-math stands behind all that CXXFLAGS may say. -O3 would
+# change no bit, and no time but that of a set-up (5 % less), with a library larger by a seventh.
 OPTIONS = (
     "-O2",
     "-std=c++17",

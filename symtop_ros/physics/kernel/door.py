@@ -196,8 +196,12 @@ def compute_soundly(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def _lend(array: Any, kind: Any) -> Any:
-    """Return the buffer of an array, or one of no numbers: ctypes takes no empty array."""
-    return kind.from_buffer(array) if array.size else (kind * 0)()
+    """Return the buffer of an array, or one of no numbers: ctypes takes no empty array.
+
+    Records are lent as bytes: NumPy writes their whole form each time that a buffer is asked for.
+    """
+    numbers = array.view(np.uint8) if array.dtype.names else array
+    return kind.from_buffer(numbers) if array.size else (kind * 0)()
 
 
 def read_from(array: NDArray[Any], code: str = "d") -> bytes:

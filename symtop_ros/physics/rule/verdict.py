@@ -175,7 +175,7 @@ def perrys_rule(
         return _judge_each(top, state, validate_array("factor", factor), hold)
     factor = validate_number("factor", factor)
     found: Any = _judge(top, state, np.array([factor]), (), hold)
-    return _read(VerdictRecord.from_buffer(found), hold)
+    return _read(VerdictRecord.from_buffer(found.view(np.uint8)), hold)
 
 
 def _judge(

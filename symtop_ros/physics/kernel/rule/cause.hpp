@@ -47,15 +47,13 @@ class Momentum {
   double unit;  // rad/s
 
   // u0 - u, as a product: for small tilts a difference of cosines would have no digit.
-  double fall_to(double theta) const {
-    return 2 * cosine_and_sine((theta + theta_) / 2).y * cosine_and_sine((theta - theta_) / 2).y;
-  }
+  double fall_to(double theta) const { return fall_of(theta); }
 
   // sin^2(theta) phi' = b - a u
   double turning_at(double theta) const { return along_ + a * fall_to(theta); }
 
   // |omega_xy|^2, of which rounding leaves some EPS where the axis is at rest.
-  double square_at(double theta) const { return std::fmax(0.0, squared_ + beta * fall_to(theta)); }
+  double square_at(double theta) const { return leave_positive(squared_ + beta * fall_to(theta)); }
 
   // phi', where the axis is not vertical.
   double rate_at(double theta) const {
@@ -88,14 +86,14 @@ class Momentum {
     return arc_tangent(level, std::fabs(b));
   }
 
-  // Between the torque and the plane perpendicular to L: L has theta' along the torque, and a and
-  // sin(theta) phi' at right angles to it and to each other.
-  double torque_from_perpendicular(double theta) const {
-    const double sine = cosine_and_sine(theta).y;
-    if (sine <= SURE * SURE) return 0.0;  // no torque
-    const double around = turning_at(theta) / sine;
-    const double nodding = std::fmax(0.0, square_at(theta) - around * around);
-    return arc_tangent(std::sqrt(nodding), find_modulus({a, around}));
+  // The square of the tangent of the angle between the torque and the plane perpendicular to L, which
+  // has theta' along the torque, and a and sin(theta) phi' at right angles to it and to each other.
+  template <class R>
+  SYMTOP_INLINE R square_from_perpendicular(R theta) const {
+    const R sine = cosine_and_sine<R>(theta).y, fall = fall_of(theta);
+    const R around = (along_ + a * fall) / sine;
+    const R nodding = leave_positive(leave_positive(squared_ + beta * fall) - around * around);
+    return choose(sine <= SURE * SURE, R{}, nodding / (a * a + around * around));  // no torque: 0
   }
   double torque_from_perpendicular_now() const {
     const double sine = vertical_.find_sine();
@@ -117,30 +115,42 @@ class Momentum {
   }
 
  private:
+  template <class R>
+  SYMTOP_INLINE R fall_of(R theta) const {
+    return 2.0 * cosine_and_sine<R>((theta + theta_) * 0.5).y *
+           cosine_and_sine<R>((theta - theta_) * 0.5).y;
+  }
+  template <class R>
+  static SYMTOP_INLINE R leave_positive(R x) { return choose(x > 0.0, x, R{}); }
+
   Vertical vertical_;
   double along_, across_, squared_, theta_;  // sin^2(theta) phi', sin(theta) theta' but for the sign
 };
 
-// The largest of a function over a nutation: the best of some tilts, and its neighbourhood by golden
-// section. The angle of torque and L is smooth in theta: where phi' has a spike, it is small.
-template <class Function>
-inline double find_largest_between(const double angles[2], const Function& at) {
-  const int PARTS = 64, STEPS = 30;
-  const double GOLDEN = 0.6180339887498949, width = (angles[1] - angles[0]) / PARTS;
-  int best = 0;
-  double most = -1.0;
-  for (int k = 0; k <= PARTS; k++) {
-    const double value = at(angles[0] + k * width);
-    if (value > most) most = value, best = k;
+// The largest angle over a nutation between the torque and the plane perpendicular to L: the best of
+// some tilts, and its neighbourhood in ever smaller parts, four tilts at a time. The angle is smooth in
+// theta: where phi' has a spike, it is small.
+SYMTOP_CLONES inline double find_most_from_perpendicular(const Momentum& L, const double angles[2]) {
+  const int PARTS = 64, ROUNDS = 12;  // 0.4^12 of two parts: less than 1e-6 of the way
+  double width = (angles[1] - angles[0]) / PARTS, most = 0.0, place = angles[0];
+  for (int k = 0; k < PARTS / LANES + 1 + ROUNDS; k++) {
+    double from = k < PARTS / LANES ? angles[0] + LANES * k * width : angles[1] - 3 * width;
+    if (k > PARTS / LANES) {
+      const double low = std::fmax(place - width, angles[0]);
+      width = (std::fmin(place + width, angles[1]) - low) / (LANES + 1);
+      from = low + width;
+    }
+    const Lanes theta = from + width * Lanes{0.0, 1.0, 2.0, 3.0};
+#ifdef __wasm__  // whose lanes are single numbers, of which one is less code than four
+    Lanes squares;
+    for (int i = 0; i < LANES; i++) squares[i] = L.square_from_perpendicular(double(theta[i]));
+#else
+    const Lanes squares = L.square_from_perpendicular(theta);
+#endif
+    for (int i = 0; i < LANES; i++)
+      if (squares[i] > most) most = squares[i], place = theta[i];
   }
-  double low = angles[0] + std::fmax(best - 1, 0) * width;
-  double high = angles[0] + std::fmin(best + 1, PARTS) * width;
-  for (int step = 0; step < STEPS; step++) {
-    const double inner = (high - low) * GOLDEN, left = at(high - inner), right = at(low + inner);
-    most = std::fmax(most, std::fmax(left, right));
-    (left > right ? high : low) = left > right ? low + inner : high - inner;
-  }
-  return most;
+  return arc_tangent(std::sqrt(most), 1.0);
 }
 
 inline int find_sign(double sum, double terms) {
@@ -221,8 +231,7 @@ class CauseFinder {
     const double theta = L_.theta();
     cause.rate_about_momentum = L_.size_now();
     cause.torque_from_perpendicular[0] = L_.torque_from_perpendicular_now();
-    cause.torque_from_perpendicular[1] = find_largest_between(
-        angles_, [&](double each) { return L_.torque_from_perpendicular(each); });
+    cause.torque_from_perpendicular[1] = find_most_from_perpendicular(L_, angles_);
     write(cause.momentum_from_axle, L_.momentum_from_axle(theta),
           [&](double each) { return L_.momentum_from_axle(each); });
     write(cause.omega_from_axle, L_.velocity_from_axle(theta),
