@@ -122,6 +122,17 @@ SET_UPS = {
         ),
         place="gpu",
     ),
+    "importers": SetUp(
+        "programs that read models (about 1 GB, once)",
+        packages=("pybullet>=3.2.7", "newton>=1.8", "newton-usd-schemas", "usd-core>=26", "numpy"),
+        place="importers",
+    ),
+    # It misread inertial frames of URDF (docs/truth_importers.md).
+    "mujoco-3.12": SetUp(
+        "an earlier MuJoCo (30 MB, once)",
+        packages=("mujoco==3.12.0", "numpy"),
+        place="mujoco-3.12",
+    ),
     "ubuntu": SetUp(
         "ROS 2 Jazzy, NumPy 1.26 and pytest 7.4 (about 300 MB, once)",
         extras=("jazzy",),

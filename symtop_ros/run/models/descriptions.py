@@ -1,5 +1,7 @@
 """Equivalent descriptions of one body: its frame turned or moved, its mass in a fixed child.
 
+A turned frame has a full tensor of inertia, or three moments in an inertial frame of their own.
+
 There is one motion for all of them, and each number is rounded once from the exact one. Engines
 that take frames or children to be special have several.
 """
@@ -23,6 +25,9 @@ MATRIX: tuple[Exact, ...] = tuple(
     tuple(Fraction(each, 25) for each in row) for row in ((0, -15, 20), (20, 12, 9), (-15, 16, 12))
 )
 ROLL_PITCH_YAW: Vector = (0.9272952180016122, 0.6435011087932844, 1.5707963267948966)
+# The same for the inertial frame: from the principal axes to the turned frame.
+BACK: tuple[float, ...] = (float(TURN[0]), *(-float(each) for each in TURN[1:]))
+ROLL_PITCH_YAW_BACK: Vector = (0.6435011087932844, -0.9272952180016122, -1.5707963267948966)
 UPRIGHT: Exact = tuple(map(Fraction, (0, 0, 1)))
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 # Of a moved frame, in units of the size of the body: no symmetry, no digit to spare.
@@ -30,12 +35,16 @@ SHIFT = (0.25, -0.375, 0.5)
 
 
 class Inertial(NamedTuple):
-    """Mass, centre of mass in the frame, and moments about it along the axes of the frame."""
+    """Mass, centre of mass in the frame, and moments about it along the axes of the frame.
+
+    The axes may be those of an inertial frame, which is turned back to the principal ones.
+    """
 
     mass: float  # kg
     centre: Vector  # m
     moments: Vector  # xx, yy, zz in kg m^2
     products: Vector  # xy, xz, yz in kg m^2
+    is_principal: bool = False  # the axes are those of an inertial frame
 
     @property
     def tensor(self) -> dict[str, float]:
@@ -55,6 +64,7 @@ class Description:
     pivot: Vector = ORIGIN  # the fixed point in the frame of the link, m
     share: float = 1.0  # of the mass in the link; the rest is in the child
     child: Vector = ORIGIN  # the fixed point in the frame of the child, m
+    is_principal: bool = False  # the link, which is turned, has an inertial frame
 
     @property
     def has_child(self) -> bool:
@@ -73,7 +83,11 @@ class Description:
 
     def link(self, body: Body) -> Inertial:
         """Return what the link has of the body."""
-        return _express(body, self.share, self.turned, self.pivot)
+        part = _express(body, self.share, self.turned, self.pivot)
+        if not self.is_principal:
+            return part
+        moments = body.Ix, body.Ix, body.Iz
+        return part._replace(moments=moments, products=ORIGIN, is_principal=True)
 
     def part(self, body: Body) -> Inertial:
         """Return what the child has of the body."""
@@ -110,6 +124,7 @@ def describe(name: str, body: Body) -> Description:
     x, y, z = (each * size for each in SHIFT)
     return {
         "turned": Description(turned=True),
+        "inertial": Description(turned=True, is_principal=True),
         "offset": Description(pivot=(x, y, z)),
         "nested_half": Description(share=0.5, child=(x, y, z)),
         "nested": Description(share=0.0, child=(x, y, z)),

@@ -9,8 +9,10 @@ from collections.abc import Iterator
 
 from symtop_ros.physics import Body, State, Top
 from symtop_ros.run.models.descriptions import (
+    BACK,
     PLAIN,
     ROLL_PITCH_YAW,
+    ROLL_PITCH_YAW_BACK,
     STEP,
     TURN,
     Description,
@@ -93,7 +95,9 @@ def _fill(body: Body, described: Description) -> Iterator[str]:
 def _describe_part(part: Inertial) -> str:
     name = "fullinertia" if any(part.products) else "diaginertia"
     tensor = (*part.moments, *part.products) if any(part.products) else part.moments
-    return f'<inertial pos="{join(part.centre)}" mass="{part.mass!r}" {name}="{join(tensor)}"/>'
+    turn = f' quat="{join(BACK)}"' if part.is_principal else ""
+    place = f'pos="{join(part.centre)}"{turn}'
+    return f'<inertial {place} mass="{part.mass!r}" {name}="{join(tensor)}"/>'
 
 
 def format_sdf(top: Top, start: State, body: Body, described: Description = PLAIN) -> str:
@@ -160,9 +164,10 @@ def _write_sdf(
 
 def _inertial(part: Inertial) -> str:
     tensor = "".join(f"<{name}>{each!r}</{name}>" for name, each in part.tensor.items())
+    turn = join(ROLL_PITCH_YAW_BACK) if part.is_principal else "0 0 0"
     return f"""\
         <inertial>
-          <pose>{join(part.centre)} 0 0 0</pose>
+          <pose>{join(part.centre)} {turn}</pose>
           <mass>{part.mass!r}</mass>
           <inertia>{tensor}</inertia>
         </inertial>"""

@@ -13,6 +13,7 @@ from symtop_ros.physics import Body, State, Top
 from symtop_ros.run.models.descriptions import (
     PLAIN,
     ROLL_PITCH_YAW,
+    ROLL_PITCH_YAW_BACK,
     Description,
     Inertial,
     describe_body,
@@ -142,8 +143,9 @@ def format_free_urdf(top: Top, start: State, body: Body, described: Description 
 
 def _inertial(part: Inertial) -> str:
     tensor = " ".join(f'{name}="{each!r}"' for name, each in part.tensor.items())
+    turn = f' rpy="{join(ROLL_PITCH_YAW_BACK)}"' if part.is_principal else ""
     return f"""<inertial>
-      <origin xyz="{join(part.centre)}"/>
+      <origin xyz="{join(part.centre)}"{turn}/>
       <mass value="{part.mass!r}"/>
       <inertia {tensor}/>
     </inertial>"""

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from symtop_ros.base.arrays import Vector, multiply
 from symtop_ros.physics import Body, State, Top
 from symtop_ros.run.models.descriptions import (
+    BACK,
     ORIGIN,
     PLAIN,
     TURN,
@@ -26,7 +27,6 @@ from symtop_ros.run.models.descriptions import (
 )
 
 ALONG = (1.0, 0.0, 0.0, 0.0)
-BACK: tuple[float, ...] = (float(TURN[0]), *(-float(each) for each in TURN[1:]))
 SCHEMAS = '(prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"])'
 
 

@@ -28,16 +28,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-VERSION = "6.0"  # of the test set
+VERSION = "6.1"  # of the test set
 FILE = Path(__file__).with_name("problems.json")
 PACKED = ".json.xz"  # of the same file in the package, which writes the set from it
 QUATERNION = ("w", "x", "y", "z")
 RATES = ("wx", "wy", "wz")
 WORLD_RATES = ("omega_x", "omega_y", "omega_z")
 BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
-# Of the body: its frame turned, or with its origin off the pivot; all or half of the mass in a
-# fixed child. The states of the first are in the turned frame, those of the others as ever.
-DESCRIPTIONS = ("turned", "offset", "nested", "nested_half")
+# Of the body: its frame turned, with a full tensor or with moments in an inertial frame; or with
+# its origin off the pivot; all or half of the mass in a fixed child. The states of the first two are
+# in the turned frame, those of the others as ever.
+TURNED = ("turned", "inertial")
+DESCRIPTIONS = (*TURNED, "offset", "nested", "nested_half")
 # The rotation of a turned frame to the principal axes.
 TURN = (0.7, 0.1, 0.5, 0.5)
 SEPARATORS = (",", ";", "\t")  # else any white space
@@ -593,7 +595,7 @@ def find_problem(problems: dict[str, Problem], name: str) -> Problem:
         got = " ".join(description.split())[:60]
         raise ValueError(f"description must be one of {', '.join(DESCRIPTIONS)}, got {got}")
     facts = problems[base].facts | {"name": name}
-    if description == "turned":
+    if description in TURNED:
         facts |= {each: facts[f"turned_{each}"] for each in ("orientations", "angular_velocities")}
         facts |= _turn_start(facts)
     return Problem(facts)

@@ -50,7 +50,8 @@ def read_mjcf(root: Element, _: str) -> Described:
         if (inertial := body.find("inertial")) is not None:
             full = inertial.get("fullinertia") or f"{inertial.get('diaginertia')} 0 0 0"
             centre = vector(inertial.get("pos"))
-            found.append(place_part(inertial.get("mass"), centre, full, turned, place))
+            own = rotation(numbers(inertial.get("quat", "1 0 0 0")))
+            found.append(place_part(inertial.get("mass"), centre, full, (turned, own), place))
     key = root.find("keyframe/key")
     qpos, qvel = numbers(key.get("qpos")), numbers(key.get("qvel"))
     if joint is not None:
@@ -68,11 +69,11 @@ def read_sdf(root: Element, text: str) -> Described:
         place = link.find("pose")
         *shift, roll, pitch, yaw = numbers("0 0 0 0 0 0" if place is None else place.text)
         inertia = link.find("inertial")
-        centre = matrix(numbers(inertia.find("pose").text)[:3])
+        *centre, a, b, c = numbers(inertia.find("pose").text)
         full = " ".join(inertia.find(f"inertia/{name}").text for name in MOMENTS)
-        turned = turn_by_angles(roll, pitch, yaw)
+        turned = turn_by_angles(roll, pitch, yaw), turn_by_angles(a, b, c)
         mass = inertia.find("mass").text
-        found.append(place_part(mass, centre, full, turned, matrix(shift) - pivot))
+        found.append(place_part(mass, matrix(centre), full, turned, matrix(shift) - pivot))
     *origin, x, y, z, w = numbers(model.find("pose").text)
     omega = vector(re.search(r"angular velocity (\S+ \S+ \S+) rad/s", text)[1])
     if joint is not None:
@@ -93,7 +94,8 @@ def read_urdf(root: Element, text: str) -> Described:
         inertial = root.find(f"link[@name='{name}']/inertial")
         full = " ".join(inertial.find("inertia").get(each) for each in MOMENTS)
         centre = matrix(read_origin(inertial, "xyz"))
-        found.append(place_part(inertial.find("mass").get("value"), centre, full, turned, place))
+        turns = turned, turn_by_angles(*read_origin(inertial, "rpy"))
+        found.append(place_part(inertial.find("mass").get("value"), centre, full, turns, place))
     if spin is None:
         x, y, z, w = numbers(re.search("x, y, z, w (.+), angular", text)[1])
         omega = vector(re.search("angular velocity (.+) rad/s", text)[1])
@@ -170,11 +172,16 @@ def read_origin(element: Element, name: str) -> list[Any]:
     return numbers(ZERO if origin is None else origin.get(name, ZERO))
 
 
-def place_part(mass: str, centre: Any, full: str, turned: Any, place: Any) -> tuple[Any, Any, Any]:
-    """Return mass, centre of mass and moments of a part of a body that is turned and moved."""
+def place_part(mass: str, centre: Any, full: str, turns: Any, place: Any) -> tuple[Any, Any, Any]:
+    """Return mass, centre of mass and moments of a part of a body that is turned and moved.
+
+    Its moments are in an inertial frame, which is turned in that of the part.
+    """
+    turned, own = turns
     xx, yy, zz, xy, xz, yz = numbers(full)
     moments = matrix([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return mpf(mass), place + turned * centre, turned * moments * turned.T
+    axes = turned * own
+    return mpf(mass), place + turned * centre, axes * moments * axes.T
 
 
 def gather_free(parts: Any, frame: Any, omega: Any, place: Any, velocity: Any) -> Described:

@@ -126,8 +126,14 @@ def test_other_refusals_are_a_line(capsys, tmp_path):
     for arguments, reason in (
         (["none"], "problem must be one of gentle_cusps, "),
         (["tops.turned"], "problem must be one of gentle_cusps, "),
-        (["cusps.bent"], "description must be one of turned, offset, nested, nested_half, got b"),
-        (["cusps."], "description must be one of turned, offset, nested, nested_half, got \n"),
+        (
+            ["cusps.bent"],
+            "description must be one of turned, inertial, offset, nested, nested_half, got b",
+        ),
+        (
+            ["cusps."],
+            "description must be one of turned, inertial, offset, nested, nested_half, got \n",
+        ),
         (["cusps"], "trajectory must be a CSV file for cusps, got none"),
         (["cusps", str(tmp_path / "no.csv")], f"{tmp_path / 'no.csv'}: No such file"),
     ):

@@ -1,0 +1,71 @@
+"""What importers read of a model is compared with the body that it describes."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from symtop_ros.run.models import FORMATS, UNSAID, name_file
+from symtop_ros.truth.testset.score import DESCRIPTIONS, read_problems
+from workshop.importers.compare import expect, judge
+
+READ = Path(__file__).parents[3] / "workshop/importers/read.py"
+FACTS = read_problems()["free_rod_fast"].facts
+
+
+def read(importer, *paths):
+    done = subprocess.run([sys.executable, READ, importer, *paths], check=True, capture_output=True)
+    return list(json.loads(done.stdout)["found"].values())
+
+
+def find_paths(folder, form):
+    """The paths of the models of a rod by their descriptions."""
+    return {
+        each: folder / "models" / name_file(f"free_rod_fast{'.' * bool(each)}{each}", form)
+        for each in ("", *DESCRIPTIONS)
+        if (each, form) not in UNSAID
+    }
+
+
+@pytest.mark.parametrize("form", ["mjcf", "urdf"])
+def test_mujoco_reads_the_body_of_every_description(form, folder):
+    pytest.importorskip("mujoco")
+    paths = find_paths(folder, form)
+    for description, found in zip(paths, read("mujoco", *paths.values()), strict=True):
+        assert judge(found, expect(FACTS, description)) in ("right", "to 6 digits"), description
+
+
+def test_the_schema_of_usd_has_the_body_of_every_description(folder):
+    pytest.importorskip("pxr")
+    paths = find_paths(folder, "usd")
+    for description, found in zip(paths, read("usd-core", *paths.values()), strict=True):
+        assert judge(found, expect(FACTS, description)) == "to 6 digits", description
+
+
+def test_an_importer_that_forgets_the_inertial_frame_is_convicted(folder, tmp_path):
+    pytest.importorskip("mujoco")
+    text = find_paths(folder, "urdf")["inertial"].read_text()
+    inertial = text.index("<inertial>\n      <origin xyz")
+    forgotten = tmp_path / "forgotten.urdf"
+    head, turn, rest = text[inertial:].partition(" rpy=")
+    forgotten.write_text(text[:inertial] + head + rest[rest.index("/>") :])
+    assert turn
+    (found,) = read("mujoco", forgotten)
+    # (Ix - Iz) in place of 0, of a rod: nearly all of Ix
+    assert judge(found, expect(FACTS, "inertial")).startswith("tensor wrong by ")
+
+
+def test_a_file_that_no_importer_takes_is_refused(tmp_path):
+    pytest.importorskip("mujoco")
+    path = tmp_path / "empty.mjcf"
+    path.write_text("<mujoco/>")
+    (found,) = read("mujoco", path)
+    assert judge(found, expect(FACTS, "")) == "refused"
+
+
+def test_every_format_is_read_by_some_importer():
+    from workshop.importers.__main__ import IMPORTERS
+
+    assert {form for each in IMPORTERS for form in each.formats} == {*FORMATS}

@@ -1,0 +1,1 @@
+"""Which importer reads which description of a body: what `make -C workshop importers` runs."""
