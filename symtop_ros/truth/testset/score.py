@@ -36,8 +36,8 @@ RATES = ("wx", "wy", "wz")
 WORLD_RATES = ("omega_x", "omega_y", "omega_z")
 BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
 # Of the body: its frame turned, with a full tensor or with moments in an inertial frame; or with
-# its origin off the pivot; all or half of the mass in a fixed child. The states of the first two are
-# in the turned frame, those of the others as ever.
+# its origin off the pivot; all or half of the mass in a fixed child. The states of the first two
+# are in the turned frame, those of the others as ever.
 TURNED = ("turned", "inertial")
 DESCRIPTIONS = (*TURNED, "offset", "nested", "nested_half")
 # The rotation of a turned frame to the principal axes.
