@@ -13,7 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from symtop_ros.run.models import FORMATS, UNSAID, name_file
+from symtop_ros.run.models import UNSAID, name_file
 from symtop_ros.truth.testset.score import DESCRIPTIONS, VERSION, read_problems
 from workshop.importers.compare import expect, judge
 from workshop.speed.conditions import find_date
