@@ -28,7 +28,7 @@ PLAIN = "plain"
 
 @dataclass(frozen=True)
 class Importer:
-    """A program that reads models, its environment in .venv, and the formats that it says it reads."""
+    """A program that reads models, its environment in .venv, and the formats that it reads."""
 
     name: str
     place: str
@@ -47,15 +47,15 @@ IMPORTERS = (
 TEXT = """# Which importer reads which description
 
 `make -C workshop importers` writes this page. Programs read the models of {problems} of
-the [test set](../symtop_ros/truth/testset/README.md#descriptions) {version}, those with a joint. What
-each then has of mass, centre of mass and moments of the whole body, in the frame of the link, is
-compared with the numbers of the problem: of the three bodies the worst is shown. Nothing is
+the [test set](../symtop_ros/truth/testset/README.md#descriptions) {version}, those with a joint.
+What each then has of mass, centre of mass and moments of the whole body, in the frame of the link,
+is compared with the numbers of the problem: of the three bodies the worst is shown. Nothing is
 integrated here.
 
 {table}
 
-"Right" is 1e-13 of the largest component, "to 6 digits" 2e-6: single precision, or the least mass that
-MuJoCo gives to an empty link. A dash: the format cannot say it.
+"Right" is 1e-13 of the largest component, "to 6 digits" 2e-6: single precision, or the least mass
+that MuJoCo gives to an empty link. A dash: the format cannot say it.
 
 {refusals}
 

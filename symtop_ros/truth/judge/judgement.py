@@ -22,6 +22,7 @@ from symtop_ros.truth.judge.relative import LABEL, Relative, measure_relative
 from symtop_ros.truth.judge.search import find_causes
 from symtop_ros.truth.judge.summary import format_row, summarize
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.judge.turns import describe_axis
 from symtop_ros.truth.judge.wanted import align, explain, find_nearest
 from symtop_ros.words import write
 
@@ -234,15 +235,20 @@ def _write_parameter(name: str, value: float, deviation: float | None) -> str:
     return format_measured(unit * value, unit * deviation if deviation else None)
 
 
-def _write_turns(cause: Cause) -> dict[str, str]:
-    """Return the angles of the rotations; that of a heading has a sign."""
-    world, body = cause.offset.angles
+def _write_turns(cause: Cause) -> dict[str, Any]:
+    """Return the angles of the rotations, and their axes; the angle of a heading has a sign."""
+    offset = cause.offset
+    world, body = offset.angles
     if cause.level == "heading":
         world = float(find_rotation_vectors(cause.offset.world)[2])
+    found = {}
     turns = zip_longest((world, body), cause.turn_deviations)
-    return {
-        name: format_measured(*each) for name, each in zip(("world", "body"), turns, strict=True)
-    }
+    for name, q, (angle, deviation) in zip(
+        ("world", "body"), (offset.world, offset.body), turns, strict=True
+    ):
+        found[name] = format_measured(angle, deviation)
+        found[f"{name}_axis"] = describe_axis(q, deviation)
+    return found
 
 
 def _write_whole(cause: Cause) -> dict[str, Any]:

@@ -118,9 +118,11 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     assert main(["--testset"]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 71
     assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
-    described = ("turned", "nested_half", "offset", "nested")
+    described = ("turned", "inertial", "nested_half", "offset", "nested")
     # what the formats cannot say
-    left_out = {"cusps.offset.urdf", "cusps.nested.sdf", "cusps.nested.usda"}
+    left_out = {
+        f"cusps.{each}" for each in ("offset.urdf", "nested.sdf", "nested.usda", "inertial.usda")
+    }
     forms = ("urdf", "sdf", "mjcf", "usda")
     models = {f"cusps.{each}.{form}" for each in described for form in forms}
     assert {path.name for path in tmp_path.iterdir()} == models - left_out | {

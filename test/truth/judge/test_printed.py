@@ -39,7 +39,8 @@ class Part:
     truths: list
 
 
-BOTH = "a rotation of the world by # rad and of the body by # rad"
+AXIS = r"(?: about \([-.\d, ]+\))?"
+BOTH = "a rotation of the world by # rad@ and of the body by # rad"
 ANGLES = [WORLD.magnitude(), BODY.magnitude()]
 PARTS = {
     "delay": Part("a delay of # ms", {"delay": 12.345678e-3}, {"delay": 1e3}, [12.345678]),
@@ -66,7 +67,7 @@ ALIGNED = {  # model: its parts in the text
 
 def read(text, sentence):
     """Return the pairs of texts, value and deviation, of a sentence."""
-    found = re.search(re.escape(sentence).replace("\\#", MEASURED), text)
+    found = re.search(re.escape(sentence).replace("\\#", MEASURED).replace("@", AXIS), text)
     assert found, text
     return [*zip(found.groups()[::2], found.groups()[1::2], strict=True)]
 
