@@ -241,7 +241,7 @@ def _write_turns(cause: Cause) -> dict[str, Any]:
     world, body = offset.angles
     if cause.level == "heading":
         world = float(find_rotation_vectors(cause.offset.world)[2])
-    found = {}
+    found: dict[str, Any] = {}
     turns = zip_longest((world, body), cause.turn_deviations)
     for name, q, (angle, deviation) in zip(
         ("world", "body"), (offset.world, offset.body), turns, strict=True
