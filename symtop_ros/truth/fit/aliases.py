@@ -9,7 +9,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.truth.fit.model import Model
+from symtop_ros.truth.fit.body_starts import list_spins
+from symtop_ros.truth.fit.model import THINNEST, Model, find_momentum
 from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.starts import Starts
 
@@ -19,7 +20,7 @@ NEAR = np.linspace(0.8, 1.2, 33)  # of p_psi/Ix of a start
 
 def count_rows(fit: Fit) -> float:
     """Return the number of rows in a nutation; infinite where friction or a pole hides it."""
-    if fit.model.record.has_friction or fit.model.kind.shows_spin:
+    if fit.model.record.has_friction or fit.model.kind.name == "rates":
         return np.inf
     try:
         return float(fit.model.find_motion(fit.x).nutation_period / fit.model.record.step)
@@ -44,14 +45,18 @@ def list_alias_starts(fit: Fit) -> list[Starts]:
 
 def _make_start(model: Model, x: Real, ratio: float, turning: float) -> Real:
     """Return parameters whose p_psi and velocity of nutation are larger by a ratio."""
-    found = x.copy()
+    found, place = x.copy(), model.place
     start = model.find_motion(x).start
     w, a, b, c = np.asarray(start.orientation)
     up = Rotation.from_quat([a, b, c, w]).inv().apply([0.0, 0.0, 1.0])
     mean = turning * (up - up[2] * np.array([0.0, 0.0, 1.0]))
     across = np.asarray(start.angular_velocity)[:2] - mean[:2]
-    p = x[model.place["p_psi/Ix"]] * ratio
-    found[model.place["p_psi/Ix"]] = p
-    found[model.place["Mgl/Ix"]] = p * turning - up[2] * turning**2
-    found[model.place["wx"]], found[model.place["wy"]] = mean[:2] + ratio * across
+    p = find_momentum(model, x) * ratio
+    if "p_psi/Ix" in place:
+        found[place["p_psi/Ix"]] = p
+    else:
+        spin = next(iter(list_spins(model.record, x[place["spin"]], p)), x[place["spin"]])
+        found[place["spin"]], found[place["Iz/Ix"]] = spin, np.clip(p / spin, THINNEST, 2.0)
+    found[place["Mgl/Ix"]] = p * turning - up[2] * turning**2
+    found[place["wx"]], found[place["wy"]] = mean[:2] + ratio * across
     return found

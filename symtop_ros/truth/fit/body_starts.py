@@ -2,18 +2,22 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 from scipy.ndimage import median_filter
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real, compose, find_rotation_vectors, invert
+from symtop_ros.truth.fit.camera_starts import list_camera_starts
 from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.fit.model import Model, find_axis, point_along
 from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.starts import Starts, fill, fill_axis_starts, list_axis_starts
 
 RATIOS = (0.25, 1.0, 1.7)  # Iz/Ix of starts
+ALLOWED = 0.01, 2.0  # Iz/Ix of bodies that spin
+WHOLE = 0, 1, -1, 2, -2  # turns from row to row, besides those that are seen
 PAD = 8  # by which a spectrum is finer
 
 
@@ -23,6 +27,7 @@ def list_starts(record: Record) -> Iterator[Starts]:
         "rates": list_rate_starts,
         "attitude": list_attitude_starts,
         "theta": list_tilt_starts,
+        "pixels": list_camera_starts,
     }
     return makers.get(record.kind.name, list_axis_starts)(record)
 
@@ -80,9 +85,8 @@ def list_attitude_starts(record: Record) -> Iterator[Starts]:
     q = record.values
     turns = find_rotation_vectors(compose(invert(q[:-1]), q[1:])) / np.diff(record.times)[:, None]
     seen = float(np.median(turns[:, 2]))
-    axis = fill_axis_starts(
-        replace(record, kind=KINDS["axis"], values=find_axis(q)), find_axis(q), {}
-    )
+    seen_axis = replace(record, kind=KINDS["axis"], values=find_axis(q))
+    axis = fill_axis_starts(seen_axis, seen_axis.values)
     back = Rotation.from_quat(q[0][[1, 2, 3, 0]]).inv()
     back = back * Rotation.from_quat(axis.model.reference[[1, 2, 3, 0]])
     model, rows = Model(record, q[0]), []
@@ -90,20 +94,21 @@ def list_attitude_starts(record: Record) -> Iterator[Starts]:
         named = dict(zip(axis.model.names, start, strict=True))
         wx, wy, _ = back.apply([named["wx"], named["wy"], 0.0])
         p = named["p_psi/Ix"]
-        for ratio, spin in [*_list_spins(record, seen, p)] or [
-            (np.clip(p / seen, 0.05, 1.95), seen)
-        ]:
+        for spin in [*list_spins(record, seen, p)] or [seen]:
+            ratio = float(np.clip(p / spin, *ALLOWED))
             given = {"Mgl/Ix": named["Mgl/Ix"], "Iz/Ix": ratio, "spin": spin, "wx": wx, "wy": wy}
             rows.append(fill(model, given))
     yield Starts(model, np.array(rows))
 
 
-def _list_spins(record: Record, seen: float, p: float) -> Iterator[tuple[float, float]]:
-    """Yield Iz/Ix and the spin: with a known Iz/Ix the spin may have whole turns between rows."""
-    turns = (0, 1, -1) if "Iz/Ix" in record.known else (0,)
-    for spin in (seen + n * 2 * np.pi / record.step for n in turns):
-        if spin and 0.01 < p / spin < 2.0:
-            yield p / spin, spin
+def list_spins(record: Record, seen: float, p: float) -> Iterator[float]:
+    """Yield the spin with the fewest whole turns from row to row; with a known Iz/Ix all of them.
+
+    With p_psi/Ix = p a body must have Iz/Ix = p/spin.
+    """
+    spins = (seen + n * 2 * np.pi / record.step for n in WHOLE)
+    allowed = (spin for spin in spins if spin and ALLOWED[0] < p / spin < ALLOWED[1])
+    yield from allowed if "Iz/Ix" in record.known else islice(allowed, 1)
 
 
 def list_tilt_starts(record: Record) -> Iterator[Starts]:

@@ -23,16 +23,3 @@ def project(axis: Real, camera: Mapping[str, Real]) -> Real:
     u = get["u"] + size * (cos * right - sin * high)
     v = get["v"] + size * (sin * right + cos * high)
     return np.stack([u, v], axis=-1)
-
-
-def lift(points: Real, camera: Mapping[str, float]) -> Real:
-    """Return the axes (n, 3) of points (n, 2) of a picture, on the side that faces the camera."""
-    size, roll, tilt = np.exp(camera["log_scale"]), camera["roll"], camera["elevation"]
-    u, v = ((points - [camera["u"], camera["v"]]) / size).T
-    right, high = u * np.cos(roll) + v * np.sin(roll), v * np.cos(roll) - u * np.sin(roll)
-    near = np.sqrt(np.maximum(1 - right**2 - high**2, 1e-3))
-    # the camera looks along (0, cos(tilt), -sin(tilt))
-    y = high * np.sin(tilt) - near * np.cos(tilt)
-    z = high * np.cos(tilt) + near * np.sin(tilt)
-    axis = np.stack([right, y, z], axis=1)
-    return np.asarray(axis / np.linalg.norm(axis, axis=1, keepdims=True))

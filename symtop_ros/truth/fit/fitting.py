@@ -13,13 +13,15 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
 from symtop_ros.truth.fit.aliases import SPARSE, count_rows, list_alias_starts
 from symtop_ros.truth.fit.check import HOLDS, Check
-from symtop_ros.truth.fit.model import TURNS, Model
+from symtop_ros.truth.fit.model import TURNS, Model, find_momentum
 from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.refine import Fit, refine
-from symtop_ros.truth.fit.search import ALIKE, EFFORTS, SURE, Candidate, search
+from symtop_ros.truth.fit.search import ALIKE, EFFORTS, Candidate, search
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.twins import mirror_view, take_other_end, turn_over
 
+AGAIN = 1.001  # costs of two searches that found one minimum
+SURE = 2  # searches that have to find it
 FARTHEST = 6.0  # deviations; a residual beyond it counts as this
 CLEAR = 25.0  # squares of deviations by which a motion fits worse than another
 DIFFERENT = 0.02  # of p_psi/Ix; motions that are closer are one
@@ -53,24 +55,38 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
     record = record.thin()
     found: Fit | None = None
     rivals: list[Candidate] = []
+    bests: list[float] = []
     for number, effort in enumerate(EFFORTS, 1):
-        rivals += search(record, effort)
-        found = choose_better(found, rivals, record)
+        ends = search(record, effort)
+        rivals += ends
+        bests.append(min(each.cost for each in ends))
+        if bests[-1] <= min(bests):
+            found = choose_better(found, ends, record)
         if tell:
             tell(number / (len(EFFORTS) + 1))
-        if number >= SURE and Check(found).verdict == HOLDS:
+        if is_sure(found, bests):
             break
     assert found is not None
     if count_rows(found) < 2 * SPARSE:
-        rivals += search(record, EFFORTS[2], list_alias_starts(found))
-        found = choose_better(found, rivals, record)
+        ends = search(record, EFFORTS[2], list_alias_starts(found))
+        rivals += ends
+        found = choose_better(found, ends, record)
     found = choose_twin(found)
     return replace(found, others=tuple(find_others(found, rivals)))
 
 
-def choose_better(fit: Fit | None, rivals: list[Candidate], record: Record) -> Fit:
+def is_sure(fit: Fit, bests: list[float]) -> bool:
+    """Return True if two searches found one minimum, and what it leaves is noise.
+
+    Noise that lasts may be the motion that a wrong minimum leaves: then three have to find it.
+    """
+    again = sum(each <= AGAIN * min(bests) for each in bests)
+    return again >= SURE + (len(fit.noise.partial) > 0) and Check(fit).verdict == HOLDS
+
+
+def choose_better(fit: Fit | None, ends: list[Candidate], record: Record) -> Fit:
     """Return the fit whose residuals are smaller, whatever noise they are taken for."""
-    best = min(rivals, key=lambda each: each.cost)
+    best = min(ends, key=lambda each: each.cost)
     new = refine(best.model.move(record), best.x)
     return new if fit is None or measure_median(new) < 0.999 * measure_median(fit) else fit
 
@@ -139,11 +155,3 @@ def find_marks(model: Model, x: Real) -> Real:
 def sum_squares(fit: Fit, residuals: Real) -> float:
     """Return the sum of the squares of residuals in deviations, each at most FARTHEST."""
     return float((np.minimum(np.abs(fit.noise.whiten(residuals)), FARTHEST) ** 2).sum())
-
-
-def find_momentum(model: Model, x: Real) -> float:
-    """Return p_psi/Ix."""
-    place = model.place
-    if "p_psi/Ix" in place:
-        return float(x[place["p_psi/Ix"]])
-    return float(x[place["Iz/Ix"]] * x[place["spin"]])

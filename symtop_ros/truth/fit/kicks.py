@@ -32,7 +32,7 @@ def find_kick(fit: Fit) -> float | None:
 
 def explains(fit: Fit) -> bool:
     """Return whether a motion leaves white noise, no larger than the steps from row to row."""
-    return fit.remainder.is_white and not len(fit.noise.lasting)
+    return fit.remainder.is_white and not len(fit.noise.partial)
 
 
 def find_reach(record: Record) -> int | None:

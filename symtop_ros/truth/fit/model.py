@@ -221,3 +221,11 @@ def point_along(axis: Real) -> Real:
     """Return an attitude (4,) whose z is the axis, with psi = 0."""
     theta, phi = np.arctan2(np.hypot(axis[0], axis[1]), axis[2]), np.arctan2(axis[0], -axis[1])
     return np.asarray(State.from_euler(theta=float(theta), phi=float(phi)).orientation)
+
+
+def find_momentum(model: Model, x: Real) -> float:
+    """Return p_psi/Ix."""
+    place = model.place
+    if "p_psi/Ix" in place:
+        return float(x[place["p_psi/Ix"]])
+    return float(x[place["Iz/Ix"]] * x[place["spin"]])

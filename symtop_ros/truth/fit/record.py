@@ -15,6 +15,7 @@ MOST = 100_000  # rows of a fit; more are thinned
 RUN = 200  # rows that follow each other in a record that was thinned, for the correlation of noise
 GAP = 1.5  # medians of the steps; a longer step ends a run of noise
 ROUNDED = 2  # rows for each value of a column, at least, if it is rounded
+LENGTH, USUAL = 0.1, 75  # relative differences of lengths in most rows, in per cent of them
 STILL = 1e-9  # of the size of the numbers; what changes less does not move
 NORMAL = 1.4826  # deviation of a normal distribution, in median distances from the median
 Known = tuple[float, float]  # a value and its standard deviation
@@ -29,7 +30,8 @@ class Record:
     times : ndarray (n,)
         In s, growing.
     values : ndarray (n, m)
-        By the columns of the kind, in rad, rad/s or pixels; axis and attitude have norm 1.
+        By the columns of the kind, in rad, rad/s or pixels; axis and attitude have norm 1,
+        but for the errors of points at one distance.
     kind : Kind
     camera : mapping
         Of pixels: what is known of the camera, by the names of `camera.CAMERA`.
@@ -170,10 +172,17 @@ def _refuse_odd(times: Real, values: Real) -> None:
 
 
 def _normalize(values: Real, kind: str) -> Real:
+    """Return rows of norm 1; those of points at one distance are divided by one length.
+
+    Errors that last would be modulated by the motion, if each row were divided by its own.
+    """
     norms = np.linalg.norm(values, axis=1, keepdims=True)
     if not norms.all():
         row = int(np.argmin(norms)) + 1
         raise refuse(f"{kind} in row {row}", "a vector other than zero", 0.0)
+    usual = np.median(norms)
+    if kind == "axis" and np.percentile(np.abs(norms / usual - 1), USUAL) < LENGTH:
+        return np.asarray(values / usual)
     return np.asarray(values / norms)
 
 

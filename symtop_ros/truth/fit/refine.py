@@ -19,8 +19,8 @@ from symtop_ros.truth.judge.noise import Remainder, sum_influences
 
 OUTLIER = 5.0  # deviations; a normal number is farther once in two million
 ROUNDS = 8  # of weights and least squares
-MANY = 0.02  # part of the rows; with more outliers there are too few neighbours
-SETTLED = 1e-7  # of the scale of a parameter
+SETTLED = 1e-3  # of the deviations and correlations of noise
+PRECISE = 1e-7  # of the sum of squares: a hundredth of a deviation of a parameter
 FIXED = 12.0  # deviations of rounding, of which a step has 3.5
 DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
@@ -114,18 +114,30 @@ class Fit:
         robust = sum_influences(self._influences @ slope, len(self.x), free)
         by_known = float((self.covariance @ slope) ** 2 @ self.priors)
         by_rounding = float(((self._shifts @ slope) ** 2).sum())
-        return float(np.sqrt(robust + by_known + by_rounding))
+        # the few slow swings of a record may happen to be small
+        white = float(slope @ self.covariance @ slope)
+        return float(np.sqrt(max(robust + by_known, white) + by_rounding))
 
 
 def refine(model: Model, x: Real) -> Fit:
     """Return the fit with the weights of its own noise, from a motion that is near it."""
-    noise = None
-    for number in range(ROUNDS):
-        noise = find_noise(model, x, lasts=number > 0)
-        moved, x = x, fit_weighted(model, x, noise)
-        if number > 1 and (np.abs(x - moved) < SETTLED * model.find_scales(x)).all():
+    noise = find_noise(model, x, lasts=False)
+    for _ in range(ROUNDS):
+        x = fit_weighted(model, x, noise)
+        before, noise = noise, find_noise(model, x, lasts=True)
+        if is_settled(before, noise):
             break
-    return Fit(model, x, find_noise(model, x, lasts=True))
+    return Fit(model, x, noise)
+
+
+def is_settled(before: Noise, noise: Noise) -> bool:
+    """Return True if two rounds found the same noise."""
+    return (
+        before.partial.shape == noise.partial.shape
+        and bool((before.kept == noise.kept).all())
+        and np.allclose(before.sigma, noise.sigma, rtol=SETTLED, atol=0.0)
+        and np.allclose(before.partial, noise.partial, rtol=0.0, atol=SETTLED)
+    )
 
 
 def fit_weighted(model: Model, x: Real, noise: Noise) -> Real:
@@ -137,7 +149,7 @@ def fit_weighted(model: Model, x: Real, noise: Noise) -> Real:
     def derive(x: Real) -> Real:
         return noise.whiten(model.find_jacobian(x))
 
-    return minimise(model, x, find, derive, "linear", 60).x
+    return minimise(model, x, find, derive, "linear", 60, PRECISE).x
 
 
 def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
@@ -147,11 +159,10 @@ def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
     least = np.maximum(rounding, DOUBLE * np.abs(record.values).max())
     floor = np.maximum(find_spread(left), least)
     good = np.asarray((np.abs(left) < OUTLIER * floor).all(axis=1))
-    outliers = int((~good).sum())
-    lasting = np.zeros((0, left.shape[1]))
-    if lasts and outliers < MANY * len(record):
-        lasting = np.where(fixed, 0.0, find_lasting(left, good, record.follows, len(x)))
-    noise = measure_noise(left, good, record.follows, lasting, len(x))
+    partial = np.zeros((0, left.shape[1]))
+    if lasts:
+        partial = np.where(fixed, 0.0, find_lasting(left, good, record.follows, len(x)))
+    noise = measure_noise(left, good, record.follows, partial, len(x))
     sigma = np.maximum(noise.sigma, least)
     return replace(noise, sigma=np.where(fixed, sigma * np.sqrt(noise.kept.sum()), sigma))
 

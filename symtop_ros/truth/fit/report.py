@@ -100,7 +100,7 @@ class Report:
             "residuals_are_white": check.is_white,
             "residual_rms": np.sqrt((self.fit.residuals[noise.kept] ** 2).mean(axis=0)).tolist(),
             "outliers": noise.outliers,
-            "noise_order": len(noise.lasting),
+            "noise_order": len(noise.partial),
             "independent_rows": self.fit.remainder.independent,
             "no_deviations_as": check.fault or None,
             "changed": [vars(each) for each in check.changes],
@@ -142,7 +142,7 @@ class Report:
             "verdict": self.check.verdict,
             "undamped": {} if self._lacks_friction else None,
             "outliers": {"count": write_count(noise.outliers, "row")} if noise.outliers else None,
-            "lasting": {"order": len(noise.lasting)} if len(noise.lasting) else None,
+            "lasting": {"order": len(noise.partial)} if len(noise.partial) else None,
             "changes": [vars(each) for each in self.check.changes] or None,
             "fault": {"kind": self.check.fault} if self.check.fault else None,
         }

@@ -22,6 +22,7 @@ GROWTH = 1.7  # of a part
 BROAD = 3.0  # scales of the residuals at which starts are compared
 SOFT = 0.1  # of the spread of the values: the first scale of a robust loss
 SAME = 1e-4  # relative difference of the costs of one minimum
+NEAR = 1e-6  # relative change of a cost by the last step
 ALIKE = 1.1  # costs of motions that fit as well, at most
 USUAL, SPIKE = 90, 4.0  # per cent of the differences from medians, and times beyond it
 QUICK = 10_000  # rows of a search
@@ -39,7 +40,6 @@ class Effort:
 
 # The first part of the second search is long: in a quick record 40 rows show no nutation.
 EFFORTS = (Effort(24, 4, 40), Effort(24, 4, 40, 0.35), Effort(80, 6, 24), Effort(150, 8, 60, 0.2))
-SURE = 2  # searches of every record
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ def search(record: Record, effort: Effort, starts: Sequence[Starts] = ()) -> lis
     record = replace(record, values=drop_spikes(record.values))
     count = min(len(record), max(effort.first, int(effort.share * len(record))))
     part = record.select(slice(count))
-    shows = record.kind.name in {"pixels", "theta"}  # their starts need a whole turn
+    shows = record.kind.name == "theta"  # its starts need a whole turn
     found = starts or [*list_starts(record.thin(QUICK) if shows else part)]
     best = choose(found, part, effort.tried)
     most = 12
@@ -104,7 +104,7 @@ def improve(model: Model, x: Real, most: int) -> Candidate:
     def derive(x: Real) -> Real:
         return model.find_jacobian(x) / scale
 
-    return minimise(model, x, find, derive, "soft_l1", most)
+    return minimise(model, x, find, derive, "soft_l1", most, NEAR)
 
 
 def minimise(
@@ -114,8 +114,12 @@ def minimise(
     derive: Callable[[Real], Real],
     loss: Literal["linear", "soft_l1"],
     most: int,
+    precise: float,
 ) -> Candidate:
-    """Return the least squares of residuals and of what is known, from a start."""
+    """Return the least squares of residuals and of what is known, from a start.
+
+    It ends if a step makes the sum of squares smaller by less than a part `precise`.
+    """
     low, high = list_bounds(model)
     known = [
         (model.place[n], *known) for n, known in model.record.known.items() if n in model.place
@@ -134,7 +138,14 @@ def minimise(
     bounds = low, high
     try:
         found = least_squares(
-            find_all, start, derive_all, bounds, x_scale=scales, loss=loss, max_nfev=most
+            find_all,
+            start,
+            derive_all,
+            bounds,
+            ftol=precise,
+            x_scale=scales,
+            loss=loss,
+            max_nfev=most,
         )
     except (ValueError, np.linalg.LinAlgError):  # the start is far from any motion
         return Candidate(model, x, np.inf)

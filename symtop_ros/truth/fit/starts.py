@@ -13,16 +13,13 @@ from scipy.signal import savgol_filter
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.truth.fit.camera import CAMERA, lift
+from symtop_ros.truth.fit.camera import CAMERA
 from symtop_ros.truth.fit.model import FRICTION, MOUNT, TURNS, Model, point_along
 from symtop_ros.truth.fit.record import Record
 
 WIDTHS = (5, 9, 15, 25, 41)  # samples of a smoothed derivative
 GRID = 24  # values of p_psi/Ix of each sign
 SLIGHT = 1e-3  # rad/s; friction of a start
-ELEVATIONS = np.radians([10, 25, 40, 60, 80])
-TILTS = np.radians([15, 30, 45, 65, 85])
-SIZES = (1.02, 1.2, 1.6, 2.5)  # of the farthest point, by which the axis is long
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,12 +31,8 @@ class Starts:
 
 
 def list_axis_starts(record: Record) -> Iterator[Starts]:
-    """Yield starts for a record of the axis, as points, angles or pixels."""
-    if record.kind.name != "pixels":
-        yield fill_axis_starts(record, find_axes(record), {})
-        return
-    for camera in list_cameras(record):
-        yield fill_axis_starts(record, lift(record.values, camera), camera)
+    """Yield starts for a record of the axis, as points or angles."""
+    yield fill_axis_starts(record, find_axes(record))
 
 
 def find_axes(record: Record) -> Real:
@@ -50,7 +43,7 @@ def find_axes(record: Record) -> Real:
     return np.stack([np.sin(theta) * np.sin(phi), -np.sin(theta) * np.cos(phi), np.cos(theta)], 1)
 
 
-def fill_axis_starts(record: Record, axes: Real, camera: Mapping[str, float]) -> Starts:
+def fill_axis_starts(record: Record, axes: Real) -> Starts:
     """Return starts for axes (n, 3): each pair of constants with three velocities of the axis."""
     first, velocity, turning = _find_start(record.times, axes)
     model = Model(record, point_along(first))
@@ -59,7 +52,7 @@ def fill_axis_starts(record: Record, axes: Real, camera: Mapping[str, float]) ->
     seen = body.apply(np.cross(first, velocity))
     mean = body.apply(turning * (np.array([0.0, 0.0, 1.0]) - first[2] * first))
     rows = [
-        fill(model, {"Mgl/Ix": a, "p_psi/Ix": p, "wx": w[0], "wy": w[1], **camera})
+        fill(model, {"Mgl/Ix": a, "p_psi/Ix": p, "wx": w[0], "wy": w[1]})
         for a, p in pairs
         for w in (seen, mean, 0 * mean)  # the last: the top was let go
     ]
@@ -107,36 +100,3 @@ def list_grid(record: Record, axes: Real, turning: float) -> Iterator[tuple[floa
     for p in np.geomspace(slowest, fastest, GRID):
         for sign in (1.0, -1.0):
             yield sign * p * turning - cosine * turning**2, sign * p
-
-
-def list_cameras(record: Record) -> Iterator[dict[str, float]]:
-    """Yield cameras that see the points on a circle of constant tilt."""
-    given = record.camera
-    elevations = [given["elevation"]] if "elevation" in given else list(ELEVATIONS)
-    for elevation in elevations:
-        for (u, v), size in _list_circles(record, elevation):
-            yield {
-                "u": u,
-                "v": v,
-                "log_scale": float(np.log(size)),
-                "roll": 0.0,
-                **given,
-                "elevation": elevation,
-            }
-
-
-def _list_circles(record: Record, elevation: float) -> Iterator[tuple[tuple[float, float], float]]:
-    """Yield pivots and lengths of the axis; the record shows one of them if the other is known."""
-    given, points = record.camera, record.values
-    half = np.ptp(points[:, 0]) / 2
-    middle = (points.max(axis=0) + points.min(axis=0)) / 2
-    if "u" in given and "v" in given:
-        pivot = given["u"], given["v"]
-        far = float(np.linalg.norm(points - pivot, axis=1).max())
-        known = [float(np.exp(given["log_scale"]))] if "log_scale" in given else []
-        yield from ((pivot, size) for size in known or [far * each for each in SIZES])
-        return
-    for tilt in TILTS:
-        size = float(np.exp(given["log_scale"])) if "log_scale" in given else half / np.sin(tilt)
-        height = size * np.sqrt(max(1 - (half / size) ** 2, 0.0))
-        yield (middle[0], middle[1] - height * np.cos(elevation)), size

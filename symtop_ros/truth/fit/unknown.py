@@ -67,7 +67,7 @@ class Unknown:
 def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> list[Unknown]:
     """Return what a record leaves open."""
     together = [*list_together(fit, values)]
-    found = [*list_twins(fit, given), *together, *_list_ambiguities(fit)]
+    found = [*list_twins(fit, given), *together, *_list_ambiguities(fit, values)]
     paired = {
         name for each in found if each.kind == "together" for name in each.names.split(" and ")
     }
@@ -227,10 +227,12 @@ def _list_motions(others: Sequence[Fit]) -> Iterator[Unknown]:
         yield Unknown("other", "Mgl/Ix, p_psi/Ix", (float(motion.top.Mgl), find_p(motion)))
 
 
-def _list_ambiguities(fit: Fit) -> Iterator[Unknown]:
+def _list_ambiguities(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
     """Yield nutations with few rows, level cameras, and whole turns of the spin."""
     if is_sparse(fit):
-        yield Unknown("sparse", ", ".join(ALIASED), (count_rows(fit),))
+        names = {each.name for each in values}
+        hidden = ", ".join(name for name in ALIASED if name in names)
+        yield Unknown("sparse", hidden, (count_rows(fit),))
     if is_level(fit):
         yield Unknown("level", "sign of p_psi")
     if fit.model.kind.name == "attitude":

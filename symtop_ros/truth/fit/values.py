@@ -9,15 +9,14 @@ import numpy as np
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit.aliases import SPARSE, count_rows
 from symtop_ros.truth.fit.camera import CAMERA
-from symtop_ros.truth.fit.fitting import find_momentum
-from symtop_ros.truth.fit.model import FRICTION, MOUNT
+from symtop_ros.truth.fit.model import FRICTION, MOUNT, find_momentum
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
 
 SURE = 0.15  # of the scale of a number; one with a larger deviation is not known
 LEVEL = 4.0  # deviations within which an elevation may be zero
 SIDES = "p_psi/Ix", "phi_dot", "mean_precession_rate"  # change with the sign of p_psi
-ALIASED = "Mgl/Ix", "p_psi/Ix", "theta_dot", "phi_dot", "nutation_period"
+ALIASED = "Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin", "theta_dot", "phi_dot", "nutation_period"
 UNITS = {
     "Mgl/Ix": "1/s^2",
     "p_psi/Ix": "rad/s",
