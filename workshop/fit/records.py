@@ -110,8 +110,8 @@ def draw_sample(kind: str, noise: str, seed: int) -> Sample:
     rate, count = float(draw.choice(TRIED)), int(draw.integers(150, 500))
     if kind == "rates":
         rate = max(rate, 60.0)
-    if kind == "attitude":  # of more than half a turn from row to row a record says the opposite
-        rate = max(rate, 0.4 * abs(float(motion.start.angular_velocity[2])))
+    if kind == "attitude":  # whole turns from row to row are not seen
+        rate = max(rate, 0.6 * abs(float(motion.start.angular_velocity[2])))
     times = np.arange(count) / rate
     camera = draw_camera(draw) if kind == "pixels" else {}
     make = NOISES[noise]
