@@ -6,15 +6,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, State, Top, specific_force
 from symtop_ros.truth.fit import Record, make_record
 from symtop_ros.truth.fit.camera import project
-from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.fit.model import find_axis
 
 Draw = np.random.Generator
 # deviation of the noise: rad of angles, parts of the length of the axis, pixels, rad/s
-SIGMA = {"attitude": 5e-3, "rates": 0.1, "axis": 5e-3, "angles": 5e-3, "pixels": 0.7, "theta": 2e-3}
+SIGMA = {"inertial": 0.1, "attitude": 5e-3, "rates": 0.1, "axis": 5e-3, "angles": 5e-3, "pixels": 0.7, "theta": 2e-3}
+POSITION = (0.02, 0.01, 0.05)  # m, of an accelerometer
+SEEDED = ("angles", "attitude", "axis", "pixels", "rates", "theta", "inertial")  # kinds, for seeds
 TRIED = (30.0, 60.0, 120.0, 240.0, 1000.0)  # samples a second
 FRICTION_EVERY = 8  # so many records have friction that is looked for
 NUTATIONS = (1.5, 6.0)  # of a record, at the rate that is drawn for it
@@ -44,6 +45,7 @@ class Sample:
             "phi": angles.phi,
             "theta_dot": sign * rates.theta,
             "phi_dot": sign * rates.phi,
+            "gravity": STANDARD_GRAVITY,
             "axial/Iz": motion.friction.axial / top.Iz,
             "transverse/Ix": motion.friction.transverse / top.Ix,
             **{name: value for name, value in self.camera.items() if name != "log_scale"},
@@ -80,6 +82,9 @@ def see(motion: Motion, kind: str, times: Real, camera: dict[str, float]) -> Rea
         return np.asarray(state.orientation)
     if kind == "rates":
         return np.asarray(state.angular_velocity)
+    if kind == "inertial":
+        forces = specific_force(motion, state, POSITION)
+        return np.concatenate([state.angular_velocity, forces], axis=1)
     axis = find_axis(state.orientation)
     if kind == "axis":
         return axis
@@ -104,11 +109,11 @@ def draw_camera(draw: Draw) -> dict[str, float]:
 
 def draw_sample(kind: str, noise: str, seed: int) -> Sample:
     """Return a random record of a kind, with a noise."""
-    draw = np.random.default_rng([seed, sorted(KINDS).index(kind), sorted(NOISES).index(noise)])
+    draw = np.random.default_rng([seed, SEEDED.index(kind), sorted(NOISES).index(noise)])
     has_friction = seed % FRICTION_EVERY == FRICTION_EVERY - 1 and kind != "theta"
     motion = draw_motion(draw, has_friction)
     rate, count = float(draw.choice(TRIED)), int(draw.integers(150, 500))
-    if kind == "rates":
+    if kind in {"rates", "inertial"}:
         rate = max(rate, 60.0)
     if kind == "attitude":  # whole turns from row to row are not seen
         rate = max(rate, 0.6 * abs(float(motion.start.angular_velocity[2])))
@@ -116,7 +121,8 @@ def draw_sample(kind: str, noise: str, seed: int) -> Sample:
     camera = draw_camera(draw) if kind == "pixels" else {}
     make = NOISES[noise]
     times, values = make(draw, times, lambda t: see(motion, kind, t, camera), SIGMA[kind])
-    record = make_record(times, values, kind, has_friction=has_friction)
+    more = {"position": POSITION} if kind == "inertial" else {}
+    record = make_record(times, values, kind, has_friction=has_friction, **more)
     return Sample(record, motion, camera)
 
 

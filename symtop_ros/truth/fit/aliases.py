@@ -12,15 +12,16 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit.body_starts import list_spins
 from symtop_ros.truth.fit.model import THINNEST, Model, find_momentum
 from symtop_ros.truth.fit.refine import Fit
-from symtop_ros.truth.fit.starts import Starts
+from symtop_ros.truth.fit.starts import Starts, fill
 
 SPARSE = 4.0  # rows in a nutation, below which a different motion may show the same rows
+RATES = "rates", "inertial"  # kinds whose rows show the spin itself
 NEAR = np.linspace(0.8, 1.2, 33)  # of p_psi/Ix of a start
 
 
 def count_rows(fit: Fit) -> float:
     """Return the number of rows in a nutation; infinite where friction or a pole hides it."""
-    if fit.model.record.has_friction or fit.model.kind.name == "rates":
+    if fit.model.record.has_friction or fit.model.kind.name in RATES:
         return np.inf
     try:
         return float(fit.model.find_motion(fit.x).nutation_period / fit.model.record.step)
@@ -30,7 +31,8 @@ def count_rows(fit: Fit) -> float:
 
 def list_alias_starts(fit: Fit) -> list[Starts]:
     """Return starts whose nutation has another frequency."""
-    model, x = fit.model, fit.x
+    model = Model(fit.model.record.plain, fit.model.reference)
+    x = fill(model, dict(zip(fit.model.names, fit.x.tolist(), strict=True)))
     motion = model.find_motion(x)
     turning = float(motion.mean_precession_rate)
     rate = 2 * np.pi / float(motion.nutation_period)

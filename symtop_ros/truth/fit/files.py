@@ -13,19 +13,23 @@ from pathlib import Path
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError, one_line, plain
+from symtop_ros.physics import STANDARD_GRAVITY
 from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.judge.columns import (
     ANGLES,
     AXIS,
+    DEGREES,
+    FORCES,
     POINT,
     TIMES,
     choose_time,
+    describe_empty,
     find_quaternions,
     find_rates,
     find_separator,
     find_unit,
+    join_names,
     refuse_twice,
     split_cells,
     split_names,
@@ -34,10 +38,11 @@ from symtop_ros.truth.judge.columns import (
 
 HEAD = 10  # lines within which the names of columns are looked for
 SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "": 1.0}
-DEGREES = ("deg", "degree", "degrees", "°", "deg/s", "°/s", "dps")
+ANGULAR = ("angles", "theta", "rates", "inertial")  # kinds with angles or their rates
+G = ("g",)
 REPORT_EVERY = 100_000  # lines
 # A table may have the columns of several kinds; what was measured comes before exact truth.
-ORDER = ("angles", "theta", "pixels", "measured", "attitude", "rates", "axis")
+ORDER = ("angles", "theta", "pixels", "measured", "attitude", "rates", "inertial", "axis")
 
 
 @dataclass(frozen=True)
@@ -80,7 +85,8 @@ def _read_lines(
     path: Path, file: Iterable[str], kind: str | None, tell: Callable[[int], None] | None
 ) -> Rows:
     """Find the names within the first lines, and read the rows after them."""
-    numbered = ((number, line) for number, line in enumerate(file, 1) if line.strip())
+    filled = ((number, line) for number, line in enumerate(file, 1) if line.strip())
+    numbered = join_names(path, filled)
     head = ""
     for _, line in islice(numbered, HEAD):
         head = head or line
@@ -119,7 +125,9 @@ def _name(name: str) -> str:
 
 
 def _find_factor(unit: str, kind: str) -> float:
-    return np.pi / 180 if unit in DEGREES and kind in {"angles", "theta", "rates"} else 1.0
+    if unit in G:
+        return STANDARD_GRAVITY
+    return np.pi / 180 if unit in DEGREES and kind in ANGULAR else 1.0
 
 
 def _list_kinds(names: list[str]) -> Iterator[tuple[str, list[int]]]:
@@ -131,6 +139,9 @@ def _list_kinds(names: list[str]) -> Iterator[tuple[str, list[int]]]:
     if rates := find_rates(names, ("measured_", "")):
         is_measured = names[rates[0]].startswith("measured")
         yield "measured" if is_measured else "rates", rates
+    forces = find_rates(names, ("measured_", ""), FORCES)
+    if rates and forces:
+        yield "inertial", [*rates, *forces]
     angles = {
         angle: place
         for angle, pattern in ANGLES.items()
@@ -218,9 +229,7 @@ def _read_numbers(
 
 def _write_notes(table: Lines, places: Places) -> Iterator[str]:
     """Yield what was odd about a table."""
-    if table.empty:
-        rows = "has" if table.empty == 1 else "have"
-        yield f"{write_count(table.empty, 'row')} {rows} an empty cell: left out"
+    yield from describe_empty(table.empty)
     if places.others:
         others = " and ".join(places.others)
         yield f"read as {places.kind}; the table has {others} as well (--kind)"

@@ -12,13 +12,14 @@ import numpy as np
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
 from symtop_ros.truth.fit.aliases import SPARSE, count_rows, list_alias_starts
+from symtop_ros.truth.fit.body_starts import list_spins
 from symtop_ros.truth.fit.check import HOLDS, Check
-from symtop_ros.truth.fit.model import TURNS, Model, find_momentum
+from symtop_ros.truth.fit.model import Model, find_momentum
 from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.refine import Fit, refine
 from symtop_ros.truth.fit.search import ALIKE, EFFORTS, Candidate, search
-from symtop_ros.truth.fit.starts import fill
-from symtop_ros.truth.fit.twins import mirror_view, take_other_end, turn_over
+from symtop_ros.truth.fit.sides import expand, restate
+from symtop_ros.truth.fit.twins import mirror_view, turn_camera, turn_over
 
 AGAIN = 1.001  # costs of two searches that found one minimum
 SURE = 2  # searches that have to find it
@@ -57,7 +58,7 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
     rivals: list[Candidate] = []
     bests: list[float] = []
     for number, effort in enumerate(EFFORTS, 1):
-        ends = search(record, effort)
+        ends = expand(search(record.plain, effort), record)
         rivals += ends
         bests.append(min(each.cost for each in ends))
         if bests[-1] <= min(bests):
@@ -68,7 +69,7 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
             break
     assert found is not None
     if count_rows(found) < 2 * SPARSE:
-        ends = search(record, EFFORTS[2], list_alias_starts(found))
+        ends = expand(search(record.plain, EFFORTS[2], list_alias_starts(found)), record)
         rivals += ends
         found = choose_better(found, ends, record)
     found = choose_twin(found)
@@ -92,27 +93,42 @@ def choose_better(fit: Fit | None, ends: list[Candidate], record: Record) -> Fit
 
 
 def choose_twin(fit: Fit) -> Fit:
-    """Return the usual one of exact twins: Mgl > 0 by rates, an upright camera that is high."""
+    """Return the usual one of exact twins.
+
+    By rates Mgl > 0; a camera is upright and high; attitudes turn as little from row to row as a
+    body may.
+    """
     model, x = fit.model, fit.x
+    if model.kind.name == "attitude":
+        return choose_turns(fit)
     if model.kind.name == "rates" and x[0] < 0:
-        return _restate(fit, turn_over(model.find_motion(x)), {})
+        return _take(fit, turn_over(model.find_motion(x)), {})
     if "roll" in model.place and np.cos(x[model.place["roll"]]) < 0:
-        roll = float(x[model.place["roll"]]) + np.pi
-        roll -= 2 * np.pi * np.round(roll / (2 * np.pi))
-        fit = _restate(fit, take_other_end(model.find_motion(x)), {"roll": roll})
-    if "elevation" in fit.model.place and fit.x[fit.model.place["elevation"]] < 0:
-        motion, camera = mirror_view(fit.model.find_motion(fit.x), fit.model.find_camera(fit.x))
-        return _restate(fit, motion, {"elevation": camera["elevation"]})
+        fit = _take(fit, *turn_camera(model.find_motion(x), model.find_camera(x)))
+    is_far = not fit.model.record.breaks_twins
+    if is_far and "elevation" in fit.model.place and fit.x[fit.model.place["elevation"]] < 0:
+        return _take(fit, *mirror_view(fit.model.find_motion(fit.x), fit.model.find_camera(fit.x)))
     return fit
 
 
-def _restate(fit: Fit, motion: Motion, changed: dict[str, float]) -> Fit:
-    """Return the fit that begins at a twin of its motion, about the start of the twin."""
-    model = Model(fit.model.record, np.asarray(motion.start.orientation))
-    wx, wy, spin = (float(each) for each in motion.start.angular_velocity)
-    kept = {name: float(value) for name, value in zip(fit.model.names, fit.x, strict=True)}
-    own = {"Mgl/Ix": motion.top.Mgl, "p_psi/Ix": spin, "spin": spin, "wx": wx, "wy": wy}
-    return refine(model, fill(model, {**kept, **dict.fromkeys(TURNS, 0.0), **own, **changed}))
+def choose_turns(fit: Fit) -> Fit:
+    """Return the fit with the fewest whole turns from row to row, if it is no worse."""
+    model, record = fit.model, fit.model.record
+    spin, p = float(fit.x[model.place["spin"]]), find_momentum(model, fit.x)
+    sampling = 2 * np.pi / record.step
+    seen = spin - sampling * np.round(spin / sampling)
+    least = next(list_spins(record, seen, p), spin)
+    if "Iz/Ix" in record.known or abs(least - spin) < sampling / 2:
+        return fit
+    x = fit.x.copy()
+    x[model.place["spin"]], x[model.place["Iz/Ix"]] = least, p / least
+    other = refine(model, x)
+    worse = sum_squares(fit, other.residuals) - sum_squares(fit, fit.residuals)
+    return other if worse < CLEAR else fit
+
+
+def _take(fit: Fit, twin: Motion, changed: dict[str, float]) -> Fit:
+    return refine(*restate(fit.model, fit.x, twin, changed, fit.model.record))
 
 
 def measure_median(fit: Fit) -> float:
@@ -131,13 +147,18 @@ def find_others(fit: Fit, rivals: list[Candidate]) -> list[Fit]:
         if each.cost > ALIKE * best:
             break
         mark = find_marks(each.model, each.x)
-        if min(np.abs(mark / other - 1).max() for other in marks) < DIFFERENT:
+        if not all(differ(mark, other) for other in marks):
             continue
         other = Fit(each.model.move(fit.model.record), each.x, fit.noise)
         if sum_squares(fit, other.residuals) < own + CLEAR:
             marks.append(mark)
             found.append(choose_twin(other))
-    return found
+    return [each for each in found if differ(find_marks(each.model, each.x), marks[0])]
+
+
+def differ(first: Real, second: Real) -> bool:
+    """Return whether marks are those of two motions."""
+    return bool(np.abs(first / second - 1).max() >= DIFFERENT)
 
 
 def find_marks(model: Model, x: Real) -> Real:

@@ -39,6 +39,13 @@ KINDS = {
     for kind in (
         Kind("attitude", ("w", "x", "y", "z"), shows_spin=True, residuals=3),
         Kind("rates", ("wx", "wy", "wz"), shows_spin=True, shows_azimuth=False, residuals=3),
+        Kind(
+            "inertial",
+            ("wx", "wy", "wz", "fx", "fy", "fz"),
+            shows_spin=True,
+            shows_azimuth=False,
+            residuals=6,
+        ),
         Kind("axis", ("x", "y", "z"), residuals=3),
         Kind("angles", ("theta", "phi"), residuals=2, rounds=6.283185307179586),
         Kind("pixels", ("u", "v"), residuals=2),

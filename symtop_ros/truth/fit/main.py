@@ -16,10 +16,12 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.fit.check import FAILS, HOLDS
 from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
+from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.kicks import find_kick
 from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
 from symtop_ros.truth.fit.report import Report
+from symtop_ros.truth.fit.search import NEAREST
 from symtop_ros.truth.judge.forms import is_table
 
 DESCRIPTION = """Find the motion of a heavy symmetric top from a record of what was seen of it: a
@@ -28,6 +30,8 @@ wy, wz of the body; w, x, y, z), a log or a bag. It prints what the record shows
 deviations, what it cannot show, and whether the model holds."""
 EXAMPLE = "example.csv"
 PATIENCE = 2.0  # s, after which progress is written
+NOT_GIVEN = (None, False)
+CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance"
 RATIOS = ("Iz/Ix", "Ix", "Mgl")
 
 
@@ -67,10 +71,26 @@ def make_parser() -> argparse.ArgumentParser:
             dest=name,
             help=f"known {name}{unit}, with its standard deviation",
         )
+    parser.add_argument(
+        "--position",
+        type=decimal,
+        nargs=3,
+        metavar=("X", "Y", "Z"),
+        help="place of an accelerometer on the body, in m from the pivot: use it as well",
+    )
     parser.add_argument("--pivot", type=decimal, nargs=2, metavar=("U", "V"), help="known pivot")
     parser.add_argument("--scale", type=positive, metavar="PIXELS", help="known length of the axis")
     parser.add_argument(
         "--elevation", type=decimal, metavar="DEGREES", help="known elevation of the camera"
+    )
+    parser.add_argument(
+        "--perspective", action="store_true", help="look for the distance of the camera as well"
+    )
+    parser.add_argument(
+        "--distance",
+        type=positive,
+        metavar="LENGTHS",
+        help="known distance of the camera from the pivot, in lengths of the axis",
     )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
@@ -82,6 +102,8 @@ def make_parser() -> argparse.ArgumentParser:
 def _run(options: argparse.Namespace) -> int:
     path = copy_example() if options.example else options.record
     progress = Progress()
+    if options.position:
+        options.kind = "inertial"
     rows = read(path, options, progress)
     record = fill_record(rows, options)
     fit = fit_motion(record, progress.tell_part)
@@ -131,16 +153,25 @@ def fill_record(rows: Rows, options: argparse.Namespace) -> Record:
         known=find_known(rows.kind, options),
         has_friction=options.friction,
         has_mount=options.mount is not None,
+        has_perspective=options.perspective,
+        position=tuple(options.position or ()),
         notes=tuple(notes),
     )
 
 
 def _refuse_options(kind: str, options: argparse.Namespace) -> None:
     """Refuse options that say something of a different kind of record."""
-    if options.mount is not None and kind != "rates":
+    if options.mount is not None and kind not in RATES:
         raise RefusedError(f"--mount must have a record of rates, got {kind}")
-    if kind != "pixels" and (options.pivot or options.scale or options.elevation is not None):
-        raise RefusedError(f"--pivot, --scale and --elevation must have pixels, got {kind}")
+    if kind == "inertial" and not options.position:
+        raise RefusedError("--position must be the place of the accelerometer, got none")
+    of_cameras = [f"--{name}" for name in CAMERA_OPTIONS if getattr(options, name) not in NOT_GIVEN]
+    if kind != "pixels" and of_cameras:
+        raise RefusedError(f"{of_cameras[0]} must have a record of pixels, got {kind}")
+    if options.perspective and options.distance:
+        raise RefusedError("--perspective looks for --distance: one of them must be given")
+    if options.distance and options.distance <= 1 / NEAREST:
+        raise RefusedError(f"--distance must be > {1 / NEAREST:.3g}, got {options.distance:g}")
 
 
 def find_camera(options: argparse.Namespace) -> dict[str, float]:
@@ -150,6 +181,8 @@ def find_camera(options: argparse.Namespace) -> dict[str, float]:
         found |= dict(zip("uv", options.pivot, strict=True))
     if options.scale:
         found["log_scale"] = float(np.log(options.scale))
+    if options.distance:
+        found["nearness"] = 1 / options.distance
     if options.elevation is not None:
         found["elevation"] = float(np.radians(options.elevation))
     return found

@@ -12,12 +12,14 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real, compose, find_rotation_vectors, invert
-from symtop_ros.physics import Friction, Motion, Motions, State, Top
+from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Motions, State, Top
+from symtop_ros.physics import specific_force
 from symtop_ros.truth.fit.camera import CAMERA, project
 from symtop_ros.truth.fit.kinds import Kind
 from symtop_ros.truth.fit.record import Record
 
 MOUNT = ("bias_x", "bias_y", "bias_z", "tilt_x", "tilt_y")  # of a gyroscope
+FORCE_BIASES = ("bias_fx", "bias_fy", "bias_fz")  # of an accelerometer
 TURNS = ("turn_1", "turn_2", "turn_3")
 FRICTION = ("axial/Iz", "transverse/Ix")
 THINNEST = 1e-4  # Iz/Ix of a rod
@@ -48,7 +50,8 @@ class Model:
         """Names of the parameters."""
         spins = self.kind.shows_spin
         core = ("Mgl/Ix", "Iz/Ix", "spin") if spins else ("Mgl/Ix", "p_psi/Ix")
-        camera = tuple(n for n in CAMERA if n not in self.record.camera)
+        camera = tuple(n for n in CAMERA if self._seeks(n))
+        is_inertial = self.kind.name == "inertial"
         return (
             *core,
             *TURNS[: len(self._basis)],
@@ -56,8 +59,14 @@ class Model:
             "wy",
             *(FRICTION if self.record.has_friction else ()),
             *(MOUNT if self.record.has_mount else ()),
+            *(("gravity",) if is_inertial else ()),
+            *(FORCE_BIASES if is_inertial and self.record.has_mount else ()),
             *(camera if self.kind.name == "pixels" else ()),
         )
+
+    def _seeks(self, name: str) -> bool:
+        """Return True if a number of the camera is looked for."""
+        return name not in self.record.camera and (name != "nearness" or self.record.has_perspective)
 
     @cached_property
     def place(self) -> dict[str, int]:
@@ -114,8 +123,26 @@ class Model:
 
     def show(self, x: Real) -> Real:
         """Return the values (k, n, m) of a record of parameters (k, p)."""
-        state = self.read(x).at(self.record.times - self.record.times[0])
-        return self._see(state, x)
+        motions = self.read(x)
+        state = motions.at(self.record.times - self.record.times[0])
+        if self.kind.name != "inertial":
+            return self._see(state, x)
+        forces = self._find_forces(motions, state, self.take(x, "gravity"))
+        force_bias = np.stack([self.take(x, n) for n in FORCE_BIASES], axis=-1)
+        forces = self._turn_sensor(forces, x) + force_bias[:, np.newaxis]
+        return np.concatenate([self._mount(state.angular_velocity, x), forces], axis=-1)
+
+    def _find_forces(self, motions: Motions, state: State, gravity: Real) -> Real:
+        """Return the specific forces (k, n, 3) at the place of the accelerometer."""
+        q, omega = state.orientation, state.angular_velocity
+        found = []
+        for k, g in enumerate(gravity.tolist()):
+            motion = motions[k]
+            assert isinstance(motion, Motion)
+            found.append(
+                specific_force(motion, State.wrap(q[k], omega[k]), self.record.position, g)
+            )
+        return np.array(found)
 
     def _see(self, state: State, x: Real) -> Real:
         if self.kind.name == "attitude":
@@ -145,9 +172,15 @@ class Model:
         if not self.record.has_mount:
             return rates
         bias = np.stack([self.take(x, n) for n in MOUNT[:3]], axis=-1)
+        return np.asarray(self._turn_sensor(rates, x) + bias[:, np.newaxis])
+
+    def _turn_sensor(self, vectors: Real, x: Real) -> Real:
+        """Return vectors (k, n, 3) of the body as a sensor sees them that is tilted."""
+        if not self.record.has_mount:
+            return vectors
         tilt = np.stack([self.take(x, n) for n in MOUNT[3:]] + [np.zeros(len(x))], axis=-1)
         turned = Rotation.from_rotvec(tilt).as_matrix()
-        return np.asarray(rates @ turned.swapaxes(-1, -2) + bias[:, np.newaxis])
+        return np.asarray(vectors @ turned.swapaxes(-1, -2))
 
     def compare(self, shown: Real) -> Real:
         """Return the differences (k, n, r) between what is shown and the record."""
@@ -176,7 +209,9 @@ class Model:
         if "log_scale" in self.place:
             size = float(np.exp(x[self.place["log_scale"]]))
         sizes = {"Mgl/Ix": max(abs(x[0]), 0.01 * rate**2), "u": size, "v": size}
-        sizes |= dict.fromkeys(("Iz/Ix", "log_scale", "elevation", "roll", *TURNS, *MOUNT[3:]), 1.0)
+        sizes |= dict.fromkeys(("gravity", *FORCE_BIASES), STANDARD_GRAVITY)
+        ones = "Iz/Ix", "log_scale", "elevation", "roll", "nearness", *TURNS, *MOUNT[3:]
+        sizes |= dict.fromkeys(ones, 1.0)
         return np.array([sizes.get(name, rate) for name in self.names])
 
     def find_steps(self, x: Real, delta: float) -> Real:

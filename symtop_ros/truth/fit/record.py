@@ -41,6 +41,10 @@ class Record:
         True if friction is looked for.
     has_mount : bool
         Of rates: True if biases and the tilt of the sensor are looked for.
+    has_perspective : bool
+        Of pixels: True if the distance of the camera is looked for.
+    position : tuple of float
+        Of inertial records: the place of the accelerometer in the body, in m.
     notes : tuple of str
         What was odd about the file.
     """
@@ -52,6 +56,8 @@ class Record:
     known: Mapping[str, Known] = field(default_factory=dict)
     has_friction: bool = False
     has_mount: bool = False
+    has_perspective: bool = False
+    position: tuple[float, ...] = (0.0, 0.0, 0.0)
     notes: tuple[str, ...] = ()
 
     def __len__(self) -> int:
@@ -88,6 +94,21 @@ class Record:
                 found[column] = find_decimal(values[0]) / np.sqrt(12)
         return found
 
+    @property
+    def plain(self) -> "Record":
+        """The same record without what breaks twins: an accelerometer, or perspective."""
+        if self.kind.name == "inertial":
+            return replace(self, kind=KINDS["rates"], values=self.values[:, :3])
+        if self.kind.name == "pixels":
+            camera = {name: value for name, value in self.camera.items() if name != "nearness"}
+            return replace(self, camera=camera, has_perspective=False)
+        return self
+
+    @property
+    def breaks_twins(self) -> bool:
+        """True if a twin of the plain record is none of this one."""
+        return self.kind.name == "inertial" or self.has_perspective or "nearness" in self.camera
+
     def select(self, rows: slice | Mask | Places) -> "Record":
         """Return a part of the record."""
         return replace(self, times=self.times[rows], values=self.values[rows])
@@ -117,7 +138,8 @@ def make_record(times: Real, values: Real, kind: str, **more: object) -> Record:
         In s.
     values : array_like (n, m)
         By the columns of `KINDS[kind]`: theta and phi, or theta, in rad; x, y, z of the axis or
-        the quaternion w, x, y, z of any norm; rates of the body in rad/s; u, v of a point of the
+        the quaternion w, x, y, z of any norm; rates of the body in rad/s, of inertial records
+        with the specific force in m/s^2; u, v of a point of the
         axis, v upwards.
     kind : str
         A name of `KINDS`.

@@ -23,6 +23,8 @@ SETTLED = 1e-3  # of the deviations and correlations of noise
 PRECISE = 1e-7  # of the sum of squares: a hundredth of a deviation of a parameter
 FIXED = 12.0  # deviations of rounding, of which a step has 3.5
 DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
+STRAIGHT = 2.0  # times the growth of squares; 1.0 to 1.1 in most records
+CURVED = 0.5  # part of a variance
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
 
 
@@ -92,6 +94,33 @@ class Fit:
         """Covariance (p, p) of the parameters, if the noise is white."""
         values, vectors = self.spectrum
         return np.asarray((vectors / values) @ vectors.T / np.outer(self.sizes, self.sizes))
+
+    @cached_property
+    def _curved(self) -> Mask:
+        """True (p,) for directions along which a deviation is not what Fisher's matrix says.
+
+        One deviation away the squares grow by one. Where motions that fit as well lie on a curve,
+        a straight step leaves it, and they grow by much more.
+        """
+        values, vectors = self.spectrum
+        steps = (vectors / np.sqrt(values) / self.sizes[:, np.newaxis]).T
+        own = self._sum_squares(self.x)
+        grown = [[self._sum_squares(self.x + side * step) - own for side in (1, -1)] for step in steps]
+        return np.asarray(np.abs(np.log(np.maximum(grown, 1e-300))).max(axis=1) > np.log(STRAIGHT))
+
+    def _sum_squares(self, x: Real) -> float:
+        known = sum(
+            weight * (x[k] - self.model.record.known[name][0]) ** 2
+            for k, (name, weight) in enumerate(zip(self.model.names, self.priors, strict=True))
+            if weight
+        )
+        return float((self.noise.whiten(self.model.find_residuals(x)) ** 2).sum() + known)
+
+    def is_straight(self, slope: Real) -> bool:
+        """Return whether a combination (p,) hardly depends on directions that are curved."""
+        values, vectors = self.spectrum
+        parts = ((slope / self.sizes) @ vectors) ** 2 / values
+        return bool(parts[self._curved].sum() <= CURVED * parts.sum())
 
     @cached_property
     def _influences(self) -> Real:

@@ -25,6 +25,7 @@ SAME = 1e-4  # relative difference of the costs of one minimum
 NEAR = 1e-6  # relative change of a cost by the last step
 ALIKE = 1.1  # costs of motions that fit as well, at most
 USUAL, SPIKE = 90, 4.0  # per cent of the differences from medians, and times beyond it
+NEAREST = 0.9  # length of the axis in distances of the camera
 QUICK = 10_000  # rows of a search
 
 
@@ -156,6 +157,7 @@ def list_bounds(model: Model) -> tuple[Real, Real]:
     """Return the least and the largest value of each parameter."""
     low, high = np.full(len(model.names), -np.inf), np.full(len(model.names), np.inf)
     limits = {"Iz/Ix": (THINNEST, 2.0), "elevation": (-np.pi / 2, np.pi / 2)}
+    limits |= {"nearness": (0.0, NEAREST), "gravity": (0.1, np.inf)}
     limits |= dict.fromkeys(FRICTION, (-1e-6, np.inf))
     for name, (least, largest) in limits.items():
         if name in model.place:

@@ -13,8 +13,16 @@ from scipy.signal import savgol_filter
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.physics import STANDARD_GRAVITY
 from symtop_ros.truth.fit.camera import CAMERA
-from symtop_ros.truth.fit.model import FRICTION, MOUNT, TURNS, Model, point_along
+from symtop_ros.truth.fit.model import (
+    FORCE_BIASES,
+    FRICTION,
+    MOUNT,
+    TURNS,
+    Model,
+    point_along,
+)
 from symtop_ros.truth.fit.record import Record
 
 WIDTHS = (5, 9, 15, 25, 41)  # samples of a smoothed derivative
@@ -62,7 +70,8 @@ def fill_axis_starts(record: Record, axes: Real) -> Starts:
 def fill(model: Model, values: Mapping[str, float]) -> Real:
     """Return the parameters (p,) of named values; the others are those of a start."""
     slight = dict.fromkeys(FRICTION, SLIGHT)
-    missing = dict.fromkeys((*TURNS, *MOUNT, *CAMERA), 0.0) | slight
+    missing = dict.fromkeys((*TURNS, *MOUNT, *FORCE_BIASES, *CAMERA), 0.0) | slight
+    missing["gravity"] = STANDARD_GRAVITY
     return np.array([{**missing, **values}[name] for name in model.names], dtype=float)
 
 

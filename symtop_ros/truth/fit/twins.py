@@ -97,6 +97,19 @@ def mirror_view(motion: Motion, camera: dict[str, float]) -> tuple[Motion, dict[
     return start_axis(motion, mirrored, moved, -1.0), turned
 
 
+def turn_camera(motion: Motion, camera: dict[str, float]) -> tuple[Motion, dict[str, float]]:
+    """Return the motion with the vertical turned over, and the camera turned about its line of sight.
+
+    Everything is turned, so that a pinhole shows the same as well.
+    """
+    mirrored, low = mirror_view(motion, camera)
+    roll = camera["roll"] + np.pi
+    return take_other_end(mirrored), {
+        **low,
+        "roll": float(roll - 2 * np.pi * np.round(roll / (2 * np.pi))),
+    }
+
+
 def _mirror(vector: Real, elevation: float) -> Real:
     """Return what a camera of the other elevation sees at the same place, mirrored in depth."""
     x, y, z = vector

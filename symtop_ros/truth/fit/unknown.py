@@ -23,8 +23,8 @@ from symtop_ros.truth.fit.twins import (
     reverse_momenta,
     scale_moments,
     see_from_above,
-    take_other_end,
     turn_azimuth,
+    turn_camera,
     turn_over,
 )
 from symtop_ros.truth.fit.values import ALIASED, Value, is_level, is_sparse
@@ -39,6 +39,7 @@ OF_CAMERAS = "upright", "high", "above"
 EXACT_TWINS: dict[str, tuple[str, ...]] = {
     "attitude": ("moments",),
     "rates": ("moments", "over", "azimuth", "bias"),
+    "inertial": ("moments", "azimuth"),
     "axis": ("moments", "spin"),
     "angles": ("moments", "spin"),
     "pixels": ("moments", "spin", "upright", "high", "above"),
@@ -68,6 +69,10 @@ def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> 
     """Return what a record leaves open."""
     together = [*list_together(fit, values)]
     found = [*list_twins(fit, given), *together, *_list_ambiguities(fit, values)]
+    said = {name for each in found for name in each.names.split(", ")}
+    curved = [each.name for each in values if not each.is_straight and each.name not in said]
+    if curved:
+        found.append(Unknown("curved", ", ".join(curved)))
     paired = {
         name for each in found if each.kind == "together" for name in each.names.split(" and ")
     }
@@ -159,9 +164,8 @@ def make_camera_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
     """Return a twin that a different camera shows, or one from straight above."""
     camera, p = fit.model.find_camera(fit.x), find_p(motion)
     if kind == "upright":
-        turned = {**camera, "roll": camera["roll"] + np.pi}
-        shown = _project(fit, take_other_end(motion), turned)
-        return Twin(shown, "sign of Mgl", (-motion.top.Mgl, -p))
+        twin, turned = turn_camera(motion, camera)
+        return Twin(_project(fit, twin, turned), "sign of Mgl", (-motion.top.Mgl, p))
     if kind == "high":
         twin, low = mirror_view(motion, camera)
         return Twin(_project(fit, twin, low), "sign of p_psi", (low["elevation"], -p))
@@ -183,6 +187,8 @@ def show(fit: Fit, motion: Motion) -> Real:
     state = motion.at(_choose_times(fit))
     if kind == "rates":
         return np.asarray(state.angular_velocity)
+    if kind == "inertial":  # its forces follow from the rates and the vertical
+        return np.concatenate([state.angular_velocity, state.vertical], axis=-1)
     if kind == "attitude":
         return np.asarray(state.orientation)
     axis = find_axis(state.orientation)

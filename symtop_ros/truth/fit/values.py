@@ -9,7 +9,7 @@ import numpy as np
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit.aliases import SPARSE, count_rows
 from symtop_ros.truth.fit.camera import CAMERA
-from symtop_ros.truth.fit.model import FRICTION, MOUNT, find_momentum
+from symtop_ros.truth.fit.model import FORCE_BIASES, FRICTION, MOUNT, find_momentum
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
 
@@ -17,6 +17,7 @@ SURE = 0.15  # of the scale of a number; one with a larger deviation is not know
 LEVEL = 4.0  # deviations within which an elevation may be zero
 SIDES = "p_psi/Ix", "phi_dot", "mean_precession_rate"  # change with the sign of p_psi
 ALIASED = "Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin", "theta_dot", "phi_dot", "nutation_period"
+OTHERS = (*FRICTION, *MOUNT, "gravity", *FORCE_BIASES)
 UNITS = {
     "Mgl/Ix": "1/s^2",
     "p_psi/Ix": "rad/s",
@@ -38,6 +39,8 @@ UNITS = {
     "v": "pixels",
     "elevation": "rad",
     "roll": "rad",
+    "nearness": "",
+    **dict.fromkeys(("gravity", *FORCE_BIASES), "m/s^2"),
     **dict.fromkeys(MOUNT[:3], "rad/s"),
     **dict.fromkeys(MOUNT[3:], "rad"),
 }
@@ -51,6 +54,7 @@ class Value:
     value: float
     deviation: float
     is_known: bool  # the deviation is small, and so is what the record leaves open
+    is_straight: bool = True  # False: the deviation would be small, but is not to be trusted
 
     @property
     def unit(self) -> str:
@@ -96,7 +100,7 @@ def is_sparse(fit: Fit) -> bool:
 
 def is_level(fit: Fit) -> bool:
     """Return True if a camera may be above or below the level of the pivot."""
-    if "elevation" not in fit.model.place:
+    if "elevation" not in fit.model.place or fit.model.record.breaks_twins:
         return False
     place = fit.model.place["elevation"]
     deviation = fit.find_deviation(np.eye(len(fit.x))[place])
@@ -117,7 +121,7 @@ def list_quantities(fit: Fit) -> Iterator[tuple[str, Callable[[Real], float]]]:
     if not model.record.has_friction:
         for name in ("mean_precession_rate", "nutation_period"):
             yield name, lambda x, name=name: _ask(model.find_motion(x), name)  # type: ignore[misc]
-    yield from ((name, take(name)) for name in (*FRICTION, *MOUNT) if name in model.place)
+    yield from ((name, take(name)) for name in OTHERS if name in model.place)
     for name in (each for each in CAMERA if each in model.place):
         yield _write_camera(name, take(name))
 
@@ -157,7 +161,9 @@ def find_value(fit: Fit, name: str, of: Callable[[Real], float]) -> Value:
     if not (np.isfinite(slope).all() and np.isfinite(value)):
         return Value(name, value, np.inf, False)
     deviation = fit.find_deviation(slope)
-    return Value(name, value, deviation, deviation <= SURE * find_scale(fit, name, value))
+    is_small = deviation <= SURE * find_scale(fit, name, value)
+    straight = not is_small or fit.is_straight(slope)
+    return Value(name, value, deviation, is_small and straight, straight)
 
 
 def find_slope(fit: Fit, of: Callable[[Real], float]) -> Real:

@@ -1,13 +1,14 @@
 """Names of the columns of tables, for all programs that read them, and the cells of a line.
 
 They are names of our own tables and those that other tools write: EuRoC, TUM, PlotJuggler, Xsens,
-phyphox, Tracker.
+Motive, phyphox, Tracker.
 """
 
 import csv
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError, one_line, plain
 
 SEPARATORS = (",", ";", "\t")  # else any white space
@@ -22,12 +23,21 @@ NUMBERED = re.compile(r"((?:.*[._/ ])?)q_?([0-3])")
 RATES = re.compile(
     r"(measured_)?(?:w_?|(?:.*[._/ ])?(?:angular_velocity|gyroscope|gyro|gyr|w_rs_s)[._/ ]?)([xyz])"
 )
+# fx, acceleration x (phyphox), acc_x (Xsens), linear_acceleration/x (ROS), a_rs_s_x (EuRoC): all
+# with gravity. phyphox's "linear acceleration x" is without, and is none of them.
+FORCES = re.compile(
+    r"(measured_)?(?:f_?|(?:.*[._/])?(?:linear_acceleration|specific_force|acc|a_rs_s)[._/]"
+    r"|(?:acceleration|accelerometer)[._/ ])([xyz])"
+)
 TIMES = re.compile(
     r"(?:__)?(?:t|time|times|timestamp|time_?stamp|stamp|sec|secs|seconds)(?:_?(ns|us|ms|s))?"
 )
 AXIS = re.compile(r"(?:(?:.*[._/ ])?(?:axis|e)[._/ ]?|)([xyz])")
 ANGLES = {"theta": re.compile(r"theta|tilt|nutation"), "phi": re.compile(r"phi|precession|azimuth")}
 POINT = re.compile(r"(?:pixel|px|point)?[._/ ]?([uvxy])")
+TURNS = re.compile(r"(?:.*[._/ ])?(roll|pitch|yaw)(?:_(?:deg|rad))?")
+DEGREES = ("deg", "degree", "degrees", "°", "deg/s", "°/s", "dps")
+MOTIVE = "Format Version,"  # how exports of Motive begin, whose names stand in several lines
 UNIT = re.compile(r"\s*[\[(]\s*([^\])]*?)\s*[\])]\s*$")
 Row = Sequence[str]
 
@@ -56,6 +66,56 @@ def split_units(head: Row) -> tuple[list[str], list[str]]:
     names = [UNIT.sub("", name.strip().strip('"')).lower() for name in head]
     units = [found[1].lower() if (found := UNIT.search(name)) else "" for name in head]
     return names, units
+
+
+def join_names(
+    path: object, numbered: Iterator[tuple[int, str]]
+) -> Iterator[tuple[int, str]]:
+    """Yield numbered lines; of Motive's export the lines of names as one, NAME.rotation.x.
+
+    Its first line has pairs of words, then there are lines for the type, the name and the identity
+    of each column, for rotation or position, and at last Frame, Time (Seconds), X, Y, Z, W.
+    """
+    first = next(numbered, None)
+    if first is None:
+        return
+    if not first[1].startswith(MOTIVE):
+        yield first
+        yield from numbered
+        return
+    said = split_cells(first[1], ",")
+    kind = dict(zip(said[::2], said[1::2], strict=False)).get("Rotation Type", "Quaternion")
+    if kind != "Quaternion":
+        raise RefusedError(f"{path} must have the rotation type Quaternion, got {one_line(kind)}")
+    above: list[list[str]] = []
+    for number, line in numbered:
+        cells = split_cells(line, ",")
+        if cells[0].lower() == "frame":
+            yield number, ",".join(_name_columns(above, cells))
+            break
+        above.append(cells)
+    yield from numbered
+
+
+def _name_columns(above: Sequence[list[str]], axes: list[str]) -> Iterator[str]:
+    """Yield a name of each column of Motive: frame, time, and e.g. top.rotation.x."""
+    names = next((row for row in above if "Name" in row[:2]), above[1] if len(above) > 1 else [])
+    parts = above[-1] if above else []
+    for place, axis in enumerate(axes):
+        words = [row[place] for row in (names, parts) if 1 < place < len(row) and row[place]]
+        yield ".".join([*words, axis]).replace(",", "_").replace('"', "")
+
+
+def find_turns(names: Row) -> list[int]:
+    """Return the places of roll, pitch and yaw, or []."""
+    places = {found[1]: k for k, name in enumerate(names) if (found := TURNS.fullmatch(name))}
+    return [places[each] for each in ("roll", "pitch", "yaw")] if len(places) == 3 else []
+
+
+def describe_empty(count: int) -> Iterator[str]:
+    """Yield that rows were left out, if there were any."""
+    if count:
+        yield f"{write_count(count, 'row')} {'has' if count == 1 else 'have'} an empty cell: left out"
 
 
 def is_number(text: str) -> bool:
@@ -99,14 +159,14 @@ def find_quaternions(names: Row) -> dict[str, dict[str, int]]:
     return {"": whole[""]} if "" in whole else whole
 
 
-def find_rates(names: Row, words: Sequence[str] = ("",)) -> list[int]:
+def find_rates(names: Row, words: Sequence[str] = ("",), pattern: re.Pattern[str] = RATES) -> list[int]:
     """Return the places of an angular velocity after the first of some words, or [].
 
     top_imu writes the exact one and what was measured, as measured_wx, into one table.
     """
     groups: dict[str, dict[str, int]] = {}
     for place, name in enumerate(names):
-        if found := RATES.fullmatch(name):
+        if found := pattern.fullmatch(name):
             groups.setdefault(found[1] or "", {}).setdefault(found[2], place)
     for word in words:
         places = groups.get(word, {})

@@ -22,6 +22,7 @@ from symtop_ros.truth.judge.runs import (
     read_sources,
     report_faults,
 )
+from symtop_ros.truth.judge.attitudes import ORDERS
 from symtop_ros.truth.judge.wanted import MODELS
 
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
@@ -91,7 +92,13 @@ def make_parser() -> argparse.ArgumentParser:
         "--estimates",
         type=Path,
         metavar="FILE",
-        help="another log, or a table (.csv, .tum, .txt: columns with names, TUM, or EuRoC)",
+        help="another log, or a table (columns with names, Motive, TUM, EuRoC, or KITTI with times)",
+    )
+    parser.add_argument(
+        "--rpy",
+        choices=ORDERS,
+        help="order of roll, pitch and yaw of a table, about the axes of the body: zyx, yaw first, "
+        "is that of ROS and of aircraft",
     )
     parser.add_argument(
         "--remove",

@@ -17,26 +17,34 @@ from symtop_ros.truth.judge.columns import (
     NUMBERED,
     TIMES,
     Row,
+    DEGREES,
     choose_time,
+    describe_empty,
     find_quaternions,
     find_rates,
     find_separator,
+    find_turns,
     find_unit,
     is_number,
+    join_names,
     refuse_twice,
     split_cells,
     split_names,
     split_units,
 )
 from symtop_ros.truth.judge.estimates import MAX_STAMP, Estimates
+from symtop_ros.truth.judge.iso import write_seconds
+from symtop_ros.truth.judge.attitudes import turn_by_angles, turn_by_matrices
 
 DIGITS_OF = {"s": 9, "ms": 6, "us": 3, "ns": 0}  # digits after the point that are whole ns
 # Columns without names: EuRoC has ns, position, w, x, y, z, and more; TUM has s, position, x, y, z,
 # w; KITTI has twelve numbers of a matrix, and no time.
 EUROC, TUM, KITTI = 8, 8, 12
+MATRIX = (1, 2, 3, 5, 6, 7, 9, 10, 11)  # places in a row of KITTI with a time in front
 POSITIONAL = {
     "ns": "no names of columns: read as EuRoC's, timestamp (ns), position, w, x, y, z",
     "s": "no names of columns: read as TUM's, timestamp (s), position, x, y, z, w",
+    "matrix": "no names of columns: read as a time (s) and KITTI's poses, a matrix of 3 rows",
 }
 NUMBERED_NOTE = "the components q0 to q3 of the quaternion are read as w, x, y, z"
 # Seconds since 1970 as a double are off by 1e-7 s, and have up to seven decimals.
@@ -46,12 +54,14 @@ DIGITS = 9  # decimals of a time in whole ns
 
 @dataclass(frozen=True)
 class ColumnPlaces:
-    """Places of the time, the quaternion w, x, y, z, and the rates if given."""
+    """Places of the time, the quaternion w, x, y, z or another attitude, and the rates if given."""
 
     time: int
     numbers: tuple[int, ...]
     unit: str  # of the time: "s", "ms", "us" or "ns"; "" if the numbers show it
     note: str = ""  # what was assumed
+    form: str = "wxyz"  # of the attitude, else "matrix", or an order of `turns.ORDERS`
+    angle: str = ""  # unit of the angles, if their names say it
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,11 +80,14 @@ class Table:
         return replace(found, notes=(*found.notes, *self.notes))
 
 
-def read_table(path: Path) -> Table:
-    """Return the rows of a table: columns with names in any order, TUM, or EuRoC."""
+def read_table(path: Path, order: str | None = None) -> Table:
+    """Return the rows of a table: columns with names in any order, TUM, EuRoC, or timed KITTI.
+
+    `order` is that of roll, pitch and yaw, by `turns.ORDERS`.
+    """
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
-            return _read_lines(path, file)
+            return _read_lines(path, file, order)
     except OSError as error:
         raise RefusedError(f"cannot open {path}: {error.strerror}") from None
     except RefusedError:
@@ -83,13 +96,14 @@ def read_table(path: Path) -> Table:
         raise RefusedError(f"cannot read {path}: not a table ({one_line(error)})") from None
 
 
-def _read_lines(path: Path, lines: Iterable[str]) -> Table:
+def _read_lines(path: Path, lines: Iterable[str], order: str | None) -> Table:
     """Read names from a comment or from the first line, and then rows."""
-    numbered = ((number, line) for number, line in enumerate(lines, 1) if line.strip())
+    filled = ((number, line) for number, line in enumerate(lines, 1) if line.strip())
+    numbered = join_names(path, filled)
     columns = None
     first = (1, "")
     for number, line in numbered:
-        found = _find_names(path, split_names(line))
+        found = _find_names(path, split_names(line), order)
         columns = found or columns
         if not found and not line.startswith("#"):
             first = number, line
@@ -101,13 +115,16 @@ def _read_lines(path: Path, lines: Iterable[str]) -> Table:
     return _read_rows(path, columns, chain(rows, rest), separator)
 
 
-def _find_names(path: Path, head: Row) -> ColumnPlaces | None:
+def _find_names(path: Path, head: Row, order: str | None) -> ColumnPlaces | None:
     """Return where the columns are, by their names; None if these are no names of columns."""
     names, units = split_units(head)
     times = [place for place, name in enumerate(names) if TIMES.fullmatch(name)]
     groups = find_quaternions(names)
-    if not times or not groups:
+    turns = find_turns(names)
+    if not times or not (groups or turns):
         return None
+    if not groups:
+        return _find_angles(path, (names, units), times, turns, order)
     if len(groups) > 1:
         kinds = " and ".join(one_line(names[places["w"]]) for places in groups.values())
         raise RefusedError(f"{path} must have the columns of one quaternion, got {kinds}")
@@ -121,6 +138,23 @@ def _find_names(path: Path, head: Row) -> ColumnPlaces | None:
     return ColumnPlaces(time, tuple(wanted), unit, note)
 
 
+def _find_angles(
+    path: Path, head: tuple[Row, Row], times: Sequence[int], turns: list[int], order: str | None
+) -> ColumnPlaces:
+    """Return where roll, pitch and yaw are, and their unit."""
+    if order is None:
+        raise RefusedError(
+            f"--rpy must be the order of roll, pitch and yaw in {path} (zyx: yaw first), got none"
+        )
+    names, units = head
+    time, wanted = choose_time(names, times), [*turns, *find_rates(names)]
+    refuse_twice(path, names, [time, *wanted])
+    said = units[turns[0]] or names[turns[0]].rpartition("_")[2]
+    angle = "degrees" if said in DEGREES else "rad" if said == "rad" else ""
+    unit = find_unit(names[time], units[time], [*DIGITS_OF])
+    return ColumnPlaces(time, tuple(wanted), unit, form=order, angle=angle)
+
+
 def _guess_columns(path: Path, head: Row, first: str) -> ColumnPlaces:
     """Return where the columns of a table without names are."""
     numbers = [is_number(cell) for cell in head]
@@ -128,6 +162,8 @@ def _guess_columns(path: Path, head: Row, first: str) -> ColumnPlaces:
         return ColumnPlaces(0, (4, 5, 6, 7), "ns", POSITIONAL["ns"])
     if len(head) == TUM and all(numbers):
         return ColumnPlaces(0, (7, 4, 5, 6), "s", POSITIONAL["s"])
+    if len(head) == KITTI + 1 and all(numbers):
+        return ColumnPlaces(0, MATRIX, "s", POSITIONAL["matrix"], "matrix")
     if len(head) == KITTI and all(numbers):
         raise RefusedError(f"{path} must have times, got poses of KITTI, which lack them")
     raise RefusedError(
@@ -139,13 +175,17 @@ def _guess_columns(path: Path, head: Row, first: str) -> ColumnPlaces:
 def _read_rows(
     path: Path, columns: ColumnPlaces, rows: Iterable[tuple[int, str]], separator: str | None
 ) -> Table:
-    times, numbers, lines = [], [], []
+    times, numbers, lines, empty = [], [], [], 0
     for line, row in rows:
         cells = split_cells(row, separator)
         try:
-            times.append(plain(cells[columns.time]).strip())
+            picked = [cells[place] for place in columns.numbers]
+            if not all(picked):  # as Motive and others leave what was not seen
+                empty += 1
+                continue
+            times.append(write_seconds(plain(cells[columns.time]).strip()))
             Decimal(times[-1])
-            numbers.append([float(plain(cells[place])) for place in columns.numbers])
+            numbers.append([float(plain(cell)) for cell in picked])
             lines.append(line)
         except (IndexError, ValueError, InvalidOperation) as error:
             missing = isinstance(error, IndexError)
@@ -162,8 +202,20 @@ def _read_rows(
     unit = columns.unit or ("s" if any("." in time for time in times) else "ns")
     stamps = [*_read_times(path, times, unit, lines)]
     odd = [columns.note] if columns.note else []
-    odd += _describe_times(stamps, unit, times)
-    return Table(tuple(stamps), table, (*infinite, *odd))
+    odd += [*describe_empty(empty), *_describe_times(stamps, unit, times)]
+    table, note = _turn(table, columns)
+    return Table(tuple(stamps), table, (*infinite, *note, *odd))
+
+
+def _turn(table: Real, columns: ColumnPlaces) -> tuple[Real, list[str]]:
+    """Return rows with quaternions in front, and a note if a unit was assumed."""
+    if columns.form == "wxyz":
+        return table, []
+    if columns.form == "matrix":
+        return turn_by_matrices(table), []
+    q, unit = turn_by_angles(table[:, :3], columns.form, columns.angle)
+    note = [] if columns.angle else [f"roll, pitch and yaw have no unit: read as {unit}"]
+    return np.concatenate([q, table[:, 3:]], axis=1), note
 
 
 def _read_times(path: Path, times: Sequence[str], unit: str, lines: Sequence[int]) -> Iterator[int]:

@@ -29,6 +29,8 @@ HEADS = {
         THREE,
     ),
     "t,measured_wx,measured_wy,measured_wz": ("rates", THREE),
+    # Tracker writes a sign before the names of several points, and a blank cell at the end
+    "t,axis.x,axis.y,axis.z,": ("axis", THREE),
     "t,theta": ("theta", TWO[:, :1]),
 }
 
@@ -110,6 +112,9 @@ def test_ten_million_rows_are_thinned_to_runs_of_neighbours():
     assert thin.follows.mean() > 0.99
 
 
-def test_axes_and_attitudes_are_normalised():
-    record = make_record(TIMES, 7 * make_axis(), "axis")
+def test_points_at_one_distance_are_divided_by_it_and_others_each_by_their_own():
+    near = make_axis()
+    record = make_record(TIMES, 7 * near, "axis")
+    assert record.values == pytest.approx(near / np.median(np.linalg.norm(near, axis=1)))
+    record = make_record(TIMES, near * (1 + np.arange(len(near)))[:, None], "axis")
     assert np.linalg.norm(record.values, axis=1) == pytest.approx(1.0, abs=1e-15)

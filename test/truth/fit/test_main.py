@@ -98,7 +98,9 @@ def test_options_of_another_kind_are_refused(table, capsys):
     assert main([str(table), "--mount", "1"]) == 1
     assert "--mount must have a record of rates, got axis" in capsys.readouterr().err
     assert main([str(table), "--scale", "100"]) == 1
-    assert "must have pixels, got axis" in capsys.readouterr().err
+    assert "--scale must have a record of pixels, got axis" in capsys.readouterr().err
+    assert main([str(table), "--perspective"]) == 1
+    assert "--perspective must have a record of pixels, got axis" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("arguments", [[], ["a.csv", "--example"], ["a.csv", "--Ix", "1"]])

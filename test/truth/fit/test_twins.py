@@ -14,7 +14,7 @@ MOTION = Motion(
     State.from_euler(theta=0.75, phi=0.25, psi=0.5, phi_dot=2.0, theta_dot=1.0, psi_dot=60.0),
 )
 TIMES = np.arange(40) / 32
-CAMERA = {"u": 3.0, "v": 4.0, "log_scale": 1.0, "elevation": 0.5, "roll": 0.125}
+CAMERA = {"u": 3.0, "v": 4.0, "log_scale": 1.0, "elevation": 0.5, "roll": 0.125, "nearness": 0.0}
 # The promise of docs/fit.md. Phases of up to 100 rad are rounded to 1e-14, and coordinates follow.
 EXACT = 1e-12
 
@@ -96,6 +96,17 @@ def test_a_camera_turned_over_shows_the_other_end_of_the_axis():
     twin = twins.take_other_end(MOTION)
     turned = {**CAMERA, "roll": CAMERA["roll"] + np.pi}
     assert differ(picture(MOTION, CAMERA), picture(twin, turned)) < EXACT
+
+
+def test_a_scene_turned_over_with_its_camera_looks_the_same_with_perspective():
+    twin, camera = twins.turn_camera(MOTION, CAMERA)
+    assert twin.top.Mgl == -MOTION.top.Mgl
+    assert twin.start.angular_velocity[2] == MOTION.start.angular_velocity[2]
+    assert abs(camera["roll"]) <= np.pi
+    near = {"nearness": 0.25}
+    assert differ(picture(MOTION, CAMERA | near), picture(twin, camera | near)) < EXACT
+    seen, low = twins.mirror_view(MOTION, CAMERA)
+    assert differ(picture(MOTION, CAMERA | near), picture(seen, low | near)) > 0.1
 
 
 def test_from_straight_above_the_vertical_has_no_sign():
