@@ -24,7 +24,7 @@ PRECISE = 1e-7  # of the sum of squares: a hundredth of a deviation of a paramet
 FIXED = 12.0  # deviations of rounding, of which a step has 3.5
 DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
 STRAIGHT = 2.0  # times the growth of squares; 1.0 to 1.1 in most records
-CURVED = 0.5  # part of a variance
+CURVED = 0.1  # part of a variance
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
 
 
