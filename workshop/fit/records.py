@@ -13,7 +13,15 @@ from symtop_ros.truth.fit.model import find_axis
 
 Draw = np.random.Generator
 # deviation of the noise: rad of angles, parts of the length of the axis, pixels, rad/s
-SIGMA = {"inertial": 0.1, "attitude": 5e-3, "rates": 0.1, "axis": 5e-3, "angles": 5e-3, "pixels": 0.7, "theta": 2e-3}
+SIGMA = {
+    "inertial": 0.1,
+    "attitude": 5e-3,
+    "rates": 0.1,
+    "axis": 5e-3,
+    "angles": 5e-3,
+    "pixels": 0.7,
+    "theta": 2e-3,
+}
 POSITION = (0.02, 0.01, 0.05)  # m, of an accelerometer
 SEEDED = ("angles", "attitude", "axis", "pixels", "rates", "theta", "inertial")  # kinds, for seeds
 TRIED = (30.0, 60.0, 120.0, 240.0, 1000.0)  # samples a second

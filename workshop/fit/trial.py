@@ -99,7 +99,13 @@ def summarize(rows: Sequence[dict[str, Any]]) -> list[str]:
     size = measure_pulls(rows)
     wrong = [row for row in rows if row["wrong"]]
     doubted = sum(row["verdict"] != HOLDS for row in rows)
-    return [str(len(rows)), f"{size:.2f}", str(len(wrong)), str(len(list_unsaid(rows))), str(doubted)]
+    return [
+        str(len(rows)),
+        f"{size:.2f}",
+        str(len(wrong)),
+        str(len(list_unsaid(rows))),
+        str(doubted),
+    ]
 
 
 def measure_pulls(rows: Sequence[dict[str, Any]]) -> float:

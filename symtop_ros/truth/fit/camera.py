@@ -21,11 +21,12 @@ def project(axis: Real, camera: Mapping[str, Real]) -> Real:
 
     A camera without a nearness is far away.
     """
-    get = {"nearness": 0.0, **{name: value[:, np.newaxis] for name, value in camera.items()}}
+    get = {name: np.asarray(value)[:, np.newaxis] for name, value in camera.items()}
+    nearness = get.get("nearness", np.zeros((1, 1)))
     right = axis[..., 0]
     up, out = np.sin(get["elevation"]), np.cos(get["elevation"])
     high, near = axis[..., 1] * up + axis[..., 2] * out, axis[..., 2] * up - axis[..., 1] * out
-    size = np.exp(get["log_scale"]) / (1 - get["nearness"] * near)
+    size = np.exp(get["log_scale"]) / (1 - nearness * near)
     cos, sin = np.cos(get["roll"]), np.sin(get["roll"])
     u = get["u"] + size * (cos * right - sin * high)
     v = get["v"] + size * (sin * right + cos * high)

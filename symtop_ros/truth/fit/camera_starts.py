@@ -111,7 +111,7 @@ def scale(shapes: tuple[Real, Real], rate: float) -> Real:
 
 
 def list_rates(part: Record) -> Real:
-    """Return angular frequencies that a nutation may have: from slow to fast, and of the spectrum."""
+    """Return angular frequencies of a nutation: from slow to fast, and of the spectrum."""
     times = np.arange(part.times[0], part.times[-1], part.step)
     points = np.stack([np.interp(times, part.times, each) for each in part.values.T], axis=1)
     waves = (points - points.mean(axis=0)) * np.hanning(len(points))[:, np.newaxis]
@@ -148,7 +148,9 @@ def improve_all(pictures: Pictures, y: Real) -> Real:
 def find_scales(y: Real) -> Real:
     """Return the sizes (k, 5) of numbers: rates are those of the motion."""
     rate = np.sqrt(np.abs(y[:, 0])) + np.abs(y[:, [1, 3, 4]]).max(axis=1)
-    return np.stack([np.maximum(np.abs(y[:, 0]), 0.01 * rate**2), rate, 0 * rate + 1, rate, rate], 1)
+    return np.stack(
+        [np.maximum(np.abs(y[:, 0]), 0.01 * rate**2), rate, 0 * rate + 1, rate, rate], 1
+    )
 
 
 def find_slopes(pictures: Pictures, y: Real, left: Real, scales: Real) -> Real:

@@ -12,6 +12,7 @@ from symtop_ros.truth.judge.figures import (
     GOLD,
     GREY,
     INK,
+    PALE,
     RED,
     RESOLUTION,
     SETTINGS,
@@ -20,8 +21,14 @@ from symtop_ros.truth.judge.figures import (
 )
 
 POINTS = 2000  # of a record that are drawn
-COLOURS = (BLUE, RED, GOLD, INK)
-UNITS = {"rates": "rad/s", "pixels": "pixels", "axis": "", "attitude": ""}
+COLOURS = (BLUE, RED, GOLD, INK, GREY, PALE)
+UNITS = {
+    "rates": "rad/s",
+    "inertial": "rad/s, m/s^2",
+    "pixels": "pixels",
+    "axis": "",
+    "attitude": "",
+}
 
 
 def write_figure(report: Report, path: Path) -> None:
@@ -40,15 +47,19 @@ def draw_report(report: Report) -> Figure:
     figure = new_figure(4.8)
     above, below = rows(figure, 2)
     unit = UNITS.get(record.kind.name, "rad")
+    # residuals of a sensor with two units are drawn in deviations
+    sizes = report.fit.noise.sigma if record.kind.name == "inertial" else np.ones(1)
+    residuals = report.fit.residuals / sizes
     for column, name in enumerate(record.kind.columns):
         colour, seen = COLOURS[column], record.values[::step, column]
         above.plot(t, seen, ".", color=colour, markersize=2.5, alpha=0.5)
         above.plot(t, shown[::step, column], color=colour, linewidth=0.8, label=name)
-    for column, left in enumerate(report.fit.residuals[::step].T):
+    for column, left in enumerate(residuals[::step].T):
         below.plot(t[kept], left[kept], ".", color=COLOURS[column], markersize=2.5)
         below.plot(t[~kept], left[~kept], "x", color=GREY, markersize=3)
-    size = 6 * float(report.fit.residuals[report.fit.noise.kept].std()) + 1e-300
-    below.set(ylabel=f"residual ({unit or '1'})", ylim=(-size, size))
+    size = 6 * float(residuals[report.fit.noise.kept].std()) + 1e-300
+    below_unit = "deviations" if len(sizes) > 1 else unit or "1"
+    below.set(ylabel=f"residual ({below_unit})", ylim=(-size, size))
     above.set(ylabel=f"{record.kind.name} ({unit or '1'})")
-    above.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
+    above.legend(ncols=6, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     return figure

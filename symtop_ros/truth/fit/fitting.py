@@ -54,6 +54,17 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
     [300.0, 50.0]
     """
     record = record.thin()
+    found, rivals = seek(record, tell)
+    if count_rows(found) < 2 * SPARSE:
+        ends = expand(search(record.plain, EFFORTS[2], list_alias_starts(found)), record)
+        rivals += ends
+        found = choose_better(found, ends, record)
+    found = choose_twin(found)
+    return replace(found, others=tuple(find_others(found, rivals)))
+
+
+def seek(record: Record, tell: Callable[[float], None] | None) -> tuple[Fit, list[Candidate]]:
+    """Return the best motion of searches that agree, and all that they found."""
     found: Fit | None = None
     rivals: list[Candidate] = []
     bests: list[float] = []
@@ -61,19 +72,14 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
         ends = expand(search(record.plain, effort), record)
         rivals += ends
         bests.append(min(each.cost for each in ends))
-        if bests[-1] <= min(bests):
+        if found is None or bests[-1] <= min(bests):
             found = choose_better(found, ends, record)
         if tell:
             tell(number / (len(EFFORTS) + 1))
         if is_sure(found, bests):
             break
     assert found is not None
-    if count_rows(found) < 2 * SPARSE:
-        ends = expand(search(record.plain, EFFORTS[2], list_alias_starts(found)), record)
-        rivals += ends
-        found = choose_better(found, ends, record)
-    found = choose_twin(found)
-    return replace(found, others=tuple(find_others(found, rivals)))
+    return found, rivals
 
 
 def is_sure(fit: Fit, bests: list[float]) -> bool:

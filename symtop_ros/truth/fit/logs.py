@@ -1,29 +1,56 @@
-"""Records from logs and bags: attitudes, or the angular velocity of a sensor on the body."""
+"""Records from logs and bags: attitudes, or what a sensor on the body measures."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
+from symtop_ros.base.arrays import Real, Stamps
+from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.wire.layout import NANOSECONDS
+from symtop_ros.run.wire.messages import IMU, decode_messages
+from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.files import Rows
-from symtop_ros.truth.judge.estimates import read_topic
+from symtop_ros.truth.judge.estimates import decode_estimates, read_messages
+
+SEEN = ("attitude", *RATES)  # kinds of which there are messages
 
 
 def read_log(path: Path, topic: str | None, frame: str | None, kind: str | None) -> Rows:
-    """Return what a topic of a log shows: rates if it has them, else attitudes."""
+    """Return what a topic of a log shows: attitudes, unless a kind is asked for."""
     if topic is None:
         raise RefusedError(f"--topic must name the measurements in {path}, got none")
-    found = read_topic(open_run([path]), topic, frame)
+    chosen = kind or "attitude"
+    if chosen not in SEEN:
+        raise RefusedError(f"--kind must be one of {', '.join(SEEN)} for a log, got {chosen}")
+    form, messages = read_messages(open_run([path]), topic)
+    if chosen != "attitude" and form == IMU.type:
+        return _read_sensor(topic, messages, chosen)
+    found = decode_estimates(form, messages, frame)
     if not len(found):
         raise RefusedError(f"{topic} must have messages with an attitude, got none")
-    chosen = kind or "attitude"
-    if chosen not in {"rates", "attitude"}:
-        raise RefusedError(f"--kind must be rates or attitude for a log, got {chosen}")
-    times = (found.stamps - found.stamps[0]) / NANOSECONDS
-    if chosen == "attitude":
-        return Rows(chosen, times, found.orientations, found.notes)
-    if found.angular_velocities is None:
-        raise RefusedError(f"{topic} must have angular velocities, got attitudes alone")
-    return Rows(chosen, np.asarray(times), found.angular_velocities, found.notes)
+    values = found.orientations if chosen == "attitude" else found.angular_velocities
+    if values is None or chosen == "inertial":
+        wanted = "angular velocities" if values is None else "accelerations"
+        raise RefusedError(f"{topic} must have {wanted}, got {form}")
+    return Rows(chosen, _count_seconds(found.stamps), values, found.notes)
+
+
+def _read_sensor(topic: str, messages: Sequence[bytes], kind: str) -> Rows:
+    """Return rates, and forces if they are asked for, of Imu messages with or without attitudes."""
+    parts, refused = decode_messages(IMU, messages)
+    if not parts:
+        raise RefusedError(f"{topic} must have messages, got none that can be read")
+    stamps = np.concatenate([part.stamps for part in parts])
+    numbers = np.concatenate([part.numbers for part in parts])[np.argsort(stamps, kind="stable")]
+    names = ("angular_velocity", "linear_acceleration")[: 1 if kind == "rates" else 2]
+    values = np.concatenate([numbers[:, IMU.quantities[name]] for name in names], axis=1)
+    count = write_count(len(refused), "message")
+    notes = (f"{count} cannot be read: left out",) if refused else ()
+    return Rows(kind, _count_seconds(np.sort(stamps)), values, notes)
+
+
+def _count_seconds(stamps: Stamps) -> Real:
+    return np.asarray((stamps - stamps[0]) / NANOSECONDS)

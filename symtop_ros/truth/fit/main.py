@@ -13,10 +13,10 @@ import numpy as np
 
 from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
 from symtop_ros.base.refusals import RefusedError
+from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.check import FAILS, HOLDS
 from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
-from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.kicks import find_kick
 from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.fit.record import MOST, Known, Record, make_record

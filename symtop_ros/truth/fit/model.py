@@ -12,8 +12,15 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real, compose, find_rotation_vectors, invert
-from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, Motions, State, Top
-from symtop_ros.physics import specific_force
+from symtop_ros.physics import (
+    STANDARD_GRAVITY,
+    Friction,
+    Motion,
+    Motions,
+    State,
+    Top,
+    specific_force,
+)
 from symtop_ros.truth.fit.camera import CAMERA, project
 from symtop_ros.truth.fit.kinds import Kind
 from symtop_ros.truth.fit.record import Record
@@ -66,7 +73,9 @@ class Model:
 
     def _seeks(self, name: str) -> bool:
         """Return True if a number of the camera is looked for."""
-        return name not in self.record.camera and (name != "nearness" or self.record.has_perspective)
+        return name not in self.record.camera and (
+            name != "nearness" or self.record.has_perspective
+        )
 
     @cached_property
     def place(self) -> dict[str, int]:

@@ -105,7 +105,9 @@ class Fit:
         values, vectors = self.spectrum
         steps = (vectors / np.sqrt(values) / self.sizes[:, np.newaxis]).T
         own = self._sum_squares(self.x)
-        grown = [[self._sum_squares(self.x + side * step) - own for side in (1, -1)] for step in steps]
+        grown = [
+            [self._sum_squares(self.x + side * step) - own for side in (1, -1)] for step in steps
+        ]
         return np.asarray(np.abs(np.log(np.maximum(grown, 1e-300))).max(axis=1) > np.log(STRAIGHT))
 
     def _sum_squares(self, x: Real) -> float:

@@ -98,9 +98,9 @@ def mirror_view(motion: Motion, camera: dict[str, float]) -> tuple[Motion, dict[
 
 
 def turn_camera(motion: Motion, camera: dict[str, float]) -> tuple[Motion, dict[str, float]]:
-    """Return the motion with the vertical turned over, and the camera turned about its line of sight.
+    """Return the motion with the vertical turned over, and the camera that shows it so.
 
-    Everything is turned, so that a pinhole shows the same as well.
+    Everything is turned about the line of sight, so that a pinhole shows the same as well.
     """
     mirrored, low = mirror_view(motion, camera)
     roll = camera["roll"] + np.pi

@@ -24,7 +24,7 @@ def turn_by_angles(angles: Real, order: str, unit: str) -> tuple[Real, str]:
 
 
 def turn_by_matrices(numbers: Real) -> Real:
-    """Return quaternions w, x, y, z of matrices (n, 9), row by row; zeros for what is no rotation."""
+    """Return quaternions w, x, y, z of matrices (n, 9) by rows; zeros if one is no rotation."""
     matrices = numbers.reshape(-1, 3, 3)
     far = np.abs(matrices @ matrices.swapaxes(1, 2) - np.eye(3)).max(axis=(1, 2))
     good = (far < SQUARE) & (np.linalg.det(matrices) > 0)

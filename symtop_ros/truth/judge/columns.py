@@ -68,9 +68,7 @@ def split_units(head: Row) -> tuple[list[str], list[str]]:
     return names, units
 
 
-def join_names(
-    path: object, numbered: Iterator[tuple[int, str]]
-) -> Iterator[tuple[int, str]]:
+def join_names(path: object, numbered: Iterator[tuple[int, str]]) -> Iterator[tuple[int, str]]:
     """Yield numbered lines; of Motive's export the lines of names as one, NAME.rotation.x.
 
     Its first line has pairs of words, then there are lines for the type, the name and the identity
@@ -115,7 +113,8 @@ def find_turns(names: Row) -> list[int]:
 def describe_empty(count: int) -> Iterator[str]:
     """Yield that rows were left out, if there were any."""
     if count:
-        yield f"{write_count(count, 'row')} {'has' if count == 1 else 'have'} an empty cell: left out"
+        rows = f"{write_count(count, 'row')} {'has' if count == 1 else 'have'}"
+        yield f"{rows} an empty cell: left out"
 
 
 def is_number(text: str) -> bool:
@@ -159,7 +158,9 @@ def find_quaternions(names: Row) -> dict[str, dict[str, int]]:
     return {"": whole[""]} if "" in whole else whole
 
 
-def find_rates(names: Row, words: Sequence[str] = ("",), pattern: re.Pattern[str] = RATES) -> list[int]:
+def find_rates(
+    names: Row, words: Sequence[str] = ("",), pattern: re.Pattern[str] = RATES
+) -> list[int]:
     """Return the places of an angular velocity after the first of some words, or [].
 
     top_imu writes the exact one and what was measured, as measured_wx, into one table.

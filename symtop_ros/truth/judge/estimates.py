@@ -198,6 +198,17 @@ def _read_transforms(reader: Reader) -> Iterator[tuple[str, int, tuple[float, ..
 
 def read_topic(source: MessageSource, topic: str, frame: str | None = None) -> Estimates:
     """Return the estimates on a topic of a log, or RefusedError; /tf needs the child frame."""
+    kind, messages = read_messages(source, topic)
+    found = decode_estimates(kind, messages, frame)
+    if frame and not len(found):
+        raise RefusedError(
+            f"--frame must be the child frame of an estimate on {topic}, got {frame}"
+        )
+    return found
+
+
+def read_messages(source: MessageSource, topic: str) -> tuple[str, list[bytes]]:
+    """Return the type of a topic of a log, and its messages."""
     messages: list[bytes] = []
     for chunk in source.chunks():
         numbers = {n for n, channel in source.channels.items() if channel.topic == topic}
@@ -211,9 +222,4 @@ def read_topic(source: MessageSource, topic: str, frame: str | None = None) -> E
             f"--topic must be one of {', '.join(known[:20]) or 'none'}, got {one_line(topic)}"
         )
     schema = source.schemas.get(channels[0].schema_id)
-    found = decode_estimates(schema.name if schema else "unknown", messages, frame)
-    if frame and not len(found):
-        raise RefusedError(
-            f"--frame must be the child frame of an estimate on {topic}, got {frame}"
-        )
-    return found
+    return schema.name if schema else "unknown", messages

@@ -18,7 +18,7 @@ ORDERS = 12  # of an autoregression, at most
 PER_ORDER = 20  # rows for each order
 # Twice the logarithm of a ratio of likelihoods, for each column. In 150 to 500 rows of flicker an
 # autoregression is ahead by up to 18, as a few rows hardly show what is slow, and in those of one
-# that keeps 0.8 from row to row by 17 to 90. If neither is clear, noise is taken for the slower one.
+# that keeps 0.8 from row to row by 17 to 90. If neither is clear, the slower one is taken.
 CLEAR = 14.0
 POWERS = np.linspace(0.05, 0.49, 12)  # d of fractional noise, whose power goes with f^(-2 d)
 LONGEST = 64  # rows by which it is predicted

@@ -92,7 +92,7 @@ def make_parser() -> argparse.ArgumentParser:
         "--estimates",
         type=Path,
         metavar="FILE",
-        help="another log, or a table (columns with names, Motive, TUM, EuRoC, or KITTI with times)",
+        help="another log, or a table: columns with names, Motive, TUM, EuRoC, KITTI with times",
     )
     parser.add_argument(
         "--rpy",

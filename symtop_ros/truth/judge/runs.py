@@ -67,7 +67,12 @@ def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
     other: Path | None = options.estimates
     if other and is_table(other):
         of_sensor = options.attitude_of == SENSOR
-        return [Source(str(other), read_times(read_table(other, options.rpy), run.truth, str(other), of_sensor))]
+        return [
+            Source(
+                str(other),
+                read_times(read_table(other, options.rpy), run.truth, str(other), of_sensor),
+            )
+        ]
     if not options.topic:
         raise RefusedError(f"--topic must name the estimates in {other}, got none")
     from symtop_ros.run.log.account import read_account  # logs need mcap

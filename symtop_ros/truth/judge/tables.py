@@ -14,10 +14,10 @@ from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError, one_line, plain
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.columns import (
+    DEGREES,
     NUMBERED,
     TIMES,
     Row,
-    DEGREES,
     choose_time,
     describe_empty,
     find_quaternions,

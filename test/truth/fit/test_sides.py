@@ -8,7 +8,7 @@ from truth.fit.cases import CUSPS, TIMES, make_noisy
 from symtop_ros.physics import Motion, State, Top, specific_force
 from symtop_ros.truth.fit import fit_motion
 from symtop_ros.truth.fit.camera import project
-from symtop_ros.truth.fit.check import HOLDS, Check
+from symtop_ros.truth.fit.check import HOLDS
 from symtop_ros.truth.fit.model import find_axis
 from symtop_ros.truth.fit.report import Report
 

@@ -136,7 +136,7 @@ def test_a_table_may_have_times_of_iso_8601(tmp_path):
         "2026-11-28T14:01:26.123456789Z,1,0,0,0\n2026-11-28T14:01:26.133456789Z,1,0,0,0\n"
         "2026-13-28T14:01:26Z,1,0,0,0\n"
     )
-    with pytest.raises(RefusedError, match="line 4 of .* must consist of numbers"):
+    with pytest.raises(RefusedError, match=r"line 4 of .* must consist of numbers"):
         read_table(path)
     path.write_text("\n".join(path.read_text().splitlines()[:3]) + "\n")
     assert read_table(path).times == (1795874486_123456789, 1795874486_133456789)

@@ -1,0 +1,70 @@
+"""Records from logs: attitudes, and what a sensor measures, with or without an attitude."""
+
+import numpy as np
+import pytest
+from truth.fit.cases import CUSPS, TIMES
+from truth.judge.cases import write_log
+
+from symtop_ros.base.refusals import RefusedError
+from symtop_ros.physics import specific_force
+from symtop_ros.run.wire.messages import IMU
+from symtop_ros.truth.fit.logs import read_log
+
+STAMPS = (TIMES * 1e9).astype(np.int64) + 7
+STATE = CUSPS.at(TIMES)
+FORCES = specific_force(CUSPS, STATE, (0.0, 0.0, 0.125))
+
+
+def encode_imu(covariance):
+    """Return Imu messages of drivers that have an attitude (0), or none (-1)."""
+    layout = IMU.layout("imu")
+    values = {
+        "orientation": STATE.orientation[:, [1, 2, 3, 0]],
+        "orientation_covariance": covariance,
+        "angular_velocity": STATE.angular_velocity,
+        "linear_acceleration": FORCES,
+    }
+    rows = IMU.arrange((len(TIMES),), values).tolist()
+    stamped = zip(STAMPS.tolist(), rows, strict=True)
+    return [(stamp, layout.encode(stamp, row)) for stamp, row in stamped]
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    path = tmp_path_factory.mktemp("log") / "run.mcap"
+    topics = {"/imu": encode_imu(-1.0), "/other": encode_imu(0.0)}
+    write_log(path, {name: (IMU.type, data) for name, data in topics.items()})
+    return path
+
+
+@pytest.mark.parametrize("topic", ["/imu", "/other"])
+def test_a_gyroscope_without_an_attitude_is_read(log, topic):
+    rows = read_log(log, topic, None, "rates")
+    assert rows.values.tolist() == STATE.angular_velocity.tolist()
+    assert rows.times == pytest.approx(TIMES, abs=1e-9)
+
+
+def test_an_accelerometer_is_read_with_its_gyroscope(log):
+    rows = read_log(log, "/imu", None, "inertial")
+    assert rows.values.tolist() == np.concatenate([STATE.angular_velocity, FORCES], 1).tolist()
+
+
+def test_attitudes_are_read_unless_a_kind_is_asked_for(log):
+    rows = read_log(log, "/other", None, None)
+    assert rows.kind == "attitude"
+    assert np.abs((rows.values * STATE.orientation).sum(axis=1)) == pytest.approx(1.0, abs=1e-12)
+    with pytest.raises(RefusedError, match="/imu must have messages with an attitude, got none"):
+        read_log(log, "/imu", None, None)
+
+
+@pytest.mark.parametrize(
+    ("topic", "kind", "reason"),
+    [
+        (None, None, "--topic must name the measurements"),
+        ("/imu", "pixels", "--kind must be one of attitude, rates, inertial for a log, got pixels"),
+        ("/none", None, "--topic must be one of /imu, /other, /top/events, got /none"),
+    ],
+)
+def test_what_a_log_does_not_have_is_named(log, topic, kind, reason):
+    with pytest.raises(RefusedError, match=reason):
+        read_log(log, topic, None, kind)
