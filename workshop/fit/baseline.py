@@ -1,6 +1,7 @@
-"""The same records by what one does without `top_fit`: integrated equations and least squares."""
+"""What one does without `top_fit`: integrated equations, least squares, and whole derivatives."""
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,12 +11,14 @@ from scipy.optimize import least_squares
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit import fit_motion
 from symtop_ros.truth.fit.body_starts import find_nutation
-from symtop_ros.truth.fit.model import find_axis
+from symtop_ros.truth.fit.model import Model, find_axis
+from symtop_ros.truth.fit.starts import fill
 from workshop.fit.records import Sample, draw_sample
 
 RECORDS = 20
 CLOSE = 1.1  # times the noise of the record; a fit with smaller residuals is a success
 TOLERANCE, MOST = 1e-8, 100  # of the integration; evaluations, of which each has seven
+ROUNDS, TIMES = 100, 119  # of derivatives
 FAR = 10.0  # a residual of parameters without a motion
 
 
@@ -92,3 +95,28 @@ def list_seeds(count: int) -> list[int]:
 def compare_all(count: int = RECORDS) -> list[Row]:
     """Return what both make of some records."""
     return [compare(draw_sample("axis", "white", seed)) for seed in list_seeds(count)]
+
+
+def compare_derivatives(rounds: int = ROUNDS) -> tuple[float, float]:
+    """Return the CPU times in s of the derivatives of a fit, and of `Motion.jacobian`, in pairs.
+
+    Both are medians, at the same times of one motion.
+    """
+    sample = draw_sample("axis", "white", 0)
+    model = Model(sample.record.select(slice(TIMES)), sample.motion.start.orientation)
+    motion, t = sample.motion, model.record.times
+    start = motion.start.angular_velocity
+    named = {"Mgl/Ix": motion.top.Mgl, "p_psi/Ix": motion.top.Iz * start[2]}
+    x = fill(model, {**named, "wx": start[0], "wy": start[1]})
+    pairs = [
+        (_time(lambda: model.find_jacobian(x)), _time(lambda: motion.jacobian(t)))
+        for _ in range(rounds)
+    ]
+    own, whole = np.median(pairs, axis=0)
+    return float(own), float(whole)
+
+
+def _time(action: Callable[[], object]) -> float:
+    began = time.process_time()
+    action()
+    return time.process_time() - began

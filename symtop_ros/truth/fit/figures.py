@@ -60,6 +60,6 @@ def draw_report(report: Report) -> Figure:
     size = 6 * float(residuals[report.fit.noise.kept].std()) + 1e-300
     below_unit = "deviations" if len(sizes) > 1 else unit or "1"
     below.set(ylabel=f"residual ({below_unit})", ylim=(-size, size))
-    above.set(ylabel=f"{record.kind.name} ({unit or '1'})")
+    above.set(ylabel=f"record ({unit or '1'})")
     above.legend(ncols=6, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     return figure

@@ -101,6 +101,7 @@ class Report:
             "residual_rms": np.sqrt((self.fit.residuals[noise.kept] ** 2).mean(axis=0)).tolist(),
             "outliers": noise.outliers,
             "noise_order": len(noise.partial),
+            "is_flicker": noise.is_flicker,
             "independent_rows": self.fit.remainder.independent,
             "no_deviations_as": check.fault or None,
             "changed": [vars(each) for each in check.changes],
@@ -137,12 +138,13 @@ class Report:
 
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""
-        noise = self.fit.noise
+        noise, order = self.fit.noise, len(self.fit.noise.partial)
         record = {
             "verdict": self.check.verdict,
             "undamped": {} if self._lacks_friction else None,
             "outliers": {"count": write_count(noise.outliers, "row")} if noise.outliers else None,
-            "lasting": {"order": len(noise.partial)} if len(noise.partial) else None,
+            "lasting": {"order": order} if order and not noise.is_flicker else None,
+            "flicker": {} if noise.is_flicker else None,
             "changes": [vars(each) for each in self.check.changes] or None,
             "fault": {"kind": self.check.fault} if self.check.fault else None,
         }

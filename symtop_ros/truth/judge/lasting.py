@@ -21,7 +21,7 @@ PER_ORDER = 20  # rows for each order
 # that keeps 0.8 from row to row by 17 to 90. If neither is clear, the slower one is taken.
 CLEAR = 14.0
 POWERS = np.linspace(0.05, 0.49, 12)  # d of fractional noise, whose power goes with f^(-2 d)
-LONGEST = 64  # rows by which it is predicted
+LONGEST, PER_LAG = 64, 4  # rows by which it is predicted, at most, and rows for each
 LARGEST = 0.9999  # partial autocorrelation
 ALIKE = 0.1  # of the largest deviation of components
 
@@ -53,6 +53,11 @@ class Noise:
     def predictors(self) -> tuple[Real, Real]:
         """Coefficients (q + 1, q, r) by up to q rows before, and deviations (q + 1, r) in sigma."""
         return find_predictors(self.partial)
+
+    @property
+    def is_flicker(self) -> bool:
+        """True if it is predicted as fractional noise, by more rows than an autoregression has."""
+        return len(self.partial) > ORDERS
 
     def whiten(self, rows: Real) -> Real:
         """Return what is new in the kept rows (n, r, ...), in deviations."""
@@ -127,7 +132,7 @@ def find_lasting(left: Real, good: Mask, follows: Mask, parameters: int) -> Real
     loglog = np.log(np.log(max(len(left), 16)))
     order = int(np.argmin(len(left) * lost.sum(axis=1) + 2 * orders * loglog))
     partial = partial[:order]
-    if not order:
+    if not order or len(left) // PER_LAG <= ORDERS:
         return partial
     flicker = find_flicker(left, good, follows)
     own, other = (
@@ -153,7 +158,7 @@ def find_partials(covariances: Real) -> Real:
 
 def find_flicker(left: Real, good: Mask, follows: Mask) -> Real:
     """Return the partial autocorrelations d/(k - d) of the fractional noise that is most likely."""
-    most = min(LONGEST, len(left) // 4)
+    most = min(LONGEST, len(left) // PER_LAG)
     lags = np.arange(1, most + 1)[:, np.newaxis]
     tried = np.multiply.outer(POWERS, np.ones(left.shape[1]))
     likely = []

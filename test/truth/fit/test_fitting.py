@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from drawn import Numbers
 from truth.fit.cases import CUSPS, SIGMA, TIMES, make_axis, make_noisy
 
 from symtop_ros.physics import Friction, Motion, State, Top, regular_precession_rates
@@ -11,6 +12,7 @@ from symtop_ros.truth.fit.check import FAILS, HOLDS, Check
 from symtop_ros.truth.fit.model import find_axis
 from symtop_ros.truth.fit.report import Report
 from symtop_ros.truth.fit.values import list_values
+from workshop.fit.records import draw_sample
 
 # A normal number is farther than five deviations once in two million.
 FAR = 5.0
@@ -152,3 +154,43 @@ def test_a_column_within_its_last_decimal_has_the_deviation_of_rounding():
     spin = values["spin"]
     assert_near(spin, CUSPS.start.angular_velocity[2])
     assert spin.deviation > step / np.sqrt(12) / 10
+
+
+def test_with_small_tilts_the_scale_of_a_picture_and_the_tilt_are_one():
+    start = State.from_euler(theta=0.03125, phi_dot=1.0, psi_dot=190.0)
+    axis = find_axis(Motion(CUSPS.top, start).at(TIMES).orientation)
+    camera = {"u": 600.0, "v": 400.0, "log_scale": 5.5, "elevation": 0.5, "roll": 0.0}
+    seen = project(axis[None], {name: np.array([value]) for name, value in camera.items()})[0]
+    free = Report("record", len(TIMES), fit_motion(make_noisy("pixels", seen, 0.125)), {})
+    assert "tilt" in {each.kind for each in free.unknown}
+    assert not {"scale", "theta"} & {each.name for each in free.values if each.is_known}
+    known = make_noisy("pixels", seen, 0.125, camera={"log_scale": 5.5})
+    values = read_values(fit_motion(known))
+    assert_near(values["theta"], 0.03125)
+
+
+def test_fast_attitudes_have_the_fewest_turns_from_row_to_row_that_a_body_allows():
+    times = np.arange(200) / 32
+    spin = float(CUSPS.start.angular_velocity[2])
+    # almost a turn from row to row, which looks like a slow spin the other way: p_psi/spin < 0
+    assert 0 < 32 - spin / (2 * np.pi) < 2
+    q = CUSPS.at(times).orientation
+    noisy = q + SIGMA * Numbers(5).normals(*q.shape)
+    values = read_values(fit_motion(make_record(times, noisy, "attitude")))
+    assert_near(values["spin"], spin)
+    assert_near(values["Iz/Ix"], 0.25)
+
+
+def test_deviations_of_a_record_that_is_too_short_for_its_camera_are_not_said():
+    # one nutation and a fifth of a precession: the camera and the motion make up for each other
+    found = fit_motion(draw_sample("pixels", "outliers", 402).record)
+    report = Report("record", len(found.model.record), found, {})
+    (curved,) = [each for each in report.unknown if each.kind == "curved"]
+    assert {"u", "v", "scale"} <= {*curved.names.split(", ")}
+    assert not {"u", "v", "scale", "Mgl/Ix"} & {v.name for v in report.values if v.is_known}
+
+
+def test_flicker_is_allowed_for_and_said():
+    found = fit_motion(draw_sample("axis", "flicker", 0).record)
+    assert found.noise.is_flicker
+    assert "(flicker) is allowed for" in Report("record", 392, found, {}).write_verdict()
