@@ -15,6 +15,8 @@ CHANGED = 5.0
 # Residuals of a wrong model swing with the motion: they are larger than their steps from row to row
 # by more than this. Noise that keeps nine tenths from row to row reaches 3.2.
 SMOOTH = 4.0
+# Of rows that are outliers by chance, 5 % of all, eight follow each other once in 4e10 rows.
+STRETCH = 8
 HOLDS, UNCLEAR, FAILS = "holds", "unclear", "fails"
 CONSTANTS = ("Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin")
 
@@ -69,6 +71,13 @@ class Check:
         a, b = first.x[place], second.x[place]
         return Change(name, float(a), float(b), float(abs(a - b) / max(both, 1e-300)))
 
+    @cached_property
+    def stretch(self) -> int:
+        """Most outliers that follow each other; 0 if they are too few to mean anything."""
+        kept = np.flatnonzero(np.concatenate([[True], self.fit.noise.kept, [True]]))
+        longest = int(np.diff(kept).max()) - 1
+        return longest if longest >= STRETCH else 0
+
     @property
     def fault(self) -> str:
         """Why there are no honest deviations: "few", "wanders" or ""."""
@@ -76,11 +85,13 @@ class Check:
 
     @property
     def verdict(self) -> str:
-        """HOLDS, UNCLEAR (noise that wanders, or a motion that is not of this model) or FAILS."""
+        """# Of rows that are outliers by chance, 5 % of all, eight follow each other once in 4e10 rows.
+STRETCH = 8
+HOLDS, UNCLEAR (noise that wanders, a stretch left out, another model) or FAILS."""
         if self.changes or (not self.is_white and self.smoothness > SMOOTH):
             return FAILS
         is_noise = self.is_white and self.smoothness <= SMOOTH and not self.fault
-        return HOLDS if is_noise else UNCLEAR
+        return HOLDS if is_noise and not self.stretch else UNCLEAR
 
 
 @dataclass(frozen=True, eq=False)

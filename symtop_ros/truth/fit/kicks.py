@@ -8,12 +8,14 @@ import numpy as np
 
 from symtop_ros.truth.fit.record import FEWEST, Record
 from symtop_ros.truth.fit.refine import Fit, refine
-from symtop_ros.truth.fit.search import EFFORTS, search
+from symtop_ros.truth.fit.search import EFFORTS, Candidate, search
+from symtop_ros.truth.fit.sides import expand
 
 SHORTEST = 3 * FEWEST  # rows that show a motion
 NEAR = 4  # rows between both parts, at most, in units of the resolution
 JUMPS = 3.0  # deviations of the first rows that a motion does not explain
 ROWS = 4  # of them
+CALM = 1.4  # deviations of a row in those of what is new in it
 
 
 def find_kick(fit: Fit) -> float | None:
@@ -23,23 +25,32 @@ def find_kick(fit: Fit) -> float | None:
     if first is None or not SHORTEST <= first <= len(record) - SHORTEST:
         return None
     rest = record.select(slice(first, None))
-    found = search(rest, EFFORTS[0])[0]
+    found = find_best(rest)
     other = refine(found.model.move(rest), found.x)
     if not explains(other):
         return None
     return float(record.times[first] - record.times[0])
 
 
+def find_best(record: Record) -> Candidate:
+    """Return the best motion of a quick search."""
+    return expand(search(record.plain, EFFORTS[0]), record)[0]
+
+
 def explains(fit: Fit) -> bool:
-    """Return whether a motion leaves white noise, no larger than the steps from row to row."""
-    return fit.remainder.is_white and not len(fit.noise.partial)
+    """Return whether a motion leaves noise that is hardly larger than what is new in each row.
+
+    In a few rows an autoregression of white noise may be likely by chance, but not large.
+    """
+    whole = fit.noise.predictors[1][0]  # deviations of a row without others before it
+    return fit.remainder.is_white and float(whole.max()) < CALM
 
 
 def find_reach(record: Record) -> int | None:
     """Return how many of the first rows are of one motion; None if no part is."""
     count = min(max(len(record) // 8, SHORTEST), len(record))
     part = record.select(slice(count))
-    found = search(part, EFFORTS[0])[0]
+    found = find_best(part)
     fit = refine(found.model.move(part), found.x)
     if not explains(fit):
         return None

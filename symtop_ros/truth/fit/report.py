@@ -100,6 +100,7 @@ class Report:
             "residuals_are_white": check.is_white,
             "residual_rms": np.sqrt((self.fit.residuals[noise.kept] ** 2).mean(axis=0)).tolist(),
             "outliers": noise.outliers,
+            "stretch": check.stretch,
             "noise_order": len(noise.partial),
             "is_flicker": noise.is_flicker,
             "independent_rows": self.fit.remainder.independent,
@@ -145,6 +146,7 @@ class Report:
             "outliers": {"count": write_count(noise.outliers, "row")} if noise.outliers else None,
             "lasting": {"order": order} if order and not noise.is_flicker else None,
             "flicker": {} if noise.is_flicker else None,
+            "stretch": {"count": str(self.check.stretch)} if self.check.stretch else None,
             "changes": [vars(each) for each in self.check.changes] or None,
             "fault": {"kind": self.check.fault} if self.check.fault else None,
         }

@@ -103,6 +103,31 @@ def test_a_table_of_several_kinds_is_read_as_the_one_that_was_asked_for(tmp_path
     assert read_rows(path, "rates").kind == "rates"
 
 
+PHONE = '"Time (s)";' + ";".join(
+    f'"{name} {axis} ({unit})"'
+    for name, unit in (("Gyroscope", "rad/s"), ("{0}", "m/s^2"))
+    for axis in "xyz"
+)
+
+
+def test_what_a_phone_measures_with_gravity_is_an_accelerometer_and_without_it_is_none(tmp_path):
+    values = np.concatenate([THREE, 9 + THREE], axis=1)
+    path = write_table(tmp_path / "a.csv", values, SOME, PHONE.format("Acceleration"), ",", ";")
+    assert read_rows(path, "inertial").values == pytest.approx(values, rel=1e-8)
+    other = PHONE.format("Linear Acceleration")
+    path = write_table(tmp_path / "b.csv", values, SOME, other, ",", ";")
+    with pytest.raises(RefusedError, match="must have the columns t .* and wx, wy, wz, fx, fy, fz"):
+        read_rows(path, "inertial")
+
+
+def test_units_of_a_sensor_are_turned_into_rad_and_m(tmp_path):
+    head = "t,wx (deg/s),wy (deg/s),wz (deg/s),fx (g),fy (g),fz (g)"
+    values = np.concatenate([THREE, THREE], axis=1)
+    path = write_table(tmp_path / "a.csv", values, SOME, head)
+    factors = np.repeat([np.pi / 180, 9.81], 3)
+    assert read_rows(path, "inertial").values == pytest.approx(values * factors, rel=1e-8)
+
+
 def test_ten_million_rows_are_thinned_to_runs_of_neighbours():
     times = np.arange(10_000_000) / 1000
     whole = Record(times, times[:, None], KINDS["theta"])

@@ -5,10 +5,11 @@ import re
 
 import numpy as np
 import pytest
+from drawn import Numbers
 from truth.fit.cases import CUSPS, TIMES, make_axis, write_table
 
 from symtop_ros import __version__
-from symtop_ros.physics import Motion, apply_impulse
+from symtop_ros.physics import Motion, apply_impulse, specific_force
 from symtop_ros.truth.fit.main import Progress, main
 from symtop_ros.truth.imu.main import main as imu_main
 
@@ -72,6 +73,21 @@ def test_a_kick_is_named_with_its_place(tmp_path, capsys):
     assert not out
     place = re.fullmatch(r"top_fit: \S+ must have one motion, got two: .* (\S+) s\n", err)
     assert abs(float(place[1]) - 1.0) < 8 / 128  # rows that it takes to leave the noise
+
+
+def test_a_kick_of_a_body_with_an_accelerometer_is_named(tmp_path, capsys):
+    kicked = Motion(CUSPS.top, apply_impulse(CUSPS.top, CUSPS.at(1.0), (3.0, 0.0, 0.0)))
+    position = (0.0625, 0.0, 0.125)
+    rows = []
+    for motion, times in ((CUSPS, TIMES[TIMES < 1.0]), (kicked, TIMES[TIMES >= 1.0] - 1.0)):
+        state = motion.at(times)
+        forces = specific_force(motion, state, position)
+        rows.append(np.concatenate([state.angular_velocity, forces], axis=1))
+    seen = np.concatenate(rows) + 0.0625 * Numbers(6).normals(len(TIMES), 6)
+    path = write_table(tmp_path / "kick.csv", seen, head="t,wx,wy,wz,fx,fy,fz")
+    assert main([str(path), "--position", *map(str, position)]) == 1
+    place = re.search(r"must have one motion, got two: .* (\S+) s\n", capsys.readouterr().err)
+    assert abs(float(place[1]) - 1.0) < 8 / 128
 
 
 BAD = {
