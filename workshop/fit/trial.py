@@ -106,7 +106,7 @@ def _write_line(name: str, rows: Sequence[dict[str, Any]]) -> str:
         sum(row["others"] > 0 for row in rows),
     )
     seconds = np.mean([row["seconds"] for row in rows])
-    sizes = (f"{each:.2f}" if each == each else "-" for each in (*pulls, measure_pulls(rows)))
+    sizes = ("-" if np.isnan(each) else f"{each:.2f}" for each in (*pulls, measure_pulls(rows)))
     cells = [*sizes, *map(str, counts)]
     return f"| {name} | {' | '.join(cells)} | {seconds:.1f} |"
 

@@ -85,9 +85,7 @@ class Check:
 
     @property
     def verdict(self) -> str:
-        """# Of rows that are outliers by chance, 5 % of all, eight follow each other once in 4e10 rows.
-STRETCH = 8
-HOLDS, UNCLEAR (noise that wanders, a stretch left out, another model) or FAILS."""
+        """HOLDS, UNCLEAR (noise that wanders, a stretch left out, another model) or FAILS."""
         if self.changes or (not self.is_white and self.smoothness > SMOOTH):
             return FAILS
         is_noise = self.is_white and self.smoothness <= SMOOTH and not self.fault

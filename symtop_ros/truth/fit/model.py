@@ -225,9 +225,13 @@ class Model:
 
     def find_steps(self, x: Real, delta: float) -> Real:
         """Return steps of differences, (p,), by which the phases at the end change by delta."""
-        scales = self.find_scales(x)
-        phase = scales[self.place["wx"]] * self.record.seconds
-        return np.asarray(scales * np.minimum(delta / phase, LARGEST_STEP))
+        return np.asarray(
+            self.find_scales(x) * np.minimum(delta / self.find_phase(x), LARGEST_STEP)
+        )
+
+    def find_phase(self, x: Real) -> float:
+        """Return the largest phase in rad by the end of the record."""
+        return float(self.find_scales(x)[self.place["wx"]] * self.record.seconds)
 
     def find_jacobian(self, x: Real, central: bool = False) -> Real:
         """Return the derivatives (n, r, p) of the residuals, as differences of exact states."""

@@ -25,6 +25,7 @@ FIXED = 12.0  # deviations of rounding, of which a step has 3.5
 DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
 STRAIGHT = 2.0  # times the growth of squares; 1.0 to 1.1 in most records
 CURVED = 0.1  # part of a variance
+LONG = 1e4  # rad, of the fastest phase in a record
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
 
 
@@ -105,10 +106,10 @@ class Fit:
         values, vectors = self.spectrum
         steps = (vectors / np.sqrt(values) / self.sizes[:, np.newaxis]).T
         own = self._sum_squares(self.x)
-        grown = [
-            [self._sum_squares(self.x + side * step) - own for side in (1, -1)] for step in steps
-        ]
-        return np.asarray(np.abs(np.log(np.maximum(grown, 1e-300))).max(axis=1) > np.log(STRAIGHT))
+        # the mean of both sides, as the least squares may have ended a little off the minimum
+        sides = [[self._sum_squares(self.x + side * step) for side in (1, -1)] for step in steps]
+        grown = np.maximum(np.mean(sides, axis=1) - own, 1e-300)
+        return np.asarray(np.abs(np.log(grown)) > np.log(STRAIGHT))
 
     def _sum_squares(self, x: Real) -> float:
         known = sum(
@@ -178,8 +179,11 @@ def fit_weighted(model: Model, x: Real, noise: Noise) -> Real:
         return noise.whiten(model.find_residuals(x))
 
     def derive(x: Real) -> Real:
-        return noise.whiten(model.find_jacobian(x))
+        return noise.whiten(model.find_jacobian(x, central=is_long))
 
+    # After many turns phases are known so much better than all else that forward differences would
+    # lead along the valley by chance.
+    is_long = model.find_phase(x) > LONG
     return minimise(model, x, find, derive, "linear", 60, PRECISE).x
 
 

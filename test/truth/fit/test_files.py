@@ -116,7 +116,9 @@ def test_what_a_phone_measures_with_gravity_is_an_accelerometer_and_without_it_i
     assert read_rows(path, "inertial").values == pytest.approx(values, rel=1e-8)
     other = PHONE.format("Linear Acceleration")
     path = write_table(tmp_path / "b.csv", values, SOME, other, ",", ";")
-    with pytest.raises(RefusedError, match="must have the columns t .* and wx, wy, wz, fx, fy, fz"):
+    with pytest.raises(
+        RefusedError, match=r"must have the columns t .* and wx, wy, wz, fx, fy, fz"
+    ):
         read_rows(path, "inertial")
 
 
