@@ -24,6 +24,7 @@ PRECISE = 1e-7  # of the sum of squares: a hundredth of a deviation of a paramet
 FIXED = 12.0  # deviations of rounding, of which a step has 3.5
 DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
 STRAIGHT = 2.0  # times the growth of squares; 1.0 to 1.1 in most records
+GIVEN = 0.5  # part of the information on a step
 CURVED = 0.1  # part of a variance
 LONG = 1e4  # rad, of the fastest phase in a record
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
@@ -109,7 +110,16 @@ class Fit:
         # the mean of both sides, as the least squares may have ended a little off the minimum
         sides = [[self._sum_squares(self.x + side * step) for side in (1, -1)] for step in steps]
         grown = np.maximum(np.mean(sides, axis=1) - own, 1e-300)
-        return np.asarray(np.abs(np.log(grown)) > np.log(STRAIGHT))
+        return np.asarray((np.abs(np.log(grown)) > np.log(STRAIGHT)) & ~self._are_given(steps))
+
+    def _are_given(self, steps: Real) -> Mask:
+        """Return True (p,) for steps of one deviation that what is known, or a last decimal, sets.
+
+        Then the squares of what is left do not measure how far the motion may be.
+        """
+        _, fixed = find_rounding(self.model.record, self.white.shape[1])
+        moved = np.einsum("tip,kp->tik", self.columns[:, fixed], steps)
+        return np.asarray(steps**2 @ self.priors + (moved**2).sum(axis=(0, 1)) > GIVEN)
 
     def _sum_squares(self, x: Real) -> float:
         known = sum(
