@@ -60,7 +60,7 @@ class ColumnPlaces:
     numbers: tuple[int, ...]
     unit: str  # of the time: "s", "ms", "us" or "ns"; "" if the numbers show it
     note: str = ""  # what was assumed
-    form: str = "wxyz"  # of the attitude, else "matrix", or an order of `turns.ORDERS`
+    form: str = "wxyz"  # of the attitude, else "matrix", or an order of `attitudes.ORDERS`
     angle: str = ""  # unit of the angles, if their names say it
 
 
@@ -83,7 +83,7 @@ class Table:
 def read_table(path: Path, order: str | None = None) -> Table:
     """Return the rows of a table: columns with names in any order, TUM, EuRoC, or timed KITTI.
 
-    `order` is that of roll, pitch and yaw, by `turns.ORDERS`.
+    `order` is that of roll, pitch and yaw, by `attitudes.ORDERS`.
     """
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
