@@ -10,6 +10,7 @@ from typing import Any
 from symtop_ros.base.command import new_parser, positive, tell_failures
 from symtop_ros.base.header import make_header
 from symtop_ros.base.refusals import one_line
+from symtop_ros.truth.judge.attitudes import ORDERS
 from symtop_ros.truth.judge.clock import format_clocks, measure_clock
 from symtop_ros.truth.judge.judgement import Judgement, format_judgements, judge, tell_limit
 from symtop_ros.truth.judge.problems import run_testset
@@ -22,7 +23,6 @@ from symtop_ros.truth.judge.runs import (
     read_sources,
     report_faults,
 )
-from symtop_ros.truth.judge.attitudes import ORDERS
 from symtop_ros.truth.judge.wanted import MODELS
 
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the

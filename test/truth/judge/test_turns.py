@@ -20,7 +20,7 @@ def rotation(axis, angle):
 
 def read(text):
     """Return degrees or None, and the axis that a person reads."""
-    named = re.fullmatch(rf" \((-?\d+) degrees about ([xyz]|\(.*\))\)", text)
+    named = re.fullmatch(r" \((-?\d+) degrees about ([xyz]|\(.*\))\)", text)
     words = named[2] if named else re.fullmatch(r" about (\(.*\))", text)[1]
     if words in AXES:
         axis = [float(each == words) for each in AXES]
