@@ -9,6 +9,7 @@ are scaled to the frequencies of the record; the best of them are improved toget
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from scipy.signal import find_peaks
@@ -78,7 +79,7 @@ def list_camera_starts(part: Record) -> Iterator[Starts]:
     given = part.camera
     pivot = np.array([given["u"], given["v"]]) if "u" in given and "v" in given else None
     pictures = Pictures((part.times - part.times[0])[rows], part.values[rows], pivot)
-    y = np.concatenate([scale(SHAPED, rate) for rate in list_rates(part)])
+    y = np.concatenate([scale(draw_shapes(), rate) for rate in list_rates(part)])
     costs = (pictures.find_residuals(y) ** 2).sum(axis=1)
     y = improve_all(pictures, y[np.argsort(costs)[:IMPROVED]])
     costs = (pictures.find_residuals(y) ** 2).sum(axis=1)
@@ -87,6 +88,7 @@ def list_camera_starts(part: Record) -> Iterator[Starts]:
         yield fill_camera_start(part, each, camera)
 
 
+@cache
 def draw_shapes() -> tuple[Real, Real]:
     """Return motions (k, 5) for Mgl/Ix = 1, and the angular frequencies (k,) of their nutation."""
     draw = np.random.default_rng(1)
@@ -96,9 +98,6 @@ def draw_shapes() -> tuple[Real, Real]:
     rates = size * draw.normal(size=(SHAPES, 2))
     y = np.column_stack([np.ones(SHAPES), p, theta, rates])
     return y, 2 * np.pi / np.asarray(make_motions(y).nutation_period)
-
-
-SHAPED = draw_shapes()
 
 
 def scale(shapes: tuple[Real, Real], rate: float) -> Real:
