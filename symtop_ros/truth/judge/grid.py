@@ -6,6 +6,7 @@ have the same angles as the exact ones, about axes that the body's rotation has 
 problem, Park and Martin 1994).
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -30,6 +31,7 @@ HOPELESS = 0.05  # mean square of half angles
 # Components that a rotation of a level may have; of the other levels all.
 FREE = {"none": (1, 0, 0, 0), "heading": (1, 0, 0, 1)}
 Models = tuple[Real, Real, Real]  # estimates and exact attitudes (g, n, 4), and the known (g, n)
+Fitted = tuple[Real, Real, Real]  # costs (g,), and rotations of the world and the body, (g, 4)
 
 
 @dataclass(eq=False)
@@ -91,24 +93,51 @@ class Tables:
         return np.linspace(-most, most, 2 * count + 1)
 
 
-def fit_rotations(models: Models, level: str) -> tuple[Real, Real, Real]:
+def fit_levels(models: Models, levels: Collection[str]) -> dict[str, Fitted]:
+    """Return the rotations of several levels, by their names, as `fit_rotations` does."""
+    q, exact, known = models
+    still = np.broadcast_to(IDENTITY, (len(q), 4))
+    sums: Real | None = None  # of the levels without a rotation of the body
+    found = {}
+    for level in levels:
+        if level == "both":
+            bodies = _guess_bodies(q, exact, known)
+            turned = compose(exact, bodies[:, np.newaxis])
+            costs, worlds = _find_nearest(_multiply(compose(q, invert(turned)), known), known)
+            found[level] = costs, worlds, bodies
+        elif level == "body":
+            costs, bodies = _find_nearest(_multiply(compose(invert(exact), q), known), known)
+            found[level] = costs, still, bodies
+        else:
+            free = np.array(FREE.get(level, (1, 1, 1, 1)))
+            sums = _multiply(compose(q, invert(exact)), known) if sums is None else sums
+            costs, worlds = _find_nearest(sums * np.outer(free, free), known)
+            found[level] = costs, worlds, still
+    return found
+
+
+def fit_rotations(models: Models, level: str) -> Fitted:
     """Return the rotations W and M of a level, for which W exact M is nearest to the estimates.
 
     First about the mean squares of the half angles that are left, (g,), then W and M, (g, 4).
     """
-    q, exact, known = models
-    along = np.broadcast_to(IDENTITY, (len(q), 4))
-    bodies = _guess_bodies(q, exact, known) if level == "both" else along
-    turned = compose(exact, bodies[:, np.newaxis])
-    left = compose(invert(exact), q) if level == "body" else compose(q, invert(turned))
-    left = left * known[..., np.newaxis] * np.array(FREE.get(level, (1, 1, 1, 1)))
-    sizes, vectors = np.linalg.eigh(np.swapaxes(left, 1, 2) @ left)
+    return fit_levels(models, [level])[level]
+
+
+def _multiply(left: Real, known: Real) -> Real:
+    """Return the sums of the products of the components of what is left, (g, 4, 4)."""
+    left = left * known[..., np.newaxis]
+    return np.asarray(np.swapaxes(left, 1, 2) @ left)
+
+
+def _find_nearest(sums: Real, known: Real) -> tuple[Real, Real]:
+    """Return about the mean squares of half angles, (g,), and the rotations nearest to all."""
+    sizes, vectors = np.linalg.eigh(sums)
     means = vectors[..., -1]
     counts = known.sum(axis=1)
     costs = np.maximum(1 - sizes[:, -1] / np.maximum(counts, 1), 0.0)
     costs[counts < max(2, known.shape[1] // 2)] = np.inf
-    means = np.asarray(means * np.copysign(1.0, means[:, :1]))
-    return (costs, bodies, means) if level == "body" else (costs, means, bodies)
+    return costs, np.asarray(means * np.copysign(1.0, means[:, :1]))
 
 
 def _guess_bodies(q: Real, exact: Real, known: Real) -> Real:

@@ -27,7 +27,7 @@ from symtop_ros.truth.judge.choice import SIMPLER, SMALL, choose, judge, select
 from symtop_ros.truth.judge.compare import MOST_STEPS, NONE, STEP, Offset, compare
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES, Fit
-from symtop_ros.truth.judge.grid import HOPELESS, Tables, fit_rotations
+from symtop_ros.truth.judge.grid import COARSE, HOPELESS, Tables, fit_levels, fit_rotations
 from symtop_ros.truth.judge.noise import PER_PARAMETER
 from symtop_ros.truth.judge.refine import refine
 from symtop_ros.truth.judge.truth import Truth
@@ -65,6 +65,7 @@ class Search:
         self.run = run
         self.fits, self.of_more = (Fits(those, truth) for those in (self.some, self.more))
         self.fit = self.fits[""]
+        self.few = Fit(self.some.thin(COARSE), truth)
         self.tables = Tables(truth, self.fit.fastest)
         self.hidden = HIDDEN.get(truth.kind, ())
         steps = int(np.ptp(self.some.stamps)) // STEP + len(self.some)
@@ -154,10 +155,10 @@ class Search:
 
     def _permute(self, level: str, parameters: tuple[str, ...], start: Offset) -> Iterator[Cause]:
         """Yield the best of the permutations with a parameter and with rotations of a level."""
-        exact, known = self.fit.exact(start)
-        exact = compose(start.turn_world(self.some.stamps), exact)
-        exact = compose(exact, start.turn_body(self.some.stamps))
-        q = np.stack([each.undo(self.some.orientations) for each in PERMUTED.values()])
+        few = self.few.some
+        exact, known = self.few.exact(start)
+        exact = compose(compose(start.turn_world(few.stamps), exact), start.turn_body(few.stamps))
+        q = np.stack([each.undo(few.orientations) for each in PERMUTED.values()])
         models = q, np.broadcast_to(exact, q.shape), np.broadcast_to(known * 1.0, q.shape[:2])
         costs, worlds, _ = fit_rotations(models, level)
         names = [*PERMUTED]
@@ -186,8 +187,8 @@ class Search:
         """Yield explanations with a change and a parameter, or none, next to those of an offset."""
         some = self.fits[change].some
         values, models = self.tables.tabulate(some, name, known, values)
-        for level in CHANGES[change][1]:
-            costs = np.pad(fit_rotations(models, level)[0], 1, constant_values=np.inf)
+        for level, fitted in fit_levels(models, CHANGES[change][1]).items():
+            costs = np.pad(fitted[0], 1, constant_values=np.inf)
             valleys = (costs[1:-1] <= costs[:-2]) & (costs[1:-1] <= costs[2:])
             valleys &= (costs[1:-1] <= HOPELESS) | (not name)
             for place in sorted(np.flatnonzero(valleys), key=costs[1:-1].__getitem__)[:VALLEYS]:

@@ -18,10 +18,17 @@ FEW_FRAMES = """
 const requestFrame = window.requestAnimationFrame.bind(window);
 window.requestAnimationFrame = (draw) => setTimeout(() => requestFrame(draw), 120);
 """
-# Most tests do not look at the scene, and software would draw it on their processors.
+# Most tests do not look at the scene, and software would draw it on their processors: all that a
+# page asks of a graphics card is answered, and nothing is done.
 UNDRAWN = """
-WebGL2RenderingContext.prototype.drawArrays = () => {};
-WebGL2RenderingContext.prototype.clear = () => {}; // else the empty picture is put together, too
+const constants = WebGL2RenderingContext.prototype;
+const card = new Proxy({}, {
+    get: (_, name) => (typeof constants[name] === "number" ? constants[name] : () => ({})),
+});
+const getCanvasContext = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function (kind, ...options) {
+    return kind === "webgl2" ? card : getCanvasContext.call(this, kind, ...options);
+};
 """
 
 
