@@ -40,6 +40,8 @@ class Fit:
     # the last motion and gyroscope, by delay, clock and scale
     _exact: dict[tuple[float, ...], tuple[Real, Mask]] = field(default_factory=dict)
     _scalings: dict[tuple[float, ...], Scaling] = field(default_factory=dict)
+    # the last model, which has a cost first, and derivatives if the cost is smaller
+    _models: dict[Offset, tuple[Real, Real, Real]] = field(default_factory=dict)
 
     @cached_property
     def start(self) -> Offset:
@@ -62,12 +64,19 @@ class Fit:
             self._scalings = {key: Scaling(self.truth, offset.shift(self.some.stamps))}
         return self._scalings[key]
 
+    def model(self, offset: Offset) -> tuple[Real, Real, Real]:
+        """Return the rotations of the world, these of exact attitudes, and the model of all."""
+        if offset not in self._models:
+            world = offset.turn_world(self.some.stamps)
+            turned = compose(world, self.exact(offset)[0])
+            model = compose(turned, offset.turn_body(self.some.stamps))
+            self._models = {offset: (world, turned, model)}
+        return self._models[offset]
+
     def residuals(self, offset: Offset) -> tuple[Real, Real]:
         """Return the known estimates, and the model of them."""
-        exact, known = self.exact(offset)
-        turned = compose(offset.turn_world(self.some.stamps), exact)
-        model = compose(turned, offset.turn_body(self.some.stamps))
-        return self.some.orientations[known], model[known]
+        known = self.exact(offset)[1]
+        return self.some.orientations[known], self.model(offset)[2][known]
 
     def find_left(self, offset: Offset) -> Real:
         """Return the rotation vectors in the world that are left, (n, 3)."""
@@ -86,11 +95,8 @@ class Fit:
         Of a late motion the first estimates are not known, so that costs of two offsets are those
         of different estimates.
         """
-        exact, own = self.exact(offset)
-        model = compose(offset.turn_world(self.some.stamps), exact)
-        model = compose(model, offset.turn_body(self.some.stamps))
-        both = own & known
-        left = subtract(self.some.orientations[both], model[both])
+        both = self.exact(offset)[1] & known
+        left = subtract(self.some.orientations[both], self.model(offset)[2][both])
         return float((left**2).sum(axis=1).mean()) if both.any() else np.inf
 
     @property
@@ -128,12 +134,10 @@ class Fit:
 
     def derive(self, offset: Offset, free: list[int]) -> Real:
         """Return the derivatives of the model's rotation vectors in the world, (3 n, free)."""
-        exact, known = self.exact(offset)
-        world = offset.turn_world(self.some.stamps)[known]
-        turned = compose(world, exact[known])
+        known = self.exact(offset)[1]
+        world, turned, model = (part[known] for part in self.model(offset))
         seconds = (self.some.stamps[known] - offset.begin) / NANOSECONDS
         columns = np.zeros((len(seconds), 3, COLUMNS))
-        model = compose(turned, offset.turn_body(self.some.stamps)[known])
         columns[:, :, :3] = to_rotation(compose(world, invert(offset.world))).as_matrix()
         columns[:, :, 3:6] = to_rotation(model).as_matrix()
         if {DELAY, CLOCK} & {*free}:

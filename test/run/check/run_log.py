@@ -66,6 +66,11 @@ class Memory(MessageSource):
         """Yield the messages."""
         yield list(self.messages)
 
+    def keep(self, *topics: str) -> None:
+        """Leave only the events and the messages of some topics."""
+        kept = {"/top/events", *topics}
+        self.messages = [m for m in self.messages if self.channels[m.channel_id].topic in kept]
+
     def places(self, topic: str) -> list[int]:
         """Places of the messages of a topic."""
         topics = [self.channels[message.channel_id].topic for message in self.messages]

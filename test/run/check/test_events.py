@@ -169,6 +169,7 @@ def test_a_run_with_all_events_agrees(memory):
 @pytest.mark.parametrize("seed", seeds(1, 5))
 def test_an_altered_digit_of_a_description_is_found(memory, seed):
     rng = random.Random(seed)
+    memory.keep("/robot_description")
     for place in memory.places("/robot_description"):
         data = memory.messages[place].data
         digits = [k for k in range(4, len(data)) if chr(data[k]).isdigit()]
@@ -186,6 +187,7 @@ def test_an_altered_number_of_a_fixed_frame_is_found(memory):
 @pytest.mark.parametrize("seed", seeds(1, 5))
 def test_an_altered_digit_of_diagnostics_of_the_motion_is_found(memory, seed):
     rng = random.Random(seed)
+    memory.keep("/diagnostics")
     for place in memory.places("/diagnostics"):
         data = memory.messages[place].data
         status = next(each for each in decode_statuses(data) if each.name == "top: motion")

@@ -53,7 +53,7 @@ KEYS = {
 }
 SIZE = 1e-3  # rad, of noise
 FILES = [f"{cause}, {noise}, {n}" for cause, noise, n in product(CAUSES, NOISES, range(2))]
-SHORT = ["delay, white, 0", "scale, rounding, 0", "columns, lasting, 1"]
+SHORT = ["scale, rounding, 0", "columns, lasting, 1"]
 RIGHT = 98  # of a hundred; docs/truth.md has 99, of which one may be next to a threshold
 
 

@@ -34,7 +34,7 @@ def test_a_delay_is_known_up_to_periods_of_the_nutation():
     assert "or plus n x 0.1595 s; for n = 1 with a rotation of the world by " in text
 
 
-@pytest.mark.parametrize("seed", choose(range(40), (1, 20)))
+@pytest.mark.parametrize("seed", choose(range(40), (20,)))
 def test_noise_of_a_short_run_is_no_delay_that_leaves_the_loudest_estimates_out(seed):
     end = 22 * SECOND // 10
     whole, truth = scene_truth("disc"), scene_truth("disc")
@@ -52,7 +52,7 @@ def test_in_a_sleeping_top_a_delay_is_called_a_heading_whatever_is_lost_of_the_l
     damaged = Truth.of(SimpleNamespace(end=8 * SECOND, stretches=parts))
     assert damaged.kind == truth.kind == "sleeping"
     for each in (truth, damaged):
-        found = find_causes(Made(delay=0.00636, noise=1e-3).make(truth, STAMPS), each)
+        found = find_causes(Made(delay=0.00636, noise=1e-3).make(truth, STAMPS[::4]), each)
         assert found.best.kind == ("", "heading", ())
         assert "delay" in found.hidden
 
@@ -164,10 +164,10 @@ def test_rates_of_an_engine_that_diverges_are_no_mistake_of_units(growth):
         assert judge(replace(good, angular_velocities=rates), TRUTH, "x").notes == ()
 
 
-def test_good_estimates_and_plain_errors_are_no_mistakes():
-    for turned in ((), (TILT,)):
-        good = make_estimates(TRUTH, STAMPS[::5], *turned)
-        assert judge(good, TRUTH, "x").notes == ()
+@pytest.mark.parametrize(("turned", "model"), [((), None), ((TILT,), "world")])
+def test_good_estimates_and_plain_errors_are_no_mistakes(turned, model):
+    good = make_estimates(TRUTH, STAMPS[::5], *turned)
+    assert judge(good, TRUTH, "x", aligned=model).notes == ()
 
 
 OFTEN = np.arange(SECOND, 6 * SECOND, SECOND // 400)

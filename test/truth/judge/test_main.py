@@ -69,7 +69,8 @@ def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
 
 def test_an_output_that_is_no_longer_read_is_no_failure(log):
     command = "import sys; from symtop_ros.programs import top_judge; sys.exit(top_judge())"
-    words = [sys.executable, "-c", command, str(log), "--topic", "/filter", "--json"]
+    options = ["--topic", "/filter", "--aligned", "none", "--json"]
+    words = [sys.executable, "-c", command, str(log), *options]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         process.stdout.close()  # as `| head -0` does it
         error = process.stderr.read().decode()

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from trials import choose
 from truth.judge.cases import Made, heading, wxyz
 
 from symtop_ros.truth.judge.causes import Finding
@@ -150,10 +151,14 @@ def assert_honest(pulls, low, high):
     assert ((low < found) & (found < high)).all(), found
 
 
-@pytest.mark.parametrize("kind", PARTS)
-def test_a_cause_is_printed_as_it_is(kind):
+@pytest.mark.parametrize("kind", choose(PARTS, ("delay", "clock", "both")))
+def test_a_cause_that_is_found_is_printed_as_it_is(kind):
     # A normal number is beyond 4.5 once in 150 000 times.
     assert np.abs(measure_found(kind, 1)).max() < 4.5
+
+
+@pytest.mark.parametrize("kind", PARTS)
+def test_a_cause_is_printed_as_it_is(kind):
     assert_honest([measure_refined(kind, seed) for seed in range(8)], 0.25, 1.9)
 
 
