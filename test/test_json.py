@@ -53,7 +53,7 @@ def assert_explained(record, kind, path):
 def table(tmp_path):
     """Estimates with errors that last, and with a delay."""
     noisy = make_noisy(200, 10, 0.005, EVEN, False, 3)
-    late = Made(delay=5e-3, noise=1e-2).make(TRUTH, noisy.stamps)
+    late = Made(delay=5e-3, noise=1e-2).make(TRUTH, noisy.stamps[::8])
     path = tmp_path / "estimates.csv"
     path.write_text(write_rows(late, order=range(7), header=HEADER))
     return path

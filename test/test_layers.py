@@ -3,6 +3,7 @@
 import ast
 import re
 import sys
+from functools import cache
 
 import pytest
 from documents import ROOT
@@ -59,7 +60,12 @@ ARROWS = {k: tuple(set(part.split()) for part in v.split("|")) for k, v in TABLE
 def nodes(folder):
     """Yield the nodes of the syntax of the files of a folder, each with the path."""
     for path in sorted((PACKAGE / folder).rglob("*.py")):
-        yield from ((path, node) for node in ast.walk(ast.parse(path.read_text())))
+        yield from ((path, node) for node in read_nodes(path))
+
+
+@cache
+def read_nodes(path):
+    return [*ast.walk(ast.parse(path.read_text()))]
 
 
 def name_place(module):

@@ -10,6 +10,7 @@ import groups
 import pytest
 from documents import ROOT
 from programs import execute
+from trials import choose
 
 from symtop_ros.page.web.join import write_file
 
@@ -148,16 +149,17 @@ def test_one_extra_more_has_those_before(checkout):
     assert set_up(checkout, "ros", "report", "panel") == (0, [], [])
 
 
-@pytest.mark.parametrize(
-    ("change", "reason"),
-    [
-        (HEADER, "sources of the package have changed"),
-        ("symtop_ros/__init__.py", "sources of the package have changed"),
-        (LIBRARY, "the compiled kernel is missing"),
-        (RECORD, "the package is not installed"),
-    ],
-)
-def test_the_package_is_built_anew_for_a_reason(checkout, change, reason):
+REASONS = {
+    HEADER: "sources of the package have changed",
+    "symtop_ros/__init__.py": "sources of the package have changed",
+    LIBRARY: "the compiled kernel is missing",
+    RECORD: "the package is not installed",
+}
+
+
+@pytest.mark.parametrize("change", choose(REASONS, (HEADER, RECORD)))
+def test_the_package_is_built_anew_for_a_reason(checkout, change):
+    reason = REASONS[change]
     (path,) = checkout.glob(change)
     if change in (LIBRARY, RECORD):
         path.unlink()

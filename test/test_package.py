@@ -12,6 +12,7 @@ import lint
 import pytest
 from documents import ROOT
 from programs import execute
+from trials import choose
 
 from symtop_ros import __version__
 
@@ -93,13 +94,23 @@ def test_colcon_build_with_links_leads_to_the_sources(workspace):
     assert "Failed" not in printed
 
 
-def test_colcon_build_without_a_compiler_ends_with_a_line_that_names_one(workspace):
+def build_extension(workspace, variables):
+    words = [sys.executable, "setup.py", "-q", "build_ext", "--inplace"]
+    execute(words, cwd=workspace / "src/symtop_ros", check=True, env=variables)
+
+
+BUILDERS = {"setup.py": build_extension, "colcon": lambda place, names: build(place, **names)}
+
+
+@pytest.mark.parametrize("builder", choose(BUILDERS, ("setup.py",)))
+def test_a_build_without_a_compiler_ends_with_a_line_that_names_one(workspace, builder):
     tools = workspace / "tools"
     tools.mkdir()
     for name in ("sh", "bash", "env"):
         (tools / name).symlink_to(shutil.which(name))
+    environment = {**os.environ, "PATH": str(tools), "CXX": ""}
     with pytest.raises(subprocess.CalledProcessError) as failure:
-        build(workspace, PATH=str(tools), CXX="")
+        BUILDERS[builder](workspace, environment)
     printed = failure.value.stdout + failure.value.stderr
     assert "error: symtop_ros needs a C++ compiler: install g++" in printed
     assert "Traceback" not in printed

@@ -6,6 +6,16 @@ window.acts = {
     for (let k = 0; k < count; k += 1) await new Promise(requestAnimationFrame);
   },
 
+  /** Wait until the run is longer than some seconds; false if it is not for a while. */
+  async waitForTime([seconds, patience]) {
+    const end = performance.now() + 1000 * patience;
+    while (!(Number(document.getElementById("timeline").max) > seconds)) {
+      if (performance.now() > end) return false;
+      await new Promise((done) => setTimeout(done, 20));
+    }
+    return true;
+  },
+
   /** Let nothing run for a time in which the clock runs: the ends of the run before and after. */
   async sleep() {
     const before = window.symtop.run().end;

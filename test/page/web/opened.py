@@ -21,13 +21,13 @@ window.requestAnimationFrame = (draw) => setTimeout(() => requestFrame(draw), 12
 # Most tests do not look at the scene, and software would draw it on their processors: all that a
 # page asks of a graphics card is answered, and nothing is done.
 UNDRAWN = """
-const constants = WebGL2RenderingContext.prototype;
-const card = new Proxy({}, {
-    get: (_, name) => (typeof constants[name] === "number" ? constants[name] : () => ({})),
-});
-const getCanvasContext = HTMLCanvasElement.prototype.getContext;
+const card = WebGL2RenderingContext.prototype;
+for (const [name, { value }] of Object.entries(Object.getOwnPropertyDescriptors(card)))
+    if (typeof value === "function") card[name] = () => ({});
+card.isContextLost = () => false;
+const getDrawnContext = HTMLCanvasElement.prototype.getContext;
 HTMLCanvasElement.prototype.getContext = function (kind, ...options) {
-    return kind === "webgl2" ? card : getCanvasContext.call(this, kind, ...options);
+    return kind === "webgl2" ? Object.create(card) : getDrawnContext.call(this, kind, ...options);
 };
 """
 
@@ -247,10 +247,11 @@ class Opened:
         deadline = time.monotonic() + TIMEOUT
         while not condition():
             assert time.monotonic() < deadline, (self.say("headline"), self.say("refusal"))
-            self.tab.wait_for_timeout(20)
+            self.tab.wait_for_timeout(40)
 
     def wait_for_time(self, seconds):
-        self.until(lambda: float(self.tab.get_attribute("#timeline", "max")) > seconds)
+        """Wait until the run is longer than some seconds."""
+        assert self.tab.evaluate("acts.waitForTime", [seconds, TIMEOUT]), self.say("refusal")
 
     def seek(self, seconds):
         """Move the slider of the run to a time."""

@@ -1,5 +1,6 @@
 """What one sees of the scene: the top has its colours, and arrows end where the vectors do."""
 
+import json
 import math
 
 import numpy as np
@@ -70,11 +71,12 @@ def test_all_triangles_of_the_top_and_its_stand_have_areas_and_face_outwards(tab
         numbers = tab.evaluate(
             """async (call) => {
                 const meshes = await import("/scene/meshes.js");
-                return [...new Function("meshes", `return meshes.${call}`)(meshes)];
+                const mesh = new Function("meshes", `return meshes.${call}`)(meshes);
+                return JSON.stringify([...mesh]);
             }""",
             call,
         )
-        corners = np.array(numbers).reshape(-1, 3, 9)
+        corners = np.array(json.loads(numbers)).reshape(-1, 3, 9)
         places, normals = corners[..., :3], corners[..., 3:6]
         faces = np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
         areas = np.linalg.norm(faces, axis=1)

@@ -94,7 +94,7 @@ def test_theta_alone_names_both_momenta():
 def test_friction_is_found_if_it_is_looked_for_and_else_the_model_fails():
     top = CUSPS.top
     motion = Motion(top, CUSPS.start, Friction(axial=0.125 * top.Iz, transverse=0.25))
-    times = np.arange(240) / 64
+    times = np.arange(120) / 64
     seen = make_axis(motion, times)
     values = read_values(fit_motion(make_record(times, seen, "axis", has_friction=True)))
     assert_near(values["axial/Iz"], 0.125)

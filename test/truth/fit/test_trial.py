@@ -18,12 +18,10 @@ def assert_honest(rows, low, high):
 
 
 def test_a_hundredth_of_the_trial_has_honest_deviations():
-    rows = [try_record(kind, noise, 300) for noise, kind in CASES[::5]] + [
-        try_record(kind, noise, 301) for noise, kind in CASES[2::5]
-    ]
-    # The numbers of one record are correlated: 20 records have some 80 independent pulls, whose
-    # root mean square has a deviation of 8 %. The trial promises 0.8 to 1.25.
-    assert_honest(rows, 0.65, 1.5)
+    rows = [try_record(kind, noise, 300) for noise, kind in CASES[::5]]  # each kind once
+    # The numbers of one record are correlated: 6 records have some 24 independent pulls, whose
+    # root mean square has a deviation of 15 %. The trial promises 0.8 to 1.25.
+    assert_honest(rows, 0.5, 1.75)
 
 
 @pytest.mark.long
