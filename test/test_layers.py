@@ -124,6 +124,30 @@ def test_the_arrows_have_no_circle():
         below = {folder: others for folder, others in below.items() if folder not in lowest}
 
 
+def list_files():
+    """Return the files of the package, and which of them each file imports, for types as well."""
+    paths = {name_module(path): path for path in PACKAGE.rglob("*.py")}
+    found = {name: set() for name in paths}
+    for name, path in paths.items():
+        for node in read_nodes(path):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                within = {f"{node.module}.{each.name}" for each in node.names} & {*paths}
+                found[name] |= (within or {node.module}) & {*paths} - {name}
+    return found
+
+
+def name_module(path):
+    name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+    return name.removesuffix(".__init__")
+
+
+def test_no_files_import_each_other_in_a_circle():
+    below = list_files()
+    while lowest := {name for name, others in below.items() if not others & {*below}}:
+        below = {name: others for name, others in below.items() if name not in lowest}
+    assert not below, sorted(below)
+
+
 def test_other_folders_import_physics_by_its_public_names_only():
     public = {"symtop_ros.physics"}
     for folder in set(ARROWS) - {"physics"}:

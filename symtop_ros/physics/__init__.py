@@ -23,7 +23,6 @@ from symtop_ros.physics.dynamics import (
     point_acceleration,
     specific_force,
 )
-from symtop_ros.physics.exchange import Exchange
 from symtop_ros.physics.kernel.door import kernel_version
 from symtop_ros.physics.kernel.records import QUESTIONS, Direction, Hold, Kind
 from symtop_ros.physics.kicks import (
@@ -35,8 +34,8 @@ from symtop_ros.physics.kicks import (
     set_precession_rate,
     validate_hold,
 )
-from symtop_ros.physics.ledger import Contribution, Energies, Ledger
-from symtop_ros.physics.motion import Motion, find_period
+from symtop_ros.physics.ledger import Contribution, Energies, Exchange, Ledger
+from symtop_ros.physics.motion import Motion, Piece, find_period
 from symtop_ros.physics.motions import Motions
 from symtop_ros.physics.parts import BODIES, SIZES, Part
 from symtop_ros.physics.potential import EffectivePotential
@@ -47,7 +46,7 @@ from symtop_ros.physics.precession import (
     theta_acceleration,
     theta_torque,
 )
-from symtop_ros.physics.pushes import MOST_PUSHES, PUSH_RATES, Piece, Pushes
+from symtop_ros.physics.pushes import MOST_PUSHES, PUSH_RATES, Pushes
 from symtop_ros.physics.rule.cause import Cause
 from symtop_ros.physics.rule.clamp import ClampVerdict, clamp_verdict
 from symtop_ros.physics.rule.perry import KickVerdict, Lift, kick_verdict

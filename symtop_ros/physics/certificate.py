@@ -1,22 +1,21 @@
 """Proved bounds of the errors of states: what the extra `reference` brings is imported here."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from symtop_ros.base.arrays import Vector
 from symtop_ros.base.missing import name_remedy
 from symtop_ros.base.refusals import RefusedError, Words, refuse
+from symtop_ros.physics.state import State
 from symtop_ros.physics.times import SECOND, ExactTimes
-from symtop_ros.physics.values import validate_array
+from symtop_ros.physics.top import Top
 
-if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
-
-    from symtop_ros.physics.motion import Motion
-    from symtop_ros.physics.state import State
+Drive = tuple[tuple[float, float], Vector]  # coefficients of friction, and a torque in N m
 
 
 @dataclass(frozen=True)
@@ -35,14 +34,15 @@ class Certificate:
     angular_velocity: Any
 
 
-def certify(motion: "Motion", t: "ArrayLike | ExactTimes") -> Certificate:
-    """Return the bounds of the errors of a motion at times in s: see `Motion.certify`."""
-    if motion.pushes:
-        raise refuse("pushes", "none for a certificate: take a piece", motion.pushes)
-    times = t if isinstance(t, ExactTimes) else validate_array("t", t, unit="s")
-    states = motion.at(times.ravel())
-    rows = np.array(_bound(motion, list_exactly(times), states)).reshape(-1, 2)
-    attitude, rates = (column.reshape(times.shape) for column in rows.T)
+def certify(
+    top: Top, start: State, drive: Drive, clamped: bool, times: Any, states: State
+) -> Certificate:
+    """Return the bounds of the errors of states at times in s, an array or exact times.
+
+    They are compared with the motion from a start: see `Motion.certify`.
+    """
+    rows = [*_bound(top, start, drive, clamped, list_exactly(times), states)]
+    attitude, rates = (column.reshape(times.shape) for column in np.reshape(rows, (-1, 2)).T)
     if times.shape:
         return Certificate(attitude, rates)
     return Certificate(float(attitude), float(rates))
@@ -56,25 +56,26 @@ def list_exactly(times: Any) -> list[Fraction]:
     return list(map(Fraction, times.ravel().tolist()))
 
 
-def _bound(motion: "Motion", times: list[Fraction], states: "State") -> list[tuple[float, float]]:
-    """Return the bounds of the attitude and of the rates for each state."""
+def _bound(
+    top: Top, start: State, drive: Drive, clamped: bool, times: list[Fraction], states: State
+) -> Iterator[tuple[float, float]]:
+    """Yield the bounds of the attitude and of the rates of each state."""
     try:
         from symtop_ros.physics.reference import Inputs, balls, proved
     except ModuleNotFoundError as error:
         remedy = name_remedy(error.name or "")
         raise RefusedError(f"a certificate needs {error.name}: {remedy}") from None
-    inputs = Inputs.of(motion.top, motion.start)
-    if motion.clamped:
-        inputs = inputs.clamp()
-    drive = motion.friction.coefficients, motion.applied_torque
+    inputs = Inputs.of(top, start)
     try:
-        exact = proved.prove_states(inputs, times, 30, *drive)
+        exact = proved.prove_states(inputs.clamp() if clamped else inputs, times, 30, *drive)
     except balls.TooFewBitsError:
         farthest = Words(f"{float(max(map(abs, times))):g} s")
         raise refuse("t", f"one that {balls.MOST_BITS} bits can prove", farthest) from None
-    rows = zip(exact, states.orientation.tolist(), states.angular_velocity.tolist(), strict=True)
-    errors = (proved.bound_errors(*row) for row in rows)
-    return [(_round_up(attitude), _round_up(rates)) for attitude, rates in errors]
+    for row in zip(
+        exact, states.orientation.tolist(), states.angular_velocity.tolist(), strict=True
+    ):
+        attitude, rates = proved.bound_errors(*row)
+        yield _round_up(attitude), _round_up(rates)
 
 
 def _round_up(ball: Any) -> float:

@@ -1,7 +1,8 @@
 """The exchange in a stretch of a motion: energy, p_phi, p_psi, angular momentum, and who gives it.
 
 The kernel forms changes between two states as products (`rule/exchange.hpp`), so that nothing is
-lost in large numbers that cancel.
+lost in large numbers that cancel. A ledger has the numbers; an exchange is the record of what is
+said of them, in which rounding counts as nothing.
 """
 
 import math
@@ -10,27 +11,35 @@ from dataclasses import astuple, dataclass, field
 from functools import partial
 from itertools import pairwise, starmap
 from operator import add
+from typing import Literal
 
 import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import Words, refuse, require, show, show_limit
 from symtop_ros.physics.dynamics import find_fastest_rate
-from symtop_ros.physics.exchange import Exchange
 from symtop_ros.physics.kernel.door import find_exchange
 from symtop_ros.physics.kernel.records import EnergiesRecord, ExchangeRecord
-from symtop_ros.physics.motion import Motion
-from symtop_ros.physics.pushes import Piece
+from symtop_ros.physics.motion import Motion, Piece
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import validate_number, validate_one
+from symtop_ros.words import write
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to rounding over a part
-PART = 2.0  # rad of the fastest rate in a part
+STEP = 2.0  # rad of the fastest rate in a part
 MOST_PARTS = 30_000  # of a stretch with friction or a torque: some seconds
 SLIP = 1e-9  # of half a nutation, by which rounding may move a turning point
 HALVINGS = 80  # of the half nutation in which a turning point is found: down to rounding
+MILLI = 1e3
+ROUNDING = 1e-12  # of the sizes at both ends: ten times the promise of states; less is rounding
+
+Part = Literal["weight", "precession", "nutation", "spin"]
+CauseName = Literal["pushes", "clamp", "friction", "torque"]
+Momentum = Literal["p_phi", "p_psi"]
+PARTS: tuple[Part, ...] = ("weight", "precession", "nutation", "spin")
+CAUSES: tuple[CauseName, ...] = ("pushes", "clamp", "friction", "torque")
 
 
 @dataclass(frozen=True, slots=True)
@@ -252,6 +261,85 @@ class Ledger:
         return self.pushes, self.clamp, self.friction, self.torque
 
 
+@dataclass(frozen=True, slots=True)
+class Share:
+    """The energy in mJ that a part gave or got, or that a cause gave or took."""
+
+    kind: Literal["gave", "got", "took"]
+    who: Part | CauseName
+    amount: float
+
+
+@dataclass(frozen=True, slots=True)
+class Gift:
+    """The momentum in N m s that a cause gave to p_phi or p_psi, or took from it."""
+
+    kind: Literal["gave", "took"]
+    who: CauseName
+    amount: float
+    name: Momentum
+
+
+@dataclass(frozen=True, slots=True)
+class Momenta:
+    """Changes of p_phi and p_psi, by their causes."""
+
+    kind: Literal["kept", "changed"]
+    gifts: tuple[Gift, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Exchange:
+    """Exchange of a stretch: shares of energy, the givers first, or none, and momenta."""
+
+    kind: Literal["energy", "none"]
+    duration: float  # s
+    shares: tuple[Share, ...]
+    momenta: Momenta
+
+    @classmethod
+    def of(cls, ledger: Ledger) -> "Exchange":
+        """Return the exchange of a ledger."""
+        shares = sorted(_list_shares(ledger), key=lambda each: each.kind != "gave")
+        gifts = tuple(_list_gifts(ledger))
+        return cls(
+            "energy" if shares else "none",
+            ledger.end - ledger.begin,
+            tuple(shares),
+            Momenta("changed" if gifts else "kept", gifts),
+        )
+
+    def __str__(self) -> str:
+        """Return the exchange in words."""
+        return write("exchange", self)
+
+
+def _list_shares(ledger: Ledger) -> Iterator[Share]:
+    sizes = ledger.sizes
+    *_, spin = PARTS
+    least = ROUNDING * (sizes.weight + sizes.precession + sizes.nutation)
+    for part in PARTS:
+        gain = getattr(ledger.gained, part)
+        # The spin is many times the rest, and so is its rounding.
+        if abs(gain) > (ROUNDING * sizes.spin if part == spin else least):
+            yield Share("got" if gain > 0 else "gave", part, MILLI * abs(gain))
+    for cause in CAUSES:
+        work = getattr(ledger, cause).work
+        if abs(work) > least:
+            yield Share("gave" if work > 0 else "took", cause, MILLI * abs(work))
+
+
+def _list_gifts(ledger: Ledger) -> Iterator[Gift]:
+    least = ROUNDING * ledger.momentum_size
+    for cause in CAUSES:
+        given = getattr(ledger, cause)
+        amounts: dict[Momentum, float]
+        amounts = {"p_phi": given.vertical_momentum, "p_psi": given.axial_momentum}
+        for name, amount in amounts.items():
+            if abs(amount) > least:
+                yield Gift("gave" if amount > 0 else "took", cause, abs(amount), name)
+
+
 def _exchange(top: Top, first: State, last: State) -> ExchangeRecord:
     """Return what the kernel finds for two states."""
     states = first, last
@@ -334,9 +422,9 @@ def _integrate_pieces(pieces: list[Piece], begin: float, end: float) -> _Integra
 
 
 def _list_parts(motion: Motion, begin: float, end: float) -> Iterator[tuple[float, float]]:
-    """Yield parts in which the integrands turn by PART radians."""
+    """Yield parts in which the integrands turn by STEP radians."""
     while begin < end:
-        longest = PART / find_fastest_rate(motion, begin)
+        longest = STEP / find_fastest_rate(motion, begin)
         left = end - begin
         if left > MOST_PARTS * longest:
             wanted = f"at most {show_limit(MOST_PARTS * longest)} s after begin"

@@ -4,7 +4,7 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,7 +27,7 @@ from symtop_ros.physics.certificate import Certificate, certify
 from symtop_ros.physics.jacobian import differentiate
 from symtop_ros.physics.kernel import door, states
 from symtop_ros.physics.kernel.records import Engine, Kind, PieceRecord, RatesRecord
-from symtop_ros.physics.pushes import Piece, Pushes
+from symtop_ros.physics.pushes import Pushes
 from symtop_ros.physics.state import Angles, State
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Friction, Top
@@ -392,7 +392,7 @@ class Motion:
         require(steps >= 0, "steps", ">= 0", steps)
         return states.reach(self._kernel, t, min(steps, states.LONGEST_WAY))
 
-    def piece_at(self, t: float | ExactTimes) -> Piece:
+    def piece_at(self, t: float | ExactTimes) -> "Piece":
         """Return what moves at a time: the motion since the last push.
 
         Parameters
@@ -434,7 +434,7 @@ class Motion:
             piece = self._piece = self._make_piece(found)
         return piece
 
-    def _make_piece(self, found: PieceRecord) -> Piece:
+    def _make_piece(self, found: PieceRecord) -> "Piece":
         """Return a piece, which is kept: a driven one is integrated from its start on."""
         _, start, *_ = read_start(np.frombuffer(found.start))
         motion = self.restart(self.start if found.number == 1 else start)
@@ -569,7 +569,12 @@ class Motion:
         >>> bool((proved.attitude < 1e-15).all()), bool((proved.angular_velocity < 1e-13).all())
         (True, True)
         """
-        return certify(self, t)
+        if self.pushes:
+            raise refuse("pushes", "none for a certificate: take a piece", self.pushes)
+        times = t if isinstance(t, ExactTimes) else validate_array("t", t, unit="s")
+        drive = self.friction.coefficients, self.applied_torque
+        states = self.at(times.ravel())
+        return certify(self.top, self.start, drive, self.clamped, times, states)
 
     @property
     def kind(self) -> Kind:
@@ -749,3 +754,11 @@ class Motion:
         """
         rate = abs(float(self.top.axial_momentum(self.start))) / self.top.Ix
         return math.nan if self.clamped else rate
+
+
+class Piece(NamedTuple):
+    """The motion between two pushes."""
+
+    motion: Motion  # from the state that the last push left
+    begin: int  # ns of the whole motion at that push
+    number: int  # of the pushes up to then; 0 of a motion without pushes

@@ -1,4 +1,4 @@
-"""A series of equal pushes on the axle, and the pieces of motion between them.
+"""A series of equal pushes on the axle.
 
 When they come and what follows is in the kernel (`kernel/functions/pushes.hpp`).
 """
@@ -6,14 +6,10 @@ When they come and what follows is in the kernel (`kernel/functions/pushes.hpp`)
 import math
 from dataclasses import astuple, dataclass
 from struct import pack
-from typing import TYPE_CHECKING, NamedTuple
 
 from symtop_ros.base.refusals import refuse, require
 from symtop_ros.physics.times import SECOND
 from symtop_ros.physics.values import validate_number
-
-if TYPE_CHECKING:
-    from symtop_ros.physics.motion import Motion
 
 MOST_PUSHES = 1000  # of a series
 PUSH_RATES = (0.01, 1000.0)  # per s
@@ -76,11 +72,3 @@ class Pushes:
     def packed(self) -> bytes:
         """The numbers, as `symtop_pushes` has them."""
         return pack("3d", *astuple(self))
-
-
-class Piece(NamedTuple):
-    """The motion between two pushes."""
-
-    motion: "Motion"  # from the state that the last push left
-    begin: int  # ns of the whole motion at that push
-    number: int  # of the pushes up to then; 0 of a motion without pushes

@@ -26,7 +26,7 @@ from symtop_ros.replay.view.entities import draw_parallel
 from symtop_ros.replay.view.torques import torques_of
 from symtop_ros.run.simulation.changes.requests import initial_state
 from symtop_ros.run.simulation.settings import Settings
-from symtop_ros.truth.judge.figures import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.truth.judge.look import BLUE, GOLD, GREY, INK, RED, new_figure
 from workshop.article.answers.fictitious import draw_arrow, plot_torques
 from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger

@@ -21,7 +21,7 @@ from symtop_ros.replay.view.view import View
 from symtop_ros.replay.viewer import create_recording
 from symtop_ros.run.simulation.changes.outcomes import Start
 from symtop_ros.run.simulation.segment import Segment
-from symtop_ros.truth.judge.figures import GREY, RED
+from symtop_ros.truth.judge.look import GREY, RED
 from workshop.article.figures import FIGURES
 from workshop.article.maps import draw_map, make_map
 from workshop.article.motions import PSI_DOT, SLOW, THETA, TOP

@@ -20,7 +20,7 @@ from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.truth.imu import CONSUMER, ImuRecord, record_imu
 from symtop_ros.truth.judge.compare import NONE, Errors, compare
 from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.figures import (
+from symtop_ros.truth.judge.look import (
     BLUE,
     GOLD,
     GREY,

@@ -18,7 +18,7 @@ from mpmath import mp, mpf
 
 from symtop_ros.physics import STANDARD_GRAVITY
 from symtop_ros.physics.reference import Inputs
-from symtop_ros.truth.testset.score import FILE, read_problems
+from symtop_ros.truth.testset.score import FILE, VERSION, read_problems
 from symtop_ros.truth.testset.tables import FORCES, LIMITS, STATES, WORLD, complete, format_problems
 from workshop.digits import ClosedForm, ExactState, Series
 from workshop.testset.exact import DIGITS, distance, perturb, returning_series
@@ -146,7 +146,7 @@ def main() -> None:
             problem["mujoco_urdf_effect"] = effects.get(name, problem["mujoco_urdf_effect"])
             problems.append(problem)
             print(setting.name, flush=True)
-    text = format_problems(problems, STANDARD_GRAVITY)
+    text = format_problems(problems, STANDARD_GRAVITY, VERSION)
     PACKED.write_bytes(lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))
 
 

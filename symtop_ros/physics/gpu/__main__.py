@@ -15,7 +15,8 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics.gpu import DeviceError, Motions
-from symtop_ros.physics.gpu.device import (
+from symtop_ros.physics.gpu.draw import draw_family, draw_mixed
+from symtop_ros.physics.gpu.toolchain import (
     BLOCK,
     SOURCES,
     compute_on_cpu,
@@ -24,7 +25,6 @@ from symtop_ros.physics.gpu.device import (
     open_cupy,
     open_functions,
 )
-from symtop_ros.physics.gpu.draw import draw_family, draw_mixed
 
 SEED = 20261126
 STEPS = 10_000  # of Runge and Kutta

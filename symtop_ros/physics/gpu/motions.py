@@ -9,7 +9,7 @@ import numpy as np
 
 from symtop_ros.base.refusals import refuse, require
 from symtop_ros.physics.arguments import read_start
-from symtop_ros.physics.gpu.device import open_cupy, open_functions
+from symtop_ros.physics.gpu.toolchain import open_cupy, open_functions
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State

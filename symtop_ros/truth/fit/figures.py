@@ -7,7 +7,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from symtop_ros.truth.fit.report import Report
-from symtop_ros.truth.judge.figures import (
+from symtop_ros.truth.judge.look import (
     BLUE,
     GOLD,
     GREY,

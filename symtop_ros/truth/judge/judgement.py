@@ -1,6 +1,5 @@
 """A judgement of estimates, and its figures as text and for JSON."""
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
@@ -362,13 +361,10 @@ def format_judgements(judgements: Sequence[Judgement]) -> str:
     return "\n".join([f"{'attitude (rad)':{width}}{_head(0)}", *rows, *notes])
 
 
-def tell_limit(error: float, limit: float | None, verb: str = "is") -> int:
-    """Return the status of an error of the attitude: 1, with a line, if it is above the limit."""
-    if not limit or error <= limit:
-        return 0
-    text = f"top_judge: the attitude {verb} off by {error:.3g} rad, limit {limit:g} rad"
-    print(text, file=sys.stderr)
-    return 1
+def enforce_limit(error: float, limit: float | None, verb: str = "is") -> None:
+    """Refuse an error of the attitude above the limit, if there is one."""
+    if limit and error > limit:
+        raise RefusedError(f"the attitude {verb} off by {error:.3g} rad, limit {limit:g} rad")
 
 
 def _head(width: int) -> str:

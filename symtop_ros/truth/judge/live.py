@@ -19,7 +19,7 @@ from symtop_ros.run.simulation.topics import DEFAULT_NAME, EVENTS, Topic
 from symtop_ros.run.wire.names import full_name
 from symtop_ros.truth.judge.compare import Errors, compare
 from symtop_ros.truth.judge.estimates import decode_estimates
-from symtop_ros.truth.judge.judgement import tell_limit
+from symtop_ros.truth.judge.judgement import enforce_limit
 from symtop_ros.truth.judge.summary import summarize
 from symtop_ros.truth.judge.truth import Truth
 
@@ -136,7 +136,8 @@ def judge_live(options: argparse.Namespace, arguments: list[str]) -> int:
     except Exception as error:
         print(f"top_judge: {describe_failure(error)}", file=sys.stderr)
         return 1
-    return tell_limit(worst, limit, "was")
+    enforce_limit(worst, limit, "was")
+    return 0
 
 
 def _find_type(executor: SingleThreadedExecutor, node: Node, topic: str) -> str:

@@ -12,7 +12,7 @@ from symtop_ros.base.header import make_header
 from symtop_ros.base.refusals import one_line
 from symtop_ros.truth.judge.attitudes import ORDERS
 from symtop_ros.truth.judge.clock import format_clocks, measure_clock
-from symtop_ros.truth.judge.judgement import Judgement, format_judgements, judge, tell_limit
+from symtop_ros.truth.judge.judgement import Judgement, enforce_limit, format_judgements, judge
 from symtop_ros.truth.judge.problems import run_testset
 from symtop_ros.truth.judge.relative import read_lag
 from symtop_ros.truth.judge.runs import (
@@ -198,7 +198,8 @@ def _judge(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:
     if options.output:
         _write(judgements, text, options.output)
     largest = max(float(each.errors.total.max()) for each in judgements)
-    return tell_limit(largest, options.max_error)
+    enforce_limit(largest, options.max_error)
+    return 0
 
 
 def _read_clock(options: argparse.Namespace) -> None:
@@ -227,7 +228,8 @@ def _write(judgements: list[Judgement], text: str, folder: Path) -> None:
     if len(judgements) > 1:
         return
     try:
-        from symtop_ros.truth.judge.figures import draw_errors, write_figures
+        from symtop_ros.truth.judge.error_plot import draw_errors
+        from symtop_ros.truth.judge.look import write_figures
     except ModuleNotFoundError as error:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
     else:

@@ -14,7 +14,7 @@ from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
 from symtop_ros.run.models import FORMATS, FREE_FORMATS, UNSAID, name_file
 from symtop_ros.run.models.descriptions import describe
 from symtop_ros.run.models.snippets import format_snippets, format_world_snippets
-from symtop_ros.truth.judge.judgement import tell_limit
+from symtop_ros.truth.judge.judgement import enforce_limit
 from symtop_ros.truth.judge.scoreboard import Entry, format_json, format_table, read_entries
 from symtop_ros.truth.testset import score
 from symtop_ros.truth.testset.tables import format_problems, tabulate
@@ -79,7 +79,8 @@ def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> i
         entries = [Entry(path.stem, score.score_file(problems, options.testset, path))]
         facts = json.dumps(header | entries[0].facts(), indent=1)
         print(facts if options.json else entries[0].score.format())
-    return tell_limit(max(each.error for each in entries), options.max_error)
+    enforce_limit(max(each.error for each in entries), options.max_error)
+    return 0
 
 
 def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
@@ -87,7 +88,7 @@ def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
     facts = [each.facts for each in problems.values()]
     models = {name: text for each in facts for name, text in _describe_models(each).items()}
     texts = {
-        score.FILE.name: format_problems(facts, STANDARD_GRAVITY),
+        score.FILE.name: format_problems(facts, STANDARD_GRAVITY, score.VERSION),
         **tabulate(facts),
         **{f"{MODELS}/{name}": text for name, text in models.items()},
     }

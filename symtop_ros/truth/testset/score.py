@@ -230,7 +230,7 @@ def _read_texts(path: Path) -> dict[str, bytes]:
     if packed.exists():
         from symtop_ros.truth.testset.tables import unpack  # a copy of this file has no package
 
-        return {path.name: unpack(packed.read_bytes()).encode()}
+        return {path.name: unpack(packed.read_bytes(), VERSION).encode()}
     return {each.name: each.read_bytes() for each in sorted(path.parent.glob("*.json"))}
 
 

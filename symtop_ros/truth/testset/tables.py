@@ -17,7 +17,6 @@ from itertools import chain
 from typing import Any
 
 from symtop_ros.base.arrays import multiply
-from symtop_ros.truth.testset.score import VERSION
 
 CONSTANTS = ("Ix", "Iz", "Mgl", "mass", "arm", "Ix_centre")
 QUATERNION = ("w", "x", "y", "z")
@@ -60,11 +59,11 @@ Numbers = Sequence[Decimal]
 
 
 @cache  # it takes 0.2 s
-def unpack(data: bytes) -> str:
+def unpack(data: bytes, version: str) -> str:
     """Return the text of problems.json from its packed form."""
     facts = json.loads(lzma.decompress(data))
     whole = [complete(each, facts["gravity"]) for each in facts["problems"]]
-    return format_problems(whole, facts["gravity"])
+    return format_problems(whole, facts["gravity"], version)
 
 
 def complete(facts: Mapping[str, Any], gravity: float) -> dict[str, Any]:
@@ -150,11 +149,11 @@ def show(number: Decimal) -> str:
     return text if "." in text else f"{text}.0"
 
 
-def format_problems(problems: Iterable[Facts], gravity: float) -> str:
+def format_problems(problems: Iterable[Facts], gravity: float, version: str) -> str:
     """Return the text of problems.json."""
     facts = {
         "name": "symtop_ros test set",
-        "version": VERSION,
+        "version": version,
         "license": "CC0-1.0",
         "gravity": gravity,
     }

@@ -1,5 +1,5 @@
 // The device's source on the host: each function of motions.cu is run for one thread after the other.
-// A grid is a line here, as it is in the launches of device.py.
+// A grid is a line here, as it is in the launches of toolchain.py.
 #include <cmath>
 #include <cstdint>
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from symtop_ros.physics.gpu import device
+from symtop_ros.physics.gpu import toolchain
 from symtop_ros.physics.kernel import door
 
 HOST = Path(__file__).with_name("host.cpp")
@@ -21,7 +21,7 @@ MEMORY = 2**30  # bytes of the device
 def compile_host(folder):
     """Compile the device's source for the host; return its functions."""
     library = folder / "libhost.so"
-    includes = (f"-I{device.SOURCES}", f"-I{door.FOLDER}")
+    includes = (f"-I{toolchain.SOURCES}", f"-I{door.FOLDER}")
     subprocess.run(["g++", *OPTIONS, *includes, str(HOST), "-o", str(library)], check=True)
     return ctypes.CDLL(str(library))
 
@@ -55,7 +55,7 @@ class RawModule:
     library = None
 
     def __init__(self, code, options, backend):
-        assert code in {path.read_text() for path in device.SOURCES.glob("*.cu")}
+        assert code in {path.read_text() for path in toolchain.SOURCES.glob("*.cu")}
         assert backend == "nvrtc"
         self.options = options
 

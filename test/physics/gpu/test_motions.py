@@ -13,7 +13,7 @@ from programs import find_fault, run_python
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.physics import Motions as MotionsOfCpu
-from symtop_ros.physics.gpu import DeviceError, Motions, device
+from symtop_ros.physics.gpu import DeviceError, Motions, toolchain
 from symtop_ros.physics.gpu import __main__ as program
 from symtop_ros.physics.gpu.draw import FAMILIES, draw_mixed
 
@@ -24,8 +24,8 @@ BAD_TOP, BAD_TIME, TOO_FAR = 2, 7, 8  # of symtop_status
 
 
 def forget():
-    device.open_cupy.cache_clear()
-    device._open.cache_clear()
+    toolchain.open_cupy.cache_clear()
+    toolchain._open.cache_clear()
 
 
 @pytest.fixture(scope="module", name="library")
@@ -47,11 +47,11 @@ def _cupy(library, monkeypatch):
 
 def test_no_bit_of_any_family_differs_from_the_kernel_of_the_processor(cupy):
     starts, times = draw_mixed(COUNT, 11)
-    functions = device.open_functions()
+    functions = toolchain.open_functions()
     motions, status = functions.prepare(cupy.asarray(starts))
     found = functions.read(motions, cupy.asarray(times), 1, 1)
-    expected = device.compute_on_cpu(starts, times)
-    assert device.find_different(expected, found).sum() == 0
+    expected = toolchain.compute_on_cpu(starts, times)
+    assert toolchain.find_different(expected, found).sum() == 0
     written = (expected[2] == 0).sum()
     refused = COUNT // len(FAMILIES)
     assert (status == BAD_TOP).sum() == pytest.approx(refused, abs=1)
@@ -160,7 +160,7 @@ def test_times_that_do_not_fit_are_named(cupy):
 
 
 def test_what_does_not_fit_into_memory_is_refused_with_the_number_that_does(cupy):
-    size = device.open_functions().motion_bytes
+    size = toolchain.open_functions().motion_bytes
     with pytest.raises(ValueError, match=f"motions must be at most {MEMORY // size} "):
         Motions((1.0, 1.0, np.ones(MEMORY // size + 1)), START)
     with pytest.raises(ValueError, match="states must be at most"):
@@ -168,14 +168,14 @@ def test_what_does_not_fit_into_memory_is_refused_with_the_number_that_does(cupy
 
 
 def test_a_device_with_another_bit_is_refused(cupy, monkeypatch):
-    read = device.Functions.read
+    read = toolchain.Functions.read
 
     def spoil(*arguments):
         found = read(*arguments)
         found[0][7, 0, 2] = np.nextafter(found[0][7, 0, 2], 2.0)
         return found
 
-    monkeypatch.setattr(device.Functions, "read", spoil)
+    monkeypatch.setattr(toolchain.Functions, "read", spoil)
     with pytest.raises(
         DeviceError, match=r"got others in 1 of 288 motions of the trial .*first: 7"
     ):
@@ -183,9 +183,9 @@ def test_a_device_with_another_bit_is_refused(cupy, monkeypatch):
 
 
 def test_the_trial_has_all_families():
-    rows = np.load(device.TRIAL)
+    rows = np.load(toolchain.TRIAL)
     assert rows.shape == (24 * len(FAMILIES), 16)
-    orientation, _, left = device.compute_on_cpu(rows[:, :15].copy(), rows[:, 15].copy())
+    orientation, _, left = toolchain.compute_on_cpu(rows[:, :15].copy(), rows[:, 15].copy())
     refused = np.isnan(orientation[:, 0]).reshape(len(FAMILIES), -1).sum(axis=1)
     assert dict(zip(FAMILIES, refused, strict=True))["refused"] == 24
     assert (left != 0).sum() == refused.sum() < 40
@@ -209,7 +209,7 @@ def test_without_cupy_a_line_names_it():
     )
     done = run_python(f"{code}sys.argv[1:] = []; sys.exit(main())")
     assert done.returncode == 1
-    assert done.stderr == f"symtop_ros.physics.gpu: {device.NO_CUPY}\n"
+    assert done.stderr == f"symtop_ros.physics.gpu: {toolchain.NO_CUPY}\n"
 
 
 def test_without_a_gpu_a_line_says_so(cupy):
@@ -222,9 +222,9 @@ def test_without_a_gpu_a_line_says_so(cupy):
 
 
 def test_the_options_change_with_the_headers(monkeypatch, tmp_path):
-    before = device.list_options()
+    before = toolchain.list_options()
     (tmp_path / "new.hpp").write_text("")
-    monkeypatch.setattr(device, "SHIM", tmp_path)
-    assert device.list_options()[-1].startswith("-DSYMTOP_DIGEST=")
+    monkeypatch.setattr(toolchain, "SHIM", tmp_path)
+    assert toolchain.list_options()[-1].startswith("-DSYMTOP_DIGEST=")
     (tmp_path / "new.hpp").write_text("// changed")
-    assert device.list_options()[-1] != before[-1]
+    assert toolchain.list_options()[-1] != before[-1]

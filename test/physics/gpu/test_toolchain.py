@@ -11,7 +11,7 @@ from documents import ROOT
 from physics.gpu.registers import find_suspects
 from programs import execute
 
-from symtop_ros.physics.gpu import device
+from symtop_ros.physics.gpu import toolchain
 
 PYTHON = ROOT / ".venv/gpu/bin/python"
 pytestmark = [
@@ -51,8 +51,8 @@ def compile_ptx(version, architecture, folder, options=None):
     """Compile motions.cu; return the path of the PTX."""
     library = find_nvidia() / COMPILERS[version][0]
     target = folder / f"{version}-{architecture}.ptx"
-    words = [PYTHON, "-c", NVRTC, device.MAIN, target, f"{library}/libnvrtc.so.1?"]
-    options = [f"-arch=compute_{architecture}", *(options or device.list_options())]
+    words = [PYTHON, "-c", NVRTC, toolchain.MAIN, target, f"{library}/libnvrtc.so.1?"]
+    options = [f"-arch=compute_{architecture}", *(options or toolchain.list_options())]
     execute([*words, *options], check=True, env={**os.environ, "LD_LIBRARY_PATH": str(library)})
     return target
 
@@ -72,7 +72,7 @@ def test_three_products_are_fused_where_the_source_says_so_and_no_function_is_ca
 
 
 def test_the_count_finds_products_that_are_fused(tmp_path):
-    options = [each.replace("--fmad=false", "--fmad=true") for each in device.list_options()]
+    options = [each.replace("--fmad=false", "--fmad=true") for each in toolchain.list_options()]
     text = compile_ptx("13.0", "90", tmp_path, options).read_text()
     assert len(re.findall(r"\bfma\.rn\.f64\b", text)) > 100
 
@@ -88,5 +88,5 @@ def test_no_uniform_register_is_overwritten_in_another_arm(version, architecture
     path = {**os.environ, "PATH": f"{newest}:{os.environ['PATH']}"}
     sass = execute([newest / "cuobjdump", "-sass", cubin], check=True, env=path).stdout
     found = find_suspects(sass)
-    assert found.keys() == {*device.FUNCTIONS}
+    assert found.keys() == {*toolchain.FUNCTIONS}
     assert not any(found.values()), found

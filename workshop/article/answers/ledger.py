@@ -18,7 +18,7 @@ from symtop_ros.physics import (
     hurry,
     theta_acceleration,
 )
-from symtop_ros.truth.judge.figures import BLUE, GOLD, INK, new_figure
+from symtop_ros.truth.judge.look import BLUE, GOLD, INK, new_figure
 from workshop.article.claims import Measured, claim
 from workshop.article.motions import (
     HURRIED,

@@ -24,7 +24,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from symtop_ros.truth.judge.figures import GREY, INK, RED, new_figure
+from symtop_ros.truth.judge.look import GREY, INK, RED, new_figure
 from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import (
     FAST,

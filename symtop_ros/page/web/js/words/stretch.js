@@ -1,5 +1,5 @@
 // Who gave energy and momentum in a stretch of a run, and who has it. The numbers are the kernel's; the
-// record of their names is that of physics/exchange.py.
+// record of their names is that of physics/ledger.py.
 
 import { findConstants, findExchange, findRest } from "../physics/formulas.js";
 import { NANO } from "../physics/course.js";

@@ -1,4 +1,4 @@
-"""The look of all figures, and that of `top_judge`; needs Matplotlib.
+"""The look of all figures; needs Matplotlib.
 
 Colours differ in grey too, sizes are those of a printed page.
 """
@@ -7,13 +7,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-
-from symtop_ros.base.arrays import Real
-from symtop_ros.truth.judge.compare import Errors
 
 INK, BLUE, RED, GOLD = "#20242c", "#1f5f9e", "#cf5a2b", "#e3a72f"  # from dark to light
 GREY, PALE = "#8a8f98", "#c9cdd3"
@@ -47,7 +43,6 @@ SETTINGS: Any = {
     "figure.constrained_layout.h_pad": 0.06,
     "svg.hashsalt": "symtop_ros",  # the same bytes every time
 }
-POINTS = 5000  # of a curve of `top_judge`
 
 
 def new_figure(height: float, width: float = WIDTH) -> Figure:
@@ -78,28 +73,3 @@ def write_figures(figures: Mapping[str, Callable[[], Figure]], folder: Path) -> 
             figure.set_layout_engine("none")
             figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
             figure.savefig(folder / f"{name}.png", dpi=RESOLUTION)
-
-
-def draw_errors(errors: Errors) -> Figure:
-    """Draw the errors of attitude, heading, tilt, and of the angular velocity if there is one."""
-    figure = new_figure(3.6 if errors.rate is None else 4.8)
-    axes = rows(figure, 1 if errors.rate is None else 2)
-    step = max(1, len(errors.total) // POINTS)
-    t = errors.seconds[::step]
-    for values, color, label in (
-        (errors.total, INK, "attitude"),
-        (np.abs(errors.heading), BLUE, "heading"),
-        (errors.tilt, GOLD, "tilt"),
-    ):
-        axes[0].plot(t, _positive(values[::step]), color=color, label=label, linewidth=1.0)
-    axes[0].set(yscale="log", ylabel="error (rad)")
-    axes[0].legend(ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0))
-    if errors.rate is not None:
-        axes[1].plot(t, _positive(errors.rate[::step]), color=RED, linewidth=1.0)
-        axes[1].set(yscale="log", ylabel=r"error of $\omega$ (rad/s)")
-    return figure
-
-
-def _positive(values: Real) -> Real:
-    """Return values for a logarithmic axis, on which an error of zero is not drawn."""
-    return np.where(values > 0, values, np.nan)
