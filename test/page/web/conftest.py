@@ -56,3 +56,21 @@ def open_page(browser, path, spare, request):
 @pytest.fixture
 def opened(open_page):
     return open_page()
+
+
+@pytest.fixture(scope="module")
+def _shared(browser, path):
+    page = Opened(browser)
+    yield page.open(path)
+    page.close()
+
+
+@pytest.fixture
+def shared(_shared, path, request):
+    """The page, opened once for all tests of a file that ask for it, and put back after each."""
+    failed = request.session.testsfailed
+    yield _shared
+    if request.session.testsfailed > failed:  # a key may be pressed
+        _shared.open(path)
+    else:
+        _shared.put_back()

@@ -59,6 +59,7 @@ window.requestAnimationFrame = (draw) => drawLate((now) => {{
 SLOW = os.environ.get("SLOW_FRAMES")
 USUAL = FEW_FRAMES + UNDRAWN + (slow_frames(int(SLOW)) if SLOW else "")
 PATIENCE = 5.0  # s
+AS_OPENED = "theta=0.5&psi_dot=200&precession=slow"
 WINDOW = {"width": 1280, "height": 720}
 MEDIA = {"media": "null", "color_scheme": "light", "reduced_motion": "null"}
 MEDIA |= {"forced_colors": "null"}
@@ -104,6 +105,15 @@ class Opened:
         self.requests.clear()
         stored = {"origin": "file://", "storageTypes": "all"}
         self.context.new_cdp_session(self.tab).send("Storage.clearDataForOrigin", stored)
+
+    def put_back(self):
+        """Start what a page starts that is opened, with nothing stored; nothing went wrong."""
+        self.check()
+        self.tab.mouse.move(0, 0)
+        self.choose_unit("rad")
+        self.tab.evaluate("() => { localStorage.clear(); history.replaceState(null, '', '#'); }")
+        self.follow(AS_OPENED)
+        assert self.say("refusal") == ""
 
     def _note(self, message):
         """Note what is written to the console, except a driver's remark on its speed."""

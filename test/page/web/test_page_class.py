@@ -85,26 +85,26 @@ def test_a_scene_that_says_a_mass_has_the_force_of_it(opened):
 
 
 @pytest.mark.parametrize("name", BODIES)
-def test_bodies_of_the_classroom_are_those_of_python(opened, name):
-    opened.open_tab("start")
-    opened.tab.select_option("#bodies", name)
-    assert read_top(opened) == list(Body.of_parts(BODIES[name]).top.moments)
-    assert opened.tab.locator("#parts .part").count() == len(BODIES[name])
+def test_bodies_of_the_classroom_are_those_of_python(shared, name):
+    shared.open_tab("start")
+    shared.tab.select_option("#bodies", name)
+    assert read_top(shared) == list(Body.of_parts(BODIES[name]).top.moments)
+    assert shared.tab.locator("#parts .part").count() == len(BODIES[name])
 
 
-def test_a_part_that_is_refused_loses_nothing(opened):
-    opened.open_tab("start")
-    events = opened.read_events()
+def test_a_part_that_is_refused_loses_nothing(shared):
+    shared.open_tab("start")
+    events = shared.read_events()
     for texts, refusal in (
         (("0", "1", "1"), "mass (kg) must be positive, got 0"),
         (("1", "5 in", "1"), "radius, length (m) must be a number, got 5 in"),
         (("1", "1", ""), "distance (m) must be a number, got nothing"),
     ):
-        fill_part(opened, 0, "disc", *texts)
-        opened.tab.click("#use-body")
-        assert opened.say("refusal") == refusal
-        assert opened.tab.locator("#parts input[aria-invalid=true]").count() >= 1
-    assert opened.read_events() == events
+        fill_part(shared, 0, "disc", *texts)
+        shared.tab.click("#use-body")
+        assert shared.say("refusal") == refusal
+        assert shared.tab.locator("#parts input[aria-invalid=true]").count() >= 1
+    assert shared.read_events() == events
 
 
 QUESTIONS = {
@@ -119,16 +119,16 @@ QUESTIONS = {
 
 
 @pytest.mark.parametrize("question", QUESTIONS)
-def test_starts_from_what_is_seen_are_those_of_python(opened, question):
-    opened.open_tab("start")
+def test_starts_from_what_is_seen_are_those_of_python(shared, question):
+    shared.open_tab("start")
     texts, numbers = QUESTIONS[question]
-    opened.ask(question, *texts)
-    top = Top(*read_top(opened))
+    shared.ask(question, *texts)
+    top = Top(*read_top(shared))
     expected = solve_start(top, **dict(zip(question.split(), numbers, strict=True)))
-    assert len(opened.list_solutions()) == len(expected)
+    assert len(shared.list_solutions()) == len(expected)
     for k, solution in enumerate(expected):
-        opened.tab.locator("#solutions button").nth(k).click()
-        start = opened.read_last()
+        shared.tab.locator("#solutions button").nth(k).click()
+        start = shared.read_last()
         assert start.orientation.tolist() == solution.state.orientation.tolist()
         assert start.angular_velocity.tolist() == solution.state.angular_velocity.tolist()
 
@@ -155,17 +155,17 @@ def list_corners(known, half_widths):
 
 
 @pytest.mark.parametrize("question", TYPED)
-def test_the_page_says_how_far_a_start_moves_for_the_last_digits_that_were_typed(opened, question):
-    opened.open_tab("start")
+def test_the_page_says_how_far_a_start_moves_for_the_last_digits_that_were_typed(shared, question):
+    shared.open_tab("start")
     texts, half_widths = TYPED[question]
-    opened.ask(question, *texts)
+    shared.ask(question, *texts)
     names = question.split()
     numbers = {"90\u00b0": math.pi / 2, "pi/4": math.pi / 4, "60 deg": math.pi / 3}
     values = {"2.2 s": 2.2, "1910 rpm": 1910 * math.pi / 30, "3.00e2": 300.0, "200e-3": 0.2}
     known = dict(zip(names, [(numbers | values).get(each, 1.55) for each in texts], strict=True))
     starts = solve_start(ARTICLE, **known)
     corners = list_corners(known, half_widths)
-    said = opened.tab.locator("#solutions .spread").all_inner_texts()
+    said = shared.tab.locator("#solutions .spread").all_inner_texts()
     assert len(said) == len(starts)
     for k, text in enumerate(each.replace("\n", "") for each in said):
         assert text.startswith("within the last digits typed: ")
@@ -180,23 +180,23 @@ def test_the_page_says_how_far_a_start_moves_for_the_last_digits_that_were_typed
             assert high >= max(exact) >= high - width / 10
 
 
-def test_where_the_last_digits_decide_whether_there_is_a_start_the_page_says_so(opened):
-    opened.open_tab("start")
-    opened.ask("theta psi_dot", "0.500", "112")  # none below 111.6 rad/s
-    said = opened.tab.locator("#solutions .spread").all_inner_texts()
+def test_where_the_last_digits_decide_whether_there_is_a_start_the_page_says_so(shared):
+    shared.open_tab("start")
+    shared.ask("theta psi_dot", "0.500", "112")  # none below 111.6 rad/s
+    said = shared.tab.locator("#solutions .spread").all_inner_texts()
     unknown = "within the last digits typed there may be more or fewer such starts"
-    assert said == [unknown] * len(opened.list_solutions())
-    opened.ask("alpha a b", "600.0 1/s^2", "50.00 1/s", "44.00 1/s")
-    said = opened.tab.locator("#solutions .spread").all_inner_texts()
+    assert said == [unknown] * len(shared.list_solutions())
+    shared.ask("alpha a b", "600.0 1/s^2", "50.00 1/s", "44.00 1/s")
+    said = shared.tab.locator("#solutions .spread").all_inner_texts()
     assert [each.partition(":")[0] for each in said] == ["within the last digits typed"] * 2
-    opened.ask("theta psi_dot", "pi/6", "pi*50")
-    said = opened.tab.locator("#solutions .spread").all_inner_texts()
-    assert said == [""] * len(opened.list_solutions())
+    shared.ask("theta psi_dot", "pi/6", "pi*50")
+    said = shared.tab.locator("#solutions .spread").all_inner_texts()
+    assert said == [""] * len(shared.list_solutions())
 
 
-def test_what_no_motion_has_is_refused_in_words(opened):
-    opened.open_tab("start")
-    events = opened.read_events()
+def test_what_no_motion_has_is_refused_in_words(shared):
+    shared.open_tab("start")
+    events = shared.read_events()
     for question, texts, refusal in (
         ("theta dip", ("0.5", "3"), "dip must be positive and at most 2.6415 rad, got 3"),
         ("theta psi_dot", ("0.5", "9"), "spin psi' (rad/s) must be at least 111.63 rad/s in size"),
@@ -217,18 +217,18 @@ def test_what_no_motion_has_is_refused_in_words(opened):
         ),
         ("theta dip", ("0.5", "x"), "dip (rad) must be a number, got x"),
     ):
-        opened.ask(question, *texts)
-        assert opened.say("refusal").startswith(refusal)
-        assert not opened.list_solutions()
-    assert opened.read_events() == events
+        shared.ask(question, *texts)
+        assert shared.say("refusal").startswith(refusal)
+        assert not shared.list_solutions()
+    assert shared.read_events() == events
 
 
-def test_the_table_says_which_way_round_and_from_which_spin_the_top_sleeps(opened):
-    opened.follow("theta=0.5&psi_dot=200")
-    wait_for_table(opened, "counterclockwise from above")
-    wait_for_table(opened, "137.7 rad/s")
-    opened.follow("theta=0.5&psi_dot=-200")
-    wait_for_table(opened, ", clockwise from above")
+def test_the_table_says_which_way_round_and_from_which_spin_the_top_sleeps(shared):
+    shared.follow("theta=0.5&psi_dot=200")
+    wait_for_table(shared, "counterclockwise from above")
+    wait_for_table(shared, "137.7 rad/s")
+    shared.follow("theta=0.5&psi_dot=-200")
+    wait_for_table(shared, ", clockwise from above")
 
 
 def test_where_rounding_decides_the_table_says_from_when_on(opened):

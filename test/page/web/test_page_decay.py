@@ -17,12 +17,12 @@ TOPS = {  # fields that are changed in the scene with friction
 
 
 @pytest.mark.parametrize("name", TOPS)
-def test_the_page_says_of_the_precession_what_a_node_says(name, opened):
-    opened.start_scene("friction")
+def test_the_page_says_of_the_precession_what_a_node_says(name, shared):
+    shared.start_scene("friction")
     for field, text in TOPS[name].items():
-        opened.enter(field, text)
-    decay = Decay.of(read_motion(opened.read_events()[-1]))
-    said = opened.say("why").partition(" Friction slows the spin")
+        shared.enter(field, text)
+    decay = Decay.of(read_motion(shared.read_events()[-1]))
+    said = shared.say("why").partition(" Friction slows the spin")
     expected = write("decay", decay) if decay else ""
     assert "".join(said[1:]).strip() == expected
     assert bool(decay) == (name not in ("no friction at the spin", "for days"))

@@ -8,13 +8,13 @@ import pytest
 from symtop_ros.page.web.join import LANGUAGES
 
 
-def test_an_angle_is_understood_with_its_unit(opened):
+def test_an_angle_is_understood_with_its_unit(shared):
     angles = {"pi/4": math.pi / 4, "π/3": math.pi / 3, "2*pi/5": 2 * math.pi / 5, "pi": math.pi}
     angles |= {"30°": math.pi / 6, "45 deg": math.pi / 4, "0.6 rad": 0.6, "0,7": 0.7, "1e-3": 1e-3}
     for text, theta in angles.items():
-        opened.enter("theta", text)
-        assert opened.say("refusal") == ""
-        assert opened.read_last().euler_angles.theta == pytest.approx(theta, rel=1e-15)
+        shared.enter("theta", text)
+        assert shared.say("refusal") == ""
+        assert shared.read_last().euler_angles.theta == pytest.approx(theta, rel=1e-15)
 
 
 def test_in_degrees_numbers_and_refusals_are_in_degrees(opened):
@@ -32,8 +32,8 @@ def test_in_degrees_numbers_and_refusals_are_in_degrees(opened):
     assert "°" in opened.say("headline")
 
 
-def test_a_refusal_says_what_was_wrong_and_loses_nothing(opened):
-    events = opened.read_events()
+def test_a_refusal_says_what_was_wrong_and_loses_nothing(shared):
+    events = shared.read_events()
     for field, text, refusal in (
         ("theta", "4", "tilt theta must be 0 to 3.1415 rad, got 4"),
         ("theta", "abc", "tilt theta must be a number, got abc"),
@@ -41,9 +41,9 @@ def test_a_refusal_says_what_was_wrong_and_loses_nothing(opened):
         ("top.Ix", "0", "Ix, across the axis (kg m²) must be positive, got 0"),
         ("friction.axial", "-1", "friction, axial (N m s) must be 0 or more, got -1"),
     ):
-        opened.enter(field, text)
-        assert opened.say("refusal").startswith(refusal)
-    assert opened.read_events() == events
+        shared.enter(field, text)
+        assert shared.say("refusal").startswith(refusal)
+    assert shared.read_events() == events
 
 
 def test_the_slider_reaches_the_lower_vertical(opened):
@@ -107,10 +107,10 @@ def test_keys_drags_and_the_wheel_turn_and_move_the_view_and_do_not_touch_the_to
         ("1000", 1000.0),
     ],
 )
-def test_a_rate_is_understood_with_its_unit(opened, typed, rate):
-    opened.enter("psi_dot", typed)
-    assert opened.say("refusal") == ""
-    assert opened.read_last().euler_rates.psi == pytest.approx(rate, rel=1e-12)
+def test_a_rate_is_understood_with_its_unit(shared, typed, rate):
+    shared.enter("psi_dot", typed)
+    assert shared.say("refusal") == ""
+    assert shared.read_last().euler_rates.psi == pytest.approx(rate, rel=1e-12)
 
 
 def test_a_moment_is_understood_with_the_unit_of_its_field_and_no_other(opened):

@@ -37,15 +37,15 @@ def show(name, value, unit):
 
 @pytest.mark.parametrize("unit", UNITS)
 @pytest.mark.parametrize("case", choose(REFUSED, REFUSED[::4]))
-def test_a_limit_that_is_typed_again_is_taken_and_means_the_same(opened, case, unit):
+def test_a_limit_that_is_typed_again_is_taken_and_means_the_same(shared, case, unit):
     question, known, place, refused = case
     names = question.split()
-    opened.choose_unit(unit)
+    shared.choose_unit(unit)
     texts = [show(name, value, unit) for name, value in zip(names, known, strict=True)]
     texts[place] = show(names[place], refused, unit)
-    opened.ask(question, *texts)
-    said = opened.say("refusal")
-    field = opened.tab.locator(f"#known-{names[place]}")
+    shared.ask(question, *texts)
+    said = shared.say("refusal")
+    field = shared.tab.locator(f"#known-{names[place]}")
     assert field.get_attribute("aria-invalid") == "true"
     found = LIMIT.findall(said)
     assert found, said
@@ -54,27 +54,27 @@ def test_a_limit_that_is_typed_again_is_taken_and_means_the_same(opened, case, u
         starts = []
         for ending in ("", suffix):
             texts[place] = f"{value!r}{ending}"
-            opened.ask(question, *texts)
-            assert opened.say("refusal") == "", (said, texts)
-            starts.append(opened.list_solutions())
+            shared.ask(question, *texts)
+            assert shared.say("refusal") == "", (said, texts)
+            starts.append(shared.list_solutions())
         assert starts[0] == starts[1] != [], (said, starts)
-        label = opened.tab.text_content(f"label[for=known-{names[place]}]")
+        label = shared.tab.text_content(f"label[for=known-{names[place]}]")
         assert f"({suffix.strip()})" in label, (label, said)
 
 
 @pytest.mark.parametrize("unit", UNITS)
-def test_the_largest_tilt_of_a_field_is_in_its_unit(opened, unit):
-    opened.choose_unit(unit)
-    opened.enter("theta", "200")
+def test_the_largest_tilt_of_a_field_is_in_its_unit(shared, unit):
+    shared.choose_unit(unit)
+    shared.enter("theta", "200")
     _, limit, suffix = re.search(
-        rf"(must be 0 to) {NUMBER}(°| rad), got 200", opened.say("refusal")
+        rf"(must be 0 to) {NUMBER}(°| rad), got 200", shared.say("refusal")
     ).groups()
     for text in (limit, limit + suffix):
-        opened.enter("theta", text)
-        assert opened.say("refusal") == ""
+        shared.enter("theta", text)
+        assert shared.say("refusal") == ""
         size = math.pi / 180 if unit == "deg" else 1.0
         # angles of a state are exact to 2 eps of pi (docs/accuracy.md)
-        assert opened.read_last().euler_angles.theta == pytest.approx(
+        assert shared.read_last().euler_angles.theta == pytest.approx(
             float(limit) * size, abs=1e-15
         )
 
@@ -106,19 +106,19 @@ def test_an_angle_that_is_typed_is_the_same_after_the_unit_has_changed(opened):
     assert opened.tab.text_content("label[for=known-dip]") == "dip (°)"
 
 
-def test_a_field_that_becomes_good_clears_its_own_refusal_and_no_other(opened):
-    opened.enter("factor", "ten")
-    assert "got ten" in opened.say("refusal")
-    opened.enter("top.Ix", "0/0")
-    assert "got 0/0" in opened.say("refusal")
-    opened.enter("factor", "2")
-    assert "got 0/0" in opened.say("refusal")
-    opened.enter("factor", "0/0")
-    opened.enter("factor", "pi*pi")
-    assert opened.say("refusal") == ""
-    opened.ask("theta precession_period", "0.5", "x")
-    assert "got x" in opened.say("refusal")
-    opened.tab.fill("#known-theta", "0.6")
-    assert "got x" in opened.say("refusal")
-    opened.tab.fill("#known-precession_period", "2")
-    assert opened.say("refusal") == ""
+def test_a_field_that_becomes_good_clears_its_own_refusal_and_no_other(shared):
+    shared.enter("factor", "ten")
+    assert "got ten" in shared.say("refusal")
+    shared.enter("top.Ix", "0/0")
+    assert "got 0/0" in shared.say("refusal")
+    shared.enter("factor", "2")
+    assert "got 0/0" in shared.say("refusal")
+    shared.enter("factor", "0/0")
+    shared.enter("factor", "pi*pi")
+    assert shared.say("refusal") == ""
+    shared.ask("theta precession_period", "0.5", "x")
+    assert "got x" in shared.say("refusal")
+    shared.tab.fill("#known-theta", "0.6")
+    assert "got x" in shared.say("refusal")
+    shared.tab.fill("#known-precession_period", "2")
+    assert shared.say("refusal") == ""
