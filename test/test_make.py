@@ -204,6 +204,11 @@ def test_an_environment_of_another_python_is_made_anew(checkout):
     assert is_anew(printed, f"was made of Python 3.2 in /usr, which is {now} now")
 
 
+def test_a_python_that_is_asked_for_and_is_in_the_environment_changes_nothing(checkout):
+    done = make(checkout, "set-up-python", PYTHON=shutil.which("python3"))
+    assert (done.returncode, done.stdout) == (0, "")
+
+
 def test_an_environment_that_was_not_completed_is_made_anew(checkout):
     (checkout / ".venv/set-up/python.json").unlink()
     status, printed, _ = set_up(checkout, "python")

@@ -337,3 +337,18 @@ def test_circles_and_energy_are_those_of_a_driven_state_after_waiting_and_a_seek
         wells.append(read_well(page))
     first, early, last = wells
     assert first == last != early
+
+
+@pytest.mark.parametrize("scene", choose(("cusps", "hanging"), ("cusps",)))
+def test_the_curve_of_the_well_begins_and_ends_beyond_the_turning_angles(open_page, scene):
+    page = open_page(f"#scene={scene}")
+    page.open_charts("well")
+    names = page.tab.locator("#well text.tick[text-anchor=middle]")
+    page.until(lambda: names.count() == 2)
+    low, high = names.evaluate_all("all => all.map(e => Number(e.getAttribute('x')))")
+    places = [
+        float(x) for x in re.findall(r"[ML]([-\d.]+) ", page.tab.evaluate("looks.readWell")[-1])
+    ]
+    assert min(places) < low - 1  # of a chart some hundred units wide
+    assert low < high
+    assert max(places) > high + 1

@@ -153,3 +153,19 @@ def test_what_a_button_that_is_held_would_do_is_computed(open_page, fragment):
             f"{after.mean_precession_rate:.2f} instead of {motion.mean_precession_rate:.2f} rad/s"
         )
         assert rates in said, said
+
+
+@pytest.mark.wording
+def test_each_push_is_named_by_its_way_in_the_history(opened):
+    words = {
+        "up": "pushed up",
+        "down": "pushed down",
+        "along": "pushed along the precession",
+        "back": "pushed against the precession",
+    }
+    opened.open_tab("push")
+    for way in words:
+        opened.tab.click(f"[data-push={way}]")
+    opened.open_tab("history")
+    said = [text for text in read_history(opened) if text in words.values()]
+    assert said[::-1] == [*words.values()]  # the latest one stands first

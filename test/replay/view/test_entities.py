@@ -398,6 +398,19 @@ def check_charts_lines(drawn, entity):
     assert (box <= [2 + ROUNDED, ROUNDED]).all()
 
 
+def check_cubic_frame(drawn, entity):
+    """The line of zero, at which marks stand, and those of cos(theta) = -1 and 1."""
+    check_charts_lines(drawn, entity)
+    for number, strips in enumerate(rows(drawn.path, entity, "LineStrips2D:strips")[1]):
+        zero, *poles = (np.array(each) for each in strips)
+        chart = read_chart(drawn, entities.CUBIC, number)
+        assert np.abs(zero[:, 1] - chart["marks"][0, 1]).max() <= ROUNDED
+        ends = [measure(chart, pole[:, 0]) for pole in poles]
+        # of labels with three decimals, which are a part of the chart apart
+        span = np.ptp(chart["values"][:2])
+        assert np.abs(np.array(ends) - [[-1.0], [1.0]]).max() <= 0.0005 * 2 * (2 / span + 1)
+
+
 def check_mesh(drawn, entity):
     """A surface: its triangles have areas, and their normals point outwards."""
     find = {
@@ -413,6 +426,9 @@ def check_mesh(drawn, entity):
     assert has_area.mean() > 0.45
     outwards = (faces * normals[corners].sum(axis=1)).sum(axis=1)[has_area]
     assert (outwards > 0).all() or (outwards < 0).all()
+    # Through a closed surface an outward normal leads three times its volume.
+    leads = ((a + b + c) * normals[corners].sum(axis=1)).sum(axis=1)
+    assert (leads * areas).sum() > 0
     low, high = places[:, 2].min(), places[:, 2].max()
     if entity == entities.STAND:
         assert high < 0
@@ -524,6 +540,7 @@ ORACLES: dict[str, Callable[[Drawn, str], None] | None] = {
         for name in ("curve", "before", "frame")
     },
     **{f"{chart}/allowed": check_hatches(chart) for chart in (entities.POTENTIAL, entities.CUBIC)},
+    f"{entities.CUBIC}/frame": check_cubic_frame,
     f"{entities.POTENTIAL}/energy": check_charts_lines,
     f"{entities.POLHODE}/rim": check_cone_rim(find_polhode),
     f"{entities.HERPOLHODE}/rim": check_cone_rim(find_herpolhode),

@@ -242,3 +242,16 @@ def test_pushes_at_any_rate_are_not_crossed(seed, tmp_path):
     acts = [("kick", {"axle_impulse": 2.0**-17, "rate": rate, "number": 40})]
     laws = try_laws(record("looping", tmp_path, acts, seconds=1.0, publish_rate=1000.0))
     assert [each.wrong for each in laws.values()] == [0, 0, 0, 0]
+
+
+def test_after_the_last_push_nothing_is_left_out(tmp_path):
+    impulse = {"axle_impulse": 2.0**-17}
+    samples = []
+    for number, act in enumerate((impulse, {**impulse, "rate": 17.0, "number": 3})):
+        folder = tmp_path / f"{number}"
+        folder.mkdir()
+        run = record("looping", folder, [("kick", act)], seconds=1.0, publish_rate=1000.0)
+        samples.append([each.samples for each in try_laws(run).values()])
+    # Of two pushes more: on each side of each, and a sample that stands at it.
+    for once, often in zip(*samples, strict=True):
+        assert 0 <= once - often <= 2 * (2 * MARGIN + 1)

@@ -172,3 +172,16 @@ def test_the_rounded_rates_of_a_held_precession_in_older_logs_are_accepted_and_n
         check = LogCheck(make_account([event], places=[0]))
         check.add("euler_angles", Columns(stamps, numbers, np.arange(1, 101)))
         assert check.deviations["euler_angles"].differing == differing
+
+
+@pytest.mark.parametrize(("theta", "is_rounding"), [(2.0**-10, True), (1.0, False)])
+def test_the_angles_of_a_driven_motion_have_fewer_digits_next_to_the_pole_only(theta, is_rounding):
+    """Of phi and psi rounding leaves eps / sin(theta)."""
+    start = State.from_euler(theta=theta, psi_dot=200.0)
+    event = start_event(Motion(ARTICLE, start, Friction(axial=1e-9)))
+    stamps = np.arange(1, 11) * 100_000  # in a ms nothing else has lost digits
+    numbers = SAMPLE_TOPICS["euler_angles"].compute(Samples.at(event.segment(), stamps)).copy()
+    numbers[:, 0] += 30 * 2.0**-52 * 2.0**10  # of 64 that are allowed
+    check = LogCheck(make_account([event], places=[0]))
+    check.add("euler_angles", Columns(stamps, numbers, np.arange(1, 11)))
+    assert check.deviations["euler_angles"].is_rounding == is_rounding
