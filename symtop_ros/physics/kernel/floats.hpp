@@ -125,7 +125,8 @@ SYMTOP_SET_UP Float<N> operator*(const Float<N>& a, const Float<N>& b) {
   return result;
 }
 
-// The same for three limbs, from six of the nine products: those left out are below the last bit.
+// The same for three limbs, from six of the nine products. Two of those left out reach a last bit each,
+// or two of a product that is shifted.
 SYMTOP_CALL inline Float<3> operator*(const Float<3>& a, const Float<3>& b) {
   Float<3> result;
   result.sign = a.sign * b.sign;
