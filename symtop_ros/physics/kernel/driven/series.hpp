@@ -59,22 +59,34 @@ class TaylorSeries {
     if (!piece.is_split) compute<COUNT, Fused>(piece);
   }
 
-  // False if numbers are too small or too large for these products.
+  // False if numbers are too small or too large for these products: it ends at the first of them, because
+  // the coefficients of a slow turn fall so fast that those of order 3 may be.
   template <int COUNT, class Product>
   SYMTOP_CLONES bool compute(Piece& piece) {
+    if (!can_take_equations<Product>()) return false;
     put_low<COUNT, Product>(piece, 0);
     for (int n = 0; n < EXTENDED_TERMS; n++) {
+      if (!can_take_order<Product>(piece, n)) return false;
       compute_low<COUNT, Product>(piece, n);
       put_low<COUNT, Product>(piece, n + 1);
     }
+    if (!can_take_order<Product>(piece, EXTENDED_TERMS)) return false;
     for (int n = EXTENDED_TERMS; n < DRIVEN_TERMS; n++) compute_high<COUNT>(piece, n);
+    return true;
+  }
+
+  template <class Product>
+  bool can_take_equations() const {
     bool can_take = Product::can_take(&equations_->friction.high, 1) &&
-                    Product::can_take(&equations_->weight.high, 1) &&
-                    Product::can_take(piece.terms[0], 2 * (EXTENDED_TERMS + 1));
+                    Product::can_take(&equations_->weight.high, 1);
     for (const SumOf<Lanes>& each : equations_->torques)
-      can_take &= Product::can_take(&each.high, 1);
-    for (int n = 0; n <= EXTENDED_TERMS; n++) can_take &= Product::can_take(&right_[n][2], 1);
+      can_take = can_take && Product::can_take(&each.high, 1);
     return can_take;
+  }
+
+  template <class Product>
+  bool can_take_order(const Piece& piece, int n) const {
+    return Product::can_take(piece.terms[n], 2) && Product::can_take(&right_[n][2], 1);
   }
 
   //   2 w' = -x Omega_x - y Omega_y - z Omega_z

@@ -8,7 +8,8 @@ import { phrase } from "./wording.js";
 
 /** @import { Course } from "../physics/course.js" */
 
-const STEPS = 20_000; // of an integration for a text; what takes more is left unsaid
+// Of an integration for a text, half a second at most; what takes more is left unsaid.
+const STEPS = 10_000;
 
 /** A second of pushes along the precession. @param {Course} course */
 const pushForASecond = (course) => {
