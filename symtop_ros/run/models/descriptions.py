@@ -1,6 +1,6 @@
 """Equivalent descriptions of one body: its frame turned or moved, its mass in a fixed child.
 
-A turned frame has a full tensor of inertia, or three moments in an inertial frame of their own.
+A turned frame has a full tensor of inertia, or three moments along the axes of an inertial frame.
 
 There is one motion for all of them, and each number is rounded once from the exact one. Engines
 that take frames or children to be special have several.

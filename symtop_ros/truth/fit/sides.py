@@ -55,7 +55,7 @@ def restate(
 ) -> tuple[Model, Real]:
     """Return the model about the start of another motion, and its parameters.
 
-    What the motion does not say is that of the parameters x, but for numbers that changed.
+    Numbers that the motion does not determine are those of x, except the changed ones.
     """
     new = Model(record, np.asarray(motion.start.orientation))
     wx, wy, spin = (float(each) for each in motion.start.angular_velocity)

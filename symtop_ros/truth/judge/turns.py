@@ -2,7 +2,7 @@
 
 Mounts and conventions of axes differ by rotations that take the axes to each other: by a quarter or
 a half of a turn about one of them, a half about the middle of two, or a third about that of three.
-A rotation that its deviation does not tell from one of these 23 has its name.
+A rotation that agrees with one of these 23 within its deviation is called by its name.
 """
 
 import math
@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.base.arrays import Real
+from symtop_ros.base.arrays import Real, compose, find_rotation_vectors, invert
 
 # Deviations of three numbers, whose root of the sum of squares is larger in one case of a thousand.
 TELLING = 4.0
@@ -39,8 +39,8 @@ def describe_axis(q: Real, deviation: float | None) -> dict[str, Any]:
 
     `deviation` is that of its angle in rad. The axis is not said where the angle may be zero.
     """
-    w, *vector = (q if q[0] >= 0 else -q).tolist()
-    angle = 2 * math.atan2(math.hypot(*vector), w)
+    vector = find_rotation_vectors(q).tolist()
+    angle = math.hypot(*vector)
     room = TELLING * deviation if deviation else EXACT
     if angle <= room:
         return {"kind": "none"}
@@ -48,16 +48,15 @@ def describe_axis(q: Real, deviation: float | None) -> dict[str, Any]:
         if _find_angle_between(q, axis, math.radians(degrees)) <= room:
             return {"kind": "named", "degrees": str(degrees), "axis": _name(axis)}
     places = min(max(math.ceil(-math.log10(room / angle)), 1), DECIMALS)
-    unit = [each / math.hypot(*vector) for each in vector]
-    return {"kind": "vector", "axis": f"({', '.join(f'{each + 0.0:.{places}f}' for each in unit)})"}
+    words = ", ".join(f"{round(each / angle, places) + 0.0:.{places}f}" for each in vector)
+    return {"kind": "vector", "axis": f"({words})"}
 
 
 def _find_angle_between(q: Real, axis: tuple[int, ...], angle: float) -> float:
     """Return the angle in rad of the rotation that leads from one about an axis to another."""
     half = angle / 2
     other = np.array([math.cos(half), *np.multiply(axis, math.sin(half) / math.hypot(*axis))])
-    apart = min(float(np.linalg.norm(q - other)), float(np.linalg.norm(q + other)))
-    return 4 * math.asin(min(apart / 2, 1.0))
+    return math.hypot(*find_rotation_vectors(compose(invert(other), q)).tolist())
 
 
 def _name(axis: tuple[int, ...]) -> str:

@@ -8,7 +8,7 @@ import { phrase } from "./wording.js";
 
 /** @import { Course } from "../physics/course.js" */
 
-// Of an integration for a text, half a second at most; what takes more is left unsaid.
+// Of an integration for a text, some tenths of a second; what takes more is left unsaid.
 const STEPS = 10_000;
 
 /** A second of pushes along the precession. @param {Course} course */
