@@ -168,6 +168,7 @@ setup(
             "page/web/*.yaml",
             "page/web/texts/*.json",
             "page/web/*.wasm",
+            "page/web/symbols.*",
             # the kernel for programs in C, C++ and Rust
             "physics/kernel/*.h*",
             "physics/kernel/*.cpp",

@@ -38,7 +38,7 @@ EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
 # has its server.
 POLICY = (
     "default-src 'none'; script-src {script} 'wasm-unsafe-eval'; style-src {style}; "
-    "img-src data: blob:; connect-src {server}; base-uri 'none'; form-action 'none'"
+    "img-src data: blob:; font-src data:; connect-src {server}; base-uri 'none'; form-action 'none'"
 )
 TEXTS = FOLDER / "texts"
 LANGUAGES = tuple(sorted(path.stem for path in TEXTS.glob("*.json")))
@@ -59,6 +59,7 @@ def write_file(
     page, style = (
         (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
     )
+    style = style.replace("/*SYMBOLS*/", _encode((FOLDER / "symbols.woff2").read_bytes()))
     script = join_modules()
     parts = {
         "VERSION": __version__,
@@ -68,7 +69,12 @@ def write_file(
         "STYLE": style,
         "LANGUAGE": f'lang="{language}" data-own' if language else 'lang="en"',
         "CONTENT": _write_data(
-            {"packed": _pack(collect_content()), "opening": opening, "node": node}
+            {
+                "kernel": _pack((FOLDER / "kernel.wasm").read_bytes()),
+                "packed": _pack(json.dumps(collect_content(), ensure_ascii=False).encode()),
+                "opening": opening,
+                "node": node,
+            }
         ),
         "RUN": _write_data(run),
         "SCRIPT": script,
@@ -79,7 +85,7 @@ def write_file(
 def _sign(text: str) -> str:
     """Return the source that allows a script or a style with this text."""
     digest = hashlib.sha256(text.encode()).digest()
-    return f"'sha256-{base64.b64encode(digest).decode()}'"
+    return f"'sha256-{_encode(digest)}'"
 
 
 def _write_data(data: Any) -> str:
@@ -87,16 +93,18 @@ def _write_data(data: Any) -> str:
     return json.dumps(data).replace("<", "\\u003c")
 
 
-def _pack(data: Any) -> str:
-    """Return data packed by gzip, in base64: the kernel and five languages are a third as long."""
-    text = json.dumps(data, ensure_ascii=False).encode()
-    return base64.b64encode(gzip.compress(text, mtime=0)).decode()
+def _pack(data: bytes) -> str:
+    """Return data packed by gzip, in base64: the kernel and five languages are half as long."""
+    return _encode(gzip.compress(data, mtime=0))
+
+
+def _encode(data: bytes) -> str:
+    return base64.b64encode(data).decode()
 
 
 def collect_content() -> dict[str, Any]:
-    """Return what the script reads: the kernel, texts, scenes, fields of a run, lesson."""
+    """Return what the script reads: texts, scenes, fields of a run, lesson."""
     return {
-        "kernel": base64.b64encode((FOLDER / "kernel.wasm").read_bytes()).decode(),
         "texts": {language: read_texts(language) for language in LANGUAGES},
         "scenes": [{"name": name, **_read_values(name)} for name in scene_names()],
         "run_fields": TABLE,
@@ -157,9 +165,9 @@ def _write_function(path: Path) -> str:
 
 
 def drop_comments(text: str) -> str:
-    """Return a module without the comments that fill whole lines: they are for its readers."""
+    """Return a module without what is for its readers: comments of whole lines, indentation."""
     text = re.sub(r"^ */\*\*(?:(?!\*/).)*\*/\n", "", text, flags=re.M | re.S)
-    return re.sub(r"^ *//[^\n]*\n", "", text, flags=re.M)
+    return re.sub(r"^ *(//[^\n]*\n)?", "", text, flags=re.M)
 
 
 def read_file(language: str) -> dict[str, str]:

@@ -188,6 +188,9 @@ FACTS: tuple[Fact, ...] = get_args(Fact)
 HeldKind = Literal["falls", "swings", "rises", "turns", "rests"]
 HELD_KINDS: tuple[HeldKind, ...] = get_args(HeldKind)
 
+Going = Literal["falls", "rises", "turns_up", "turns_down"]
+GOINGS: tuple[Going | None, ...] = (None, "falls", "rises", "turns_up", "turns_down")
+
 
 class StartRecord(Structure):
     """`symtop_start`."""
@@ -381,6 +384,12 @@ class HeldRecord(Structure):
     ]
 
 
+class PresentRecord(Structure):
+    """`symtop_present`."""
+
+    _fields_: ClassVar = [("going", c_int), ("turn", c_int), ("torque_share", c_double)]
+
+
 class EnergiesRecord(Structure):
     """`symtop_energies`."""
 
@@ -427,6 +436,7 @@ RECORDS: tuple[type[Structure], ...] = (
     LiftRecord,
     VerdictRecord,
     HeldRecord,
+    PresentRecord,
     EnergiesRecord,
     ExchangeRecord,
 )
@@ -542,6 +552,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     ),
     "judge_kick": (c_int, (c_char_p, c_char_p, c_int, POINTER(VerdictRecord))),
     "judge_clamp": (c_int, (c_char_p, POINTER(HeldRecord))),
+    "explain_present": (c_int, (c_char_p, POINTER(PresentRecord))),
     "find_doubt": (c_int, (c_char_p, POINTER(c_double))),
     "find_exchange": (c_int, (c_char_p, c_char_p, c_char_p, POINTER(ExchangeRecord))),
     "make": (c_void_p, (c_char_p,)),

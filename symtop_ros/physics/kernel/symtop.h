@@ -607,6 +607,25 @@ typedef struct {
 /* What follows if the precession of a start is held: see symtop_new_clamped, which takes the same. */
 SYMTOP_API symtop_status symtop_judge_clamp(const symtop_start* start, symtop_held* held);
 
+/* Where the weight goes at an instant of a nutation that is seen (more than 5e-4 rad). */
+typedef enum {
+  SYMTOP_GOING_UNSAID, /* "": no nutation, no weight, or within 5 % gravity's torque is what it takes */
+  SYMTOP_GOING_FALLS,
+  SYMTOP_GOING_RISES,
+  SYMTOP_GOING_TURNS_UP,  /* within a hundredth of the nutation period of its lowest point */
+  SYMTOP_GOING_TURNS_DOWN /* the same of its highest point */
+} symtop_going;
+
+typedef struct {
+  symtop_going going;
+  symtop_turn turn;    /* the share in a word: SYMTOP_TURN_RESTS within 5 % of zero; never VERTICAL */
+  double torque_share; /* of gravity's torque: what it takes along the line of nodes to turn L with the
+                          axle; below 1 the weight gains speed downwards; NaN if nothing is said */
+} symtop_present;
+
+/* Why the weight speeds up, slows down or turns at this instant, under gravity alone. */
+SYMTOP_API symtop_status symtop_explain_present(const symtop_start* start, symtop_present* present);
+
 /* Whether rounding decides the kind of a motion under gravity alone: within the rounding of its start,
  * 64 * 2^-52 of it, is an asymptotic motion, and one last place of one number of the start
  * turns the axis by 0.01 rad later on. *shows_at is the time of that in s; infinite without a doubt. */

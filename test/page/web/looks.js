@@ -100,7 +100,10 @@ window.looks = {
     picture.src = `data:image/png;base64,${text}`;
     await picture.decode();
     const { data } = readPixels(picture);
-    const wanted = [1, 3, 5].map((k) => parseInt(color.slice(k, k + 2), 16));
+    const context = document.createElement("canvas").getContext("2d");
+    context.fillStyle = color;
+    context.fillRect(0, 0, 1, 1);
+    const wanted = [...context.getImageData(0, 0, 1, 1).data].slice(0, 3);
     let count = 0;
     for (let k = 0; k < data.length; k += 4)
       count += wanted.every((each, n) => data[k + n] === each);

@@ -163,3 +163,33 @@ window.decideKinds = async (cases) => {
     findBoundaries(top, theta, phi),
   ]);
 };
+
+/** Texts as the page sets them: of each its prose, and of each formula its source, MathML and words. */
+window.setTexts = async (texts) => {
+  const { findFormulas } = await import("/words/formula.js");
+  const { typesetSymbols } = await import("/words/typeset.js");
+  return texts.map((text) => {
+    const parts = typesetSymbols(text);
+    const sources = findFormulas(text).filter(({ terms }) => terms);
+    const isFormula = (part) => part.className?.startsWith("formula");
+    const formulas = parts.filter(isFormula).map((each, k) => ({
+      source: sources[k].text,
+      tree: JSON.stringify(sources[k].terms),
+      pieces: [...each.querySelectorAll("math")].map(({ outerHTML }) => outerHTML),
+      words: each.ariaLabel,
+      name: each.className,
+    }));
+    return { prose: parts.filter((part) => typeof part === "string"), formulas };
+  });
+};
+
+/** Why the axle moves so at an instant, in each language that is loaded. */
+window.sayPresents = async (cases) => {
+  const { Course } = await import("/physics/course.js");
+  const { State } = await import("/physics/state.js");
+  const { describePresent } = await import("/words/present.js");
+  return cases.map(({ top, orientation, omega }) => {
+    const state = new State(kernel, orientation, omega);
+    return describePresent(new Course(kernel, top, state), state);
+  });
+};

@@ -5,9 +5,10 @@ import math
 import re
 
 import pytest
+from page.web.opened import read_motion
 from physics.tops import ARTICLE
 
-from symtop_ros.physics import BODIES, Body, Motion, Part, State, Top, solve_start
+from symtop_ros.physics import BODIES, Body, ExactTimes, Motion, Part, State, Top, solve_start
 
 
 def fill_part(opened, row, kind, *texts):
@@ -68,7 +69,7 @@ def test_a_run_of_a_body_that_was_weighed_names_its_mass_and_has_its_force(opene
     opened.open_tab("start")
     opened.tab.select_option("#bodies", "balanced_gyroscope")
     run = opened.read_run()
-    opened.tab.reload()
+    opened.reload()
     opened.drop(run)
     opened.until(lambda: opened.read_events() == run["events"])
     opened.open_tab("start")
@@ -169,7 +170,7 @@ def test_the_page_says_how_far_a_start_moves_for_the_last_digits_that_were_typed
     assert len(said) == len(starts)
     for k, text in enumerate(each.replace("\n", "") for each in said):
         assert text.startswith("within the last digits typed: ")
-        found = re.findall(r"([\U0001d703\U0001d711\U0001d713])\.? (\S+) to (\S+) rad", text)
+        found = re.findall(r"([\U0001d703\U0001d711\U0001d713])\u02d9? (\S+) to (\S+) rad", text)
         assert found, text
         for symbol, *ends in found:
             name = dict(zip("\U0001d703\U0001d711\U0001d713", NUMBERS, strict=True))[symbol]
@@ -238,3 +239,58 @@ def test_where_rounding_decides_the_table_says_from_when_on(opened):
     shows_at = Motion(Top(1.0, 1.0, 1.0), start).rounding_shows_at
     began = opened.read_events()[-1]["time"]  # s of the run, of which the table speaks
     wait_for_table(opened, f"from {began + shows_at:.3g} s on")
+
+
+def read_start(opened):
+    start = read_motion(opened.read_events()[-1]).start
+    return [start.orientation.tolist(), start.angular_velocity.tolist()]
+
+
+def test_a_moment_is_kept_by_its_name_and_starts_with_its_doubles(opened):
+    opened.open_tab("history")
+    opened.wait_for_time(0.03)
+    opened.press("Space")
+    opened.wait_for_frames(2)
+    opened.tab.fill("#moment-name", "my <b>fast</b> top")
+    opened.tab.click("#keep-moment")
+    time = float(opened.tab.get_attribute("body", "data-time"))
+    kept = read_motion(opened.read_events()[-1]).at(ExactTimes(round(1e9 * time)))
+    opened.reload()
+    opened.follow("scene=looping")
+    opened.open_tab("history")
+    moment = opened.tab.locator("#moments button").first
+    assert moment.text_content() == "my <b>fast</b> top"
+    moment.click()
+    doubles = [kept.orientation.tolist(), kept.angular_velocity.tolist()]
+    opened.until(lambda: read_start(opened) == doubles)
+    opened.tab.fill("#moment-name", " ")
+    opened.tab.keyboard.press("Enter")  # it has the name of its time
+    assert opened.tab.locator("#moments button").nth(2).text_content().endswith(" s")
+    opened.tab.locator("#moments .remove").first.click()
+    assert opened.tab.locator("#moments .row").count() == 1
+
+
+def test_the_link_of_a_start_is_copied(opened):
+    opened.tab.evaluate("""() => {
+        navigator.clipboard.writeText = async (text) => { window.copied = text; };
+    }""")
+    opened.open_tab("save")
+    opened.tab.click("#copy-link")
+    opened.until(lambda: opened.say("copy-link") == "Copied")
+    assert opened.tab.evaluate("window.copied") == opened.tab.input_value("#link")
+    opened.until(lambda: opened.say("copy-link") == "Copy the link")
+
+
+def test_the_page_takes_the_full_screen_and_leaves_it(opened):
+    opened.tab.click("#full")
+    opened.until(lambda: opened.tab.evaluate("document.fullscreenElement !== null"))
+    opened.tab.click("#full")
+    opened.until(lambda: opened.tab.evaluate("document.fullscreenElement === null"))
+
+
+def test_a_projector_leaves_three_fifths_for_the_scene_of_the_lesson(open_page):
+    page = open_page("#lesson=3", viewport={"width": 1366, "height": 768})
+    page.press("p")
+    assert page.tab.locator("#scene").bounding_box()["width"] >= 0.6 * 1366 - 1  # px
+    page.tab.locator("#lesson-predict").wait_for()
+    assert page.tab.evaluate("looks.findCut") == []

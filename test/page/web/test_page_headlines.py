@@ -169,3 +169,42 @@ def test_each_push_is_named_by_its_way_in_the_history(opened):
     opened.open_tab("history")
     said = [text for text in read_history(opened) if text in words.values()]
     assert said[::-1] == [*words.values()]  # the latest one stands first
+
+
+def test_the_reason_is_one_sentence_and_shows_its_arrows_for_a_moment(opened):
+    opened.tab.click("#hurry")
+    assert not opened.tab.is_visible("#because")
+    opened.tab.click("#reason > summary")
+    said = opened.tab.inner_text("#because")
+    assert said.count(".") == 1
+    assert len(said.split()) <= 20
+    arrows = [opened.tab.locator(".label", has_text=name) for name in ("torque", "L")]
+    for arrow in arrows:
+        arrow.first.wait_for(state="visible")
+    assert not opened.tab.is_visible("#why")
+    for arrow in arrows:
+        arrow.first.wait_for(state="hidden")
+    opened.tab.click("#numbers summary")
+    assert "Perry's rule holds" in opened.tab.inner_text("#why")
+
+
+def test_the_reason_stands_beside_the_picture(opened):
+    opened.tab.click("#reason > summary")
+    opened.tab.click("#numbers summary")
+    opened.wait_for_frames()
+    reason, scene = (opened.tab.locator(name).bounding_box() for name in ("#reason", "#picture"))
+    assert reason["y"] + reason["height"] <= scene["y"] + 1  # px
+
+
+@pytest.mark.wording
+def test_an_instant_is_explained_while_it_can_be_read(opened):
+    opened.follow("theta=0.5&psi_dot=200")  # in cusps
+    opened.tab.select_option("#speed", "1")
+    opened.wait_for_time(0.2)
+    opened.until(lambda: opened.say("instant") == "")
+    opened.press("Space")
+    opened.until(lambda: opened.say("instant").startswith("Now: turning the "))
+    falls = opened.read_last().euler_rates.theta > 0
+    assert ("falls" in opened.say("instant")) == falls or "turns" in opened.say("instant")
+    opened.tab.click("[data-act=reset]")
+    opened.until(lambda: opened.say("instant").endswith("so the axle turns down again."))

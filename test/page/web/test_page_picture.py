@@ -73,8 +73,10 @@ def test_a_saved_picture_has_the_sentence_and_the_labels(opened, tmp_path):
             opened.show_arrows(name)
             opened.tab.locator(".label:visible", has_text=name).wait_for()
         picture = opened.save("Picture (PNG)", tmp_path).read_bytes()
-        read = "getComputedStyle(document.documentElement).getPropertyValue('--torque')"
-        color = opened.tab.evaluate(read)
+        # the words of the legend have the colour of the label
+        color = opened.tab.evaluate(
+            "getComputedStyle(document.querySelector('[data-layer=torque] .word')).color"
+        )
         arguments = [base64.b64encode(picture).decode(), color]
         texts.append(opened.tab.evaluate("looks.countPixels", arguments))
     (height, before), (_, after) = texts

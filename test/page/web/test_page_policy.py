@@ -54,6 +54,10 @@ def check(frame):
     assert attack(frame) == []
 
 
+def test_the_page_is_small_enough_to_be_sent_by_mail():
+    assert len(write_file().encode()) < 600_000
+
+
 def test_a_hostile_text_is_only_a_text_in_a_saved_page_of_a_saved_page(open_page, tmp_path):
     run = change(1)
     file = tmp_path / "run.html"

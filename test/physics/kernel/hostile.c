@@ -702,6 +702,11 @@ static void try_clamped(void) {
   const symtop_status doubted = symtop_find_doubt(start, place);
   CHECK(doubted, start && is_start(start) && place);
   if (doubted == SYMTOP_OK && !(shows_at > 0)) fault = fault ? fault : __LINE__;
+  symtop_present present, *now = is_rare(40) ? NULL : &present;
+  const symtop_status explained = symtop_explain_present(start, now);
+  CHECK(explained, start && is_start(start) && now);
+  const int said = explained == SYMTOP_OK && present.going != SYMTOP_GOING_UNSAID;
+  if (said && !isfinite(present.torque_share)) fault = fault ? fault : __LINE__;
   use(status, motion, to != NULL);
 }
 

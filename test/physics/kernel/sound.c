@@ -87,6 +87,8 @@ int main(int count, char** words) {
   symtop_spreads spreads;
   show(symtop_find_spreads(&top, SYMTOP_TILT_AND_SPIN, angles, rates, &spreads), q, 0);
   show(symtop_find_doubt(&start, few), q, 0);
+  symtop_present present;
+  show(symtop_explain_present(&start, &present), q, 0);
   double two[8], turning[6];
   for (int k = 0; k < 8; k++) two[k] = start.orientation[k % 4];
   for (int k = 0; k < 6; k++) turning[k] = rates[k % 3];

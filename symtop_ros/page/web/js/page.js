@@ -8,7 +8,10 @@ import { offerFiles, openDropped, save } from "./run/files.js";
 import { actWhileHeld, listenToKeys } from "./controls/keys.js";
 import { Layers } from "./controls/layers.js";
 import { Lesson, writePredictions } from "./controls/lesson.js";
+import { splitLink } from "./run/links.js";
 import { FULL, recall } from "./run/memory.js";
+import { Moments } from "./controls/moments.js";
+import { offerCopy, offerFullScreen } from "./controls/window.js";
 import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
 import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
@@ -59,6 +62,8 @@ export class Page {
     writeTexts();
     dismissRefusals();
     offerTabs();
+    offerFullScreen();
+    offerCopy();
     this.fields = new Fields(send);
     this.roots = new Roots(send);
     this.seen = new Seen(send);
@@ -67,6 +72,7 @@ export class Page {
     this.speeds = new SpeedList((factor) => send({ act: "speed", factor }));
     this.timeline = new Timeline((time) => send({ act: "seek", time }));
     this.layers = new Layers(send);
+    this.moments = new Moments(send);
     /** @type {Lesson | null} */
     this.lesson = null; // until the top has sent its steps
     /** @type {((name: string) => void) | null} */
@@ -103,6 +109,7 @@ export class Page {
       actWhileHeld(button, begin, () => this.top?.take({ act: "let_go", hold }));
     }
     listenToKeys(act, push);
+    find("reason").addEventListener("toggle", () => this.showNamed());
   }
 
   /** Show a top from now on. @param {LocalTop} top @param {Element} source the page as it was opened */
@@ -172,10 +179,7 @@ export class Page {
    */
   followAddress(isNew) {
     const text = location.hash.slice(1) || (this.content.opening ?? "");
-    // A plus is that of 1e+20, and no space, as it would be in a form.
-    const pairs = new URLSearchParams(text.replaceAll("+", "%2B"));
-    pairs.delete("lang");
-    const { lesson: step, ...link } = Object.fromEntries(pairs);
+    const { lesson: step, lang, ...link } = splitLink(text);
     if (step !== undefined) this.lesson?.open(Number(step));
     if (isNew && Object.keys(link).length) this.followLink(link);
   }
@@ -241,16 +245,24 @@ export class Page {
   /** Show what follows the motion. @param {Facts} facts @param {boolean} isAct that is announced */
   showMotion(facts, isAct) {
     this.facts = facts;
-    const { headline, because, why } = facts.texts[inDegrees() ? "degrees" : "radians"];
+    const { headline, because, measured, why } = facts.texts[inDegrees() ? "degrees" : "radians"];
     find("said").ariaLive = isAct ? "polite" : "off"; // a screen reader would never end
     say("headline", headline);
     say("because", because);
+    say("measured", measured);
     say("why", why);
+    if (!because) find("numbers", HTMLDetailsElement).open = true; // there is nothing else
     say("rule-apart", facts.apart);
     // Impulses are those of gravity alone, and of a precession that is free.
     find("impulses-chart").hidden = facts.isHeld || facts.apart !== "";
     if (isAct) this.question.follow(facts);
     showKinds(facts.body, facts.turning);
+  }
+
+  /** Show the arrows that the reason names, if it is read, for a moment. */
+  showNamed() {
+    if (!find("reason", HTMLDetailsElement).open) return;
+    this.layers.flash(findAll("#because .word").map(({ dataset }) => dataset.layer ?? ""));
   }
 
   /** Show the tilt and the rates of now. @param {Now} now */
@@ -274,11 +286,14 @@ export class Page {
   }
 
   /** @param {Frame} frame */
-  showFrame({ samples, stretches, isSlow, end }) {
+  showFrame({ samples, stretches, present, isSlow, end }) {
     if (!this.facts) return;
+    say("instant", present);
     say("stretch-act", stretches.act);
     say("stretch-turns", stretches.turns || phrase("page.no_turns"));
-    const { time: now, state } = samples[samples.length - 1];
+    const sample = samples[samples.length - 1];
+    const { time: now, state } = sample;
+    this.moments.follow(sample);
     const time = now / NANO;
     Object.assign(document.body.dataset, { time, theta: state.angles.theta });
     this.charts.draw(this.facts, samples, this.fields.values.factor);

@@ -18,10 +18,10 @@ import { copyPage, readData } from "./run/files.js";
 import { phrase, setTemplates } from "./words/wording.js";
 
 /**
- * What the file holds: the module in base64, the texts of each language, scenes, the lesson and the
+ * What the file holds: the texts of each language, scenes, the lesson and the
  * fields of a run; what it opens as the end of an address does; a run, if one was saved; and the name of
  * a node, if it shows one.
- * @typedef {{kernel: string, texts: {[language: string]: {[key: string]: string}}, scenes: any[],
+ * @typedef {{texts: {[language: string]: {[key: string]: string}}, scenes: any[],
  *   lesson: any[], bodies: {[name: string]: import("./physics/kernel.js").Part[]}, run_fields: import("./run/reader.js").Table, opening?: string, run?: any,
  *   node?: string}} Content
  */
@@ -37,7 +37,7 @@ const decode = (text) => {
 /** What is packed by gzip. @param {string} text base64 */
 const unpack = (text) => {
   const packed = new Blob([decode(text)]).stream();
-  return new Response(packed.pipeThrough(new DecompressionStream("gzip"))).json();
+  return new Response(packed.pipeThrough(new DecompressionStream("gzip")));
 };
 
 /**
@@ -65,10 +65,10 @@ const close = (text) => {
     Object.assign(each, { disabled: true });
 };
 
-/** @param {string} code in base64 */
+/** @param {Promise<ArrayBuffer>} code */
 const loadKernel = async (code) => {
   try {
-    return await Kernel.load(decode(code));
+    return await Kernel.load(await code);
   } catch (error) {
     close(phrase("page.no_kernel"));
     console.error(error);
@@ -79,13 +79,14 @@ const loadKernel = async (code) => {
 export const start = async () => {
   const source = copyPage();
   try {
-    const { packed, ...own } = readData("top-content");
+    const { kernel: code, packed, ...own } = readData("top-content");
+    const unpacked = unpack(code).arrayBuffer(); // while the texts are
     /** @type {Content} */
-    const content = { ...(await unpack(packed)), ...own, run: readData("top-run") };
+    const content = { ...(await unpack(packed).json()), ...own, run: readData("top-run") };
     const language = chooseLanguage(content.texts);
     setTemplates(content.texts[language], language);
     const page = new Page(content);
-    const kernel = await loadKernel(content.kernel);
+    const kernel = await loadKernel(unpacked);
     if (!kernel) return;
     const Top = content.node ? NodeTop : LocalTop;
     const top = new Top(kernel, { ...content, layers: LAYERS });

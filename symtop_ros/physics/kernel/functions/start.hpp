@@ -5,6 +5,7 @@
 #include "../rule/doubt.hpp"
 #include "../rule/hurried.hpp"
 #include "../rule/kicks.hpp"
+#include "../rule/present.hpp"
 #include "../rule/spreads.hpp"
 #include "../rule/starts.hpp"
 #include "arguments.hpp"
@@ -236,6 +237,18 @@ symtop_status symtop_judge_kick(const symtop_start* before, const symtop_start* 
   if (status != SYMTOP_OK) return status;
   GravityMotion without(to_start(was)), with(to_start(now));
   *verdict = judge_kick(was, now, without, with, is_driven(now), hold);
+  return SYMTOP_OK;
+}
+
+symtop_status symtop_explain_present(const symtop_start* start, symtop_present* present) {
+  using namespace symtop;
+  symtop_status status = admit({start, present});
+  if (status != SYMTOP_OK) return status;
+  symtop_start s = *start;
+  status = accept(s);
+  if (status != SYMTOP_OK) return status;
+  GravityMotion motion(to_start(s));
+  *present = PresentFinder(s, motion).find();
   return SYMTOP_OK;
 }
 

@@ -53,8 +53,11 @@ export class Charts {
   /** @param {IntersectionObserverEntry} change */
   follow({ target, isIntersecting }) {
     const { chart = "" } = /** @type {HTMLElement} */ (target).dataset;
-    if (isIntersecting) this.seen.add(chart);
-    else this.seen.delete(chart);
+    if (!isIntersecting) this.seen.delete(chart);
+    else if (!this.seen.has(chart)) {
+      this.seen.add(chart);
+      this.drawOne?.(chart); // a top that waits sends no frame
+    }
   }
 
   /**

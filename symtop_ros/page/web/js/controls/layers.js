@@ -7,6 +7,8 @@ import { phrase } from "../words/wording.js";
 
 /** @typedef {(message: import("../run/acts.js").Message) => void} Send */
 
+const MOMENT = 3000; // ms
+
 /** A mark in the colour of a part of the scene. @param {keyof typeof COLORS} name */
 const createMark = (name) => make("i", { style: `background: ${COLORS[name]}` });
 
@@ -32,6 +34,7 @@ export class Layers {
     this.first = {};
     /** @type {{[layer: string]: HTMLInputElement}} */
     this.boxes = {};
+    this.flashing = 0;
     // What is drawn at first has its name in the scene, or needs none.
     for (const each of LEGEND.filter(([, layer]) => !LAYERS[layer])) {
       const entry = createEntry(each);
@@ -53,6 +56,15 @@ export class Layers {
       const layer = findLayer(event);
       if (layer) this.show(layer, !this.boxes[layer].checked);
     });
+  }
+
+  /** Show arrows for a moment. @param {string[]} layers */
+  flash(layers) {
+    clearTimeout(this.flashing);
+    for (const layer of layers) this.peek(layer, true);
+    this.flashing = setTimeout(() => {
+      for (const layer of layers) this.peek(layer, false);
+    }, MOMENT);
   }
 
   /** Show an arrow for as long as its word is pointed at. @param {string | null} layer @param {boolean} shown */

@@ -23,6 +23,7 @@ export class Timeline {
   /** @param {number} time s of the run @param {number} end s */
   show(time, end) {
     if (!this.isDragged) Object.assign(this.line, { max: end, value: time });
+    this.line.style.setProperty("--part", `${end ? (100 * time) / end : 0}%`);
     this.line.setAttribute("aria-valuetext", phrase("time", { time, end }));
     find("clock").textContent = `${writeNumber(time, "2f")} s`;
     this.mark(end);

@@ -279,6 +279,11 @@ export class Kernel {
     return this.call("judge_clamp", start, room("held"))[0];
   }
 
+  /** Why the weight speeds up, slows down or turns now. @param {number[]} start @returns {Found} */
+  explainPresent(start) {
+    return this.call("explain_present", start, room("present"))[0];
+  }
+
   /** @param {number[]} before @param {number[]} after @param {Hold | null} hold @returns {Found} */
   judgeKick(before, after, hold) {
     return this.call("judge_kick", before, after, NAMES.hold.indexOf(hold), room("verdict"))[0];

@@ -113,6 +113,7 @@ export const NAMES = {
   lift_kind: ["unchanged", "higher", "lower"],
   fact: ["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"],
   held_kind: ["falls", "swings", "rises", "turns", "rests"],
+  going: [null, "falls", "rises", "turns_up", "turns_down"],
 };
 
 /**
@@ -250,6 +251,11 @@ export const RECORDS = {
     ["double", "rate"],
     ["double", "lowest_in"],
     ["double 2", "angles_without"],
+  ],
+  present: [
+    ["going", "going"],
+    ["turn", "turn"],
+    ["double", "torque_share"],
   ],
   energies: [
     ["double", "weight"],

@@ -169,6 +169,10 @@ const readHeld = (text) => {
   throw new RangeError(`clamped must be true or false, got ${text || "nothing"}`);
 };
 
+/** The fields of a link. A plus is that of 1e+20, and no space, as it would be in a form. @param {string} text */
+export const splitLink = (text) =>
+  Object.fromEntries(new URLSearchParams(text.replaceAll("+", "%2B")));
+
 /** The link that starts a motion with the same doubles. @param {Beginning} beginning */
 export const writeLink = ({ top, friction, torque, start, clamped }) => {
   const coefficients = Object.fromEntries(FRICTION.map((name, k) => [name, friction[k]]));

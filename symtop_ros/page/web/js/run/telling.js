@@ -2,6 +2,7 @@
 
 import { NANO } from "../physics/course.js";
 import { describe, describeMotion, describeNow } from "../words/facts.js";
+import { describePresent } from "../words/present.js";
 import { describeStretches } from "../words/stretch.js";
 
 /** @import { Course } from "../physics/course.js" */
@@ -22,9 +23,9 @@ import { describeStretches } from "../words/stretch.js";
  *   lesson: import("../controls/lesson.js").Step[], bodies: {[name: string]: Part[]}}} Hello
  */
 /**
- * A frame: samples up to now, what was exchanged, and the end of the run in s.
- * @typedef {{samples: Sample[], stretches: ReturnType<typeof describeStretches>, end: number,
- *   isSlow: boolean}} Frame
+ * A frame: samples up to now, what was exchanged, why the axle moves so just now, and the end of the run in
+ * s. @typedef {{samples: Sample[], stretches: ReturnType<typeof describeStretches>, present: string,
+ *   end: number, isSlow: boolean}} Frame
  */
 /**
  * One piece of news for the page: what it can offer; what holds after an act, or for the motion alone;
@@ -102,8 +103,11 @@ export class Telling {
       ...this.sampleKicks(times[0]),
       ...chosen.map((n) => this.sample(times[n], states[n])),
     ].sort((a, b) => a.time - b.time);
-    const { run, time, end, isSlow } = this.top;
-    this.top.tell({ samples, stretches: describeStretches(run, time), end: end / NANO, isSlow });
+    const { run, time, end, isSlow, isRunning, course, state } = this.top;
+    const isWatched = isSlow || !isRunning; // else the sentence would be gone before it is read
+    const present = isWatched ? describePresent(course, state) : "";
+    const stretches = describeStretches(run, time);
+    this.top.tell({ samples, stretches, present, end: end / NANO, isSlow });
   }
 
   /** @param {number} time ns @param {State} state @returns {Sample} */

@@ -1,22 +1,25 @@
-// Labels of the scene: elements over the picture, each in the colour of its arrow.
+// Labels of the scene: words over the picture, each in the colour of what it names, with a line to it
+// if they do not stand next to it.
 
 import { make, write } from "../controls/document.js";
 
 /** @import { Vector } from "../physics/kernel.js" */
+/**
+ * A label of the picture, in px: what it names, the middle of the label, and on which side it stands, how
+ * far off. @typedef {{at: {x: number, y: number}, x: number, y: number, side: [number, number], lead: number}} Place
+ */
 
 const GAP = 2; // px between labels
+const NEAR = 8; // px; so near a label needs no line
 
 export class Labels {
   /** @param {HTMLElement} place @param {import("./camera.js").Camera} camera */
   constructor(place, camera) {
     this.place = place;
     this.camera = camera;
-    /** @type {{[name: string]: HTMLElement}} */
+    /** @type {{[name: string]: {label: HTMLElement, line: HTMLElement}}} */
     this.names = {};
-    /**
-     * Places of the labels of this picture, in px, and on which side of them the labels stand.
-     * @type {Map<string, {x: number, y: number, side: [number, number]}>}
-     */
+    /** The labels of this picture. @type {Map<string, Place>} */
     this.shown = new Map();
     /** Sizes of the labels in px, once they are known. @type {Map<string, [number, number]>} */
     this.sizes = new Map();
@@ -27,29 +30,37 @@ export class Labels {
   }
 
   /**
-   * Put a label at a point, on the side that is farther from another: it covers no arrow from there.
+   * Put a label at a point, on the side that is farther from another: it covers no arrow from there. Else
+   * it stands at the right.
    * @param {string} name
    * @param {string} color
    * @param {Vector} point
-   * @param {Vector} from
+   * @param {Vector | null} from
    * @param {string} text
+   * @param {number} lead px from the point
    */
-  put(name, color, point, from, text) {
-    const [at, other] = [point, from].map((each) => this.camera.project(each));
+  put(name, color, point, from, text, lead = 0) {
+    const at = this.camera.project(point);
+    const other = from ? this.camera.project(from) : at;
     if (!at || !other) return;
-    const label = this.find(name, color);
+    const { label } = this.find(name, color);
     if (label.dataset.text !== text) this.sizes.delete(name);
     write(label, text);
     const [x, y] = [at.x - other.x, at.y - other.y];
-    const length = Math.max(Math.abs(x), Math.abs(y)) || 1; // of the larger half the label is clear
-    this.shown.set(name, { x: at.x, y: at.y, side: [x / length, y / length] });
+    const length = Math.max(Math.abs(x), Math.abs(y)); // of the larger half the label is clear
+    /** @type {[number, number]} */
+    const side = length > 1 ? [x / length, y / length] : [1, 0];
+    this.shown.set(name, { at, x: at.x, y: at.y, side, lead });
   }
 
   /** @param {string} name @param {string} color */
   find(name, color) {
     if (!this.names[name]) {
-      this.names[name] = make("span", { className: "label", style: `border-color: ${color}` });
-      this.place.append(this.names[name]);
+      const style = `--named: ${color}`;
+      const label = make("span", { className: "label", style });
+      const line = make("i", { className: "leader", style });
+      this.names[name] = { label, line };
+      this.place.append(line, label);
     }
     return this.names[name];
   }
@@ -58,7 +69,7 @@ export class Labels {
   measure(name) {
     const known = this.sizes.get(name);
     if (known) return known;
-    const { offsetWidth, offsetHeight } = this.names[name];
+    const { offsetWidth, offsetHeight } = this.names[name].label;
     if (offsetWidth) this.sizes.set(name, [offsetWidth, offsetHeight]);
     return [offsetWidth, offsetHeight];
   }
@@ -68,8 +79,8 @@ export class Labels {
     for (const [name, place] of this.shown) {
       const [width, height] = this.measure(name);
       const [x, y] = place.side;
-      place.x += x * (width / 2 + GAP);
-      place.y += y * (height / 2 + GAP);
+      place.x += x * (width / 2 + GAP + place.lead);
+      place.y += y * (height / 2 + GAP + place.lead);
       this.keepInside(name, place);
     }
   }
@@ -87,22 +98,43 @@ export class Labels {
     }
   }
 
-  /** None leaves the picture. @param {string} name @param {{x: number, y: number}} place */
+  /** None leaves the picture, and gives way to an arrow that ends there. @param {string} name @param {Place} place */
   keepInside(name, place) {
     const [width, height] = this.measure(name);
     const { size } = this.camera;
-    place.x = Math.max(Math.min(place.x, size.width - width / 2), width / 2);
-    place.y = Math.max(Math.min(place.y, size.height - height / 2), height / 2);
+    const y = Math.max(Math.min(place.y, size.height - height / 2), height / 2);
+    const aside = Math.abs(y - place.y) > NEAR ? width / 2 + 2 * NEAR : 0;
+    place.x = Math.max(Math.min(place.x + aside, size.width - width / 2), width / 2);
+    place.y = y;
   }
 
   /** Place the labels of this picture, and hide the others. */
   end() {
-    for (const [name, label] of Object.entries(this.names)) label.hidden = !this.shown.has(name);
+    for (const [name, { label, line }] of Object.entries(this.names)) {
+      label.hidden = !this.shown.has(name);
+      line.hidden = true;
+    }
     this.step();
     this.separate();
-    for (const [name, { x, y }] of this.shown) {
-      const place = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
-      this.names[name].style.transform = `${place} translate(-50%, -50%)`;
+    for (const [name, place] of this.shown) {
+      const { style } = this.names[name].label;
+      style.transform = `${move(place)} translate(-50%, -50%)`;
+      this.lead(name, place);
     }
   }
+
+  /** Draw a line from what a label names to its edge. @param {string} name @param {Place} place */
+  lead(name, { at, x, y }) {
+    const [width, height] = this.measure(name);
+    const [right, down] = [x - at.x, y - at.y];
+    const inside = Math.min(width / 2 / Math.abs(right), height / 2 / Math.abs(down), 1);
+    const length = Math.hypot(right, down) * (1 - inside);
+    const { line } = this.names[name];
+    line.hidden = length < NEAR;
+    line.style.width = `${length.toFixed(1)}px`;
+    line.style.transform = `${move(at)} rotate(${Math.atan2(down, right).toFixed(3)}rad)`;
+  }
 }
+
+/** @param {{x: number, y: number}} place px */
+const move = ({ x, y }) => `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;

@@ -10,7 +10,7 @@ const LABELS = ".label:not([hidden])";
 const SHOWN = `${LABELS}, #legend [aria-pressed=true], #legend li:not([hidden]) > i`;
 
 /**
- * A text where its element stands, with the frame of a label, or a mark of the legend.
+ * A text where its element stands, with the ground around its letters, or a mark of the legend.
  * @param {CanvasRenderingContext2D} context @param {HTMLElement} element @param {DOMRect} scene
  */
 const drawText = (context, element, scene) => {
@@ -19,13 +19,14 @@ const drawText = (context, element, scene) => {
   const [x, y] = [left - scene.left, top - scene.top];
   context.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
   context.fillStyle = style.backgroundColor;
-  context.strokeStyle = style.borderColor;
+  context.strokeStyle = getComputedStyle(document.body).backgroundColor;
   context.fillRect(x, y, width, height);
-  if (style.borderTopStyle !== "none") context.strokeRect(x, y, width, height);
   context.fillStyle = style.color;
   const named = element.tagName === "I" ? element.parentElement : element;
   const begin = element.tagName === "I" ? width + EDGE : EDGE;
-  context.fillText(named?.textContent ?? "", x + begin, y + height / 2);
+  const text = named?.textContent ?? "";
+  context.strokeText(text, x + begin, y + height / 2);
+  context.fillText(text, x + begin, y + height / 2);
 };
 
 /**
@@ -45,7 +46,7 @@ const compose = (texts, strip) => {
   context.drawImage(canvas, 0, strip * ratio);
   context.scale(ratio, ratio);
   context.translate(0, strip);
-  Object.assign(context, { lineWidth: 2, textBaseline: "middle" });
+  Object.assign(context, { lineWidth: 4, lineJoin: "round", textBaseline: "middle" });
   for (const each of texts ? findAll(texts) : []) drawText(context, each, scene);
   return { picture, context, scene, ratio };
 };

@@ -22,9 +22,10 @@ import { cross, findSize, normalize, subtract } from "./matrices.js";
  *   lifts: Lift[]}} Push
  */
 
-export const BRACKET = 1.14; // its distance from the pivot
-const INNER = 1.02; // where its ends begin
-const LEVEL = 0.3; // rad; half of the two levels of the bracket
+const RADIUS = 1.02; // of the lines of the levels
+// Of these lines along the two circles: where they begin, behind the ball, and end. The bracket is at their end.
+const LINES = { begin: 0.1, end: 0.34, bracket: 0.3 };
+const STEEP = 0.3; // the sine of a tilt at whose circle the lines are no longer
 const ROUNDING = 1e-9; // of a velocity: less is no push
 // The arc of a twist: its place along the axle, its radius, and its length in rad.
 const ARC = { place: 0.84, radius: 0.17, length: 5 };
@@ -76,13 +77,20 @@ export const listReached = ({ lifts, end }, time, states) => {
 };
 
 /**
- * The two levels next to the axle, and the bracket between them, as pieces of lines.
- * @param {{from: number, to: number}} levels @param {number} phi
+ * The points of a dimension: lines at two levels, on the side to which the axle goes, and the bracket
+ * between them, with its middle.
+ * @param {{from: number, to: number}} levels @param {State} state
  */
-export const listBracket = ({ from, to }, phi) => {
+export const listBracket = ({ from, to }, { angles: { phi }, rates }) => {
+  const side = rates.phi < 0 ? -1 : 1;
+  const place = (/** @type {number} */ theta, /** @type {number} */ part) =>
+    findPoint(theta, phi + (side * part) / Math.max(Math.sin(theta), STEEP), RADIUS);
   const level = (/** @type {number} */ theta) =>
-    listPieces(spread(phi - LEVEL, phi + LEVEL, 13).map((each) => findPoint(theta, each, INNER)));
-  const arc = spread(from, to, 13).map((theta) => findPoint(theta, phi, BRACKET));
-  const ends = [from, to].map((theta) => findPoint(theta, phi, INNER));
-  return [...level(from), ...level(to), ...listPieces([ends[0], ...arc, ends[1]])];
+    listPieces(spread(LINES.begin, LINES.end, 13).map((part) => place(theta, part)));
+  const bracket = spread(from, to, 13).map((theta) => place(theta, LINES.bracket));
+  return {
+    pieces: [...level(from), ...level(to), ...listPieces(bracket)],
+    middle: place((from + to) / 2, LINES.end),
+    inside: place((from + to) / 2, 0),
+  };
 };

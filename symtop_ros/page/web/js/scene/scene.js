@@ -2,7 +2,7 @@
 
 import { find } from "../controls/document.js";
 import { Camera } from "./camera.js";
-import { findPoint, listParallel, listPieces, listSphere } from "./curves.js";
+import { listParallel, listPieces, listSphere } from "./curves.js";
 import { add, createPose, findSize, normalize, scale, subtract, turnTo } from "./matrices.js";
 import {
   createArrow,
@@ -16,7 +16,7 @@ import { COLORS, FICTITIOUS, readColor } from "./colors.js";
 import { Grip } from "./grip.js";
 import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
-import { BRACKET, findPush, listReached, listBracket } from "./push.js";
+import { findPush, listReached, listBracket } from "./push.js";
 import { findTorques, findVectors } from "./vectors.js";
 import { NANO } from "../physics/course.js";
 import { inDegrees } from "../words/quantities.js";
@@ -34,6 +34,8 @@ const TWIST_HEAD = 0.05; // length of the arrow at the end of a twist
 const SHORTEST = 0.02; // arrows that are shorter have no direction that can be seen
 const GHOST_OPACITY = 0.34;
 const BALL = 0.055;
+const LEAD = 36; // px from the pale ball to its name
+const ASIDE = 16; // px from a bracket to its words
 const PUSH = 0.34; // length of the arrow of a push
 // rad; the axis goes below the pivot: no stand, and the whole sphere
 const WIDE = 1.1;
@@ -192,8 +194,7 @@ export class Scene {
     painter.drawMesh(models.ghost, createPose([1, 0, 0, 0], [size, size, size], axis), 0.8);
     const isFree = this.top.run.findSpared(this.top.time) === "clamp";
     const name = phrase(isFree ? "scene.ghost_free" : "scene.ghost");
-    const below = add(scale(axis, 1 - 2 * BALL), scale(normalize([axis[0], axis[1], 0]), 2 * BALL));
-    this.labels.put("ghost", COLORS.sphere, below, axis, name);
+    this.labels.put("ghost", COLORS.sphere, axis, null, name, LEAD);
   }
 
   /**
@@ -210,12 +211,12 @@ export class Scene {
       this.drawArrow("ball", arrow, begin, "");
       const { twist } = push;
       const name = twist ? phrase("scene.push_held", twist) : phrase("scene.push");
-      this.labels.put("push", COLORS.ball, begin, push.tip, name);
+      this.labels.put("push", COLORS.ball, begin, push.tip, name, 4);
       if (twist) this.drawTwist(twist);
     }
     const { window, points } = top.trace;
     const past = states.slice(-Math.ceil(((time - push.begin) / (window * NANO)) * points));
-    for (const lift of listReached(push, time, past)) this.drawBracket(lift, state.angles.phi);
+    for (const lift of listReached(push, time, past)) this.drawBracket(lift, state);
   }
 
   /** The twist of a kick, as an arc about the axle with the head of an arrow. @param {Twist} twist */
@@ -229,13 +230,13 @@ export class Scene {
     this.labels.put("twist", COLORS.ball, to, middle, phrase("scene.twist", twist));
   }
 
-  /** @param {ReturnType<typeof listReached>[number]} lift @param {number} phi */
-  drawBracket(lift, phi) {
-    this.painter.loadLines(listBracket(lift, phi), this.models.bracket);
+  /** @param {ReturnType<typeof listReached>[number]} lift @param {State} state */
+  drawBracket(lift, state) {
+    const { pieces, middle, inside } = listBracket(lift, state);
+    this.painter.loadLines(pieces, this.models.bracket);
     this.painter.drawLines(this.models.bracket, paint("lift"), 3, STILL);
     const text = phrase("moved", lift, inDegrees() ? "degrees" : "radians");
-    const at = findPoint((lift.from + lift.to) / 2, phi, BRACKET);
-    this.labels.put(`bracket-${lift.kind}`, COLORS.lift, at, scale(at, 0.9), text);
+    this.labels.put(`bracket-${lift.kind}`, COLORS.lift, middle, inside, text, ASIDE);
   }
 
   /** The top on its stand, with its shadow and its ball. @param {State} state */

@@ -123,6 +123,20 @@ const findAnnounced = (run, time) => {
 };
 
 /**
+ * Why the axis moves so: what is said first, in one sentence, and what in numbers. What happens at first
+ * comes behind what holds for the motion.
+ * @template {{explanation: string | null, turn: string | null}} Cause
+ * @param {Cause} cause @returns {[Cause, Cause]}
+ */
+const splitCause = (cause) => {
+  const { explanation, turn } = cause;
+  return [
+    { ...cause, turn: explanation ? null : turn },
+    { ...cause, turn: explanation ? turn : null },
+  ];
+};
+
+/**
  * What follows the motion where friction or a torque acts: what gravity alone would make of the
  * state of now. Of a kick the sentences are those of the kick.
  * @param {Run} run
@@ -138,7 +152,8 @@ export const describeMotion = (run, time, free) => {
   const apart = forces ? phrase("apart", { kind: forces }) : "";
   const say = (/** @type {Variant} */ variant) => ({
     headline: phrase("headline", headline, variant),
-    because: because ? phrase("cause", because, variant).trim() : "",
+    because: because ? phrase("because", splitCause(because)[0], variant).trim() : "",
+    measured: because ? phrase("in_numbers", splitCause(because)[1], variant).trim() : "",
     why: phrase(name, outcome, variant),
   });
   return {

@@ -1,57 +1,197 @@
-// Symbols in texts as formulas: theta'' as MathML, and the text itself as it came beside them.
+// Texts of the page as a book sets them: formulas as MathML, signs and units in their letters.
+
+import { findFormulas, LETTERS } from "./formula.js";
+import { speakFormula } from "./spoken.js";
+
+/** @import { Node_, Power, Product, Quotient, Symbol_, Term } from "./formula.js" */
 
 const SPACE = "http://www.w3.org/1998/Math/MathML";
-/** @type {{[name: string]: string}} */
-const LETTERS = {
-  theta: "\u03b8",
-  phi: "\u03c6",
-  psi: "\u03c8",
-  omega: "\u03c9",
-  lambda: "\u03bb",
-};
-const CLOSING = [".", ",", ":", ";", ")"];
-// Dots of derivatives by time, as many as primes. Full stops, which stand on their line: WebKit places
-// a line of text over the letter, and the sign \u02d9 would float high in its line.
-const DOTS = ["", ".", ".."];
-// In every language: no L begins Lösung, nor l’axe.
-const SYMBOL =
-  /(?<![\p{L}\d_])(theta|phi|psi|omega|lambda|p|L|U|u|E|I|Mgl|Ix|Iy|Iz)(?:_(phi|psi|eff|[xyz0]))?('{0,2})(?:\^(\d))?(?![\p{L}\d_'’])|(rad\/s|kg m|\))\^2/gu;
+const CLOSING = /^[.,:;?!)]+/; // no line begins with a full stop
+const OPENING = /\($/;
+const DOTS = ["", "\u02d9", "\u00a8"]; // of derivatives by time, as many as primes
+const PRIMES = ["", "\u2032", "\u2033"];
+const UNBROKEN = 3; // terms; a longer formula may end a line within it
+const THIN = "0.17em";
+const TIGHT = { lspace: "0", rspace: "0" };
+/** Names of several letters, each of its own. @type {{[name: string]: string[]}} */
+const SEVERAL = { Mgl: ["M", "g", "l"], dL: ["d", "L"], dt: ["d", "t"] };
+/** @type {{[sign: string]: string}} */
+const SIGNS = { "-": "\u2212", x: "\u00d7", ".": "\u00b7" };
+const SUPERSCRIPTS = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
 
-/** @param {string} name @param {(Node | string)[]} children */
-const create = (name, ...children) => {
+/** @param {string} name @param {{[name: string]: string}} given @param {(Node | string)[]} children */
+const createWith = (name, given, ...children) => {
   const element = document.createElementNS(SPACE, name);
+  for (const [key, value] of Object.entries(given)) element.setAttribute(key, value);
   element.append(...children);
   return element;
 };
 
-/** @param {string} text */
-const createLetter = (text) => create("mi", LETTERS[text] ?? text);
+/** @param {string} name @param {(Node | string)[]} children */
+const create = (name, ...children) => createWith(name, {}, ...children);
+
+/** One element of several. @param {Node[]} parts */
+const join = (parts) => (parts.length === 1 ? parts[0] : create("mrow", ...parts));
+
+const createGap = () => createWith("mspace", { width: THIN });
+
+/** An operator that may begin a piece, where it would have no space. @param {string} sign */
+const createOperator = (sign) => createWith("mo", { form: "infix" }, SIGNS[sign] ?? sign);
+
+/** @param {string} name */
+const createLetter = (name) => create("mi", LETTERS[name] ?? name);
+
+/** A number is no letter. @param {string} index */
+const createIndex = (index) => (/\d/.test(index) ? create("mn", index) : createLetter(index));
+
+/** Digits as they are in texts of all kinds. @param {string} exponent */
+const raise = (exponent) =>
+  exponent.replace("-", "\u207b").replace(/\d/g, (digit) => SUPERSCRIPTS[Number(digit)]);
 
 /**
- * A symbol with its dots, index and power. A prime of an angle is a derivative by time, and a dot
- * in formulas; that of another letter, as of L_z', stays a prime.
- * @param {string} letter
- * @param {string | undefined} index
- * @param {string} primes
- * @param {string | undefined} power
+ * A symbol with its dots and index. A prime of an angle is a derivative by time, and a dot in
+ * formulas; that of another letter, as of L_z', stays a prime.
+ * @param {Symbol_} symbol
  */
-const createSymbol = (letter, index, primes, power) => {
-  const [, base, axis] = letter.match(/^(I)([xyz])$/) ?? [null, letter, index];
-  let symbol = createLetter(base);
-  const isAngle = base in LETTERS;
-  if (axis) symbol = create("msub", symbol, createLetter(axis));
-  if (primes && isAngle) symbol = create("mover", symbol, create("mtext", DOTS[primes.length]));
-  else if (primes) symbol = create("mrow", symbol, create("mo", "\u2032"));
-  if (power) symbol = create("msup", symbol, create("mn", power));
-  return symbol;
+const createSymbol = ({ name, index, primes }) => {
+  const [, moment, axis] = name.match(/^(I)([xyz])$/) ?? [null, name, index];
+  const letter = join((SEVERAL[moment] ?? [moment]).map(createLetter));
+  const base = axis ? create("msub", letter, createIndex(axis)) : letter;
+  if (!primes) return base;
+  if (!(name in LETTERS)) return create("mrow", base, createWith("mo", TIGHT, PRIMES[primes]));
+  return createWith("mover", { accent: "true" }, base, create("mo", DOTS[primes]));
 };
 
-/** Whether a match is a symbol, and not a word of one letter. @param {RegExpMatchArray} match */
-const isSymbol = ([, letter, index, primes, power]) =>
-  letter.length > 1 ||
-  Boolean(index ?? power) ||
-  (primes !== "" && letter === "E") ||
-  letter === "L";
+/** A power stands over an index. @param {Node} base @param {Element} exponent */
+const raiseNode = (base, exponent) =>
+  base.nodeName === "msub"
+    ? create("msubsup", ...base.childNodes, exponent)
+    : create("msup", base, exponent);
+
+/** A unit stands upright behind a thin space. @param {string} unit */
+const setUnit = (unit) =>
+  unit
+    ? [createGap(), create("mtext", unit.replace("^2", raise("2")).replaceAll(" ", "\u2009"))]
+    : [];
+
+/** The elements of a formula; its fractions have a line if they are stacked. */
+class Setter {
+  /** @param {boolean} isStacked */
+  constructor(isStacked) {
+    this.isStacked = isStacked;
+  }
+
+  /** @param {Term[]} terms @returns {Node[]} */
+  setTerms(terms) {
+    return terms.flatMap(({ sign, node }) => [
+      ...(sign ? [createOperator(sign)] : []),
+      ...this.setNode(node),
+    ]);
+  }
+
+  /** @param {Node_} node @returns {Node[]} */
+  setNode(node) {
+    switch (node.kind) {
+      case "symbol":
+        return [createSymbol(node)];
+      case "number":
+        return [create("mn", node.text), ...setUnit(node.unit)];
+      case "call":
+        if (node.name === "sqrt") return [create("msqrt", ...this.setTerms(node.argument))];
+        return [create("mi", node.name), ...this.setArgument(node.argument)];
+      case "group":
+        return this.setInBrackets(node.terms);
+      case "power":
+        return this.setPower(node);
+      case "negative":
+        return [createWith("mo", { form: "prefix" }, SIGNS["-"]), ...this.setNode(node.of)];
+      case "product":
+        return this.setProduct(node);
+      case "quotient":
+        return this.setQuotient(node);
+    }
+  }
+
+  /** Brackets are no taller than a letter. @param {Term[]} terms */
+  setInBrackets(terms) {
+    const [open, close] = ["(", ")"].map((each) => createWith("mo", { stretchy: "false" }, each));
+    return [open, ...this.setTerms(terms), close];
+  }
+
+  /** @param {Term[]} argument */
+  setArgument(argument) {
+    const [{ node }] = argument;
+    const isPlain = argument.length === 1 && node.kind === "symbol" && !node.primes;
+    return isPlain ? [createGap(), ...this.setTerms(argument)] : this.setInBrackets(argument);
+  }
+
+  /** A power of a function stands at its name. @param {Power} power */
+  setPower({ base, exponent }) {
+    const raised = create("mn", exponent.replace("-", SIGNS["-"]));
+    if (base.kind !== "call") return [raiseNode(join(this.setNode(base)), raised)];
+    return [create("msup", create("mi", base.name), raised), ...this.setArgument(base.argument)];
+  }
+
+  /** @param {Product} product */
+  setProduct({ factors, signs }) {
+    return factors.flatMap((factor, k) => {
+      if (k === 0 || signs[k] === "(") return this.setNode(factor);
+      return [signs[k] ? createOperator(signs[k]) : createGap(), ...this.setNode(factor)];
+    });
+  }
+
+  /** @param {Quotient} quotient */
+  setQuotient({ over, under }) {
+    if (this.isStacked) return [create("mfrac", this.setPart(over), this.setPart(under))];
+    return [...this.setNode(over), createWith("mo", TIGHT, "/"), ...this.setNode(under)];
+  }
+
+  /** What stands over or under a line needs no brackets. @param {Node_} node */
+  setPart(node) {
+    return join(node.kind === "group" ? this.setTerms(node.terms) : this.setNode(node));
+  }
+}
+
+/** Whether a fraction is more than a symbol by a symbol, as in Mgl/p_psi. @param {Node_} node @returns {boolean} */
+const hasFraction = (node) => {
+  if (node.kind === "quotient")
+    return [node.over, node.under].some(({ kind }) => kind === "product" || kind === "group");
+  if (node.kind === "product") return node.factors.some(hasFraction);
+  return node.kind === "negative" && hasFraction(node.of);
+};
+
+/**
+ * A formula, of which a line may break between its terms; on lines of its own if it is an equation
+ * with fractions. A screen reader says it in words.
+ * @param {Term[]} terms @param {string} before on the same line @param {string} after
+ */
+const createFormula = (terms, before, after) => {
+  const isEquation = terms.some(({ sign }) => /[=<>]/.test(sign));
+  const isStacked = isEquation && terms.some(({ node }) => hasFraction(node));
+  const setter = new Setter(isStacked);
+  const style = { displaystyle: String(isStacked) };
+  const pieces = terms.map((term) => createWith("math", style, ...setter.setTerms([term])));
+  if (before) pieces[0].prepend(create("mtext", before));
+  if (after) pieces[pieces.length - 1].append(create("mtext", after));
+  const formula = document.createElement("span");
+  const isLong = terms.length > UNBROKEN;
+  formula.className = isStacked ? "formula own" : isLong ? "formula long" : "formula";
+  formula.setAttribute("role", "img");
+  formula.ariaLabel = before + speakFormula(terms) + after;
+  formula.append(...pieces.flatMap((piece, k) => (k ? ["\u200b", piece] : [piece])));
+  return formula;
+};
+
+/** Signs of a sentence, which texts have in ASCII. @param {string} text */
+const setProse = (text) =>
+  text
+    .replaceAll("->", "\u2192")
+    .replace(/(\d)e([+-])0*(\d+)/g, (_, digit, sign, size) => {
+      const exponent = raise(sign === "-" ? `-${size}` : size);
+      return `${digit}\u00b710${exponent}`;
+    })
+    .replace(/(?<=[\p{L}\d])\^(-?\d+)/gu, (_, exponent) => raise(exponent))
+    .replace(/(?<![\p{L}\d])-(?=\d)/gu, SIGNS["-"]);
 
 const WORD = /\[([^|\]]+)\|([^|\]]+)\]/;
 
@@ -68,7 +208,7 @@ const createWord = (text, layer) => {
 };
 
 /**
- * The parts of a text: its symbols as formulas, and the words that name an arrow, [torque|torque].
+ * The parts of a text: its formulas, and the words that name an arrow, [torque|torque].
  * @param {string} text @returns {(Node | string)[]}
  */
 export const typeset = (text) => {
@@ -79,25 +219,27 @@ export const typeset = (text) => {
   });
 };
 
-/** The parts of a text, with its symbols as formulas. @param {string} text @returns {(Node | string)[]} */
+/**
+ * A formula on lines of its own ends its line.
+ * @param {Node | string} part @param {Node | string | undefined} before
+ */
+const endParagraph = (part, before) => {
+  const isAfterOwn = before instanceof HTMLElement && before.classList.contains("own");
+  return isAfterOwn && typeof part === "string" ? part.replace(/^ ?\n?/, "") : part;
+};
+
+/** The parts of a text, with its formulas. @param {string} text @returns {(Node | string)[]} */
 export const typesetSymbols = (text) => {
-  /** @type {(Node | string)[]} */
-  const parts = [];
-  let end = 0;
-  for (const match of text.matchAll(SYMBOL)) {
-    const [whole, letter, index, primes, power, unit] = match;
-    if (!unit && !isSymbol(match)) continue;
-    parts.push(text.slice(end, match.index));
-    end = match.index + whole.length;
-    if (unit) {
-      parts.push(`${unit}\u00b2`);
-      continue;
+  const parts = findFormulas(text);
+  const set = parts.map(({ text, terms }, k) => {
+    const [before, after] = [parts[k - 1]?.text ?? "", parts[k + 1]?.text ?? ""];
+    if (terms) {
+      const [opening = ""] = before.match(OPENING) ?? [];
+      const [closing = ""] = after.match(CLOSING) ?? [];
+      return createFormula(terms, opening, closing);
     }
-    const formula = create("math", createSymbol(letter, index, primes, power));
-    parts.push(formula);
-    if (!CLOSING.includes(text[end])) continue;
-    formula.append(create("mtext", text[end])); // no line begins with a full stop
-    end += 1;
-  }
-  return [...parts, text.slice(end)].filter((part) => part !== "");
+    const own = k > 0 ? text.replace(CLOSING, "") : text;
+    return setProse(k < parts.length - 1 ? own.replace(OPENING, "") : own);
+  });
+  return set.map((part, k) => endParagraph(part, set[k - 1])).filter((part) => part !== "");
 };
