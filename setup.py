@@ -90,6 +90,7 @@ TEST = [
     "mujoco>=3.3",  # reads the MJCF of the top
     "ahrs>=0.4",  # filters that are fed with its sensor
     "docutils>=0.18",  # reads the changelog
+    "zxing-cpp>=2.2",  # reads the code of a link, as a camera does
 ]
 # The HTML site of `make docs`.
 DOCS = [

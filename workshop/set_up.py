@@ -122,9 +122,7 @@ SET_UPS = {
         ),
         place="gpu",
     ),
-    "symbols": SetUp(
-        "tools for fonts (once)", packages=("fonttools[woff]>=4.50",), place="symbols"
-    ),
+    "fonts": SetUp("tools for fonts (once)", packages=("fonttools[woff]>=4.50",), place="fonts"),
     "importers": SetUp(
         "programs that read models (about 1 GB, once)",
         packages=("pybullet>=3.2.7", "newton>=1.8", "newton-usd-schemas", "usd-core>=26", "numpy"),

@@ -59,6 +59,7 @@ def write_file(
     page, style = (
         (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
     )
+    style = re.sub(r"^ *(/\* .*?\*/\n)?", "", style, flags=re.M | re.S)
     style = style.replace("/*SYMBOLS*/", _encode((FOLDER / "symbols.woff2").read_bytes()))
     script = join_modules()
     parts = {
@@ -165,9 +166,9 @@ def _write_function(path: Path) -> str:
 
 
 def drop_comments(text: str) -> str:
-    """Return a module without what is for its readers: comments of whole lines, indentation."""
-    text = re.sub(r"^ */\*\*(?:(?!\*/).)*\*/\n", "", text, flags=re.M | re.S)
-    return re.sub(r"^ *(//[^\n]*\n)?", "", text, flags=re.M)
+    """Return a module without what is for its readers: comments, indentation and empty lines."""
+    text = re.sub(r"/\*\*(?:(?!\*/).)*\*/ ?", "", text, flags=re.S)
+    return re.sub(r"^\s*(//[^\n]*\n\s*)*", "", text, flags=re.M)
 
 
 def read_file(language: str) -> dict[str, str]:

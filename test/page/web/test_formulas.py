@@ -8,7 +8,7 @@ import pytest
 from page.web.modules import load_kernel
 
 from symtop_ros.page.web.join import LANGUAGES, read_texts
-from workshop import symbols
+from workshop import borrowed
 
 GREEK = {"θ": "theta", "φ": "phi", "ψ": "psi", "ω": "omega", "λ": "lambda", "\u03b1": "alpha"}
 UNITS = {"rad/s²": 3.0, "rad/s": 5.0, "rad": 7.0, "kg m²": 11.0, "N m s": 13.0, "N m": 17.0}
@@ -226,7 +226,7 @@ def test_the_page_has_the_letters_of_its_formulas(open_page):
         return letters.filter((each) => width("monospace", each) !== width("serif", each));
     }"""
     page.tab.evaluate("document.fonts.load('100px symbols')")
-    assert page.tab.evaluate(measure, sorted(set(symbols.list_letters()))) == []
+    assert page.tab.evaluate(measure, sorted(set(borrowed.list_letters()))) == []
     shown = "".join(page.tab.locator("math").all_text_contents())
     assert len(shown) > 100
-    assert set(shown) <= {*symbols.list_letters()}
+    assert set(shown) <= {*borrowed.list_letters()}

@@ -270,17 +270,6 @@ def test_a_moment_is_kept_by_its_name_and_starts_with_its_doubles(opened):
     assert opened.tab.locator("#moments .row").count() == 1
 
 
-def test_the_link_of_a_start_is_copied(opened):
-    opened.tab.evaluate("""() => {
-        navigator.clipboard.writeText = async (text) => { window.copied = text; };
-    }""")
-    opened.open_tab("save")
-    opened.tab.click("#copy-link")
-    opened.until(lambda: opened.say("copy-link") == "Copied")
-    assert opened.tab.evaluate("window.copied") == opened.tab.input_value("#link")
-    opened.until(lambda: opened.say("copy-link") == "Copy the link")
-
-
 def test_the_page_takes_the_full_screen_and_leaves_it(opened):
     opened.tab.click("#full")
     opened.until(lambda: opened.tab.evaluate("document.fullscreenElement !== null"))

@@ -11,7 +11,7 @@ import { Lesson, writePredictions } from "./controls/lesson.js";
 import { splitLink } from "./run/links.js";
 import { FULL, recall } from "./run/memory.js";
 import { Moments } from "./controls/moments.js";
-import { offerCopy, offerFullScreen } from "./controls/window.js";
+import { offerCopy, offerFullScreen, showLink } from "./controls/window.js";
 import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
 import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
@@ -219,7 +219,7 @@ export class Page {
     say("record", phrase(facts.recording ? "page.end_record" : "page.record"));
     this.timeline.acts = facts.acts;
     this.speeds.show(facts.factor);
-    find("link", HTMLInputElement).value = `${location.href.split("#")[0]}#${facts.link}`;
+    showLink(`${location.href.split("#")[0]}#${facts.link}`);
     this.showHistory(facts.histories[inDegrees() ? "degrees" : "radians"]);
     this.fields.show(facts);
     this.showParts(facts);

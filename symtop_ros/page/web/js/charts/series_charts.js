@@ -73,6 +73,7 @@ export const drawOneSeries = (id, samples, facts) => {
     `${frame.axes}${kicks.map(mark).join("")}
     ${frame.curve(ghost, 'stroke="var(--grey)" stroke-width="1.5" stroke-dasharray="4 3" class="ghost"')}
     ${frame.curve(own, `stroke="${color}" stroke-width="1.8"`)}
+    ${frame.dot(own[own.length - 1], `fill="${color}"`)}
     ${frame.nameVertical(isTilt ? phrase("axis.tilt", { unit: angleUnit(), subject: nameSubject(facts.body) }) : "rad/s")}
     ${frame.nameHorizontal(phrase("axis.time"))}`,
   );

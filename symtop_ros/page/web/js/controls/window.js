@@ -1,5 +1,7 @@
-// What the page asks of the window and the system: a full screen, and to copy its link.
+// What the page asks of the window and the system: a full screen, and to copy its link, or to take a
+// picture of it.
 
+import { generate } from "./lean_qr.js";
 import { find, say } from "./document.js";
 import { phrase } from "../words/wording.js";
 
@@ -28,4 +30,20 @@ export const offerCopy = () => {
     say("copy-link", phrase("page.copied"));
     setTimeout(() => say("copy-link", phrase("page.copy_link")), MOMENT);
   });
+};
+
+let drawn = "";
+
+/**
+ * Show the link of the start, and its code for a camera. Another machine finds no page that was opened from
+ * a file.
+ * @param {string} address
+ */
+export const showLink = (address) => {
+  find("link", HTMLInputElement).value = address;
+  const code = find("code", HTMLCanvasElement);
+  code.hidden = !address.startsWith("http");
+  if (code.hidden || address === drawn) return;
+  generate(address).toCanvas(code);
+  drawn = address;
 };
