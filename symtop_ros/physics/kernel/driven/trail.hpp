@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 
+#include "body_state.hpp"
 #include "stepper.hpp"
 
 namespace symtop {
@@ -33,7 +34,7 @@ class Trail {
     if (!kept_ || !recent_) return false;
     direction_ = direction;
     stepper_.equations.prepare(top);
-    kept_[0] = start(top);
+    kept_[0] = {0.0, BodyState(top).in_frame()};
     kept_count_ = spacing_ = 1;
     return true;
   }
@@ -61,17 +62,9 @@ class Trail {
   // Write the state at t + rest; the time has been reached.
   void read(double t, double rest, double orientation[4], double omega[3]) const {
     const Piece& piece = present();
-    const Variables now = piece.evaluate(piece.locate(t, rest));
-    const Double2 w = pick(now.q, W), x = pick(now.q, X), y = pick(now.q, Y), z = pick(now.q, Z);
-    const Double2 omega_x = pick(now.rates, OMEGA_X), omega_y = pick(now.rates, OMEGA_Y);
-    Double2 c, s;
-    find_unit(pick(now.rates, SPIN) * stepper_.equations.half_rest, c, s);
-    const Double2 q[4] = {w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s};
-    const Double2 c2 = c * c - s * s, s2 = scale(c * s, 2.0);
-    for (int k = 0; k < 4; k++) orientation[k] = q[k].high;
-    omega[0] = (omega_x * c2 + omega_y * s2).high;
-    omega[1] = (omega_y * c2 - omega_x * s2).high;
-    omega[2] = now.rates.high[OMEGA_Z];
+    const BodyState now(piece.evaluate(piece.locate(t, rest)), stepper_.equations);
+    for (int k = 0; k < 4; k++) orientation[k] = now.q[k].high;
+    for (int k = 0; k < 3; k++) omega[k] = now.omega[k].high;
   }
 
   double decay() const { return stepper_.equations.decay; }
@@ -93,44 +86,6 @@ class Trail {
   double count_steps_to(double t) const {
     const Piece& first = recent_[(last_ + RECENT - recent_count_ + 1) % RECENT];
     return (t - present().end) / (present().end - first.start.t) * recent_count_;
-  }
-
-  // The numbers that were given, and the orientation with more digits of norm 1.
-  static Knot start(const DrivenArguments& top) {
-    Knot knot = {};
-    Double2 norm = {0.0, 0.0};
-    for (double q : top.orientation) norm = norm + Double2{q, 0.0} * q;
-    norm = root(norm);
-    for (int k = 0; k < 4; k++) {
-      const Double2 q = Double2{top.orientation[k], 0.0} / norm;
-      knot.now.q.high[k] = q.high, knot.now.q.low[k] = q.low;
-    }
-    for (int k = 0; k < 3; k++) knot.now.rates.high[k] = top.omega[k];
-    return knot;
-  }
-
-  // Cosine and sine of an angle, to some digits more than doubles have.
-  static void find_unit(Double2 angle, Double2& c, Double2& s) {
-    const Double2 QUARTER = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
-    const double quarters = round_to_integer(angle.high * QUARTERS);
-    const Double2 near = angle - QUARTER * quarters;
-    const double x = near.high, square = x * x;
-    static const double SINE[] = {1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800,
-                                  -1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120};
-    static const double VERSINE[] = {-1.0 / 20922789888000, 1.0 / 87178291200, -1.0 / 479001600,
-                                     1.0 / 3628800, -1.0 / 40320, 1.0 / 720, -1.0 / 24};
-    double of_sine = 0.0, of_versine = 0.0;
-    for (double each : SINE) of_sine = (of_sine + each) * square;
-    for (double each : VERSINE) of_versine = (of_versine + each) * square;
-    // The largest terms, x - x^3/6 and 1 - x^2/2, as sums of two doubles.
-    const Double2 near_2 = near * near, sixth = INVERSES[6];
-    const Double2 sine = near - near * near_2 * sixth + Double2{x * (square * of_sine), 0.0};
-    const Double2 cosine = Double2{1.0, 0.0} - scale(near_2, 0.5) -
-                           Double2{square * of_versine, 0.0};
-    const int64_t turns = static_cast<int64_t>(quarters);
-    c = turns & 1 ? sine : cosine, s = turns & 1 ? cosine : sine;
-    if ((turns + 1) & 2) c = -c;
-    if (turns & 2) s = -s;
   }
 
   void append(const Knot& knot) {

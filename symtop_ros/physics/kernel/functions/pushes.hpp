@@ -2,12 +2,15 @@
 //
 // A push comes at a whole number of nanoseconds after the first one, at which the motion starts. Up to
 // the next one the motion is a stretch of its own, from the state that the push leaves. A stretch is
-// made when it is first asked for: those before it are made, too, and are kept.
+// made when it is first asked for: those before it are made, too, and are kept. The state at the end of
+// a short one is carried on with more digits than a stretch starts from: else rounding would add up from
+// push to push, and that of a rate grow with time.
 #pragma once
 
 #include <atomic>
 #include <memory>
 
+#include "../driven/chain.hpp"
 #include "stretch.hpp"
 
 namespace symtop {
@@ -155,6 +158,8 @@ class Stretches {
   Stretch* first_ = nullptr;
   std::unique_ptr<std::unique_ptr<Stretch>[]> later_;
   std::atomic<int> made_{0};  // of later_
+  std::unique_ptr<Chain> chain_;
+  std::unique_ptr<Variables> carried_;  // the start of the last stretch, if it has more digits
   Mutex mutex_;
 
   // ns from the first push on, whole
@@ -197,14 +202,39 @@ class Stretches {
   symtop_status make_next(int next, double* steps) {
     symtop_start s = at(next - 1).start;
     const int64_t passed = static_cast<int64_t>(find_begin(next) - find_begin(next - 1));
-    size_t done;
-    symtop_status status = ClockTimes{{1.0, {}}, &passed}.fill(
-        at(next - 1), 0.0, 0, 1, steps, {s.orientation, s.angular_velocity}, &done);
-    if (status == SYMTOP_OK) status = push(s);
+    Variables state = carried_ ? *carried_ : BodyState(to_driven(s)).in_frame();
+    const bool is_carried = carry(state, passed, s);
+    symtop_status status = is_carried ? SYMTOP_OK : restart(at(next - 1), passed, steps, s);
     if (status == SYMTOP_OK) status = accept(s);
     if (status != SYMTOP_OK) return status;
     later_[next - 1].reset(new (std::nothrow) Stretch(s));
-    return later_[next - 1] ? SYMTOP_OK : SYMTOP_NO_MEMORY;
+    if (!later_[next - 1]) return SYMTOP_NO_MEMORY;
+    if (is_carried)
+      carried_.reset(new (std::nothrow) Variables(state));
+    else
+      carried_.reset();
+    return SYMTOP_OK;
+  }
+
+  // Moves a state to the next push, and over it; false if it has to begin anew from doubles.
+  bool carry(Variables& state, int64_t passed, symtop_start& s) {
+    if (!chain_) chain_.reset(new (std::nothrow) Chain(to_driven(s)));
+    const Pair time = split_seconds(Exact(static_cast<double>(passed)));
+    const Double2 change = Double2{pushes_.impulse, 0.0} / Double2{s.Ix, 0.0};
+    if (!chain_ || !chain_->advance(state, time.x, time.y) || !Chain::push(state, change)) return false;
+    const BodyState body = chain_->find_state(state);
+    for (const Double2& each : body.omega)
+      if (!are_at_most(&each.high, 1, LARGEST)) return false;
+    for (int k = 0; k < 3; k++) s.angular_velocity[k] = body.omega[k].high;
+    for (int k = 0; k < 4; k++) s.orientation[k] = body.q[k].high;
+    return true;
+  }
+
+  symtop_status restart(Stretch& before, int64_t passed, double* steps, symtop_start& s) const {
+    size_t done;
+    const symtop_status status = ClockTimes{{1.0, {}}, &passed}.fill(
+        before, 0.0, 0, 1, steps, {s.orientation, s.angular_velocity}, &done);
+    return status == SYMTOP_OK ? push(s) : status;
   }
 
   symtop_status push(symtop_start& s) const {

@@ -17,7 +17,7 @@ const BARS = [
   ["weight", "var(--theta)", ({ weight }) => weight],
   ["precession", "var(--phi)", ({ precession }) => precession],
   ["nutation", "var(--grey)", ({ nutation }) => nutation],
-  ["E'", "var(--gold)", findRest],
+  ["E\u2032", "var(--gold)", findRest],
 ];
 
 /** @param {number} value */

@@ -31,7 +31,7 @@ export const drawWell = (potential, theta) => {
     ${frame.axes}
     ${before ? drawPotential(frame, before, 'stroke="var(--grey)" stroke-dasharray="4 3" id="before"') : ""}
     ${frame.level(energy, 'stroke="var(--gold)" stroke-width="2"')}
-    ${frame.nameLevel(energy, "E'")}
+    ${frame.nameLevel(energy, "E\u2032")}
     ${drawPotential(frame, potential, 'stroke="var(--phi)" stroke-width="2" id="potential"')}
     ${frame.nameVertical(phrase("axis.U"))}
     ${frame.nameHorizontal("\u03b8", frame.writeBelow(named, writeAngle))}
