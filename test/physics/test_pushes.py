@@ -82,17 +82,18 @@ def distance(one, other):
 
 
 def draw_chains(count):
-    """Tops of either sign of Mgl and of Iz - Ix, on roots, cusps and loops; pushes of all rates."""
+    """Tops of either sign of Mgl and of Iz - Ix, on roots and cusps; some pushes in a nutation."""
     rng = Numbers("chains of pushes")
     for _ in range(count):
-        Ix, unit = rng.power(-4, -1), rng.power(0.5, 1.2)
+        Ix, unit = rng.power(-4, -1), rng.power(0, 0.7)
         Iz = Ix * rng.choice([rng.uniform(0.1, 1.0), rng.uniform(1.0, 1.9)])
         top = Top(Ix, Iz, rng.choice([1, -1]) * Ix * unit * unit)
         theta, spin = rng.uniform(0.4, 2.7), rng.uniform(2, 9) * Ix / Iz * unit
         roots = regular_precession_rates(top, theta=theta, psi_dot=spin)
         rate = rng.choice([0.0, *(each for each in roots if math.isfinite(each))])
         start = State.from_euler(theta=theta, phi_dot=rate, psi_dot=spin)
-        pushes = Pushes(2.0**-9 * Ix * unit, rng.uniform(4, 60) * unit, 40)
+        period = Motion(top, start).nutation_period
+        pushes = Pushes(2.0**-9 * Ix * unit, min(rng.uniform(1.0, 12.0) / period, 1000.0), 40)
         yield Motion(top, start, pushes=pushes)
 
 

@@ -117,8 +117,9 @@ typedef struct {
 } symtop_pushes;
 
 /* Make a motion that is pushed again and again. It starts with the state that the first push leaves;
- * between pushes it is as exact as others, for the doubles that a push leaves: of many pushes their
- * rounding adds up. From a push on that cannot be (the axis is vertical, or the top would be too fast)
+ * between pushes it is as exact as others. More digits than a double has are carried from one push to the
+ * next, if they are at most about one and a half nutations apart; rarer ones begin anew from doubles, of
+ * which the rounding adds up. From a push on that cannot be (the axis is vertical, or the top would be too fast)
  * there are no states: their status says why. */
 SYMTOP_API symtop_status symtop_new_pushed(const symtop_start* start, const symtop_pushes* pushes,
                                            symtop_motion** motion);

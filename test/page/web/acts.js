@@ -53,7 +53,7 @@ window.acts = {
   },
 
   losePicture() {
-    const gl = document.querySelector("canvas").getContext("webgl2");
+    const gl = document.querySelector("#picture").getContext("webgl2");
     window.lost = gl.getExtension("WEBGL_lose_context");
     window.lost.loseContext();
   },

@@ -48,7 +48,7 @@ window.looks = {
 
   /** The place of the ball, by its colour, in the middle of the scene's canvas. */
   findBall() {
-    const canvas = document.querySelector("canvas");
+    const canvas = document.querySelector("#picture");
     const { data, width } = readPixels(canvas);
     let [x, y, count] = [0, 0, 0];
     for (let k = 0; k < data.length; k += 4) {
@@ -66,7 +66,7 @@ window.looks = {
 
   /** How many pixels of the scene have each named colour, and which are near to some places (px). */
   nameColors({ places, radius }) {
-    const canvas = document.querySelector("canvas");
+    const canvas = document.querySelector("#picture");
     const { data, width, height } = readPixels(canvas);
     const ratio = width / canvas.getBoundingClientRect().width;
     const counts = Object.fromEntries(Object.keys(NAMED).map((name) => [name, 0]));
@@ -87,7 +87,7 @@ window.looks = {
 
   /** How many colours the scene has: one if nothing is drawn. */
   countColors() {
-    const gl = document.querySelector("canvas").getContext("webgl2");
+    const gl = document.querySelector("#picture").getContext("webgl2");
     const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
     const pixels = new Uint8Array(4 * width * height);
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);

@@ -87,7 +87,7 @@ class Trial:
         button.dispatch_event("pointerup")
 
     def do_pull(self):
-        box = self.page.tab.locator("canvas").bounding_box()
+        box = self.page.tab.locator("#picture").bounding_box()
         x, y = (box[k] + self.rng.random() * box[size] for k, size in zip("xy", SIZES, strict=True))
         self.page.drag(x, y, self.rng.uniform(-90, 90), self.rng.uniform(-90, 90))
         self.page.tab.mouse.up()

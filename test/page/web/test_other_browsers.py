@@ -95,7 +95,7 @@ def test_a_top_is_hurried_and_the_run_survives_a_reload(driver, path):
     assert kick["angular_velocity"] == after.angular_velocity.tolist()
     verdict = kick_verdict(Motion(Top(*kick["top"]), after), before, "spin_momentum")
     assert why == write_as_page("kick", verdict, "degrees")  # the page's unit at first
-    picture = driver.run("return document.querySelector('canvas').toDataURL().length;")
+    picture = driver.run("return document.querySelector('#picture').toDataURL().length;")
     assert picture > 5000
     assert driver.run("return document.querySelectorAll('#charts svg path').length;") > 20
     driver.reload()

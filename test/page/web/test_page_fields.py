@@ -78,7 +78,7 @@ def test_keys_that_move_through_the_list_of_scenes_start_none_but_a_pointer_does
 def test_keys_drags_and_the_wheel_turn_and_move_the_view_and_do_not_touch_the_top(opened):
     opened.press("Space")
     opened.show_arrows("torque")
-    box = opened.tab.locator("canvas").bounding_box()
+    box = opened.tab.locator("#picture").bounding_box()
 
     def drag():
         opened.drag(box["x"] + 60, box["y"] + 60, 80, 20)

@@ -13,7 +13,7 @@ from symtop_ros.physics import Motion, hurry
 
 PERIODS = 1.1  # of a nutation, in which all of it is seen
 LINKS = ("#lesson=2", "#scene=cusps", "#theta=0.6&psi_dot=150")
-PARTS = ("#question", "canvas", "#answers", "#theta svg")
+PARTS = ("#question", "#picture", "#answers", "#theta svg")
 
 
 @pytest.fixture

@@ -80,7 +80,7 @@ def test_a_saved_picture_has_the_sentence_and_the_labels(opened, tmp_path):
         arguments = [base64.b64encode(picture).decode(), color]
         texts.append(opened.tab.evaluate("looks.countPixels", arguments))
     (height, before), (_, after) = texts
-    assert height > opened.tab.locator("canvas").bounding_box()["height"] + 20
+    assert height > opened.tab.locator("#picture").bounding_box()["height"] + 20
     assert before == 0  # nothing is drawn here but texts
     assert after > 50
 

@@ -64,7 +64,7 @@ def test_in_any_window_hurry_is_in_reach_and_a_refusal_in_sight(open_page, size)
     page.open_charts()
     hurry = settle(page, "#hurry")
     assert is_inside(hurry, size)
-    page.until(lambda: is_large(find_box(page, "canvas"), 0.25 * min(size)))
+    page.until(lambda: is_large(find_box(page, "#picture"), 0.25 * min(size)))
     page.until(lambda: page.tab.evaluate("document.documentElement.scrollWidth") <= width)
     for name in ("#psi_dot", "#constants"):
         page.until(lambda name=name: is_in_sight(scroll_to(page, name), size))

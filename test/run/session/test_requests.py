@@ -225,8 +225,8 @@ def test_the_state_says_why_the_axis_moves_as_it_does_under_gravity_alone():
     def why(scene):
         return json.loads(Run(scene).ask("get_state")[1])["why"]
 
-    assert why("regular_precession").startswith("Gravity's torque does not change the tilt: it is")
-    assert why("free").startswith("No torque acts: the angular momentum L is constant")
+    assert why("regular_precession").startswith("Gravity's torque turns the angular momentum round")
+    assert why("free").startswith("No torque acts: the angular momentum is constant")
     assert why("friction") == ""
 
 
