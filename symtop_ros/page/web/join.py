@@ -168,6 +168,7 @@ def _write_function(path: Path) -> str:
 def drop_comments(text: str) -> str:
     """Return a module without what is for its readers: comments, indentation and empty lines."""
     text = re.sub(r"/\*\*(?:(?!\*/).)*\*/ ?", "", text, flags=re.S)
+    text = re.sub(r"(?<=[;,{}()\[]) // [^\n\"'`]*$", "", text, flags=re.M)
     return re.sub(r"^\s*(//[^\n]*\n\s*)*", "", text, flags=re.M)
 
 
