@@ -89,7 +89,7 @@ def main() -> None:
 
 def _write_models(folder: Path) -> None:
     for name in PROBLEMS:
-        command = (Path(sys.executable).with_name("top_judge"), "--testset", name)
+        command = (Path(sys.executable).with_name("top_testset"), name)
         subprocess.run([*command, "-o", folder / name], check=True, stdout=subprocess.DEVNULL)
 
 

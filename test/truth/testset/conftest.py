@@ -6,8 +6,8 @@ import pytest
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory):
     """Return the folder of the whole set."""
-    from symtop_ros.truth.judge.main import main  # it needs mcap
+    from symtop_ros.truth.testset.main import main
 
     path = tmp_path_factory.mktemp("set")
-    assert main(["--testset", "-o", str(path)]) == 0
+    assert main(["-o", str(path)]) == 0
     return path

@@ -17,6 +17,7 @@ from symtop_ros.truth.testset.score import (
     Problem,
     Score,
     find_problem,
+    format_engine,
     score_trajectory,
 )
 from symtop_ros.truth.testset.tables import TABLES
@@ -172,7 +173,16 @@ def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> s
             f"median {row.median_limits:.2g} limits"
             for place, row in enumerate(rows, start=1)
         ]
-    return "\n".join(lines)
+    return "\n".join([*lines, *_list_engines(entries)])
+
+
+def _list_engines(entries: Sequence[Entry]) -> Iterator[str]:
+    """Yield what computed the entries of each name, as their files say."""
+    engines: dict[str, set[str]] = defaultdict(set)
+    for each in entries:
+        engines[each.name].add(each.score.engine)
+    for name, found in engines.items():
+        yield f"{name}, {'; '.join(map(format_engine, sorted(found)))}"
 
 
 def format_json(
