@@ -66,7 +66,7 @@ PEERS = [
     *DIGITS,  # errors are measured from it
     "heyoka>=7",
     "cyrk>=0.20",
-    "mujoco>=3.3",
+    "mujoco>=4",
     "drake>=1.40",
     "pin>=3.4",
     "exudyn>=1.13",
@@ -81,15 +81,15 @@ TEST = [
     "pytest>=8",
     "coverage>=7.10",  # 7.10 can measure programs that tests start
     "hypothesis>=6.100",  # random tops and requests
-    "rosbags>=0.10.9",  # an independent reader of logs
+    "rosbags>=0.11",  # an independent reader of logs
     "psutil>=6",  # addresses that programs listen on
     "pillow>=10",  # rendered scenes are compared
     "playwright>=1.40",  # drives a browser that is installed
     "axe-playwright-python>=0.1.7",  # looks for what keeps people from using the page
     *DIGITS,
-    "mujoco>=3.3",  # reads the MJCF of the top
+    "mujoco>=4",  # reads the MJCF of the top
     "ahrs>=0.4",  # filters that are fed with its sensor
-    "docutils>=0.18.1",  # reads the changelog; ahrs excludes 0.18
+    "docutils>=0.22",  # reads the changelog
     "zxing-cpp>=2.2",  # reads the code of a link, as a camera does
 ]
 # The HTML site of `make docs`.

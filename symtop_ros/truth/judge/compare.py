@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.base.arrays import Real, Stamps, compose, invert
+from symtop_ros.base.arrays import Real, Stamps, compose, invert, rotate, split
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.truth import Truth
@@ -121,7 +121,7 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
     rate = (
         None
         if chosen.angular_velocities is None
-        else np.linalg.norm(to_rotation(body).apply(chosen.angular_velocities) - rates, axis=1)
+        else np.linalg.norm(rotate(*split(body), v=chosen.angular_velocities) - rates, axis=1)
     )
     early, late = truth.count_outside(stamps)
     unjudged = int(truth.find_unjudged(stamps).sum())

@@ -11,6 +11,7 @@ from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
 from symtop_ros.run.models import FORMATS, FREE_FORMATS, UNSAID, name_file
 from symtop_ros.run.models.descriptions import describe
 from symtop_ros.truth.testset import score
+from symtop_ros.truth.testset.forms import write_forms
 from symtop_ros.truth.testset.snippets import format_snippets, format_world_snippets
 from symtop_ros.truth.testset.tables import format_problems, tabulate
 
@@ -96,6 +97,9 @@ def _describe_models(facts: Mapping[str, Any]) -> dict[str, str]:
         if (each, form) not in UNSAID:
             described = describe(each, body)
             texts[name_file(f"{name}.{each}", form)] = write(top, start, body, described)
+    if name == score.FORMED:
+        forms = write_forms(top, start, body).items()
+        texts |= {name_file(f"{name}.{each}", form): text for (each, form), text in forms}
     return texts
 
 

@@ -32,7 +32,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-VERSION = "6.1"  # of the test set
+VERSION = "6.2"  # of the test set
 FILE = Path(__file__).with_name("problems.json")
 PACKED = ".json.xz"  # of the same file in the package, which writes the set from it
 QUATERNION = ("w", "x", "y", "z")
@@ -40,10 +40,17 @@ RATES = ("wx", "wy", "wz")
 WORLD_RATES = ("omega_x", "omega_y", "omega_z")
 BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
 # Of the body: its frame turned, with a full tensor or with moments in an inertial frame; or with
-# its origin off the pivot; all or half of the mass in a fixed child. The states of the first two
-# are in the turned frame, those of the others as ever.
-TURNED = ("turned", "inertial")
-DESCRIPTIONS = (*TURNED, "offset", "nested", "nested_half")
+# its origin off the pivot; all or half of the mass in a fixed child.
+DESCRIPTIONS = ("turned", "inertial", "offset", "nested", "nested_half")
+# One problem has its body in further words of the formats. README.md has a table of them.
+FORMED = "cusps"
+TURNED_FORMS = (
+    *("euler", "degrees", "axisangle", "xyaxes", "zaxis", "quaternion"),
+    *("solid", "ends", "inferred", "classes", "units"),
+)
+FORMS = (*TURNED_FORMS, "frames", "submodel")
+# The states of these are in the turned frame, those of the others as ever.
+TURNED = ("turned", "inertial", *TURNED_FORMS)
 # The rotation of a turned frame to the principal axes.
 TURN = (0.7, 0.1, 0.5, 0.5)
 SEPARATORS = (",", ";", "\t")  # else any white space
@@ -681,14 +688,25 @@ def find_problem(problems: dict[str, Problem], name: str) -> Problem:
         )
     if base == name:
         return problems[name]
-    if description not in DESCRIPTIONS:
+    if description not in (known := list_descriptions(base)):
         got = " ".join(description.split())[:60]
-        raise ValueError(f"description must be one of {', '.join(DESCRIPTIONS)}, got {got}")
+        raise ValueError(f"description must be one of {', '.join(known)}, got {got}")
     facts = problems[base].facts | {"name": name}
     if description in TURNED:
         facts |= {each: facts[f"turned_{each}"] for each in ("orientations", "angular_velocities")}
         facts |= _turn_start(facts)
     return Problem(facts)
+
+
+def list_descriptions(name: str) -> tuple[str, ...]:
+    """Return the descriptions that a problem has of its body.
+
+    Examples
+    --------
+    >>> list_descriptions("looping")
+    ('turned', 'inertial', 'offset', 'nested', 'nested_half')
+    """
+    return (*DESCRIPTIONS, *(FORMS if name == FORMED else ()))
 
 
 def _turn_start(facts: dict[str, Any]) -> dict[str, list[float]]:

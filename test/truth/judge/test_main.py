@@ -56,6 +56,7 @@ def test_the_delay_and_the_offset_are_found_written_and_can_be_removed(log, caps
     facts = json.loads((tmp_path / "new" / "judge.json").read_text())
     assert facts["found"]["delay"] == pytest.approx(0.004, abs=1e-8)
     assert facts["found"]["world_offset"]["angle"] == pytest.approx(0.3, abs=1e-5)
+    pytest.importorskip("matplotlib")
     for suffix in ("svg", "png"):
         assert (tmp_path / "new" / f"judge.{suffix}").stat().st_size > 1000
 

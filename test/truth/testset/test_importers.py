@@ -5,10 +5,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+from physics.tops import EPS
 
 from symtop_ros.run.models import FORMATS, UNSAID, name_file
-from symtop_ros.truth.testset.score import DESCRIPTIONS, read_problems
+from symtop_ros.truth.testset.forms import FORMS
+from symtop_ros.truth.testset.score import DESCRIPTIONS, FORMED, find_problem, read_problems
 from workshop.importers.compare import expect, judge
 
 READ = Path(__file__).parents[3] / "workshop/importers/read.py"
@@ -27,6 +30,37 @@ def find_paths(folder, form):
         for each in ("", *DESCRIPTIONS)
         if (each, form) not in UNSAID
     }
+
+
+FACTS_OF_FORMS = read_problems()[FORMED].facts
+FORMS_OF_MJCF = [name for name, form in FORMS if form == "mjcf"]
+
+
+def test_mujoco_reads_the_body_of_every_form(folder):
+    pytest.importorskip("mujoco")
+    paths = [folder / "models" / f"{FORMED}.{name}.mjcf" for name in FORMS_OF_MJCF]
+    for name, found in zip(FORMS_OF_MJCF, read("mujoco", *paths), strict=True):
+        assert judge(found, expect(FACTS_OF_FORMS, name)) == "right", name
+
+
+@pytest.mark.parametrize("name", FORMS_OF_MJCF)
+def test_a_form_of_mjcf_starts_in_the_frame_in_which_it_is_scored(name, folder):
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_path(str(folder / "models" / f"{FORMED}.{name}.mjcf"))
+    facts = find_problem(read_problems(), f"{FORMED}.{name}").facts
+    # a few products of rounded numbers; the quaternion is a unit one in the model
+    q = np.array(facts["orientation"]) / np.linalg.norm(facts["orientation"])
+    assert model.key_qpos[0] == pytest.approx(q, abs=4 * EPS)
+    rates = facts["angular_velocity"]
+    assert model.key_qvel[0] == pytest.approx(rates, abs=4 * EPS * np.linalg.norm(rates))
+
+
+def test_the_schema_of_usd_has_the_body_of_every_form_that_states_it(folder):
+    pytest.importorskip("pxr")
+    names = [name for name, form in FORMS if form == "usd" and name != "solid"]
+    paths = [folder / "models" / f"{FORMED}.{name}.usda" for name in names]
+    for name, found in zip(names, read("usd-core", *paths), strict=True):
+        assert judge(found, expect(FACTS_OF_FORMS, name)) == "to 6 digits", name
 
 
 @pytest.mark.parametrize("form", ["mjcf", "urdf"])

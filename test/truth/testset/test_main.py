@@ -13,6 +13,8 @@ from programs import execute
 from truth.testset.trajectories import make_table, write
 
 from symtop_ros import __version__
+from symtop_ros.run.models import name_file
+from symtop_ros.truth.testset.forms import FORMS
 from symtop_ros.truth.testset.main import main
 from symtop_ros.truth.testset.score import VERSION
 from symtop_ros.truth.testset.score import main as score
@@ -29,6 +31,7 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     }
     forms = ("urdf", "sdf", "mjcf", "usda")
     models = {f"cusps.{each}.{form}" for each in described for form in forms}
+    models |= {name_file(f"cusps.{each}", form) for each, form in FORMS}
     assert {path.name for path in tmp_path.iterdir()} == models - left_out | {
         *(f"cusps.{suffix}" for suffix in ("json", *forms)),
         *(f"{name}.csv" for name in ("problems", "states", "forces", "world")),

@@ -131,11 +131,11 @@ def test_other_refusals_are_a_line(capsys, tmp_path):
         (["none"], "problem must be one of gentle_cusps, "),
         (["tops.turned"], "problem must be one of gentle_cusps, "),
         (
-            ["cusps.bent"],
+            ["looping.bent"],
             "description must be one of turned, inertial, offset, nested, nested_half, got b",
         ),
         (
-            ["cusps."],
+            ["looping."],
             "description must be one of turned, inertial, offset, nested, nested_half, got \n",
         ),
         (["cusps"], "trajectory must be a CSV file for cusps, got none"),
