@@ -127,24 +127,26 @@ def _read(importer: Importer, folder: Path) -> Reading:
         if (description, form) not in UNSAID
     ]
     files += [_name(FORMED, each, form) for each, form in FORMS if form in importer.formats]
-    found = {}
-    for each in files:
-        # one file each: an importer may end with the process
-        done = _run(importer, folder, each)
-        if done.returncode:
-            found[each] = {"refused": f"the process ended with status {done.returncode}"}
-        else:
-            read = json.loads(done.stdout)
-            found |= read["found"]
-            version = read["version"]
-    return Reading(importer, version, found)
-
-
-def _run(importer: Importer, folder: Path, file: str) -> subprocess.CompletedProcess[bytes]:
     python = ROOT / ".venv" / importer.place / "bin/python"
-    return subprocess.run(
-        [python, READ, importer.name, file], cwd=folder, check=False, stdout=subprocess.PIPE
+    version = _run([python, READ, importer.name], folder)["version"]
+    return Reading(importer, version, _read_files([python, READ, importer.name], files, folder))
+
+
+def _read_files(command: list[object], files: list[str], folder: Path) -> dict[str, Any]:
+    """Return what a process reads of files; if it breaks off, of each file in its own one."""
+    read = _run([*command, *files], folder)
+    if len(files) > 1 and "found" not in read:
+        return {name: _read_files(command, [name], folder)[name] for name in files}
+    return dict(read.get("found", {files[0]: read}))
+
+
+def _run(command: list[object], folder: Path) -> dict[str, Any]:
+    """Return what a process prints, or why it prints nothing: a reader may end with its process."""
+    done = subprocess.run(
+        [str(word) for word in command], cwd=folder, check=False, stdout=subprocess.PIPE
     )
+    status = done.returncode
+    return json.loads(done.stdout) if not status else {"refused": f"it ends with status {status}"}
 
 
 def _list_rows(readings: list[Reading]) -> Iterator[list[str]]:
