@@ -147,7 +147,7 @@ IN_THE_WORLD = """\
 
 These hold the centre of mass in the world, and angular velocities in the world frame. `world.csv`
 has these quantities at each time. Each program writes a trajectory for the scorer, with {steps}
-steps to each of the 20 times, and the first two write the version of the engine above it, as a score
+steps to each of the 20 times; the first two write the version of the engine above it, as a score
 is cited. Bullet (C++, `libbullet-dev`), with a joint that its solver holds:
 
 ```cpp
