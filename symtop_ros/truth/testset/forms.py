@@ -1,8 +1,8 @@
 """The legal forms in which a format can say a body: the problem `cusps` in each of them.
 
 A form says one thing of the models of a description in other words: the rotation of an inertial
-frame, the place of a child, the inertia itself as the shape of a solid, or the units. What has to
-be the same is left as it is. `README.md` has the table of forms, and says what is left out.
+frame, the place of a child, the inertia itself as the shape of a solid, or the units. The rest of a
+model does not change. `README.md` has the table of forms, and says what is left out.
 """
 
 import math
@@ -51,7 +51,7 @@ class Solid:
     @property
     def density(self) -> float:
         """Density in kg/m^3."""
-        return self.body.mass / (2 * math.pi * self.radius**2 * self.half)
+        return self.body.mass / (2 * math.pi * self.radius * self.radius * self.half)
 
     @property
     def size(self) -> str:
@@ -219,7 +219,7 @@ def _frame_sdf(models: Models) -> str:
 
 
 def _nest_sdf(models: Models) -> str:
-    """Return `nested_half` with its child in a model of its own in the model."""
+    """Return `nested_half` with its child in a model inside the model."""
     text = models.write("nested_half", "sdf")
     (link,) = re.findall(r' *<link name="part">(?:.*\n)*? *</link>\n', text)
     pose = f"{models.child} {join(ROLL_PITCH_YAW)}"
