@@ -99,6 +99,15 @@ def test_a_file_that_no_importer_takes_is_refused(tmp_path):
     assert judge(found, expect(FACTS, "")) == "refused"
 
 
+def test_a_reader_that_ends_with_its_process_is_refused_and_other_files_are_read(tmp_path):
+    from workshop.importers.__main__ import _read_files
+
+    code = "import json, sys; names = sys.argv[1:]; 'bad' in names and sys.exit(3); "
+    code += "print(json.dumps({'version': '1', 'found': {name: {'mass': 1} for name in names}}))"
+    found = _read_files([sys.executable, "-c", code], ["good", "bad"], tmp_path)
+    assert found == {"good": {"mass": 1}, "bad": {"refused": "it ends with status 3"}}
+
+
 def test_every_format_is_read_by_some_importer():
     from workshop.importers.__main__ import IMPORTERS
 
