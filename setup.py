@@ -59,14 +59,14 @@ REFERENCE = ["python-flint>=0.9"]  # balls, numbers with a proved radius
 DIGITS = [
     *REFERENCE,
     "mpmath>=1.4",
-    "gmpy2>=2.1",  # mpmath uses it, and takes a third of the time
+    "gmpy2>=2.1.5",  # mpmath uses it, and takes a third of the time; the first for Python 3.11
 ]
 # Programs that `make -C workshop report` compares with, if they are installed.
 PEERS = [
     *DIGITS,  # errors are measured from it
     "heyoka>=7",
     "cyrk>=0.20",
-    "mujoco>=3.3",
+    "mujoco>=4",
     "drake>=1.40",
     "pin>=3.4",
     "exudyn>=1.13",
@@ -81,15 +81,15 @@ TEST = [
     "pytest>=8",
     "coverage>=7.10",  # 7.10 can measure programs that tests start
     "hypothesis>=6.100",  # random tops and requests
-    "rosbags>=0.10",  # an independent reader of logs
+    "rosbags>=0.11",  # an independent reader of logs
     "psutil>=6",  # addresses that programs listen on
     "pillow>=10",  # rendered scenes are compared
     "playwright>=1.40",  # drives a browser that is installed
     "axe-playwright-python>=0.1.7",  # looks for what keeps people from using the page
     *DIGITS,
-    "mujoco>=3.3",  # reads the MJCF of the top
+    "mujoco>=4",  # reads the MJCF of the top
     "ahrs>=0.4",  # filters that are fed with its sensor
-    "docutils>=0.18",  # reads the changelog
+    "docutils>=0.22",  # reads the changelog
     "zxing-cpp>=2.2",  # reads the code of a link, as a camera does
 ]
 # The HTML site of `make docs`.
@@ -200,8 +200,9 @@ setup(
     python_requires=">=3.11",
     install_requires=[
         "numpy>=1.24",  # any NumPy of a supported ROS 2
-        "scipy>=1.8",  # noise of the sensor, the judge; the physics does without
-        "pyyaml>=5.4",  # scene files
+        # Those of Debian 12, the oldest system with Python 3.11: earlier wheels are for others.
+        "scipy>=1.10",  # noise of the sensor, the judge; the physics does without
+        "pyyaml>=6.0",  # scene files
     ],
     extras_require={
         "ros": JAZZY,
@@ -224,6 +225,7 @@ setup(
             f"top_live = {NAME}.programs:top_live",
             f"top_panel = {NAME}.programs:top_panel",
             f"top_judge = {NAME}.programs:top_judge",
+            f"top_testset = {NAME}.programs:top_testset",
             f"top_model = {NAME}.programs:top_model",
             f"top_imu = {NAME}.programs:top_imu",
             f"top_fit = {NAME}.programs:top_fit",

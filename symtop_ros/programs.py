@@ -94,6 +94,7 @@ top_replay = partial(run, "top_replay", "symtop_ros.replay", interruptible=True)
 top_model = partial(run, "top_model", "symtop_ros.run.models")
 top_imu = partial(run, "top_imu", "symtop_ros.truth.imu", interruptible=True)
 top_fit = partial(run, "top_fit", "symtop_ros.truth.fit", interruptible=True)
+top_testset = partial(run, "top_testset", "symtop_ros.truth.testset", interruptible=True)
 top_judge = partial(run, "top_judge", "symtop_ros.truth.judge", interruptible=True)
 
 

@@ -15,6 +15,7 @@ BYTES = "\udcff\udcfe"  # what Python makes of bytes that are no text
 TEXTS = {"CONTROL": CONTROL, "LONG": LONG, "BYTES": BYTES, "NUL": "\0", "NINES": "9" * 5000}
 FOLDERS = {"ctl": "ros.client", "live": "ros.live", "panel": "page.panel", "replay": "replay"}
 FOLDERS |= {"model": "run.models", "judge": "truth.judge", "imu": "truth.imu", "fit": "truth.fit"}
+FOLDERS |= {"testset": "truth.testset"}
 MAINS = {
     f"top_{name}": import_module(f"symtop_ros.{folder}.main").main
     for name, folder in FOLDERS.items()
@@ -33,8 +34,9 @@ FAILED = {
     "/dev/null/run.json --save a.html | /dev/null/run.json --mcap a.mcap --rate nan | CONTROL | "
     "LONG --check | /dev/null --repair /dev/null/x | BYTES | a b | a b --repair c.mcap",
     "top_judge": "CONTROL --topic CONTROL | LONG --topic LONG | BYTES --topic BYTES | "
-    "/dev/null --estimates /dev/null/x.csv | --testset CONTROL x.csv | --testset cusps LONG | "
-    "--testset cusps BYTES | --testset cusps -o /dev/null/x | --live --topic /x --ros-args -p bad",
+    "/dev/null --estimates /dev/null/x.csv | --live --topic /x --ros-args -p bad",
+    "top_testset": "CONTROL x.csv | cusps LONG | cusps BYTES | cusps aNULb | all LONG | all / | "
+    "cusps -o /dev/null/x | -o LONG | cusps.CONTROL -o x | BYTES -o x | LONG x.csv",
     "top_model": "--format urdf --scene CONTROL | --format sdf --scene LONG | "
     "--format mjcf --scene BYTES | --format urdf --gravity 1e999 | --format urdf -o LONG | "
     "--format urdf -o aNULb",
@@ -50,6 +52,7 @@ FAILED["top_fit"] = (
 )
 MISUSED = {"top_ctl": "kick CONTROL | kick LONG | kick =3 | kick CONTROL=1 CONTROL=2"}
 UNREADABLE = {
+    "top_testset": "cusps | a b c | a b -o c | --json | a b --max-error nan | CONTROL",
     "top_ctl": " | kick | step | CONTROL | --timeout nan hurry | --timeout -inf hurry | "
     "watch --seconds 0",
     "top_live": "--port 65536 | --port -1 | --port NINES",

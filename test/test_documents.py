@@ -26,7 +26,7 @@ from truth.judge.cases import encode, make_estimates, truth_and_stamps, write_lo
 import workshop.main
 from symtop_ros.ros.client.connection import Connection
 from symtop_ros.run.simulation.run_file import write_run
-from symtop_ros.truth.judge.main import main as judge_main
+from symtop_ros.truth.testset.main import main as run_testset
 from symtop_ros.truth.testset.score import read_problems
 from workshop.load.domains import claim_domain, release_domain
 
@@ -100,7 +100,7 @@ def testset(tmp_path, monkeypatch):
     # rustc looks for the jobs of the make that runs the tests, and warns that they are not its own
     for name in ("MAKEFLAGS", "MFLAGS"):
         monkeypatch.delenv(name, raising=False)
-    assert judge_main(["--testset", "cusps", "-o", "."]) == 0
+    assert run_testset(["cusps", "-o", "."]) == 0
     return tmp_path
 
 

@@ -18,6 +18,7 @@ from symtop_ros.replay.main import main as replay
 from symtop_ros.truth.fit.main import main as fit
 from symtop_ros.truth.judge.main import main as judge
 from symtop_ros.truth.judge.truth import scene_truth
+from symtop_ros.truth.testset.main import main as run_testset
 from symtop_ros.truth.testset.score import VERSION
 from symtop_ros.truth.testset.score import main as score
 
@@ -82,7 +83,7 @@ def test_a_clock_says_what_it_is(table, capsys):
 
 def test_scores_say_of_which_test_set_they_are(tmp_path, capsys):
     path = tmp_path / "set" / "cusps" / "rk4-0.01.csv"
-    assert judge(["--testset", "-o", str(tmp_path / "set")]) == 0
+    assert run_testset(["-o", str(tmp_path / "set")]) == 0
     whole = sha256((tmp_path / "set" / "problems.json").read_bytes()).hexdigest()
     path.parent.mkdir()
     for step, error in (("0.01", 1e-6), ("0.1", 1e-3)):
@@ -90,17 +91,17 @@ def test_scores_say_of_which_test_set_they_are(tmp_path, capsys):
     capsys.readouterr()
     records = []
     for program, options in (
-        (judge, ["--testset", "cusps", str(path), "--json"]),
+        (run_testset, ["cusps", str(path), "--json"]),
         (score, ["cusps", str(path), "--json"]),
     ):
         assert program(options) == 0
         record = json.loads(capsys.readouterr().out)
         assert_explained(record, "score", path)
-        assert record.pop("version") == (__version__ if program is judge else VERSION)
+        assert record.pop("version") == (__version__ if program is run_testset else VERSION)
         records.append(record)
     assert records[0] == records[1]
     assert records[0]["testset"] == {"version": VERSION, "sha256": {"problems.json": whole}}
-    assert judge(["--testset", "all", str(tmp_path / "set"), "--json"]) == 0
+    assert run_testset(["all", str(tmp_path / "set"), "--json"]) == 0
     record = json.loads(capsys.readouterr().out)
     assert record["testset"] == records[0]["testset"]
     assert {str(path)} < {each["name"] for each in record["files"]}

@@ -48,11 +48,12 @@ TABLE = {
     "page/panel": "base/command base/shutdown page/web ros/client ros/live run/simulation | "
     "geometry_msgs rclpy",
     "truth/imu": "base/command physics run/log run/simulation run/wire | numpy yaml",
-    "truth/testset": " | numpy",
+    "truth/testset": "__init__ base/command physics run/models | numpy",
     # of judge the reader of tables and topics, the noise, and the look of figures
     "truth/fit": "base/command physics run/log run/wire truth/judge words | matplotlib numpy scipy",
-    "truth/judge": "base/command base/shutdown physics run/log run/models run/simulation run/wire "
-    "truth/testset words | matplotlib numpy rclpy scipy",
+    # of testset the scorer; the program itself only for --testset
+    "truth/judge": "base/command base/shutdown run/log run/simulation run/wire truth/testset words "
+    "| matplotlib numpy rclpy scipy",
 }
 ARROWS = {k: tuple(set(part.split()) for part in v.split("|")) for k, v in TABLE.items()}
 

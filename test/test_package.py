@@ -33,7 +33,7 @@ PARTS = (
     "CITATION.cff",
     "CHANGELOG.rst",
 )
-PROGRAMS = ("node", "ctl", "replay", "live", "panel", "model", "imu", "judge")
+PROGRAMS = ("node", "ctl", "replay", "live", "panel", "model", "imu", "judge", "testset", "fit")
 OLDEST_PYTHON = 11  # 3.11
 LIBRARY = "symtop_ros/physics/kernel/libsymtop.so"
 CONFIG = sorted(path.name for path in (ROOT / "config").iterdir())

@@ -70,7 +70,7 @@ def test_help_and_version_need_neither_ros_nor_rerun_nor_mcap(tmp_path):
     done = run_python(ASK, cwd=tmp_path)
     answers = done.stdout.split("status 0\n")
     assert (done.stderr, answers.pop()) == ("", "")
-    assert len(PROGRAMS) == 9
+    assert len(PROGRAMS) == 10
     for program, full, short, version in zip(
         PROGRAMS, *(answers[k::3] for k in range(3)), strict=True
     ):
@@ -116,7 +116,7 @@ def test_programs_use_udp_unless_the_user_has_chosen(chosen, transports, monkeyp
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
-@pytest.mark.parametrize("words", ["top_model --format urdf", "top_judge --testset"])
+@pytest.mark.parametrize("words", ["top_model --format urdf", "top_testset"])
 def test_an_output_without_room_is_a_line_and_status_1(words):
     name, *options = words.split()
     code = f"import sys; from symtop_ros import programs; sys.exit(programs.{name}())"

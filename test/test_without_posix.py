@@ -41,8 +41,8 @@ COMMANDS = (  # of one process each
     ),
     (
         "top_judge --help",
-        "top_judge --testset",
-        "top_judge --testset cusps trajectory.csv",
+        "top_testset",
+        "top_testset cusps trajectory.csv",
         "top_judge --scene cusps --estimates trajectory.csv",
     ),
     ("top_replay --check run.mcap", "top_replay run.mcap --repair größe.mcap"),

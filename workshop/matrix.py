@@ -1,4 +1,4 @@
-"""Try the node with each ROS 2, Python and NumPy, and the playback with each Rerun; print a table.
+"""Try the node with each ROS 2, Python and NumPy, playback with each Rerun, and all lower bounds.
 
 python workshop/matrix.py: each cell gets a separate environment in .venv/matrix, in which it
 installs the package and runs TESTS. The table is for docs/ros.md.
@@ -30,11 +30,19 @@ NUMPYS = {"1": "numpy<2", "2": "numpy>=2,<3"}
 # The oldest Rerun of setup.py, and the newest.
 RERUNS = ("rerun-sdk~=0.38.0", "rerun-sdk")
 PLAYBACK_TESTS = ("test/replay/view", "test/replay/test_other_readers.py")
+# All lower bounds of setup.py together: uv finds them there. Everything that computes is tried, and
+# what reads logs and models with other libraries.
+LOWEST = "--resolution=lowest-direct"
+LOWEST_TESTS = (
+    *TESTS,
+    *(f"test/{name}" for name in ("base", "words", "physics", "run", "truth", "digits")),
+    "test/test_release.py",
+)
 TOOLS = ("pytest", "coverage", "hypothesis", "mpmath", "python-flint", "rosbags", "pillow")
 PACKAGES = ("numpy", "scipy", "ros-rclpy", "rerun-sdk")
 # An active environment, and that of ROS wheels, would reach into the cell.
 FOREIGN = ("PYTHONPATH", "LD_LIBRARY_PATH", "AMENT_PREFIX_PATH", "_ROS_WHEELS_BOOTSTRAP_COMPLETE")
-TIMEOUT = 900  # s for an installation, or for the tests
+TIMEOUT = 1800  # s for an installation, or for the tests
 HEAD = "| extra | Python | NumPy | SciPy | rclpy | Rerun | result |\n|---|---|---|---|---|---|---|"
 
 
@@ -46,6 +54,11 @@ class Cell(NamedTuple):
     wanted: str
     tests: tuple[str, ...] = TESTS
 
+    @property
+    def is_lowest(self) -> bool:
+        """True if every requirement is at its lower bound."""
+        return self.wanted == LOWEST
+
 
 def cells() -> Iterator[Cell]:
     """Yield all combinations. NumPy 1 has no wheels from Python 3.13 on."""
@@ -56,6 +69,7 @@ def cells() -> Iterator[Cell]:
                     yield Cell(distribution, python, numpy)
     for rerun in RERUNS:
         yield Cell("playback", "3.11", rerun, PLAYBACK_TESTS)
+    yield Cell("jazzy,test", "3.11", LOWEST, LOWEST_TESTS)
 
 
 def find_python(version: str) -> str | None:
@@ -73,8 +87,7 @@ def try_cell(cell: Cell) -> str:
     try:
         run(python, "-m", "venv", ENVIRONMENT)
         inside = ENVIRONMENT / "bin" / "python"
-        wanted = [f".[{cell.extra}]", cell.wanted, *TOOLS]
-        installed = run(inside, "-m", "pip", "install", "--quiet", "--prefer-binary", *wanted)
+        installed = install(inside, cell)
         if installed.returncode:
             return row(cell, {}, f"cannot be installed: {last_line(installed.stderr)}")
         versions = versions_of(inside)
@@ -85,6 +98,16 @@ def try_cell(cell: Cell) -> str:
         return row(cell, {}, f"ended after {TIMEOUT} s")
     finally:
         shutil.rmtree(ENVIRONMENT, ignore_errors=True)
+
+
+def install(inside: Path, cell: Cell) -> subprocess.CompletedProcess[str]:
+    """Install the package into an environment, with what a combination asks for."""
+    pip = (inside, "-m", "pip", "install", "--quiet", "--prefer-binary")
+    package = f".[{cell.extra}]"
+    if not cell.is_lowest:
+        return run(*pip, package, cell.wanted, *TOOLS)
+    run(*pip, "uv")
+    return run(inside, "-m", "uv", "pip", "install", "--python", inside, cell.wanted, package)
 
 
 def run(*command: object) -> subprocess.CompletedProcess[str]:

@@ -71,7 +71,7 @@ SET_UPS = {
     PYTHON: SetUp("Python"),
     # The page has the kernel as WebAssembly: it needs no compiler, and runs from the checkout.
     "panel": SetUp(
-        "NumPy and PyYAML (about 100 MB, once)", packages=("numpy>=1.24", "pyyaml>=5.4")
+        "NumPy and PyYAML (about 100 MB, once)", packages=("numpy>=1.24", "pyyaml>=6.0")
     ),
     # What build_kernel.py imports; from Python 3.12 on an environment is made without it.
     "setuptools": SetUp("setuptools (once)", packages=(SETUPTOOLS,)),

@@ -156,7 +156,10 @@ def _validate_nanoseconds(value: Any) -> int | NDArray[np.int64]:
     if array.dtype.kind in "iu":
         if array.ndim == 0 and abs(number := int(array)) <= LARGEST_STAMP:
             return number
-        if array.ndim == 1 and (array.dtype.kind == "i" or array.max(initial=0) <= LARGEST_STAMP):
+        # NumPy 1 compares 64 bits without a sign and an int as doubles, in which 2^63 - 1 is 2^63
+        if array.ndim == 1 and (
+            array.dtype.kind == "i" or int(array.max(initial=0)) <= LARGEST_STAMP
+        ):
             return array.astype(np.int64, copy=False)
     raise refuse("nanoseconds", "an int or an array (n,) of ints, of at most 63 bits (ns)", value)
 

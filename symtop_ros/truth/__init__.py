@@ -1,9 +1,9 @@
 """Exact truth for authors of engines and filters: to compare with, to feed, to score.
 
 `judge/` compares estimates with the exact motion and names causes; `testset/` has seventy motions
-to 30 digits and a scorer; `imu/` makes records of an inertial sensor; `fit/` finds the motion
-from a measurement.
+to 30 digits, writes them for engines, and scores; `imu/` makes records of an inertial sensor;
+`fit/` finds the motion from a measurement.
 
 With `physics` it is all that such an author has to know. Begin with `judge/main.py` or
-`testset/score.py`.
+`testset/main.py`.
 """

@@ -14,7 +14,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from symtop_ros.run.models import UNSAID, name_file
-from symtop_ros.truth.testset.score import DESCRIPTIONS, VERSION, read_problems
+from symtop_ros.truth.testset.forms import FORMS
+from symtop_ros.truth.testset.score import DESCRIPTIONS, FORMED, VERSION, read_problems
 from workshop.importers.compare import expect, judge
 from workshop.speed.conditions import find_date
 from workshop.speed.publish import format_table
@@ -54,8 +55,14 @@ integrated here.
 
 {table}
 
+Formats have more words for the same body: [forms](../symtop_ros/truth/testset/README.md#forms), of
+`{formed}` alone. An importer that does not know one refuses it at best.
+
+{forms}
+
 "Right" is 1e-13 of the largest component, "to 6 digits" 2e-6: single precision, or the least mass
-that MuJoCo gives to an empty link. A dash: the format cannot say it.
+that MuJoCo gives to an empty link. A dash: the format cannot say it, or the importer does not read
+the format.
 
 {refusals}
 
@@ -63,24 +70,36 @@ that MuJoCo gives to an empty link. A dash: the format cannot say it.
 """
 
 
+@dataclass(frozen=True)
+class Reading:
+    """What an importer has of files, by their names."""
+
+    importer: Importer
+    version: str
+    found: dict[str, Any]
+
+    @property
+    def name(self) -> str:
+        """The importer with its version."""
+        return f"{self.importer.name} {self.version}"
+
+
 def main() -> None:
     """Read, compare, and write the page."""
     with TemporaryDirectory() as folder:
         _write_models(Path(folder))
-        rows, refusals = [], []
-        for importer in IMPORTERS:
-            version, found = _read(importer, Path(folder))
-            for form in importer.formats:
-                cells = [_judge(found, form, each) for each in (PLAIN, *DESCRIPTIONS)]
-                rows.append([f"{importer.name} {version}", form.upper(), *cells])
-                if reason := next(_list_refusals(found, form), ""):
-                    refusals.append(f"- {importer.name} {version}, {form.upper()}: {reason}")
+        readings = [_read(importer, Path(folder)) for importer in IMPORTERS]
     head = ["importer", "format", PLAIN, *(f"`.{each}`" for each in DESCRIPTIONS)]
     text = TEXT.format(
         problems="{}, {} and {}".format(*(f"`{each}`" for each in PROBLEMS)),
         version=VERSION,
-        table=format_table(head, rows),
-        refusals="What is said where a model is refused:\n\n" + "\n".join(refusals),
+        table=format_table(head, [*_list_rows(readings)]),
+        formed=FORMED,
+        forms=format_table(
+            ["form", "format", *(each.name for each in readings)], [*_list_forms(readings)]
+        ),
+        refusals="What is said where a model is refused:\n\n"
+        + "\n".join(line for each in readings for line in _list_refusals(each)),
         date=find_date(),
     )
     PAGE.write_text(text, encoding="utf-8")
@@ -88,8 +107,8 @@ def main() -> None:
 
 
 def _write_models(folder: Path) -> None:
-    for name in PROBLEMS:
-        command = (Path(sys.executable).with_name("top_judge"), "--testset", name)
+    for name in {*PROBLEMS, FORMED}:
+        command = (Path(sys.executable).with_name("top_testset"), name)
         subprocess.run([*command, "-o", folder / name], check=True, stdout=subprocess.DEVNULL)
 
 
@@ -98,7 +117,7 @@ def _name(problem: str, description: str, form: str) -> str:
     return f"{problem}/{name_file(problem + ending, form)}"
 
 
-def _read(importer: Importer, folder: Path) -> tuple[str, dict[str, Any]]:
+def _read(importer: Importer, folder: Path) -> Reading:
     """Return the version of an importer, and what it has of each file."""
     files = [
         _name(problem, description, form)
@@ -107,12 +126,44 @@ def _read(importer: Importer, folder: Path) -> tuple[str, dict[str, Any]]:
         for form in importer.formats
         if (description, form) not in UNSAID
     ]
+    files += [_name(FORMED, each, form) for each, form in FORMS if form in importer.formats]
     python = ROOT / ".venv" / importer.place / "bin/python"
+    version = _run([python, READ, importer.name], folder)["version"]
+    return Reading(importer, version, _read_files([python, READ, importer.name], files, folder))
+
+
+def _read_files(command: list[object], files: list[str], folder: Path) -> dict[str, Any]:
+    """Return what a process reads of files; if it breaks off, of each file in its own one."""
+    read = _run([*command, *files], folder)
+    if len(files) > 1 and "found" not in read:
+        return {name: _read_files(command, [name], folder)[name] for name in files}
+    return dict(read.get("found", {files[0]: read}))
+
+
+def _run(command: list[object], folder: Path) -> dict[str, Any]:
+    """Return what a process prints, or why it prints nothing: a reader may end with its process."""
     done = subprocess.run(
-        [python, READ, importer.name, *files], cwd=folder, check=True, stdout=subprocess.PIPE
+        [str(word) for word in command], cwd=folder, check=False, stdout=subprocess.PIPE
     )
-    found = json.loads(done.stdout)
-    return found["version"], found["found"]
+    status = done.returncode
+    return json.loads(done.stdout) if not status else {"refused": f"it ends with status {status}"}
+
+
+def _list_rows(readings: list[Reading]) -> Iterator[list[str]]:
+    """Yield the verdicts on descriptions, a row for each importer and format."""
+    for each in readings:
+        for form in each.importer.formats:
+            cells = [_judge(each.found, form, name) for name in (PLAIN, *DESCRIPTIONS)]
+            yield [each.name, form.upper(), *cells]
+
+
+def _list_forms(readings: list[Reading]) -> Iterator[list[str]]:
+    """Yield the verdicts on forms, a row for each form and format."""
+    facts = read_problems()[FORMED].facts
+    for name, form in FORMS:
+        path, exact = _name(FORMED, name, form), expect(facts, name)
+        cells = [judge(each.found[path], exact) if path in each.found else "-" for each in readings]
+        yield [f"`.{name}`", form.upper(), *cells]
 
 
 def _judge(found: dict[str, Any], form: str, description: str) -> str:
@@ -126,10 +177,15 @@ def _judge(found: dict[str, Any], form: str, description: str) -> str:
     return max(verdicts, key=lambda each: ("wrong" in each, each == "refused", len(each), each))
 
 
-def _list_refusals(found: dict[str, Any], form: str) -> Iterator[str]:
-    for path, each in found.items():
-        if "refused" in each and path.endswith(name_file("", form)):
-            yield f"`{path.partition('/')[2]}`, {each['refused']}"
+def _list_refusals(reading: Reading) -> Iterator[str]:
+    """Yield what is said of the first file of each format that is refused for a reason."""
+    for form in reading.importer.formats:
+        said: dict[str, str] = {}
+        for path, each in reading.found.items():
+            if "refused" in each and path.endswith(name_file("", form)):
+                said.setdefault(each["refused"], path.partition("/")[2])
+        for reason, name in said.items():
+            yield f"- {reading.name}, {form.upper()}: `{name}`, {reason}"
 
 
 if __name__ == "__main__":

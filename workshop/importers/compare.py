@@ -7,7 +7,7 @@ import numpy as np
 
 from symtop_ros.physics import STANDARD_GRAVITY, Body
 from symtop_ros.run.models.descriptions import MATRIX, PLAIN, describe
-from symtop_ros.truth.testset.score import DESCRIPTIONS
+from symtop_ros.truth.testset.score import DESCRIPTIONS, TURNED
 
 # Sums of a dozen products of doubles, and of numbers in single precision (of other doubles by the
 # least mass of a link in MuJoCo, 1e-15 kg).
@@ -21,7 +21,7 @@ def expect(facts: Mapping[str, Any], description: str) -> dict[str, Any]:
     """
     body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
     described = describe(description, body) if description in DESCRIPTIONS else PLAIN
-    turn = np.array(MATRIX, float) if described.turned else np.eye(3)
+    turn = np.array(MATRIX, float) if description in TURNED else np.eye(3)
     moments = turn.T @ np.diag([body.Ix, body.Ix, body.Iz]) @ turn
     centre = np.array(described.pivot) + turn.T @ [0.0, 0.0, body.arm]
     return {"mass": body.mass, "centre": centre, "moments": moments}

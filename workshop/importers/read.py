@@ -23,17 +23,27 @@ Part = tuple[float, Any, Any]
 LEAST = 1e-12  # kg; lighter links have a mass for MuJoCo only
 
 
-def gather(parts: Iterable[Part], place: Any, turn: Any) -> dict[str, Any]:
-    """Return parts together, in a frame with a place and a rotation (its axes as columns)."""
-    parts = [each for each in parts if each[0] > LEAST]
+def gather(
+    parts: Iterable[Part], place: Any, turn: Any, kilogram: float = 1.0, metre: float = 1.0
+) -> dict[str, Any]:
+    """Return parts together, in a frame with a place and a rotation (its axes as columns).
+
+    Numbers may be in other units, which are given.
+    """
+    place = metre * np.asarray(place)
+    parts = [
+        (kilogram * m, metre * np.asarray(c), kilogram * metre**2 * np.asarray(own))
+        for m, c, own in parts
+        if kilogram * m > LEAST
+    ]
     if not parts:
         return {"refused": "no mass is read"}
     mass = sum(each[0] for each in parts)
-    centre = sum(m * np.asarray(c) for m, c, _ in parts) / mass
+    centre = sum(m * c for m, c, _ in parts) / mass
     moments = np.zeros((3, 3))
     for m, c, own in parts:
-        arm = np.asarray(c) - centre
-        moments += np.asarray(own) + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        arm = c - centre
+        moments += own + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
     found = {"centre": turn.T @ (centre - place), "moments": turn.T @ moments @ turn}
     return {"mass": float(mass), **{name: each.tolist() for name, each in found.items()}}
 
@@ -150,14 +160,18 @@ def read_pybullet(path: str) -> dict[str, Any]:
 
 
 def read_newton(path: str) -> dict[str, Any]:
-    """Return what Newton reads of MJCF, URDF and USD, in single precision."""
+    """Return what Newton reads of MJCF, URDF and USD, in single precision.
+
+    It keeps the units of a stage, its gravity as well, and returns them.
+    """
     import newton
     import warp
 
     warp.config.quiet = True
     builder = newton.ModelBuilder()
     kind = path.rpartition(".")[2]
-    {"mjcf": builder.add_mjcf, "urdf": builder.add_urdf, "usda": builder.add_usd}[kind](path)
+    add = {"mjcf": builder.add_mjcf, "urdf": builder.add_urdf, "usda": builder.add_usd}[kind]
+    units = add(path) or {}
     model = builder.finalize(device="cpu")
     state = model.state()
     newton.eval_fk(model, model.joint_q, model.joint_qd, state)
@@ -172,7 +186,8 @@ def read_newton(path: str) -> dict[str, Any]:
     labels = [each.rpartition("/")[2] for each in builder.body_label]
     top = labels.index("top") if "top" in labels else builder.body_count - 1
     x, y, z, w = frames[top][3:]
-    return gather(parts, frames[top][:3], rotate(w, x, y, z))
+    given = [units.get(name, 1.0) for name in ("mass_unit", "linear_unit")]
+    return gather(parts, frames[top][:3], rotate(w, x, y, z), *given)
 
 
 def read_usd(path: str) -> dict[str, Any]:
@@ -192,7 +207,8 @@ def read_usd(path: str) -> dict[str, Any]:
         own = turn @ np.diag(np.array(mass.GetDiagonalInertiaAttr().Get(), float)) @ turn.T
         parts.append((mass.GetMassAttr().Get(), centre, own))
         frames[prim.GetName()] = pose[:3, 3], pose[:3, :3]
-    return gather(parts, *frames["top"])
+    units = UsdPhysics.GetStageKilogramsPerUnit(stage), UsdGeom.GetStageMetersPerUnit(stage)
+    return gather(parts, *frames["top"], *units)
 
 
 READERS: dict[str, tuple[str, Callable[[str], dict[str, Any]]]] = {

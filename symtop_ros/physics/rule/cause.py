@@ -69,10 +69,8 @@ class Cause:
     >>> cause.explanation, cause.turn, cause.pace
     ('with_momentum', 'rests', 'speeds')
     >>> print(cause)  # doctest: +NORMALIZE_WHITESPACE
-    Gravity's torque stays within 0.064 rad of perpendicular to the angular momentum L, and so turns
-    it round. L stays within 0.14 rad of the line of the axle, and the angular velocity omega within
-    0.037 rad, so the axle goes round as well. The axle does not go round now: all of gravity's
-    torque is left, so the axle falls and goes round faster and faster.
+    Gravity's torque turns the angular momentum round, which stays near the axle: so the axle goes
+    round as well. The axle does not go round: all of gravity's torque is left, so the axle falls.
     """
 
     explanation: Explanation | None
@@ -89,7 +87,7 @@ class Cause:
 
     def __str__(self) -> str:
         """Return what can be said, in sentences."""
-        return COLOURED.sub(r"\1", write("cause", self)).strip()
+        return COLOURED.sub(r"\1", write("because", self)).strip()
 
 
 def read_cause(found: CauseRecord, subject: Subject) -> Cause:

@@ -1,4 +1,4 @@
-"""The top and its start as URDF, SDF, MJCF and USD. Imported by session, node, check and judge.
+"""The top and its start as URDF, SDF, MJCF and USD. Imported by session, node, check and testset.
 
 All of them hold a body that moves as the top does, with its doubles in full, in any of its
 descriptions. Friction and applied torques are left out: no format has friction that differs along

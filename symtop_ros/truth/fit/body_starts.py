@@ -1,6 +1,7 @@
 """Starts of the search for records of the body, as rates or attitudes, and of theta alone."""
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import islice
 
@@ -44,13 +45,21 @@ def list_rate_starts(record: Record) -> Iterator[Starts]:
     columns, w = _integrate(record.times, record.values, rates[:, 2])
     x = np.linalg.lstsq(columns.reshape(-1, 6), w.ravel(), rcond=None)[0]
     weight = float(np.linalg.norm(x[1:4]))
-    turn = Rotation.align_vectors([[0, 0, 1.0]], [x[1:4] / max(weight, 1e-300)])[0]
-    model = Model(record, turn.as_quat()[[3, 0, 1, 2]])
+    model = Model(record, _turn_upright(x[1:4]))
     rows = [
         {"Mgl/Ix": weight, "Iz/Ix": ratio, "wx": x[4], "wy": x[5], "spin": spin}
         for ratio in (float(np.clip(x[0], 0.01, 1.99)), *RATIOS)
     ]
     yield Starts(model, np.array([fill(model, row) for row in rows]))
+
+
+def _turn_upright(vertical: Iterable[float]) -> Real:
+    """Return the quaternion of the smallest rotation that takes a vector to the z axis."""
+    x, y, z = map(float, vertical)
+    across = math.hypot(x, y)
+    half = math.atan2(across, z) / 2
+    a, b = (y / across, -x / across) if across else (1.0, 0.0)
+    return np.array([math.cos(half), a * math.sin(half), b * math.sin(half), 0.0])
 
 
 def _integrate(times: Real, rates: Real, spins: Real) -> tuple[Real, Real]:

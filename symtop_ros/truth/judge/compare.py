@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.base.arrays import Real, Stamps, compose, invert
+from symtop_ros.base.arrays import Real, Stamps, compose, invert, rotate, split
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.truth import Truth
@@ -118,11 +118,10 @@ def compare(estimates: Estimates, truth: Truth, offset: Offset = NONE) -> Errors
     tilt = 2 * np.arctan2(np.hypot(x, y), np.hypot(w, z))
     heading = 2 * np.arctan2(z, w)
     heading -= 2 * np.pi * np.rint(heading / (2 * np.pi))
-    rate = (
-        None
-        if chosen.angular_velocities is None
-        else np.linalg.norm(to_rotation(body).apply(chosen.angular_velocities) - rates, axis=1)
-    )
+    rate = None
+    if chosen.angular_velocities is not None:
+        a, b, c, d = split(body)
+        rate = np.linalg.norm(rotate(a, b, c, d, chosen.angular_velocities) - rates, axis=1)
     early, late = truth.count_outside(stamps)
     unjudged = int(truth.find_unjudged(stamps).sum())
     unknown = len(stamps) - len(chosen) - late - early - unjudged

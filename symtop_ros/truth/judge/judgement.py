@@ -361,11 +361,5 @@ def format_judgements(judgements: Sequence[Judgement]) -> str:
     return "\n".join([f"{'attitude (rad)':{width}}{_head(0)}", *rows, *notes])
 
 
-def enforce_limit(error: float, limit: float | None, verb: str = "is") -> None:
-    """Refuse an error of the attitude above the limit, if there is one."""
-    if limit and error > limit:
-        raise RefusedError(f"the attitude {verb} off by {error:.3g} rad, limit {limit:g} rad")
-
-
 def _head(width: int) -> str:
     return f"{'':{width}}{'rms':>10}{'mean':>10}" + "".join(f"{f'{p} %':>10}" for p in PERCENTILES)

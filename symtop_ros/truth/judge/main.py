@@ -1,7 +1,8 @@
-"""Entry point of `top_judge`: estimates in logs, live topics, and the test set."""
+"""Entry point of `top_judge`: estimates in logs and live topics."""
 
 import argparse
 import json
+import shlex
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -12,8 +13,7 @@ from symtop_ros.base.header import make_header
 from symtop_ros.base.refusals import one_line
 from symtop_ros.truth.judge.attitudes import ORDERS
 from symtop_ros.truth.judge.clock import format_clocks, measure_clock
-from symtop_ros.truth.judge.judgement import Judgement, enforce_limit, format_judgements, judge
-from symtop_ros.truth.judge.problems import run_testset
+from symtop_ros.truth.judge.judgement import Judgement, format_judgements, judge
 from symtop_ros.truth.judge.relative import read_lag
 from symtop_ros.truth.judge.runs import (
     ATTITUDES,
@@ -24,6 +24,7 @@ from symtop_ros.truth.judge.runs import (
     report_faults,
 )
 from symtop_ros.truth.judge.wanted import MODELS
+from symtop_ros.truth.testset.score import enforce_limit
 
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
 top at the estimates' own stamps. The run must be in the log with its ~/events, or be a scene that
@@ -49,8 +50,8 @@ def _find_fault(options: argparse.Namespace, rest: list[str]) -> str | None:
             rest and not (options.live and rest[0] == "--ros-args")
         ),
         "--clock must have a recorded run, got --live": options.clock and options.live,
-        "LOG with --topic or --estimates, --scene with --estimates, --live with --topic, or "
-        "--testset is needed": options.testset is None and not (estimates and run),
+        "LOG with --topic or --estimates, --scene with --estimates, or --live with --topic is "
+        "needed": options.testset is None and not (estimates and run),
         "--live judges one --topic": options.live and len(options.topic) > 1,
         "--robust and --rpe judge what was recorded: no --live, no --clock, no --testset": (
             (options.robust or options.rpe)
@@ -135,7 +136,7 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
-        "-o", "--output", type=Path, metavar="FOLDER", help="folder for JSON, plots and problems"
+        "-o", "--output", type=Path, metavar="FOLDER", help="folder for JSON and plots"
     )
     parser.add_argument(
         "--max-error", type=positive, metavar="RAD", help="status 1 if the attitude error is larger"
@@ -149,15 +150,14 @@ def make_parser() -> argparse.ArgumentParser:
         nargs="?",
         const="",
         metavar="PROBLEM",
-        help="list the problems, or with -o write the whole set; with a name: score LOG, a CSV "
-        "file (all: each PROBLEM/NAME.csv in the folder LOG), or copy it (all: each) to -o",
+        help="moved: it is the program top_testset, and goes here in 0.7",
     )
     return parser
 
 
 def _run(options: argparse.Namespace, rest: list[str]) -> int:
     if options.testset is not None:
-        return run_testset(options)
+        return _forward(options)
     if options.live:
         from symtop_ros.truth.judge.live import judge_live
 
@@ -169,6 +169,21 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
     status = report_faults(run, sources)
     found = (_measure_clocks if options.clock else _judge)(options, run, sources)
     return max(status, found)
+
+
+def _forward(options: argparse.Namespace) -> int:
+    """Let top_testset do what --testset asks for, and say so."""
+    from symtop_ros.truth.testset.main import main as run_testset
+
+    words = [options.testset] if options.testset else []
+    if options.testset and options.files:
+        words += [str(options.files[0]), *["--json"] * options.json]
+        words += [f"--max-error={options.max_error!r}"] if options.max_error else []
+    elif options.testset or options.output:
+        words += ["-o", str(options.output or Path())]
+    typed = one_line(shlex.join(["top_testset", *words]))
+    print(f"top_judge: --testset moved, and goes in 0.7: {typed}", file=sys.stderr)
+    return run_testset(words)
 
 
 def _measure_clocks(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:

@@ -8,27 +8,31 @@
 A trajectory is a table with the columns t, w, x, y, z, and wx, wy, wz if it has angular velocities
 in the body frame, or omega_x, omega_y, omega_z in the world frame, in any order. Commas,
 semicolons, tabs or spaces separate columns. A row at t = 0 is compared with the start as it was
-given; further columns and rows at other times are ignored.
+given; further columns and rows at other times are ignored. A line before the names of the columns
+may say what computed it, so that the score can be cited:
+
+    # engine: MuJoCo 4.0.0, RK4, step 1e-4 s
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import platform
 import sys
 from array import array
 from bisect import bisect
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-VERSION = "6.1"  # of the test set
+VERSION = "6.2"  # of the test set
 FILE = Path(__file__).with_name("problems.json")
 PACKED = ".json.xz"  # of the same file in the package, which writes the set from it
 QUATERNION = ("w", "x", "y", "z")
@@ -36,10 +40,17 @@ RATES = ("wx", "wy", "wz")
 WORLD_RATES = ("omega_x", "omega_y", "omega_z")
 BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
 # Of the body: its frame turned, with a full tensor or with moments in an inertial frame; or with
-# its origin off the pivot; all or half of the mass in a fixed child. The states of the first two
-# are in the turned frame, those of the others as ever.
-TURNED = ("turned", "inertial")
-DESCRIPTIONS = (*TURNED, "offset", "nested", "nested_half")
+# its origin off the pivot; all or half of the mass in a fixed child.
+DESCRIPTIONS = ("turned", "inertial", "offset", "nested", "nested_half")
+# One problem has its body in further words of the formats. README.md has a table of them.
+FORMED = "cusps"
+TURNED_FORMS = (
+    *("euler", "degrees", "axisangle", "xyaxes", "zaxis", "quaternion"),
+    *("solid", "ends", "inferred", "classes", "units"),
+)
+FORMS = (*TURNED_FORMS, "frames", "submodel")
+# The states of these are in the turned frame, those of the others as ever.
+TURNED = ("turned", "inertial", *TURNED_FORMS)
 # The rotation of a turned frame to the principal axes.
 TURN = (0.7, 0.1, 0.5, 0.5)
 SEPARATORS = (",", ";", "\t")  # else any white space
@@ -51,7 +62,10 @@ SAME_TIME = 1e-9
 SAME_START = 1e-4
 LARGEST_FILE = 2**30  # bytes
 LARGEST_NUMBER = 1e100  # beyond it squares overflow
-SHOWN = 60  # characters of a header or row in a message
+SHOWN = 60  # characters of a header or row in a message, and of the name of an engine
+COMMENT, ENGINE = "#", "engine:"  # of lines before the header
+OF_A_PROBLEM = b'"orientation_limits"'  # in its JSON file, and in no other of its folder
+SHORT = 12  # digits of a digest that a line shows
 Real = NDArray[np.float64]
 
 
@@ -138,12 +152,15 @@ class Score:
         |omega - omega_exact| in rad/s.
     start : str
         What a row at t = 0 has in place of the start; empty if it is the start, or there is none.
+    engine : str
+        What computed the trajectory, as its file says; empty if it does not.
     """
 
     problem: Problem
     angles: Real
     rates: Real | None
     start: str = ""
+    engine: str = ""
 
     @property
     def in_limits(self) -> Real:
@@ -171,6 +188,7 @@ class Score:
             "errors": self.angles.tolist(),
             "rate_errors": None if self.rates is None else self.rates.tolist(),
             "start": self.start,
+            "engine": self.engine or None,
         }
 
     def format(self) -> str:
@@ -222,6 +240,45 @@ def describe_testset(path: Path = FILE) -> dict[str, Any]:
     return {"version": VERSION, "sha256": {name: sha256(text).hexdigest() for name, text in texts}}
 
 
+def describe_platform() -> dict[str, str]:
+    """Return where a score is computed: system, machine, and versions of Python and NumPy.
+
+    Examples
+    --------
+    >>> [*describe_platform()]
+    ['system', 'machine', 'python', 'numpy']
+    """
+    return {
+        "system": platform.system(),
+        "machine": platform.machine(),
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+    }
+
+
+def format_citation(program: str, testset: dict[str, Any]) -> str:
+    """Return the line by which a score can be cited: the set, and what scored it, and where.
+
+    Examples
+    --------
+    >>> format_citation("score.py", describe_testset()).partition(" (")[0] == f"test set {VERSION}"
+    True
+    """
+    files = ", ".join(f"{name} {digest[:SHORT]}" for name, digest in testset["sha256"].items())
+    place = describe_platform()
+    return (
+        f"test set {testset['version']} (SHA-256: {files}), scored by {program} "
+        f"on {place['system']} {place['machine']}, Python {place['python']}, NumPy {place['numpy']}"
+    )
+
+
+def format_engine(engine: str) -> str:
+    """Return the line that says what computed a trajectory, or how its file can say it."""
+    return (
+        f"engine: {engine or 'not stated; a first line such as # engine: MuJoCo 4.0.0 states it'}"
+    )
+
+
 def _read_texts(path: Path) -> dict[str, bytes]:
     """Return the contents of problems.json, or of the files of copied problems, by their names."""
     packed = path.with_suffix(PACKED)
@@ -231,7 +288,8 @@ def _read_texts(path: Path) -> dict[str, bytes]:
         from symtop_ros.truth.testset.tables import unpack  # a copy of this file has no package
 
         return {path.name: unpack(packed.read_bytes(), VERSION).encode()}
-    return {each.name: each.read_bytes() for each in sorted(path.parent.glob("*.json"))}
+    texts = {each.name: each.read_bytes() for each in sorted(path.parent.glob("*.json"))}
+    return {name: text for name, text in texts.items() if OF_A_PROBLEM in text}
 
 
 def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
@@ -250,7 +308,7 @@ def read_trajectory(path: Path, problem: Problem) -> tuple[Real, Real | None]:
     OSError
         If the file cannot be read.
     """
-    q, rates = _read_states(path, problem)
+    q, rates, _ = _read_states(path, problem)
     return q[1:], None if rates is None else rates[1:]
 
 
@@ -262,10 +320,10 @@ def score_trajectory(path: Path, problem: Problem) -> Score:
     ValueError, OSError
         As `read_trajectory`.
     """
-    q, rates = _read_states(path, problem)
+    q, rates, engine = _read_states(path, problem)
     score = problem.score(q[1:], None if rates is None else rates[1:])
     start = describe_start(problem, q[0], None if rates is None else rates[0])
-    return replace(score, start=start)
+    return replace(score, start=start, engine=engine)
 
 
 def describe_start(problem: Problem, q: Real, rates: Real | None) -> str:
@@ -337,36 +395,61 @@ def _name_mistake(
     return f"{words} {named[0]}" if len(named) == 1 else f"{words} off by {off:.2g}"
 
 
-def _read_states(path: Path, problem: Problem) -> tuple[Real, Real | None]:
-    """Return the orientations (21, 4) and rates (21, 3) at t = 0, nan without a row, and later."""
+class _Head(NamedTuple):
+    """What comes before the rows of a table."""
+
+    columns: list[str]
+    separator: str | None  # None: any white space
+    engine: str
+    lines: int
+
+
+def _read_head(path: Path, file: Iterator[str]) -> _Head:
+    """Return the names of the columns, and what the comments before them say of an engine."""
+    engine, lines = "", 0
+    while True:
+        text = next(file, "").removeprefix(BOM).strip()
+        lines += 1
+        separator = next((each for each in SEPARATORS if each in text), None)
+        cells = text.removeprefix(COMMENT).split(separator)
+        columns = [name.strip().strip('"') for name in cells]
+        if {"t", *QUATERNION} <= {*columns}:
+            return _Head(columns, separator, engine, lines)
+        if not text.startswith(COMMENT):
+            raise ValueError(
+                f"{path} must have the columns t, w, x, y, z, got the header {_show(text)}"
+            )
+        said = text.removeprefix(COMMENT).strip()
+        if said.lower().startswith(ENGINE):
+            engine = _show(said[len(ENGINE) :])
+
+
+def _read_states(path: Path, problem: Problem) -> tuple[Real, Real | None, str]:
+    """Return orientations (21, 4) and rates (21, 3), and the engine.
+
+    The first state is that at t = 0, nan without a row.
+    """
     if path.stat().st_size > LARGEST_FILE:
         raise ValueError(
             f"{path} must have at most {LARGEST_FILE} bytes, got {path.stat().st_size}"
         )
     # Every byte is a character of Latin-1; names and numbers are ASCII in any encoding that counts.
     with path.open(encoding="latin-1", newline="") as file:
-        head = file.readline().removeprefix(BOM).strip()
-        separator = next((each for each in SEPARATORS if each in head), None)
-        cells = head.removeprefix("#").split(separator)
-        header = [name.strip().strip('"') for name in cells]
+        head = _read_head(path, file)
         names = [*QUATERNION]
-        names += next((each for each in (RATES, WORLD_RATES) if set(each) <= set(header)), ())
-        if not {"t", *QUATERNION} <= set(header):
-            raise ValueError(
-                f"{path} must have the columns t, w, x, y, z, got the header {_show(head)}"
-            )
-        places = [header.index(n) for n in ("t", *names)]
-        found = _pick(file, separator, places, np.array([0.0, *problem.times]))
+        names += next((each for each in (RATES, WORLD_RATES) if {*each} <= {*head.columns}), ())
+        places = [head.columns.index(n) for n in ("t", *names)]
+        found = _pick(file, head, places, np.array([0.0, *problem.times]))
     q = found[:, :4]
     rates = found[:, 4:] if len(names) > 4 else None
     if rates is not None and names[-1] in WORLD_RATES:
         with np.errstate(all="ignore"):  # zero and infinite quaternions are refused later
             unit = q / np.linalg.norm(q, axis=1, keepdims=True)
             rates = turn_to_body(unit, rates)
-    return q, rates
+    return q, rates, head.engine
 
 
-def _pick(rows: Iterable[str], separator: str | None, places: Sequence[int], times: Real) -> Real:
+def _pick(rows: Iterable[str], head: _Head, places: Sequence[int], times: Real) -> Real:
     """Return the numbers of the rows at the times, nan at the first one if there is no row.
 
     The place of t comes first.
@@ -374,11 +457,11 @@ def _pick(rows: Iterable[str], separator: str | None, places: Sequence[int], tim
     found = np.full((len(times), len(places) - 1), np.nan)
     marks = times.tolist()
     tried = array("d")
-    for number, row in enumerate(rows, start=2):
+    for number, row in enumerate(rows, start=head.lines + 1):
         if not row.strip():
             continue
         try:
-            cells = row.split(separator)
+            cells = row.split(head.separator)
             tried.append(t := _read(cells[places[0]]))
             after = bisect(marks, t)
             for place in range(max(after - 1, 0), min(after + 1, len(marks))):
@@ -525,21 +608,35 @@ def _run(options: argparse.Namespace, problems: dict[str, Problem]) -> int:
         print(list_problems(problems))
         return 0
     score = score_file(problems, options.problem, options.trajectory)
-    print(_dump(score, options.trajectory) if options.json else score.format())
-    error, limit = float(score.angles.max()), options.max_error
-    if limit is None or error <= limit:
-        return 0
-    print(f"the attitude is off by {error:.3g} rad, limit {limit:g} rad", file=sys.stderr)
-    return 1
+    if options.json:
+        print(_dump(score, options.trajectory))
+    else:
+        print(score.format())
+        print(format_engine(score.engine))
+        print(format_citation(f"{Path(__file__).name} {VERSION}", describe_testset()))
+    enforce_limit(float(score.angles.max()), options.max_error)
+    return 0
+
+
+def enforce_limit(error: float, limit: float | None, verb: str = "is") -> None:
+    """Raise ValueError for an error of the attitude above the limit, if there is one.
+
+    Examples
+    --------
+    >>> enforce_limit(1e-6, None)
+    """
+    if limit is not None and not error <= limit:
+        raise ValueError(f"the attitude {verb} off by {error:.3g} rad, limit {limit:g} rad")
 
 
 def _dump(score: Score, path: Path) -> str:
-    """Return a score as JSON, as `top_judge --testset PROBLEM FILE --json` has it."""
+    """Return a score as JSON, as `top_testset PROBLEM FILE --json` has it."""
     header = {
         "schema": "symtop_ros/score/1",
         "version": VERSION,
         "files": [{"name": str(path), "sha256": sha256(path.read_bytes()).hexdigest()}],
         "testset": describe_testset(),
+        "platform": describe_platform(),
         "entry": path.stem,
     }
     return json.dumps(header | score.facts(), indent=1)
@@ -591,14 +688,25 @@ def find_problem(problems: dict[str, Problem], name: str) -> Problem:
         )
     if base == name:
         return problems[name]
-    if description not in DESCRIPTIONS:
+    if description not in (known := list_descriptions(base)):
         got = " ".join(description.split())[:60]
-        raise ValueError(f"description must be one of {', '.join(DESCRIPTIONS)}, got {got}")
+        raise ValueError(f"description must be one of {', '.join(known)}, got {got}")
     facts = problems[base].facts | {"name": name}
     if description in TURNED:
         facts |= {each: facts[f"turned_{each}"] for each in ("orientations", "angular_velocities")}
         facts |= _turn_start(facts)
     return Problem(facts)
+
+
+def list_descriptions(name: str) -> tuple[str, ...]:
+    """Return the descriptions that a problem has of its body.
+
+    Examples
+    --------
+    >>> list_descriptions("looping")
+    ('turned', 'inertial', 'offset', 'nested', 'nested_half')
+    """
+    return (*DESCRIPTIONS, *(FORMS if name == FORMED else ()))
 
 
 def _turn_start(facts: dict[str, Any]) -> dict[str, list[float]]:

@@ -127,6 +127,7 @@ def test_misuse_has_status_2(arguments):
 
 
 def test_a_plot_is_written(table, tmp_path):
+    pytest.importorskip("matplotlib")
     assert main([str(table), "--plot", str(tmp_path / "fit.png")]) == 0
     assert (tmp_path / "fit.png").stat().st_size > 10_000
 

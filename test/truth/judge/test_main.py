@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import shlex
 import subprocess
 import sys
 
@@ -19,6 +20,7 @@ from symtop_ros.run.log.reader import McapFile
 from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.judge.truth import scene_truth
+from symtop_ros.truth.testset.main import main as run_testset
 
 IMU = "sensor_msgs/msg/Imu"
 HEADER = "stamp", "w", "x", "y", "z"
@@ -54,6 +56,7 @@ def test_the_delay_and_the_offset_are_found_written_and_can_be_removed(log, caps
     facts = json.loads((tmp_path / "new" / "judge.json").read_text())
     assert facts["found"]["delay"] == pytest.approx(0.004, abs=1e-8)
     assert facts["found"]["world_offset"]["angle"] == pytest.approx(0.3, abs=1e-5)
+    pytest.importorskip("matplotlib")
     for suffix in ("svg", "png"):
         assert (tmp_path / "new" / f"judge.{suffix}").stat().st_size > 1000
 
@@ -115,38 +118,38 @@ def test_what_cannot_be_judged_is_one_line(log, arguments, reason, capsys):
     assert err.count("\n") == 1
 
 
-def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
-    assert main(["--testset"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == 71
-    assert main(["--testset", "cusps", "-o", str(tmp_path)]) == 0
-    described = ("turned", "inertial", "nested_half", "offset", "nested")
-    # what the formats cannot say
-    left_out = {
-        f"cusps.{each}" for each in ("offset.urdf", "nested.sdf", "nested.usda", "inertial.usda")
-    }
-    forms = ("urdf", "sdf", "mjcf", "usda")
-    models = {f"cusps.{each}.{form}" for each in described for form in forms}
-    assert {path.name for path in tmp_path.iterdir()} == models - left_out | {
-        *(f"cusps.{suffix}" for suffix in ("json", *forms)),
-        *(f"{name}.csv" for name in ("problems", "states", "forces", "world")),
-        "score.py",
-        "README.md",
-        "LICENSE",
-        "SHA256SUMS",
-    }
-    readme = (tmp_path / "README.md").read_text()
-    assert "[symtop_ros]" not in readme.replace("[symtop_ros](", "")
+def test_the_option_for_the_test_set_says_what_to_type_and_does_it(tmp_path, capsys):
     path = tmp_path / "mine.csv"
     path.write_text(write(make_table("cusps")))
-    capsys.readouterr()
-    assert main(["--testset", "cusps", str(path), "--max-error", "1e-15"]) == 0
-    assert capsys.readouterr().out.startswith("cusps: attitude ")
-    assert main(["--testset", "cusps", str(path), "--max-error", "1e-17"]) == 1
-    assert capsys.readouterr().err.endswith("rad, limit 1e-17 rad\n")
-    assert main(["--testset", "cusps", str(path), "--json"]) == 0
-    assert len(json.loads(capsys.readouterr().out)["errors"]) == 20
-    assert main(["--testset", "none", str(path)]) == 1
-    assert "top_judge: problem must be one of gentle_cusps, " in capsys.readouterr().err
+    for words, typed in (
+        (["--testset"], []),
+        (["--testset", "-o", str(tmp_path / "set")], ["-o", str(tmp_path / "set")]),
+        (["--testset", "low", "-o", str(tmp_path)], ["low", "-o", str(tmp_path)]),
+        (["--testset", "cusps", str(path), "--json"], ["cusps", str(path), "--json"]),
+        (["--testset", "all", str(tmp_path / "none")], ["all", str(tmp_path / "none")]),
+    ):
+        status = main(words)
+        forwarded = capsys.readouterr()
+        line, *rest = forwarded.err.splitlines(keepends=True)
+        moved, goes, command = line.rstrip().split(": ")
+        assert (moved, goes) == ("top_judge", "--testset moved, and goes in 0.7")
+        assert shlex.split(command) == ["top_testset", *typed]
+        assert run_testset(typed) == status
+        direct = capsys.readouterr()
+        assert (direct.out, direct.err) == (forwarded.out, "".join(rest))
+
+
+@pytest.mark.parametrize(("limit", "status"), [("1e-15", 0), ("1e-17", 1)])
+def test_the_option_for_the_test_set_has_its_limit(limit, status, tmp_path):
+    path = tmp_path / "mine.csv"
+    path.write_text(write(make_table("cusps")))
+    assert main(["--testset", "cusps", str(path), "--max-error", limit]) == status
+
+
+def test_a_problem_without_a_folder_is_copied_into_this_one(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["--testset", "cusps"]) == 0
+    assert (tmp_path / "cusps.json").exists()
 
 
 def test_a_csv_file_is_judged_against_a_scene_as_json(tmp_path, capsys):

@@ -1,13 +1,13 @@
-"""The files of the test set, as its command writes them."""
+"""The files of the test set, as its program writes them."""
 
 import pytest
+
+from symtop_ros.truth.testset.main import main
 
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory):
     """Return the folder of the whole set."""
-    from symtop_ros.truth.judge.main import main  # it needs mcap
-
     path = tmp_path_factory.mktemp("set")
-    assert main(["--testset", "-o", str(path)]) == 0
+    assert main(["-o", str(path)]) == 0
     return path

@@ -7,6 +7,7 @@ from typing import Any
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
+import pytest
 from mpmath import matrix, mp, mpf
 from physics.tops import cross, turn
 
@@ -62,18 +63,17 @@ def read_mjcf(root: Element, _: str) -> Described:
 def read_sdf(root: Element, text: str) -> Described:
     model = root.find("world/model")
     joint = model.find("joint[@type='ball']")
+    pivot = mp.zeros(3, 1) if joint is None else read_pose(joint.find("pose"))[0]
     found = []
-    place = None if joint is None else joint.find("pose")
-    pivot = vector(ZERO if place is None else " ".join(place.text.split()[:3]))
-    for link in model.findall("link"):
-        place = link.find("pose")
-        *shift, roll, pitch, yaw = numbers("0 0 0 0 0 0" if place is None else place.text)
-        inertia = link.find("inertial")
-        *centre, a, b, c = numbers(inertia.find("pose").text)
-        full = " ".join(inertia.find(f"inertia/{name}").text for name in MOMENTS)
-        turned = turn_by_angles(roll, pitch, yaw), turn_by_angles(a, b, c)
-        mass = inertia.find("mass").text
-        found.append(place_part(mass, matrix(centre), full, turned, matrix(shift) - pivot))
+    inner = model.find("model")
+    whole = mp.zeros(3, 1), mp.eye(3)
+    for owner, (at, axes) in [(model, whole)] + (
+        [] if inner is None else [(inner, read_pose(inner.find("pose")))]
+    ):
+        named = {each.get("name"): each for each in owner if each.tag in ("link", "frame")}
+        for link in owner.findall("link"):
+            place, turned = find_frame(link, named)
+            found.append(read_link(link, at + axes * place - pivot, axes * turned))
     *origin, x, y, z, w = numbers(model.find("pose").text)
     omega = vector(re.search(r"angular velocity (\S+ \S+ \S+) rad/s", text)[1])
     if joint is not None:
@@ -83,18 +83,66 @@ def read_sdf(root: Element, text: str) -> Described:
     return gather_free(found, rotation([w, x, y, z]), omega, origin, velocity)
 
 
+def read_pose(pose: Element | None) -> tuple[Any, Any]:
+    """Return place (3, 1) and rotation (3, 3) of a pose of SDF, which may be absent or empty."""
+    if pose is None or not (pose.text or "").strip():
+        return mp.zeros(3, 1), mp.eye(3)
+    x, y, z, *angles = numbers(pose.text)
+    if pose.get("rotation_format") == "quat_xyzw":
+        return matrix([x, y, z]), rotation([angles[3], *angles[:3]])
+    unit = mp.pi / 180 if pose.get("degrees") == "true" else 1
+    return matrix([x, y, z]), turn_by_angles(*(unit * each for each in angles))
+
+
+def find_frame(element: Element, named: dict[str, Element]) -> tuple[Any, Any]:
+    """Return place and rotation of a link or a frame in its model."""
+    pose = element.find("pose")
+    place, turned = read_pose(pose)
+    to = (None if pose is None else pose.get("relative_to")) or element.get("attached_to")
+    if to is None:
+        return place, turned
+    at, axes = find_frame(named[to], named)
+    return at + axes * place, axes * turned
+
+
+def read_link(link: Element, place: Any, turned: Any) -> tuple[Any, Any, Any]:
+    """Return mass, centre and moments of a link: stated, or those of its collision."""
+    inertial = link.find("inertial")
+    if inertial.get("auto") == "true":
+        assert inertial.find("mass") is None
+        collision = link.find("collision")
+        centre, own = read_pose(collision.find("pose"))
+        shape = collision.find("geometry/cylinder")
+        sizes = (mpf(float(shape.find(name).text)) for name in ("radius", "length"))
+        mass, moments = fill_cylinder(*sizes, mpf(float(collision.find("density").text)))
+        return mass, place + turned * centre, turned * own * moments * (turned * own).T
+    centre, own = read_pose(inertial.find("pose"))
+    full = " ".join(inertial.find(f"inertia/{name}").text for name in MOMENTS)
+    return place_part(inertial.find("mass").text, centre, full, (turned, own), place)
+
+
+def fill_cylinder(radius: Any, height: Any, density: Any) -> tuple[Any, Any]:
+    """Return mass and moments (3, 3) of a homogeneous cylinder along z, about its centre."""
+    mass = density * mp.pi * radius**2 * height
+    across = mass * (3 * radius**2 + height**2) / 12
+    return mass, mp.diag([across, across, mass * radius**2 / 2])
+
+
 def read_urdf(root: Element, text: str) -> Described:
-    spin, fixed = root.find("joint[@name='spin']"), root.find("joint[@name='fixed']")
+    spin = root.find("joint[@name='spin']")
     frames = [("top", mp.eye(3), vector(ZERO))]
-    if fixed is not None:
-        turned = turn_by_angles(*read_origin(fixed, "rpy"))
-        frames.append(("top_part", turned, matrix(read_origin(fixed, "xyz"))))
+    fixed = {each.find("parent").get("link"): each for each in root.findall("joint[@type='fixed']")}
+    for name, axes, at in frames:  # it grows by the children of each
+        if name in fixed:
+            child = fixed[name].find("child").get("link")
+            place = at + axes * matrix(read_origin(fixed[name], "xyz"))
+            frames.append((child, axes * read_turn(fixed[name]), place))
     found = []
     for name, turned, place in frames:
         inertial = root.find(f"link[@name='{name}']/inertial")
         full = " ".join(inertial.find("inertia").get(each) for each in MOMENTS)
         centre = matrix(read_origin(inertial, "xyz"))
-        turns = turned, turn_by_angles(*read_origin(inertial, "rpy"))
+        turns = turned, read_turn(inertial)
         found.append(place_part(inertial.find("mass").get("value"), centre, full, turns, place))
     if spin is None:
         x, y, z, w = numbers(re.search("x, y, z, w (.+), angular", text)[1])
@@ -102,7 +150,7 @@ def read_urdf(root: Element, text: str) -> Described:
         moving = re.search("place (.+) m and velocity (.+) m/s", text)
         origin, velocity = map(numbers, moving.groups() if moving else (ZERO, ZERO))
         return gather_free(found, rotation([w, x, y, z]), omega, origin, velocity)
-    frame = turn_by_angles(*read_origin(spin, "rpy"))
+    frame = read_turn(spin)
     axis = vector(spin.find("axis").get("xyz"))
     assert mp.norm(frame * axis - vector("0 0 1")) < 1e-15  # the axis of the body
     (angles, rates) = re.search("position (.+) rad, velocity (.+) rad/s", text).groups()
@@ -123,32 +171,35 @@ def read_usd(text: str) -> Described:
         head[1]: dict(re.findall(r"^ +\w+ (\S+) = \(?([^()\n]*)\)?$", text[head.end() : end], re.M))
         for head, end in zip(heads, ends, strict=True)
     }
+    kilogram, metre = (
+        mpf(float(re.search(rf"{name}PerUnit = (.*)", text)[1])) for name in ("kilograms", "meters")
+    )
     pivot, fixed = prims.get("pivot"), prims.get("fixed")
     held = tuple_of(pivot, "physics:localPos1") if pivot else mp.zeros(3, 1)
     frames = [("top", mp.eye(3), -held)]
     if fixed:
         turned = rotation(list(tuple_of(fixed, "physics:localRot0")))
         frames.append(("part", turned, tuple_of(fixed, "physics:localPos0")))
-    found = [place_body(prims[name], turned, place) for name, turned, place in frames]
-    frame = rotation(list(tuple_of(prims["start_top"], "xformOp:orient")))
+    bodies = {name: find_mass(prims, name) for name, *_ in frames}
+    found = [place_body(bodies[name], turned, place) for name, turned, place in frames]
+    frame, origin = find_start(prims, "top")
     omega = tuple_of(prims["top"], "physics:angularVelocity") * mp.pi / 180
-    origin = tuple_of(prims["start_top"], "xformOp:translate")
     for name, turned, place in frames:
-        start = prims[f"start_{name}"]
-        prim = prims[name]
-        at, centre = tuple_of(start, "xformOp:translate"), tuple_of(prim, "physics:centerOfMass")
+        axes, at = find_start(prims, name)
+        prim, centre = prims[name], bodies[name][1]
         arm = place + turned * centre if pivot else mp.zeros(3, 1)
         own = tuple_of(prim, "physics:angularVelocity") * mp.pi / 180
         size = mp.norm(omega)
         assert mp.norm(turned * own - omega) <= 1e-15 * size
         moving = turned * tuple_of(prim, "physics:velocity") - matrix(cross(omega, arm))
         assert mp.norm(moving) <= 1e-14 * size * (1 + mp.norm(arm))
-        turning = rotation(list(tuple_of(start, "xformOp:orient"))) - frame * turned
-        assert mp.mnorm(turning) < 1e-15
+        assert mp.mnorm(axes - frame * turned) < 1e-15
         apart = at - origin - frame * (place - frames[0][2])
         assert mp.norm(apart) < 1e-15 * (1 + mp.norm(at))
     if pivot:
-        assert float(re.search("gravityMagnitude = (.*)", text)[1]) == 9.81
+        gravity = float(re.search("gravityMagnitude = (.*)", text)[1])
+        assert gravity * metre == pytest.approx(9.81, rel=4e-16)  # a product, and 0.01 as a double
+        found = [(kilogram * m, metre * c, kilogram * metre**2 * own) for m, c, own in found]
         return gather(found, frame, omega)
     whole = gather(found, frame, omega)
     velocity = -frame * matrix(cross(omega, whole.weighted / whole.mass))
@@ -159,17 +210,52 @@ def tuple_of(prim: dict[str, str], name: str) -> Any:
     return vector(prim[name].replace(",", " "))
 
 
-def place_body(prim: dict[str, str], turned: Any, place: Any) -> tuple[Any, Any, Any]:
-    """Return mass, centre of mass and moments of a body of a stage, as `place_part` does."""
-    axes = turned * rotation(list(tuple_of(prim, "physics:principalAxes")))
+def find_start(prims: dict[str, dict[str, str]], name: str) -> tuple[Any, Any]:
+    """Return rotation and place of the transforms over a body, one in the other."""
+    turned, at = mp.eye(3), mp.zeros(3, 1)
+    for prim in (prims.get(each) for each in (f"start_{name}", "back")):
+        if prim:
+            at += turned * tuple_of(prim, "xformOp:translate")
+            if "xformOp:orient" in prim:
+                turned *= rotation(list(tuple_of(prim, "xformOp:orient")))
+            else:  # about fixed axes: x first
+                angles = tuple_of(prim, "xformOp:rotateXYZ") * mp.pi / 180
+                turned *= turn_by_angles(*angles)
+    return turned, at
+
+
+def find_mass(prims: dict[str, dict[str, str]], name: str) -> tuple[Any, Any, Any]:
+    """Return mass, centre and moments in the frame of a body: stated, or those of its collider."""
+    prim = prims[name]
+    if solid := prims.get("solid"):
+        assert "physics:mass" not in prim
+        axes = rotation(list(tuple_of(solid, "xformOp:orient")))
+        sizes = (mpf(float(solid[each])) for each in ("radius", "height", "physics:density"))
+        mass, moments = fill_cylinder(*sizes)
+        return mass, tuple_of(solid, "xformOp:translate"), axes * moments * axes.T
+    axes = rotation(list(tuple_of(prim, "physics:principalAxes")))
     moments = axes * mp.diag(list(tuple_of(prim, "physics:diagonalInertia"))) * axes.T
-    centre = place + turned * tuple_of(prim, "physics:centerOfMass")
-    return mpf(float(prim["physics:mass"])), centre, moments
+    return mpf(float(prim["physics:mass"])), tuple_of(prim, "physics:centerOfMass"), moments
+
+
+def place_body(body: tuple[Any, Any, Any], turned: Any, place: Any) -> tuple[Any, Any, Any]:
+    """Return mass, centre of mass and moments of a body that is turned and moved."""
+    mass, centre, moments = body
+    return mass, place + turned * centre, turned * moments * turned.T
 
 
 def read_origin(element: Element, name: str) -> list[Any]:
     origin = element.find("origin")
     return numbers(ZERO if origin is None else origin.get(name, ZERO))
+
+
+def read_turn(element: Element) -> Any:
+    """Return the rotation of an origin: by its angles, or the quaternion of URDF 1.1."""
+    origin = element.find("origin")
+    if origin is None or origin.get("quat_xyzw") is None:
+        return turn_by_angles(*read_origin(element, "rpy"))
+    x, y, z, w = numbers(origin.get("quat_xyzw"))
+    return rotation([w, x, y, z])
 
 
 def place_part(mass: str, centre: Any, full: str, turns: Any, place: Any) -> tuple[Any, Any, Any]:

@@ -1,7 +1,5 @@
-"""`top_judge --testset`: problems listed, written, and scored."""
+"""The folders that `top_testset -o` writes: the whole set, or a problem that stands alone."""
 
-import argparse
-import json
 import re
 from collections.abc import Mapping
 from hashlib import sha256
@@ -9,17 +7,14 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.base.header import make_header
 from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
 from symtop_ros.run.models import FORMATS, FREE_FORMATS, UNSAID, name_file
 from symtop_ros.run.models.descriptions import describe
-from symtop_ros.run.models.snippets import format_snippets, format_world_snippets
-from symtop_ros.truth.judge.judgement import enforce_limit
-from symtop_ros.truth.judge.scoreboard import Entry, format_json, format_table, read_entries
 from symtop_ros.truth.testset import score
+from symtop_ros.truth.testset.forms import write_forms
+from symtop_ros.truth.testset.snippets import format_snippets, format_world_snippets
 from symtop_ros.truth.testset.tables import format_problems, tabulate
 
-ALL = "all"  # in place of a name: writes every problem into its own folder, or scores them
 SOURCE = score.FILE.parent
 MODELS = "models"  # the folder of the whole set's models
 README = "README.md"
@@ -48,42 +43,7 @@ nothing: engines have separate code for free bodies, which a ball joint does not
 OF_THE_SET = ("Files", "An example: MuJoCo")  # sections that name files that a copy has not
 
 
-def run_testset(options: argparse.Namespace) -> int:
-    """List the problems of the test set, score a trajectory, or write the set or a problem."""
-    problems = score.read_problems()
-    folder = options.output
-    if options.testset and options.files:
-        return _score(problems, options)
-    if options.testset == ALL:
-        for name in problems:
-            _write_problem(problems, name, (folder or Path()) / name)
-    elif options.testset:
-        _write_problem(problems, options.testset, folder or Path())
-    elif folder:
-        _write_set(problems, folder)
-    else:
-        print(score.list_problems(problems))
-    return 0
-
-
-def _score(problems: dict[str, score.Problem], options: argparse.Namespace) -> int:
-    """Score a trajectory, or all of a folder."""
-    path: Path = options.files[0]
-    header = make_header("scores" if options.testset == ALL else "score", [path])
-    header |= {"testset": score.describe_testset()}
-    if options.testset == ALL:
-        entries = read_entries(problems, path)
-        text = format_table(entries, problems)
-        print(format_json(header, entries, problems) if options.json else text)
-    else:
-        entries = [Entry(path.stem, score.score_file(problems, options.testset, path))]
-        facts = json.dumps(header | entries[0].facts(), indent=1)
-        print(facts if options.json else entries[0].score.format())
-    enforce_limit(max(each.error for each in entries), options.max_error)
-    return 0
-
-
-def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
+def write_set(problems: dict[str, score.Problem], folder: Path) -> None:
     """Write all problems as one set, with its models in a separate folder."""
     facts = [each.facts for each in problems.values()]
     models = {name: text for each in facts for name, text in _describe_models(each).items()}
@@ -98,7 +58,7 @@ def _write_set(problems: dict[str, score.Problem], folder: Path) -> None:
     print(f"wrote {what}")
 
 
-def _write_problem(problems: dict[str, score.Problem], name: str, folder: Path) -> None:
+def write_problem(problems: dict[str, score.Problem], name: str, folder: Path) -> None:
     """Write a problem, its models, and what is needed to score it alone, into a folder."""
     problem = score.find_problem(problems, name)
     texts = {
@@ -137,6 +97,9 @@ def _describe_models(facts: Mapping[str, Any]) -> dict[str, str]:
         if (each, form) not in UNSAID:
             described = describe(each, body)
             texts[name_file(f"{name}.{each}", form)] = write(top, start, body, described)
+    if name == score.FORMED:
+        forms = write_forms(top, start, body).items()
+        texts |= {name_file(f"{name}.{each}", form): text for (each, form), text in forms}
     return texts
 
 

@@ -30,6 +30,7 @@ and its trajectory for the scorer, with 16384 steps to each of the 20 times:
 steps, duration = 16384, {duration}
 model.opt.timestep = duration / 20 / steps
 with open("trajectory.csv", "w") as file:
+    print(f"# engine: MuJoCo {{mujoco.__version__}}, RK4", file=file)
     print("t,w,x,y,z,wx,wy,wz", file=file)
     for _ in range(20):
         mujoco.mj_step(model, data, nstep=steps)
@@ -108,6 +109,7 @@ and its trajectory for the scorer:
 solver, control = newton.solvers.SolverFeatherstone(model), model.control()
 steps, duration = 64, {duration}
 with open("trajectory.csv", "w") as file:
+    print(f"# engine: Newton {{newton.__version__}}, Featherstone", file=file)
     print("t,w,x,y,z", file=file)
     for k in range(1, 21):
         for _ in range(steps):
@@ -145,7 +147,8 @@ IN_THE_WORLD = """\
 
 These hold the centre of mass in the world, and angular velocities in the world frame. `world.csv`
 has these quantities at each time. Each program writes a trajectory for the scorer, with {steps}
-steps to each of the 20 times. Bullet (C++, `libbullet-dev`), with a joint that its solver holds:
+steps to each of the 20 times; the first two write the version of the engine above it, as a score
+is cited. Bullet (C++, `libbullet-dev`), with a joint that its solver holds:
 
 ```cpp
 #include <btBulletDynamicsCommon.h>
@@ -172,7 +175,7 @@ int main() {{
   const double duration = {duration};
   std::ofstream file("trajectory.csv");
   file.precision(17);
-  file << "{header}\\n";
+  file << "# engine: Bullet " << btGetVersion() << "\\n{header}\\n";
   for (int k = 1; k <= 20; k++) {{
     for (int i = 0; i < steps; i++)
       world.stepSimulation(btScalar(duration / 20 / steps), 0);
@@ -205,7 +208,7 @@ const start = RAPIER.RigidBodyDesc.dynamic()
 const top = world.createRigidBody(start);{rapier_joint}
 const [steps, duration] = [{steps}, {duration}];
 world.timestep = duration / 20 / steps;
-const rows = ["{header}"];
+const rows = [`# engine: Rapier ${{RAPIER.version()}}`, "{header}"];
 for (let k = 1; k <= 20; k++) {{
   for (let i = 0; i < steps; i++) world.step();
   const [q, omega] = [top.rotation(), top.angvel()];

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.truth.testset.score import (
-    DESCRIPTIONS,
     Problem,
     Score,
     find_problem,
+    format_engine,
+    list_descriptions,
     score_trajectory,
 )
 from symtop_ros.truth.testset.tables import TABLES
@@ -26,7 +27,6 @@ from symtop_ros.truth.testset.tables import TABLES
 STEP = re.compile(r"(.+?)-(\d+(?:\.\d*)?(?:e[-+]?\d+)?)")
 SOLVED = 0.01  # rad; an attitude that is never further off
 APART = 3.0  # errors in two descriptions of a body: an engine takes them for two bodies
-ENDINGS = ("", *(f".{each}" for each in DESCRIPTIONS))
 ROUNDING = 1e3  # limits; errors below this are rounding as well, and show no order
 
 
@@ -73,13 +73,21 @@ def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
     """Return the scores of all PROBLEM/NAME.csv in a folder; PROBLEM.turned is a description."""
     entries = [
         Entry(path.stem, score_trajectory(path, problem))
-        for problem in (find_problem(problems, name + end) for name in problems for end in ENDINGS)
+        for problem in _list_described(problems)
         for path in sorted((folder / problem.facts["name"]).glob("*.csv"))
         if path.name not in TABLES  # the problem and its exact motion are no entries
     ]
     if not entries:
         raise ValueError(f"{folder} must have trajectories PROBLEM/NAME.csv, got none")
     return entries
+
+
+def _list_described(problems: dict[str, Problem]) -> Iterator[Problem]:
+    """Yield each problem, and then in the other descriptions of its body."""
+    for name, problem in problems.items():
+        yield problem
+        for each in list_descriptions(name):
+            yield find_problem(problems, f"{name}.{each}")
 
 
 def find_orders(entries: Sequence[Entry]) -> dict[tuple[str, str], float]:
@@ -172,7 +180,16 @@ def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> s
             f"median {row.median_limits:.2g} limits"
             for place, row in enumerate(rows, start=1)
         ]
-    return "\n".join(lines)
+    return "\n".join([*lines, *_list_engines(entries)])
+
+
+def _list_engines(entries: Sequence[Entry]) -> Iterator[str]:
+    """Yield what computed the entries of each name, as their files say."""
+    engines: dict[str, set[str]] = defaultdict(set)
+    for each in entries:
+        engines[each.name].add(each.score.engine)
+    for name, found in engines.items():
+        yield f"{name}, {'; '.join(map(format_engine, sorted(found)))}"
 
 
 def format_json(

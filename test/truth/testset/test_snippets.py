@@ -7,7 +7,7 @@ import pytest
 from documents import blocks
 
 from symtop_ros.physics import State
-from symtop_ros.truth.judge.main import main
+from symtop_ros.truth.testset.main import main
 from symtop_ros.truth.testset.score import read_problems
 
 PROBLEMS = ("nodding", "low", "heavy_top", "small")
@@ -38,7 +38,7 @@ MEASURE = {"mujoco": measure_mujoco, "pinocchio": measure_pinocchio}
 @pytest.mark.parametrize("name", PROBLEMS)
 def test_newton_starts_as_the_problem_does_in_single_precision(name, tmp_path, monkeypatch):
     pytest.importorskip("newton")
-    assert main(["--testset", name, "-o", str(tmp_path)]) == 0
+    assert main([name, "-o", str(tmp_path)]) == 0
     code = next(code for code, _ in blocks(tmp_path / "README.md", "python") if "add_mjcf" in code)
     monkeypatch.chdir(tmp_path)
     names = {}
@@ -56,7 +56,7 @@ def test_newton_starts_as_the_problem_does_in_single_precision(name, tmp_path, m
 @pytest.mark.parametrize("engine", ["mujoco", pytest.param("pinocchio", marks=pytest.mark.long)])
 def test_the_snippet_starts_the_engine_as_the_problem_starts(engine, name, tmp_path, monkeypatch):
     pytest.importorskip(engine)
-    assert main(["--testset", name, "-o", str(tmp_path)]) == 0
+    assert main([name, "-o", str(tmp_path)]) == 0
     code = next(code for code, _ in blocks(tmp_path / "README.md", "python") if engine in code)
     monkeypatch.chdir(tmp_path)
     names = {}
@@ -78,7 +78,7 @@ ENGINES = ("bullet", "rapier", "jolt", "physx", "havok", "dart")
 
 def copy_problem(name, folder):
     """Copy a problem; return its programs by their engines."""
-    assert main(["--testset", name, "-o", str(folder)]) == 0
+    assert main([name, "-o", str(folder)]) == 0
     _, _, text = (folder / "README.md").read_text().partition("## Start in Bullet")
     found = re.findall(r"```(?:cpp|js|python)\n(.*?)```", text, re.DOTALL)[: len(ENGINES)]
     return dict(zip(ENGINES, found, strict=True))

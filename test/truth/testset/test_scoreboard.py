@@ -8,9 +8,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 from truth.testset.trajectories import NAMES, write
 
-from symtop_ros.truth.judge.main import main
-from symtop_ros.truth.judge.scoreboard import Entry
+from symtop_ros.truth.testset.main import main
 from symtop_ros.truth.testset.score import find_problem, read_problems
+from symtop_ros.truth.testset.scoreboard import Entry
 
 PROBLEMS = ("cusps", "plane_pendulum")
 
@@ -35,7 +35,7 @@ def test_an_entry_that_tries_more_and_solves_nothing_more_is_not_ranked_first(tm
     for name, of in errors.items():
         for problem, error in of.items():
             write_entry(tmp_path, problem, name, error)
-    assert main(["--testset", "all", str(tmp_path), "--json"]) == 0
+    assert main(["all", str(tmp_path), "--json"]) == 0
     rows = json.loads(capsys.readouterr().out)["ranking"]["2"]
     found = [(row["entry"], row["solved"], row["tried"], row["of"]) for row in rows]
     assert found == [("careful", 2, 2, 10), ("bold", 1, 3, 10), ("shy", 1, 1, 10)]
@@ -55,7 +55,7 @@ def test_the_same_is_given_as_json(tmp_path, capsys):
             write_entry(tmp_path, problem, f"rk4-{step}", 0.5 * float(step) ** 4)
     write_entry(tmp_path, "cusps", "euler-0.01", 3.0)
     (tmp_path / "cusps" / "states.csv").write_text("no entry")
-    assert main(["--testset", "all", str(tmp_path), "--json"]) == 0
+    assert main(["all", str(tmp_path), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert len(facts["scores"]) == 7
     scores = {(each["problem"], each["entry"]): each for each in facts["scores"]}
@@ -71,17 +71,17 @@ def test_descriptions_of_one_body_are_compared_and_are_no_further_problems(tmp_p
         write_entry(tmp_path, f"cusps{description}", "engine", error)
     write_entry(tmp_path, "cusps", "other", 1e-9)
     write_entry(tmp_path, "cusps.offset", "other", 1.2e-9)
-    assert main(["--testset", "all", str(tmp_path)]) == 0
+    assert main(["all", str(tmp_path)]) == 0
     text = capsys.readouterr().out
     assert "descriptions of cusps differ in engine: plain 0.02, turned 0.02, nested 3 rad" in text
     assert "differ in other" not in text
     assert "2. engine: solved 0 of 10, tried 1," in text
-    assert main(["--testset", "all", str(tmp_path), "--json"]) == 0
+    assert main(["all", str(tmp_path), "--json"]) == 0
     (difference,) = json.loads(capsys.readouterr().out)["differences"]
     assert difference["errors"] == pytest.approx({"plain": 0.02, "turned": 0.02, "nested": 3.0})
 
 
 def test_a_folder_without_trajectories_is_refused_in_one_line(tmp_path, capsys):
-    assert main(["--testset", "all", str(tmp_path)]) == 1
+    assert main(["all", str(tmp_path)]) == 1
     reason = "must have trajectories PROBLEM/NAME.csv, got none"
-    assert capsys.readouterr().err == f"top_judge: {tmp_path} {reason}\n"
+    assert capsys.readouterr().err == f"top_testset: {tmp_path} {reason}\n"
