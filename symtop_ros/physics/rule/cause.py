@@ -70,7 +70,10 @@ class Cause:
     ('with_momentum', 'rests', 'speeds')
     >>> print(cause)  # doctest: +NORMALIZE_WHITESPACE
     Gravity's torque turns the angular momentum round, which stays near the axle: so the axle goes
-    round as well. The axle does not go round: all of gravity's torque is left, so the axle falls.
+    round as well. The torque stays within 0.064 rad of perpendicular to L, L within 0.14 rad of the
+    line of the axle, and the angular velocity omega within 0.037 rad. The axle does not go round:
+    all of gravity's torque is left, so the axle falls. As it does so, the axle goes round faster and
+    faster.
     """
 
     explanation: Explanation | None
@@ -87,7 +90,7 @@ class Cause:
 
     def __str__(self) -> str:
         """Return what can be said, in sentences."""
-        return COLOURED.sub(r"\1", write("because", self)).strip()
+        return COLOURED.sub(r"\1", write("cause", self)).strip()
 
 
 def read_cause(found: CauseRecord, subject: Subject) -> Cause:
