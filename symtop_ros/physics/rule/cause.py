@@ -72,8 +72,8 @@ class Cause:
     Gravity's torque turns the angular momentum round, which stays near the axle: so the axle goes
     round as well. The torque stays within 0.064 rad of perpendicular to L, L within 0.14 rad of the
     line of the axle, and the angular velocity omega within 0.037 rad. The axle does not go round:
-    all of gravity's torque is left, so the axle falls. As it does so, the axle goes round faster and
-    faster.
+    all of gravity's torque is left, so the axle falls. As it does so, the axle goes round faster
+    and faster.
     """
 
     explanation: Explanation | None
