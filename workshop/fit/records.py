@@ -26,7 +26,6 @@ POSITION = (0.02, 0.01, 0.05)  # m, of an accelerometer
 SEEDED = ("angles", "attitude", "axis", "pixels", "rates", "theta", "inertial")  # kinds, for seeds
 TRIED = (30.0, 60.0, 120.0, 240.0, 1000.0)  # samples a second
 FRICTION_EVERY = 8  # so many records have friction that is looked for
-NUTATIONS = (1.5, 6.0)  # of a record, at the rate that is drawn for it
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +58,9 @@ class Sample:
             **{name: value for name, value in self.camera.items() if name != "log_scale"},
             "scale": float(np.exp(self.camera.get("log_scale", 0.0))),
         }
-        if not self.record.has_friction:
+        if self.record.has_friction:
+            found["spin_half_time"] = np.log(2) * top.Iz / motion.friction.axial
+        else:
             found["mean_precession_rate"] = sign * motion.mean_precession_rate
             found["nutation_period"] = motion.nutation_period
         return {name: float(value) for name, value in found.items()}

@@ -13,7 +13,7 @@ from symtop_ros.truth.fit import Fit, fit_motion
 from symtop_ros.truth.fit.check import HOLDS, Check
 from symtop_ros.truth.fit.fitting import CLEAR, sum_squares
 from symtop_ros.truth.fit.kinds import KINDS
-from symtop_ros.truth.fit.model import FRICTION, Model
+from symtop_ros.truth.fit.model import Model, name_parameters
 from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.values import list_values
@@ -67,11 +67,7 @@ def fit_from_truth(sample: Sample) -> Fit:
     """Return the fit that begins at the truth."""
     record, motion = sample.record, sample.motion
     model = Model(record, motion.start.orientation)
-    wx, wy, spin = motion.start.angular_velocity
-    top, friction = motion.top, motion.friction
-    named = {"Mgl/Ix": top.Mgl, "Iz/Ix": top.Iz, "p_psi/Ix": top.Iz * spin, "spin": spin}
-    named |= {"wx": wx, "wy": wy, **sample.camera}
-    named |= dict(zip(FRICTION, (friction.axial / top.Iz, friction.transverse), strict=True))
+    named = {**name_parameters(motion), **sample.camera}
     return refine(model, fill(model, named))
 
 

@@ -99,6 +99,12 @@ def test_friction_is_found_if_it_is_looked_for_and_else_the_model_fails():
     values = read_values(fit_motion(make_record(times, seen, "axis", has_friction=True)))
     assert_near(values["axial/Iz"], 0.125)
     assert_near(values["transverse/Ix"], 0.25)
+    half = values["spin_half_time"]
+    assert half.is_known
+    spins = motion.at([0.0, half.value]).angular_velocity[:, 2]
+    # of the rate c: (1/2)^(1/(1 + d)) is 1/2 + d ln(2)/2
+    part = half.deviation / half.value
+    assert spins[1] / spins[0] == pytest.approx(0.5, abs=FAR * part * np.log(2) / 2)
     assert Check(fit_motion(make_record(times, seen, "axis"))).verdict == FAILS
 
 
