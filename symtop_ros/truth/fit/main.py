@@ -124,7 +124,7 @@ def _run(options: argparse.Namespace) -> int:
         options.kind = "inertial"
     rows = read(path, options, progress)
     record = fill_record(rows, options)
-    fit = fit_motion(record, progress.tell_part)
+    fit = fit_motion(record, progress.report_part)
     given = {name: known for name, known in find_given(options).items() if known}
     report = Report(str(path), len(record), fit, given)
     progress.end()
@@ -151,7 +151,7 @@ def read(path: Path, options: argparse.Namespace, progress: "Progress") -> Rows:
     """Return the rows of a table or a log."""
     if is_table(path):
         size = path.stat().st_size if path.exists() else 1
-        return read_rows(path, options.kind, lambda done: progress.tell(done / size, "reading"))
+        return read_rows(path, options.kind, lambda done: progress.report(done / size, "reading"))
     from symtop_ros.truth.fit.logs import read_log  # logs need mcap
 
     return read_log(path, options.topic, options.frame, options.kind)
@@ -244,11 +244,11 @@ class Progress:
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock, self._begin, self._wrote = clock, clock(), False
 
-    def tell_part(self, part: float) -> None:
+    def report_part(self, part: float) -> None:
         """Write what part of the fit is done."""
-        self.tell(part, "fitting")
+        self.report(part, "fitting")
 
-    def tell(self, part: float, action: str) -> None:
+    def report(self, part: float, action: str) -> None:
         """Write what part of an action is done, and an estimate of the time that is left."""
         spent = self._clock() - self._begin
         if spent < PATIENCE or not 0 < part < 1 or not sys.stderr.isatty():

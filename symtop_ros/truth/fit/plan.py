@@ -109,7 +109,7 @@ class Plan:
     @cached_property
     def _longest(self) -> Planned:
         """The motion with a long record at the same rate."""
-        times: Real = np.arange(LONGEST) * self.record.step
+        times = np.asarray(np.arange(LONGEST) * self.record.step, dtype=float)
         return self.expect(self.motion, replace(self.record, times=times))
 
     def count_rows(self, name: str) -> int | None:

@@ -44,7 +44,7 @@ class PlanReport:
 
     @cached_property
     def rows(self) -> dict[str, int | None]:
-        """Rows for a relative deviation of PRECISE; of a number that a twin hides there are none."""
+        """Rows for a relative deviation of PRECISE, of numbers that no twin hides."""
         shown = {name for name, _ in list_quantities(self.plan.fit)}
         return {
             each.name: self.plan.count_rows(each.name)

@@ -100,7 +100,7 @@ class Fit:
     def _shifts(self) -> Real:
         """Changes (r, p) of the parameters by the rounding of columns that hardly change.
 
-        Where a number stays within its last decimal, the errors of all rows are one error.
+        If a number stays within its last decimal, the errors of all rows are one error.
         """
         rounding, fixed = find_rounding(self.model.record, self.white.shape[1])
         sums = self.columns.sum(axis=0) / self.noise.sigma[:, np.newaxis]
@@ -131,7 +131,7 @@ def find_spectrum(columns: Real, priors: Real, sizes: Real) -> tuple[Real, Real]
 
 
 def refine(model: Model, x: Real) -> Fit:
-    """Return the fit with the weights of its own noise, from a motion that is near it."""
+    """Return the fit, weighted by the noise that it leaves, from a motion that is near it."""
     noise = find_noise(model, x, lasts=False)
     for _ in range(ROUNDS):
         x = fit_weighted(model, x, noise)

@@ -136,8 +136,8 @@ def test_progress_is_written_after_two_seconds_on_a_terminal(capsys, monkeypatch
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     times = iter([0.0, 1.0, 4.0])
     progress = Progress(lambda: next(times))
-    progress.tell_part(0.5)
+    progress.report_part(0.5)
     assert not capsys.readouterr().err
-    progress.tell_part(0.5)
+    progress.report_part(0.5)
     progress.end()
     assert capsys.readouterr().err == "\rtop_fit: fitting, 50%, at most 4 s more \n"
