@@ -25,6 +25,7 @@ SIGMA = {
 POSITION = (0.02, 0.01, 0.05)  # m, of an accelerometer
 SEEDED = ("angles", "attitude", "axis", "pixels", "rates", "theta", "inertial")  # kinds, for seeds
 TRIED = (30.0, 60.0, 120.0, 240.0, 1000.0)  # samples a second
+LONGER = 16  # records in a series of flicker
 FRICTION_EVERY = 8  # so many records have friction that is looked for
 
 
@@ -152,11 +153,15 @@ def _autoregress(draw: Draw, times: Real, show: See, sigma: float) -> tuple[Real
 
 
 def _flicker(draw: Draw, times: Real, show: See, sigma: float) -> tuple[Real, Real]:
-    """Noise whose power falls with the frequency, from one swing in the record on."""
+    """Noise whose power falls with the frequency, also below one swing in the record.
+
+    The record is a part of a longer series: noise that began with it would have a smaller mean.
+    """
     exact = show(times)
-    spectrum = np.fft.rfft(draw.normal(size=exact.shape), axis=0)
+    series = draw.normal(size=(LONGER * len(times), exact.shape[1]))
+    spectrum = np.fft.rfft(series, axis=0)
     frequency = np.maximum(np.arange(len(spectrum)), 1.0)[:, np.newaxis]
-    noise = np.fft.irfft(spectrum / np.sqrt(frequency), len(times), axis=0)
+    noise = np.fft.irfft(spectrum / np.sqrt(frequency), len(series), axis=0)[: len(times)]
     return times, exact + sigma * noise / noise.std()
 
 
