@@ -11,7 +11,7 @@ from symtop_ros.truth.fit.main import describe_record, make_parser
 from symtop_ros.truth.fit.plan import Plan
 from symtop_ros.truth.fit.plan_options import make_plan
 from symtop_ros.truth.fit.refine import refine
-from symtop_ros.truth.fit.values import list_quantities, list_values
+from symtop_ros.truth.fit.values import SIZED, list_quantities, list_values
 
 FITS = 200
 # What is planned, as on the command line. The last one is near a fold.
@@ -26,14 +26,14 @@ SETUPS = {
 
 @dataclass(frozen=True)
 class Row:
-    """A number of a plan: its deviation, the scatter of fits, and whether the plan trusts it."""
+    """A number of a plan: its deviation, the scatter of fits, and whether it will be known."""
 
     setup: str
     name: str
     value: float
     planned: float
     scatter: float
-    is_straight: bool
+    is_known: bool
 
     @property
     def ratio(self) -> float:
@@ -83,16 +83,17 @@ def _fit(plan: Plan, draw: np.random.Generator) -> dict[str, float]:
 
 
 def write_plans(rows: list[Row]) -> Iterator[str]:
-    """Yield the lines of a table of docs/fit.md."""
-    yield "| record | number | planned | scatter | ratio |"
+    """Yield the lines of a table of docs/fit.md: numbers of the top, and the worst of all."""
+    yield "| record | number | planned | scatter | scatter/planned |"
     yield "|---|---|--:|--:|--:|"
     for row in rows:
-        planned = (
-            f"{row.planned:.2g}" if row.is_straight else f"{row.planned:.2g}, not to be trusted"
-        )
-        yield f"| {row.setup} | `{row.name}` | {planned} | {row.scatter:.2g} | {row.ratio:.2f} |"
+        if row.name in SIZED:
+            planned = f"{row.planned:.2g}" if row.is_known else f"{row.planned:.2g} (not known)"
+            yield f"| {row.setup} | `{row.name}` | {planned} | {row.scatter:.2g} | {row.ratio:.2f} |"
+    sizes = list_sizes(rows)
+    yield f"\nOf all numbers that are known the ratio is {sizes.min():.2f} to {sizes.max():.2f}."
 
 
 def list_sizes(rows: list[Row]) -> Real:
-    """Return the ratios of numbers whose deviation is trusted."""
-    return np.array([row.ratio for row in rows if row.is_straight])
+    """Return the ratios of numbers that will be known."""
+    return np.array([row.ratio for row in rows if row.is_known])
