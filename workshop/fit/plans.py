@@ -1,4 +1,4 @@
-"""Plans held against fits: deviations that were planned, and the scatter of fits of such records."""
+"""Plans held against fits: planned deviations, and the scatter of fits of such records."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -89,7 +89,8 @@ def write_plans(rows: list[Row]) -> Iterator[str]:
     for row in rows:
         if row.name in SIZED:
             planned = f"{row.planned:.2g}" if row.is_known else f"{row.planned:.2g} (not known)"
-            yield f"| {row.setup} | `{row.name}` | {planned} | {row.scatter:.2g} | {row.ratio:.2f} |"
+            cells = row.setup, f"`{row.name}`", planned, f"{row.scatter:.2g}", f"{row.ratio:.2f}"
+            yield f"| {' | '.join(cells)} |"
     sizes = list_sizes(rows)
     yield f"\nOf all numbers that are known the ratio is {sizes.min():.2f} to {sizes.max():.2f}."
 

@@ -1,7 +1,7 @@
 """A measurement that is planned: what it will show, after how many rows, and from which start.
 
 No unbiased estimate has a smaller deviation than that of Cramer and Rao, the inverse of Fisher's
-matrix of an exact record. A fit reaches it where the valley of motions that fit as well is straight.
+matrix of an exact record. A fit reaches it if the valley of motions that fit as well is straight.
 """
 
 from collections.abc import Callable, Iterator, Mapping

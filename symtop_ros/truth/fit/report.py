@@ -115,7 +115,8 @@ class Report:
 
     @property
     def _lacks_friction(self) -> bool:
-        return self.check.verdict == FAILS and not self.fit.model.record.has_friction
+        is_wrong = self.check.verdict == FAILS or self.check.is_smooth
+        return is_wrong and not self.fit.model.record.has_friction
 
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""

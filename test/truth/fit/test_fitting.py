@@ -197,7 +197,7 @@ def test_deviations_of_a_record_that_is_too_short_for_its_camera_are_not_said():
 
 
 def test_a_hanging_top_that_hardly_spins_is_found_by_few_rows_in_a_nutation():
-    # p_psi/Ix is a fifth of the precession; a nutation of 0.85 rows leaves residuals almost as small
+    # p_psi/Ix is a fifth of the precession; a nutation of 0.85 rows leaves almost as little
     sample = draw_sample("angles", "outliers", 409)
     values = read_values(fit_motion(sample.record))
     for name in ("Mgl/Ix", "p_psi/Ix", "phi", "nutation_period"):

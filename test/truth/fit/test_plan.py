@@ -83,7 +83,8 @@ def test_the_text_has_the_numbers_of_the_json(capsys):
     words = "cusps --kind axis --rate 100 --seconds 2 --noise 0.01"
     text, facts = run(words, capsys), json.loads(run(f"{words} --json", capsys))
     found = re.search(r"plan of axis, 201 rows at 100 Hz in 2 s", text)
-    assert found and facts["rows"] == 201
+    assert found
+    assert facts["rows"] == 201
     rows = re.findall(r"^  (\S+) .*?([-\d.]+) \+- ([\d.]+) .*?1 % after (\d+) rows$", text, re.M)
     assert {"Mgl/Ix", "p_psi/Ix"} <= {name for name, *_ in rows}
     for name, value, deviation, count in rows:
@@ -128,7 +129,8 @@ REFUSED = {
     "perry_clamped": "--plan must have a top that gravity and friction move, got a driven one",
     "cusps --noise 1 2": "--noise must have 1 number of axis, got 2",
     "cusps --seconds 1e6": "--seconds times --rate must be 12 to 100000 rows, got 120000001",
-    "cusps --kind pixels --camera 0 30 10": "--camera must have PIXELS > 0 and LENGTHS > 1.11, got 0 and 10",
+    "cusps --kind pixels --camera 0 30 10": "--camera must have PIXELS > 0 and LENGTHS > 1.11, "
+    "got 0 and 10",
     "cusps --scale 100": "--scale must have a record of pixels, got axis",
     "cusps --plot a.png": "--plot must have a record, got --plan",
 }
