@@ -115,7 +115,7 @@ class Plan:
     def count_rows(self, name: str) -> int | None:
         """Return the rows by which a number has a relative deviation of PRECISE that holds.
 
-        None: it is zero, or takes more than LONGEST rows.
+        None: it takes more than LONGEST rows.
         """
         fit, of = self._longest, dict(list_quantities(self._longest))[name]
         slope, most = find_slope(fit, of), PRECISE * abs(of(fit.x))

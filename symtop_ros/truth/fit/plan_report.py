@@ -14,6 +14,9 @@ from symtop_ros.truth.fit.values import SIZED, Value, convert, list_quantities, 
 from symtop_ros.words import write
 
 
+ALIKE = 1.05  # times a deviation, which is no difference
+
+
 @dataclass(frozen=True, eq=False)
 class PlanReport:
     """Everything that is said of a plan.
@@ -49,7 +52,7 @@ class PlanReport:
         return {
             each.name: self.plan.count_rows(each.name)
             for each in self.values
-            if each.name in shown.intersection(SIZED) and not self._is_hidden(each)
+            if each.name in shown.intersection(SIZED) and each.value and not self._is_hidden(each)
         }
 
     def _is_hidden(self, value: Value) -> bool:
@@ -115,11 +118,12 @@ class PlanReport:
 
     def _write_start(self, start: Start) -> str:
         times = start.deviation / self.plan.best.deviation
+        is_worse = times > ALIKE
         record = {
             "what": {**vars(start)},
             "deviation": start.deviation,
             "best": {} if start is self.plan.best else None,
-            "times": None if start is self.plan.best else {"times": times},
+            "times": {"times": times} if is_worse else None,
             "doubt": None if start.is_straight else {},
         }
         return write("plan.start", record)
