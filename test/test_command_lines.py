@@ -47,6 +47,7 @@ FAILED = {
     "--magnetic-field=1,2,nan -o x.csv | --rate 0 -o x.csv | -o x.txt",
 }
 FAILED["top_fit"] = (
+    "--plan CONTROL | --plan cusps CONTROL | --plan cusps initial.theta=CONTROL | "
     "CONTROL | LONG | BYTES | aNULb | /dev/null | /dev/null/x.csv | / | --kind axis /dev/null | "
     "--topic /x CONTROL.mcap"
 )
@@ -63,7 +64,8 @@ UNREADABLE = {
     "workshop": " | CONTROL | speed --limit nan | speed --limit CONTROL | filters --docs nowhere",
     "top_model": " | --format CONTROL",
     "top_imu": "--rate 1_0 -o x.csv | --seed 1_0 -o x.csv | --magnetic-field 1_0 -o x.csv",
-    "top_fit": " | a b | a --kind CONTROL | a --Ix 1 | a --Ix nan 1 | a --Mgl 1_0 1 | a --example",
+    "top_fit": " | a b | a --kind CONTROL | a --Ix 1 | a --Ix nan 1 | a --Mgl 1_0 1 | a --example"
+    " | a --plan cusps | --plan | --plan cusps --rate 0 | --plan cusps --noise nan",
     "top_judge": " | a --topic b --max-error nan | a --topic b --remove CONTROL | --live | "
     "a --topic b --ros-args",
 }

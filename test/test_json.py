@@ -140,6 +140,13 @@ def test_a_number_that_is_not_finite_is_null_in_the_record_of_a_check(tmp_path, 
     assert not record["laws_hold"]
 
 
+def test_a_plan_says_what_it_is(capsys):
+    assert fit(["--plan", "cusps", "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert record["schema"] == "symtop_ros/fit_plan/1"
+    assert {key for key in list_keys(record) if f"`{key}`" not in TEXT} == set()
+
+
 def test_a_fit_says_what_it_is(tmp_path, capsys):
     path = write_table(tmp_path / "axis.csv", make_axis())
     assert fit([str(path), "--json"]) == 0

@@ -50,7 +50,8 @@ TABLE = {
     "truth/imu": "base/command physics run/log run/simulation run/wire | numpy yaml",
     "truth/testset": "__init__ base/command physics run/models | numpy",
     # of judge the reader of tables and topics, the noise, and the look of figures
-    "truth/fit": "base/command physics run/log run/wire truth/judge words | matplotlib numpy scipy",
+    "truth/fit": "base/command physics run/log run/simulation run/wire truth/judge words | "
+    "matplotlib numpy scipy",
     # of testset the scorer; the program itself only for --testset
     "truth/judge": "base/command base/shutdown run/log run/simulation run/wire truth/testset words "
     "| matplotlib numpy rclpy scipy",

@@ -1,4 +1,4 @@
-"""What one does without `top_fit`: integrated equations, least squares, and whole derivatives."""
+"""Fits without `top_fit`: integrated equations, least squares, and whole derivatives."""
 
 import time
 from collections.abc import Callable

@@ -25,8 +25,8 @@ SIGMA = {
 POSITION = (0.02, 0.01, 0.05)  # m, of an accelerometer
 SEEDED = ("angles", "attitude", "axis", "pixels", "rates", "theta", "inertial")  # kinds, for seeds
 TRIED = (30.0, 60.0, 120.0, 240.0, 1000.0)  # samples a second
+LONGER = 16  # records in a series of flicker
 FRICTION_EVERY = 8  # so many records have friction that is looked for
-NUTATIONS = (1.5, 6.0)  # of a record, at the rate that is drawn for it
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,9 @@ class Sample:
             **{name: value for name, value in self.camera.items() if name != "log_scale"},
             "scale": float(np.exp(self.camera.get("log_scale", 0.0))),
         }
-        if not self.record.has_friction:
+        if self.record.has_friction:
+            found["spin_half_time"] = np.log(2) * top.Iz / motion.friction.axial
+        else:
             found["mean_precession_rate"] = sign * motion.mean_precession_rate
             found["nutation_period"] = motion.nutation_period
         return {name: float(value) for name, value in found.items()}
@@ -151,11 +153,15 @@ def _autoregress(draw: Draw, times: Real, show: See, sigma: float) -> tuple[Real
 
 
 def _flicker(draw: Draw, times: Real, show: See, sigma: float) -> tuple[Real, Real]:
-    """Noise whose power falls with the frequency, from one swing in the record on."""
+    """Noise whose power falls with the frequency, also below one swing in the record.
+
+    The record is a part of a longer series: noise that began with it would have a smaller mean.
+    """
     exact = show(times)
-    spectrum = np.fft.rfft(draw.normal(size=exact.shape), axis=0)
+    series = draw.normal(size=(LONGER * len(times), exact.shape[1]))
+    spectrum = np.fft.rfft(series, axis=0)
     frequency = np.maximum(np.arange(len(spectrum)), 1.0)[:, np.newaxis]
-    noise = np.fft.irfft(spectrum / np.sqrt(frequency), len(times), axis=0)
+    noise = np.fft.irfft(spectrum / np.sqrt(frequency), len(series), axis=0)[: len(times)]
     return times, exact + sigma * noise / noise.std()
 
 

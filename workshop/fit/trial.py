@@ -13,11 +13,12 @@ from symtop_ros.truth.fit import Fit, fit_motion
 from symtop_ros.truth.fit.check import HOLDS, Check
 from symtop_ros.truth.fit.fitting import CLEAR, sum_squares
 from symtop_ros.truth.fit.kinds import KINDS
-from symtop_ros.truth.fit.model import FRICTION, Model
+from symtop_ros.truth.fit.model import Model, name_parameters
 from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.values import list_values
 from workshop.fit.baseline import TIMES, Row, compare_all, compare_derivatives
+from workshop.fit.plans import SETUPS, hold, write_plans
 from workshop.fit.records import NOISES, Sample, draw_sample
 
 SEEDS = 36  # of each kind and noise: 2016 records
@@ -67,11 +68,7 @@ def fit_from_truth(sample: Sample) -> Fit:
     """Return the fit that begins at the truth."""
     record, motion = sample.record, sample.motion
     model = Model(record, motion.start.orientation)
-    wx, wy, spin = motion.start.angular_velocity
-    top, friction = motion.top, motion.friction
-    named = {"Mgl/Ix": top.Mgl, "Iz/Ix": top.Iz, "p_psi/Ix": top.Iz * spin, "spin": spin}
-    named |= {"wx": wx, "wy": wy, **sample.camera}
-    named |= dict(zip(FRICTION, (friction.axial / top.Iz, friction.transverse), strict=True))
+    named = {**name_parameters(motion), **sample.camera}
     return refine(model, fill(model, named))
 
 
@@ -123,7 +120,7 @@ def list_unsaid(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def measure_fits(folder: Path) -> None:
-    """Write fit.md: a table of all kinds and noises, and a comparison with integrated equations."""
+    """Write fit.md: all kinds and noises, a comparison with integrated equations, and plans."""
     rows = run_trial(range(FIRST, FIRST + SEEDS), folder / "fit.jsonl")
     both = compare_all()
     own, whole = compare_derivatives()
@@ -131,7 +128,8 @@ def measure_fits(folder: Path) -> None:
         f"Derivatives at {TIMES} times: {own * 1e3:.2g} ms, by `Motion.jacobian` "
         f"{whole * 1e3:.2g} ms (medians of pairs)."
     )
-    lines = [*write_table(rows), "", write_comparison(both), derivatives]
+    plans = [row for setup in SETUPS for row in hold(setup)]
+    lines = [*write_table(rows), "", write_comparison(both), derivatives, "", *write_plans(plans)]
     (folder / "fit.md").write_text("\n".join([*lines, ""]), encoding="utf-8")
     print(f"{folder / 'fit.md'} and fit.jsonl")
 

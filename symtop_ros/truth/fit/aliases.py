@@ -2,7 +2,7 @@
 
 At equal steps a nutation of the frequency f shows the same rows as one of 1/step - f or 1/step + f.
 The mean precession stays, and so does the place of the axis in the first row; the velocity of the
-nutation grows with its frequency, and turns round for the first of both.
+nutation grows with its frequency, and turns round for the first of both if that is positive.
 """
 
 import numpy as np
@@ -38,8 +38,8 @@ def list_alias_starts(fit: Fit) -> list[Starts]:
     rate = 2 * np.pi / float(motion.nutation_period)
     sampling = 2 * np.pi / model.record.step
     rows = [
-        _make_start(model, x, sign * ratio * near, turning)
-        for sign, ratio in ((-1.0, abs(sampling - rate) / rate), (1.0, (sampling + rate) / rate))
+        _make_start(model, x, ratio * near, turning)
+        for ratio in ((rate - sampling) / rate, (rate + sampling) / rate)
         for near in NEAR
     ]
     return [Starts(model, np.array(rows))]

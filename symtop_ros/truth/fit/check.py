@@ -15,6 +15,9 @@ CHANGED = 5.0
 # Residuals of a wrong model swing with the motion: they are larger than their steps from row to row
 # by more than this. Noise that keeps nine tenths from row to row reaches 3.2.
 SMOOTH = 4.0
+# The same of one column, as a spin that falls while the rates across it swing. Noise that keeps
+# 0.99 from row to row reaches 10.
+SMOOTH_COLUMN = 12.0
 # Of rows that are outliers by chance, 5 % of all, eight follow each other once in 4e10 rows.
 STRETCH = 8
 HOLDS, UNCLEAR, FAILS = "holds", "unclear", "fails"
@@ -50,9 +53,21 @@ class Check:
     @cached_property
     def smoothness(self) -> float:
         """Size of the residuals in that of noise with the same steps from row to row."""
+        squares, steps = self._squares
+        return float(np.sqrt(squares.mean() / max(steps.mean(), 1e-300)))
+
+    @cached_property
+    def _squares(self) -> tuple[Real, Real]:
+        """Mean squares (r,) of the residuals, and those that their steps would have as noise."""
         rows = self.fit.residuals[self.fit.noise.kept] / self.fit.noise.sigma
-        steps = np.diff(rows, axis=0)
-        return float(np.sqrt((rows**2).mean() / max((steps**2).mean() / 2, 1e-300)))
+        return (rows**2).mean(axis=0), (np.diff(rows, axis=0) ** 2).mean(axis=0) / 2
+
+    @cached_property
+    def is_smooth(self) -> bool:
+        """True if the residuals, or one column of them, change slowly: they may be motion."""
+        squares, steps = self._squares
+        columns = np.sqrt(squares / np.maximum(steps, 1e-300))
+        return bool(self.smoothness > SMOOTH or columns.max() > SMOOTH_COLUMN)
 
     @cached_property
     def changes(self) -> tuple[Change, ...]:
@@ -86,9 +101,9 @@ class Check:
     @property
     def verdict(self) -> str:
         """HOLDS, UNCLEAR (noise that wanders, a stretch left out, another model) or FAILS."""
-        if self.changes or (not self.is_white and self.smoothness > SMOOTH):
+        if self.changes or (not self.is_white and self.is_smooth):
             return FAILS
-        is_noise = self.is_white and self.smoothness <= SMOOTH and not self.fault
+        is_noise = self.is_white and not self.is_smooth and not self.fault
         return HOLDS if is_noise and not self.stretch else UNCLEAR
 
 

@@ -49,7 +49,7 @@ def draw_report(report: Report) -> Figure:
     unit = UNITS.get(record.kind.name, "rad")
     # residuals of a sensor with two units are drawn in deviations
     sizes = report.fit.noise.sigma if record.kind.name == "inertial" else np.ones(1)
-    residuals = report.fit.residuals / sizes
+    residuals = -report.fit.residuals / sizes  # what was seen less what the motion shows
     for column, name in enumerate(record.kind.columns):
         colour, seen = COLOURS[column], record.values[::step, column]
         above.plot(t, seen, ".", color=colour, markersize=2.5, alpha=0.5)

@@ -67,14 +67,14 @@ class Rows:
     notes: tuple[str, ...]
 
 
-def read_rows(path: Path, kind: str | None, tell: Callable[[int], None] | None = None) -> Rows:
+def read_rows(path: Path, kind: str | None, report: Callable[[int], None] | None = None) -> Rows:
     """Return the rows of a table of a kind; without one, of the kind that its columns say.
 
-    `tell` is called with the number of bytes that were read, now and then.
+    `report` is called with the number of bytes that were read, now and then.
     """
     try:
         with path.open(encoding="utf-8-sig", errors="strict", newline="") as file:
-            return _read_lines(path, file, kind, tell)
+            return _read_lines(path, file, kind, report)
     except OSError as error:
         raise RefusedError(f"cannot open {path}: {error.strerror}") from None
     except UnicodeDecodeError:
@@ -82,7 +82,7 @@ def read_rows(path: Path, kind: str | None, tell: Callable[[int], None] | None =
 
 
 def _read_lines(
-    path: Path, file: Iterable[str], kind: str | None, tell: Callable[[int], None] | None
+    path: Path, file: Iterable[str], kind: str | None, report: Callable[[int], None] | None
 ) -> Rows:
     """Find the names within the first lines, and read the rows after them."""
     filled = ((number, line) for number, line in enumerate(file, 1) if line.strip())
@@ -91,7 +91,7 @@ def _read_lines(
     for _, line in islice(numbered, HEAD):
         head = head or line
         if places := find_places(path, split_names(line), kind):
-            return _read_numbers(path, places, numbered, tell)
+            return _read_numbers(path, places, numbered, report)
     raise RefusedError(_describe_names(path, kind, head))
 
 
@@ -174,7 +174,7 @@ def _list_points(names: list[str], has_quaternion: bool) -> Iterator[tuple[str, 
 
 @dataclass(eq=False)
 class Lines:
-    """Cells of a table, as they are read."""
+    """Cells of a table, in the order of its lines."""
 
     path: Path
     wanted: tuple[int, ...]
@@ -209,7 +209,7 @@ def _read_numbers(
     path: Path,
     places: Places,
     lines: Iterable[tuple[int, str]],
-    tell: Callable[[int], None] | None,
+    report: Callable[[int], None] | None,
 ) -> Rows:
     """Read the rows, and say what was left out."""
     done = 0
@@ -218,8 +218,8 @@ def _read_numbers(
         if not text.startswith("#"):
             table.read(line, text)
         done += len(text)
-        if tell and table.rows % REPORT_EVERY == 0:
-            tell(done)
+        if report and table.rows % REPORT_EVERY == 0:
+            report(done)
     numbers = np.frombuffer(table.numbers, dtype=float).reshape(-1, len(table.wanted))
     seconds = places.seconds or (1e-9 if table.is_whole else 1.0)
     times = (numbers[:, 0] - (numbers[0, 0] if len(numbers) else 0.0)) * seconds

@@ -28,14 +28,14 @@ CLEAR = 25.0  # squares of deviations by which a motion fits worse than another
 DIFFERENT = 0.02  # of p_psi/Ix; motions that are closer are one
 
 
-def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> Fit:
+def fit_motion(record: Record, report: Callable[[float], None] | None = None) -> Fit:
     """Return the motion that explains a record.
 
     Parameters
     ----------
     record : Record
         Of any number of rows; at most `record.MOST` are taken.
-    tell : callable
+    report : callable
         Is called with the part that is done, 0 to 1.
 
     Returns
@@ -54,7 +54,7 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
     [300.0, 50.0]
     """
     record = record.thin()
-    found, rivals = seek(record, tell)
+    found, rivals = seek(record, report)
     if count_rows(found) < 2 * SPARSE:
         ends = expand(search(record.plain, EFFORTS[2], list_alias_starts(found)), record)
         rivals += ends
@@ -63,7 +63,7 @@ def fit_motion(record: Record, tell: Callable[[float], None] | None = None) -> F
     return replace(found, others=tuple(find_others(found, rivals)))
 
 
-def seek(record: Record, tell: Callable[[float], None] | None) -> tuple[Fit, list[Candidate]]:
+def seek(record: Record, report: Callable[[float], None] | None) -> tuple[Fit, list[Candidate]]:
     """Return the best motion of searches that agree, and all that they found."""
     found: Fit | None = None
     rivals: list[Candidate] = []
@@ -74,8 +74,8 @@ def seek(record: Record, tell: Callable[[float], None] | None) -> tuple[Fit, lis
         bests.append(min(each.cost for each in ends))
         if found is None or bests[-1] <= min(bests):
             found = choose_better(found, ends, record)
-        if tell:
-            tell(number / (len(EFFORTS) + 1))
+        if report:
+            report(number / (len(EFFORTS) + 1))
         if is_sure(found, bests):
             break
     assert found is not None

@@ -18,7 +18,7 @@ class Kind:
     residuals : int
         Numbers that are compared in each row.
     rounds : float
-        Period of the last column, in rad; 0 if it has none.
+        Period of the last column, in rad; 0: it is not periodic.
     """
 
     name: str

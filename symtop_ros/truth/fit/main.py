@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable
 from importlib.resources import as_file, files
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
 from symtop_ros.truth.fit.kicks import find_kick
 from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.plan_options import add_options, make_plan, refuse_plan_options
+from symtop_ros.truth.fit.plan_report import PlanReport
 from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
 from symtop_ros.truth.fit.report import Report
 from symtop_ros.truth.fit.search import NEAREST
@@ -39,9 +42,9 @@ def main(args: list[str] | None = None) -> int:
     """Fit; return 0 (good), 1 (refused or failed, or the model does not hold) or 2 (usage)."""
     parser = make_parser()
     options = parser.parse_args(args)
-    if bool(options.record) == options.example:
-        parser.error("RECORD or --example is needed")
-    return tell_failures("top_fit", lambda: _run(options))
+    if sum(map(bool, (options.record, options.example, options.plan))) != 1:
+        parser.error("one of RECORD, --example and --plan is needed")
+    return tell_failures("top_fit", lambda: (_plan if options.plan else _run)(options))
 
 
 def make_parser() -> argparse.ArgumentParser:
@@ -92,6 +95,7 @@ def make_parser() -> argparse.ArgumentParser:
         metavar="LENGTHS",
         help="known distance of the camera from the pivot, in lengths of the axis",
     )
+    add_options(parser)
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
         "--plot", type=Path, metavar="FILE", help="draw record, motion and residuals (.png, .svg)"
@@ -99,14 +103,28 @@ def make_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def _plan(options: argparse.Namespace) -> int:
+    """Print what a record will show."""
+    kind = "inertial" if options.position else options.kind or "axis"
+    _refuse_options(kind, options)
+    if options.plot:
+        raise RefusedError("--plot must have a record, got --plan")
+    plan = make_plan(options, kind, describe_record(kind, options))
+    given = {name: known for name, known in find_given(options).items() if known}
+    report = PlanReport(" ".join(options.plan), plan, given)
+    print(json.dumps(report.facts(), indent=1) if options.json else report.format())
+    return 0
+
+
 def _run(options: argparse.Namespace) -> int:
+    refuse_plan_options(options)
     path = copy_example() if options.example else options.record
     progress = Progress()
     if options.position:
         options.kind = "inertial"
     rows = read(path, options, progress)
     record = fill_record(rows, options)
-    fit = fit_motion(record, progress.tell_part)
+    fit = fit_motion(record, progress.report_part)
     given = {name: known for name, known in find_given(options).items() if known}
     report = Report(str(path), len(record), fit, given)
     progress.end()
@@ -133,7 +151,7 @@ def read(path: Path, options: argparse.Namespace, progress: "Progress") -> Rows:
     """Return the rows of a table or a log."""
     if is_table(path):
         size = path.stat().st_size if path.exists() else 1
-        return read_rows(path, options.kind, lambda done: progress.tell(done / size, "reading"))
+        return read_rows(path, options.kind, lambda done: progress.report(done / size, "reading"))
     from symtop_ros.truth.fit.logs import read_log  # logs need mcap
 
     return read_log(path, options.topic, options.frame, options.kind)
@@ -145,18 +163,20 @@ def fill_record(rows: Rows, options: argparse.Namespace) -> Record:
     notes = [*rows.notes]
     if len(rows.times) > MOST:
         notes.append(f"{len(rows.times)} rows: {MOST} of them are taken, spread over the record")
-    return make_record(
-        rows.times,
-        rows.values,
-        rows.kind,
-        camera=find_camera(options) if rows.kind == "pixels" else {},
-        known=find_known(rows.kind, options),
-        has_friction=options.friction,
-        has_mount=options.mount is not None,
-        has_perspective=options.perspective,
-        position=tuple(options.position or ()),
-        notes=tuple(notes),
-    )
+    more = describe_record(rows.kind, options)
+    return make_record(rows.times, rows.values, rows.kind, **more, notes=tuple(notes))
+
+
+def describe_record(kind: str, options: argparse.Namespace) -> dict[str, Any]:
+    """Return what the options say of a record of a kind, as attributes of it."""
+    return {
+        "camera": find_camera(options) if kind == "pixels" else {},
+        "known": find_known(kind, options),
+        "has_friction": options.friction,
+        "has_mount": options.mount is not None,
+        "has_perspective": options.perspective,
+        "position": tuple(options.position or ()),
+    }
 
 
 def _refuse_options(kind: str, options: argparse.Namespace) -> None:
@@ -224,11 +244,11 @@ class Progress:
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock, self._begin, self._wrote = clock, clock(), False
 
-    def tell_part(self, part: float) -> None:
+    def report_part(self, part: float) -> None:
         """Write what part of the fit is done."""
-        self.tell(part, "fitting")
+        self.report(part, "fitting")
 
-    def tell(self, part: float, action: str) -> None:
+    def report(self, part: float, action: str) -> None:
         """Write what part of an action is done, and an estimate of the time that is left."""
         spent = self._clock() - self._begin
         if spent < PATIENCE or not 0 < part < 1 or not sys.stderr.isatty():

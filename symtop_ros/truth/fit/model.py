@@ -277,3 +277,13 @@ def find_momentum(model: Model, x: Real) -> float:
     if "p_psi/Ix" in place:
         return float(x[place["p_psi/Ix"]])
     return float(x[place["Iz/Ix"]] * x[place["spin"]])
+
+
+def name_parameters(motion: Motion) -> dict[str, float]:
+    """Return the parameters of a motion whose start is the reference of a model, by name."""
+    top, friction = motion.top, motion.friction
+    wx, wy, spin = (float(each) for each in motion.start.angular_velocity)
+    named = {"Mgl/Ix": top.Mgl / top.Ix, "Iz/Ix": top.Iz / top.Ix, "spin": spin}
+    named |= {"p_psi/Ix": top.Iz * spin / top.Ix, "wx": wx, "wy": wy}
+    rates = friction.axial / top.Iz, friction.transverse / top.Ix
+    return named | dict(zip(FRICTION, map(float, rates), strict=True))

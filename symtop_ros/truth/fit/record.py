@@ -46,7 +46,7 @@ class Record:
     position : tuple of float
         Of inertial records: the place of the accelerometer in the body, in m.
     notes : tuple of str
-        What was odd about the file.
+        Sentences on what is odd about the file.
     """
 
     times: Real
@@ -106,7 +106,7 @@ class Record:
 
     @property
     def breaks_twins(self) -> bool:
-        """True if a twin of the plain record is none of this one."""
+        """True if this record differs for twins of the plain one."""
         return self.kind.name == "inertial" or self.has_perspective or "nearness" in self.camera
 
     def select(self, rows: slice | Mask | Places) -> "Record":

@@ -23,9 +23,6 @@ SETTLED = 1e-3  # of the deviations and correlations of noise
 PRECISE = 1e-7  # of the sum of squares: a hundredth of a deviation of a parameter
 FIXED = 12.0  # deviations of rounding, of which a step has 3.5
 DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
-STRAIGHT = 2.0  # times the growth of squares; 1.0 to 1.1 in most records
-GIVEN = 0.5  # part of the information on a step
-CURVED = 0.1  # part of a variance
 LONG = 1e4  # rad, of the fastest phase in a record
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
 
@@ -81,59 +78,18 @@ class Fit:
     @cached_property
     def sizes(self) -> Real:
         """Root of the diagonal (p,) of Fisher's matrix."""
-        return np.asarray(np.sqrt((self.columns**2).sum(axis=(0, 1)) + self.priors) + 1e-300)
+        return find_sizes(self.columns, self.priors)
 
     @cached_property
     def spectrum(self) -> tuple[Real, Real]:
         """Eigenvalues (p,), growing, and vectors of Fisher's matrix of parameters times sizes."""
-        scaled = (self.columns / self.sizes).reshape(-1, len(self.x))
-        normal = scaled.T @ scaled + np.diag(self.priors / self.sizes**2)
-        values, vectors = np.linalg.eigh(normal)
-        return np.maximum(values, NULL * values[-1]), vectors
+        return find_spectrum(self.columns, self.priors, self.sizes)
 
     @cached_property
     def covariance(self) -> Real:
         """Covariance (p, p) of the parameters, if the noise is white."""
         values, vectors = self.spectrum
         return np.asarray((vectors / values) @ vectors.T / np.outer(self.sizes, self.sizes))
-
-    @cached_property
-    def _curved(self) -> Mask:
-        """True (p,) for directions along which a deviation is not what Fisher's matrix says.
-
-        One deviation away the squares grow by one. Where motions that fit as well lie on a curve,
-        a straight step leaves it, and they grow by much more.
-        """
-        values, vectors = self.spectrum
-        steps = (vectors / np.sqrt(values) / self.sizes[:, np.newaxis]).T
-        own = self._sum_squares(self.x)
-        # the mean of both sides, as the least squares may have ended a little off the minimum
-        sides = [[self._sum_squares(self.x + side * step) for side in (1, -1)] for step in steps]
-        grown = np.maximum(np.mean(sides, axis=1) - own, 1e-300)
-        return np.asarray((np.abs(np.log(grown)) > np.log(STRAIGHT)) & ~self._are_given(steps))
-
-    def _are_given(self, steps: Real) -> Mask:
-        """Return True (p,) for steps of one deviation that what is known, or a last decimal, sets.
-
-        Then the squares of what is left do not measure how far the motion may be.
-        """
-        _, fixed = find_rounding(self.model.record, self.white.shape[1])
-        moved = np.einsum("tip,kp->tik", self.columns[:, fixed], steps)
-        return np.asarray(steps**2 @ self.priors + (moved**2).sum(axis=(0, 1)) > GIVEN)
-
-    def _sum_squares(self, x: Real) -> float:
-        known = sum(
-            weight * (x[k] - self.model.record.known[name][0]) ** 2
-            for k, (name, weight) in enumerate(zip(self.model.names, self.priors, strict=True))
-            if weight
-        )
-        return float((self.noise.whiten(self.model.find_residuals(x)) ** 2).sum() + known)
-
-    def is_straight(self, slope: Real) -> bool:
-        """Return whether a combination (p,) hardly depends on directions that are curved."""
-        values, vectors = self.spectrum
-        parts = ((slope / self.sizes) @ vectors) ** 2 / values
-        return bool(parts[self._curved].sum() <= CURVED * parts.sum())
 
     @cached_property
     def _influences(self) -> Real:
@@ -144,7 +100,7 @@ class Fit:
     def _shifts(self) -> Real:
         """Changes (r, p) of the parameters by the rounding of columns that hardly change.
 
-        Where a number stays within its last decimal, the errors of all rows are one error.
+        If a number stays within its last decimal, the errors of all rows are one error.
         """
         rounding, fixed = find_rounding(self.model.record, self.white.shape[1])
         sums = self.columns.sum(axis=0) / self.noise.sigma[:, np.newaxis]
@@ -161,8 +117,21 @@ class Fit:
         return float(np.sqrt(max(robust + by_known, white) + by_rounding))
 
 
+def find_sizes(columns: Real, priors: Real) -> Real:
+    """Return the root of the diagonal (p,) of Fisher's matrix of whitened derivatives (n, r, p)."""
+    return np.asarray(np.sqrt((columns**2).sum(axis=(0, 1)) + priors) + 1e-300)
+
+
+def find_spectrum(columns: Real, priors: Real, sizes: Real) -> tuple[Real, Real]:
+    """Return eigenvalues (p,), growing, and vectors of Fisher's matrix in these sizes."""
+    scaled = (columns / sizes).reshape(-1, len(sizes))
+    normal = scaled.T @ scaled + np.diag(priors / sizes**2)
+    values, vectors = np.linalg.eigh(normal)
+    return np.maximum(values, NULL * values[-1]), vectors
+
+
 def refine(model: Model, x: Real) -> Fit:
-    """Return the fit with the weights of its own noise, from a motion that is near it."""
+    """Return the fit, weighted by the noise that it leaves, from a motion that is near it."""
     noise = find_noise(model, x, lasts=False)
     for _ in range(ROUNDS):
         x = fit_weighted(model, x, noise)

@@ -23,6 +23,7 @@ LABELS = {
     "phi_dot": "phi'",
     "mean_precession_rate": "mean precession",
     "nutation_period": "nutation period",
+    "spin_half_time": "spin is half after",
 }
 ANGLES = "theta", "phi", "theta_dot", "phi_dot"
 
@@ -79,17 +80,9 @@ class Report:
             "taken": len(record),
             "seconds": record.seconds,
             "values": known,
-            "unknown": [self._describe(each) for each in self.unknown],
+            "unknown": [describe_unknown(each) for each in self.unknown],
             "model": self._describe_model(),
             "notes": list(record.notes),
-        }
-
-    def _describe(self, unknown: Unknown) -> dict[str, Any]:
-        return {
-            "kind": unknown.kind,
-            "names": unknown.names.replace(" and ", ", ").split(", "),
-            "numbers": list(unknown.numbers),
-            "text": self._write(unknown),
         }
 
     def _describe_model(self) -> dict[str, Any]:
@@ -115,27 +108,15 @@ class Report:
             f"{self.source}: {record.kind.name}, {write_count(self.rows, 'row')} in "
             f"{record.seconds:.4g} s"
         )
-        lines = [head, *(self._write_row(each) for each in self.values if each.is_known)]
+        lines = [head, *(write_row(each) for each in self.values if each.is_known)]
         lines.append(self.write_verdict())
-        lines += [f"not known: {self._write(each)}" for each in self.unknown]
+        lines += [f"not known: {write_unknown(each)}" for each in self.unknown]
         return "\n".join([*lines, *(f"note: {note}" for note in record.notes)])
-
-    def _write_row(self, value: Value) -> str:
-        measured = format_measured(value.value, value.deviation, 12)
-        label = LABELS.get(value.name, value.name)
-        when = " (first row)" if value.name in ANGLES else ""
-        return f"  {label:18}{measured} {value.unit}{when}".rstrip()
-
-    def _write(self, unknown: Unknown) -> str:
-        record: dict[str, Any] = {f"n{k}": number for k, number in enumerate(unknown.numbers)}
-        if unknown.kind in {"weak", "together"}:  # the last two are a value with its deviation
-            value, deviation = unknown.numbers[-2:]
-            record["value"] = format_measured(value, deviation)
-        return write(f"unknown.{unknown.kind}", {**record, "names": unknown.names})
 
     @property
     def _lacks_friction(self) -> bool:
-        return self.check.verdict == FAILS and not self.fit.model.record.has_friction
+        is_wrong = self.check.verdict == FAILS or self.check.is_smooth
+        return is_wrong and not self.fit.model.record.has_friction
 
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""
@@ -151,3 +132,30 @@ class Report:
             "fault": {"kind": self.check.fault} if self.check.fault else None,
         }
         return write("model", record)
+
+
+def write_row(value: Value) -> str:
+    """Return a number with its deviation and its unit, as a row of a text."""
+    measured = format_measured(value.value, value.deviation, 12)
+    label = LABELS.get(value.name, value.name)
+    when = " (first row)" if value.name in ANGLES else ""
+    return f"  {label:20}{measured} {value.unit}{when}".rstrip()
+
+
+def write_unknown(unknown: Unknown) -> str:
+    """Return what a record does not show, and why, in a sentence."""
+    record: dict[str, Any] = {f"n{k}": number for k, number in enumerate(unknown.numbers)}
+    if unknown.kind in {"weak", "together"}:  # the last two are a value with its deviation
+        value, deviation = unknown.numbers[-2:]
+        record["value"] = format_measured(value, deviation)
+    return write(f"unknown.{unknown.kind}", {**record, "names": unknown.names})
+
+
+def describe_unknown(unknown: Unknown) -> dict[str, Any]:
+    """Return a statement for JSON."""
+    return {
+        "kind": unknown.kind,
+        "names": unknown.names.replace(" and ", ", ").split(", "),
+        "numbers": list(unknown.numbers),
+        "text": write_unknown(unknown),
+    }

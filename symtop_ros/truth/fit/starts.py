@@ -27,6 +27,7 @@ from symtop_ros.truth.fit.record import Record
 
 WIDTHS = (5, 9, 15, 25, 41)  # samples of a smoothed derivative
 GRID = 24  # values of p_psi/Ix of each sign
+HANGING = np.geomspace(0.1, 0.9, 4)  # of the least p_psi/Ix of a standing top; also of each sign
 SLIGHT = 1e-3  # rad/s; friction of a start
 
 
@@ -101,11 +102,12 @@ def find_constants(times: Real, axes: Real) -> Iterator[tuple[float, float]]:
 def list_grid(record: Record, axes: Real, turning: float) -> Iterator[tuple[float, float]]:
     """Yield Mgl/Ix and p_psi/Ix up to the fastest nutation that the steps show.
 
-    A regular precession Omega has Mgl = p_psi Omega - Ix Omega^2 cos(theta).
+    A regular precession Omega has Mgl = p_psi Omega - Ix Omega^2 cos(theta). A standing top that
+    precesses slowly has p_psi > 2 Ix Omega cos(theta), a hanging one may spin as slowly as it will.
     """
     slowest = max(2 * np.pi / record.seconds, 2 * abs(turning))
     fastest = max(1.2 * np.pi / record.step, 1.01 * slowest)
     cosine = float(axes[:, 2].mean())
-    for p in np.geomspace(slowest, fastest, GRID):
+    for p in [*(2 * abs(turning) * HANGING), *np.geomspace(slowest, fastest, GRID)]:
         for sign in (1.0, -1.0):
             yield sign * p * turning - cosine * turning**2, sign * p

@@ -1,4 +1,4 @@
-"""Motions that a record cannot tell apart: exact twins, as tops and starts.
+"""Motions that give the same record: exact twins, as tops and starts.
 
 Each function returns a motion of which a kind of record is the same. The report compares both
 before it names one, and so do the tests, to rounding.

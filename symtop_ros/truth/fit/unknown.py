@@ -57,7 +57,7 @@ class Unknown:
     names : str
         Numbers that are not known.
     numbers : tuple of float
-        What the sentence says of them.
+        Numbers in the sentence.
     """
 
     kind: str

@@ -12,11 +12,17 @@ from symtop_ros.truth.fit.camera import CAMERA
 from symtop_ros.truth.fit.model import FORCE_BIASES, FRICTION, MOUNT, find_momentum
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.valley import Valley
 
 SURE = 0.15  # of the scale of a number; one with a larger deviation is not known
 LEVEL = 4.0  # deviations within which an elevation may be zero
 SIDES = "p_psi/Ix", "phi_dot", "mean_precession_rate"  # change with the sign of p_psi
 ALIASED = "Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin", "theta_dot", "phi_dot", "nutation_period"
+# Numbers of a top, whose zero is no choice: a relative deviation means something.
+SIZED = (
+    *("Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin", "mean_precession_rate", "nutation_period", "scale"),
+    *FRICTION,
+)
 OTHERS = (*FRICTION, *MOUNT, "gravity", *FORCE_BIASES)
 UNITS = {
     "Mgl/Ix": "1/s^2",
@@ -31,6 +37,7 @@ UNITS = {
     "nutation_period": "s",
     "axial/Iz": "1/s",
     "transverse/Ix": "1/s",
+    "spin_half_time": "s",
     "Ix": "kg m^2",
     "Iz": "kg m^2",
     "Mgl": "J",
@@ -68,13 +75,21 @@ def list_values(fit: Fit) -> list[Value]:
     A number is not known if a twin or another motion that fits as well has a different one.
     """
     others = [dict(list_quantities(other)) for other in fit.others]
-    hidden, found = find_hidden(fit), []
+    hidden, valley, found = find_hidden(fit), Valley(fit), []
     for name, of in list_quantities(fit):
-        value = find_value(fit, name, of)
+        value = find_value(valley, name, of)
         rivals = [other[name](each.x) for other, each in zip(others, fit.others, strict=True)]
         is_same = all(agree(value, rival) for rival in rivals)
         found.append(value if is_same and name not in hidden else replace(value, is_known=False))
-    return found
+    return [*found, *find_half_time(found)]
+
+
+def find_half_time(values: list[Value]) -> Iterator[Value]:
+    """Yield the time until the spin is half: omega_z' = -(axial/Iz) omega_z, whatever the axis."""
+    for each in values:
+        if each.name == "axial/Iz" and each.value > 0:
+            part = _relative(each.value, each.deviation)
+            yield _combine("spin_half_time", np.log(2) / each.value, part, 0.0, each.is_known)
 
 
 def agree(value: Value, rival: float) -> bool:
@@ -155,14 +170,15 @@ def _list_angles(fit: Fit) -> Iterator[tuple[str, Callable[[Real], float]]]:
     yield "phi_dot", lambda x: float(model.find_motion(x).start.euler_rates.phi)
 
 
-def find_value(fit: Fit, name: str, of: Callable[[Real], float]) -> Value:
+def find_value(valley: Valley, name: str, of: Callable[[Real], float]) -> Value:
     """Return a number and its deviation, by central differences within white deviations."""
+    fit = valley.fit
     slope, value = find_slope(fit, of), of(fit.x)
     if not (np.isfinite(slope).all() and np.isfinite(value)):
         return Value(name, value, np.inf, False)
     deviation = fit.find_deviation(slope)
     is_small = deviation <= SURE * find_scale(fit, name, value)
-    straight = not is_small or fit.is_straight(slope)
+    straight = not is_small or valley.is_straight(slope, of)
     return Value(name, value, deviation, is_small and straight, straight)
 
 

@@ -99,6 +99,12 @@ def test_friction_is_found_if_it_is_looked_for_and_else_the_model_fails():
     values = read_values(fit_motion(make_record(times, seen, "axis", has_friction=True)))
     assert_near(values["axial/Iz"], 0.125)
     assert_near(values["transverse/Ix"], 0.25)
+    half = values["spin_half_time"]
+    assert half.is_known
+    spins = motion.at([0.0, half.value]).angular_velocity[:, 2]
+    # of the rate c: (1/2)^(1/(1 + d)) is 1/2 + d ln(2)/2
+    part = half.deviation / half.value
+    assert spins[1] / spins[0] == pytest.approx(0.5, abs=FAR * part * np.log(2) / 2)
     assert Check(fit_motion(make_record(times, seen, "axis"))).verdict == FAILS
 
 
@@ -188,6 +194,14 @@ def test_deviations_of_a_record_that_is_too_short_for_its_camera_are_not_said():
     (curved,) = [each for each in report.unknown if each.kind == "curved"]
     assert {"u", "v", "scale"} <= {*curved.names.split(", ")}
     assert not {"u", "v", "scale", "Mgl/Ix"} & {v.name for v in report.values if v.is_known}
+
+
+def test_a_hanging_top_that_hardly_spins_is_found_by_few_rows_in_a_nutation():
+    # p_psi/Ix is a fifth of the precession; a nutation of 0.85 rows leaves almost as little
+    sample = draw_sample("angles", "outliers", 409)
+    values = read_values(fit_motion(sample.record))
+    for name in ("Mgl/Ix", "p_psi/Ix", "phi", "nutation_period"):
+        assert_near(values[name], sample.truth[name])
 
 
 def test_flicker_is_allowed_for_and_said():

@@ -62,6 +62,18 @@ def test_a_record_of_top_imu_gives_its_top_back(tmp_path, capsys):
         assert values[name]["deviation"] < 1e-4 * truth
 
 
+def test_friction_that_was_not_looked_for_is_hinted_at(tmp_path, capsys):
+    path = str(tmp_path / "imu.csv")
+    assert (
+        imu_main(["--scene", "friction", "--seconds", "1", "--noise", "consumer", "-o", path]) == 0
+    )
+    capsys.readouterr()
+    assert main([path, "--kind", "rates"]) == 1
+    assert "; --friction looks for damping" in capsys.readouterr().out
+    assert main([path, "--kind", "rates", "--friction"]) == 0
+    assert "--friction" not in capsys.readouterr().out
+
+
 def test_a_kick_is_named_with_its_place(tmp_path, capsys):
     state = CUSPS.at(1.0)
     kicked = Motion(CUSPS.top, apply_impulse(CUSPS.top, state, (3.0, 0.0, 0.0)))
@@ -136,8 +148,8 @@ def test_progress_is_written_after_two_seconds_on_a_terminal(capsys, monkeypatch
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     times = iter([0.0, 1.0, 4.0])
     progress = Progress(lambda: next(times))
-    progress.tell_part(0.5)
+    progress.report_part(0.5)
     assert not capsys.readouterr().err
-    progress.tell_part(0.5)
+    progress.report_part(0.5)
     progress.end()
     assert capsys.readouterr().err == "\rtop_fit: fitting, 50%, at most 4 s more \n"
