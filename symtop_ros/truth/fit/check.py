@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.refine import Fit, find_rounding
 from symtop_ros.truth.judge.noise import measure_correlation
 
 # The constants of two halves differ by more than five deviations once in two million records; noise
@@ -58,9 +58,14 @@ class Check:
 
     @cached_property
     def _squares(self) -> tuple[Real, Real]:
-        """Mean squares (r,) of the residuals, and those that their steps would have as noise."""
+        """Mean squares (r,) of the residuals, and those that their steps would have as noise.
+
+        A rate that is constant, and rounded, has a residual without steps, which is no motion.
+        """
         rows = self.fit.residuals[self.fit.noise.kept] / self.fit.noise.sigma
-        return (rows**2).mean(axis=0), (np.diff(rows, axis=0) ** 2).mean(axis=0) / 2
+        steps = (np.diff(rows, axis=0) ** 2).mean(axis=0) / 2
+        rounding, _ = find_rounding(self.fit.model.record, rows.shape[1])
+        return (rows**2).mean(axis=0), np.maximum(steps, (rounding / self.fit.noise.sigma) ** 2)
 
     @cached_property
     def is_smooth(self) -> bool:

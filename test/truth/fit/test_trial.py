@@ -4,6 +4,7 @@ from itertools import product
 
 import pytest
 
+from symtop_ros.truth.fit.check import HOLDS
 from symtop_ros.truth.fit.kinds import KINDS
 from workshop.fit.records import NOISES
 from workshop.fit.trial import FIRST, SEEDS, list_unsaid, measure_pulls, run_trial, try_record
@@ -22,6 +23,12 @@ def test_a_hundredth_of_the_trial_has_honest_deviations():
     # The numbers of one record are correlated: 6 records have some 24 independent pulls, whose
     # root mean square has a deviation of 15 %. The trial promises 0.8 to 1.25.
     assert_honest(rows, 0.5, 1.75)
+
+
+@pytest.mark.parametrize("kind", ["rates", "inertial"])
+def test_a_constant_rate_that_is_rounded_is_no_motion_that_the_model_lacks(kind):
+    """All of its rows have one error, which does not change from row to row."""
+    assert try_record(kind, "rounded", FIRST)["verdict"] == HOLDS
 
 
 @pytest.mark.long
