@@ -1,8 +1,8 @@
-"""What the page has of others: `make -C workshop borrowed` fetches it from npm into the package.
+"""Files of other projects for the page: `make -C workshop borrowed` fetches them from npm.
 
-It is kept there, because a page needs no network, and few have the tools. Few systems have a font
-with the places of indices and lines: a hundred letters of STIX Two Math, under the SIL Open Font
-License, are in symbols.woff2. The code of a link is drawn by lean-qr, under the MIT License.
+They are kept in the package, because a page needs no network, and few have the tools. Few systems
+have a font with the places of indices and lines: 94 letters of STIX Two Math, under the SIL Open
+Font License, are in symbols.woff2. The code of a link is drawn by lean-qr, under the MIT License.
 """
 
 import subprocess

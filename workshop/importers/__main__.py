@@ -72,7 +72,7 @@ the format.
 
 @dataclass(frozen=True)
 class Reading:
-    """What an importer has of files, by their names."""
+    """The result of an importer for each file, by its name."""
 
     importer: Importer
     version: str

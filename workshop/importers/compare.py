@@ -1,4 +1,4 @@
-"""What importers read against the body that is described."""
+"""Compare what importers read with the body that is described."""
 
 from collections.abc import Mapping
 from typing import Any

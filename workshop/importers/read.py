@@ -1,4 +1,4 @@
-"""What an importer reads of models: it runs in the environment of the importer, with NumPy alone.
+"""Read models by an importer: runs in the environment of the importer, with NumPy alone.
 
     python read.py NAME FILE...
 

@@ -59,7 +59,7 @@ def write_file(
     page, style = (
         (FOLDER / name).read_text(encoding="utf-8") for name in ("page.html", "page.css")
     )
-    style = re.sub(r"^ *(/\* .*?\*/\n)?", "", style, flags=re.M | re.S)
+    style = re.sub(r"^ *(/\* (?:(?!\*/).)*\*/\n)?", "", style, flags=re.M | re.S)
     style = style.replace("/*SYMBOLS*/", _encode((FOLDER / "symbols.woff2").read_bytes()))
     script = join_modules()
     parts = {

@@ -151,9 +151,9 @@ class Score:
     rates : ndarray (20,) or None
         |omega - omega_exact| in rad/s.
     start : str
-        What a row at t = 0 has in place of the start; empty if it is the start, or there is none.
+        Difference of a row at t = 0 from the start; empty without one, or without such a row.
     engine : str
-        What computed the trajectory, as its file says; empty if it does not.
+        Program that computed the trajectory, as stated in its file; empty if not stated.
     """
 
     problem: Problem
@@ -396,7 +396,7 @@ def _name_mistake(
 
 
 class _Head(NamedTuple):
-    """What comes before the rows of a table."""
+    """The lines before the rows of a table."""
 
     columns: list[str]
     separator: str | None  # None: any white space

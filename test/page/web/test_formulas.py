@@ -17,7 +17,7 @@ UNITS |= {"mJ": 19.0, "J": 23.0, "ms": 29.0, "s": 31.0}
 ASCII = re.compile(
     r"\^|\b(theta|phi|psi|omega|lambda|Ix|Iz|Mgl)\b|_(phi|psi|eff)|\w'(?!\w)|->|sqrt"
 )
-# Names of the code and of columns, which are typed as they are.
+# Names of the code and of columns stay in ASCII.
 CODE = re.compile(r"`[^`]*`|\w+_dot|\{[^}]*\}")
 
 
@@ -207,7 +207,7 @@ def read_text(text):
 
 
 def calculate(text):
-    """Return the value of an expression: each name has one of its own."""
+    """Return the value of an expression, with a fixed number for each name."""
     names = {each: 1 + sum(map(ord, each)) % 97 / 100 for each in re.findall(r"[a-zA-Z]\w*", text)}
     names |= {"sin": math.sin, "cos": math.cos, "sqrt": math.sqrt}
     names |= {"well": lambda theta: 2 + theta, "lambda_": 1.7}
