@@ -121,6 +121,8 @@ class TopNode(Node):
         if priority and (failure := use_real_time(priority)):
             host.warn(failure)
         self.clock_is_missing = False
+        # On a steady clock, as it also ends the node: rclpy 7 may wake the executor a moment before
+        # a signal has shut ROS down, which then waits for its next event.
         self.create_timer(
             CLOCK_WAIT, self._check_clock, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )

@@ -21,6 +21,9 @@ NAMED = ("kick", "set_initial_conditions", "step")
 STANDARD = {"get_entities": "GetEntities", "get_entity_state": "GetEntityState"}
 STANDARD |= {"set_entity_state": "SetEntityState", "reset_simulation": "ResetSimulation"}
 PERIOD = 0.005  # s
+# s between two looks at the context: rclpy 7 may wake the executor before a signal has shut ROS
+# down, and then it waits for its next event.
+LOOK = 1.0
 
 
 def main() -> None:
@@ -37,6 +40,7 @@ def main() -> None:
         node.create_service(getattr(types, kind), f"~/{name}", lambda _, response: response)
     publisher = node.create_publisher(QuaternionStamped, "~/orientation", 100)
     data = serialize_message(QuaternionStamped())
+    node.create_timer(LOOK, lambda: None)
 
     def publish() -> None:
         begin = time.monotonic()
@@ -44,7 +48,11 @@ def main() -> None:
         while rclpy.ok():
             count += 1
             time.sleep(max(0.0, begin + count * PERIOD - time.monotonic()))
-            publisher.publish(data)
+            try:
+                publisher.publish(data)
+            except Exception:
+                if rclpy.ok():
+                    raise
 
     threading.Thread(target=publish, daemon=True).start()
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
