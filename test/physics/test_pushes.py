@@ -57,8 +57,9 @@ TOPS = [ARTICLE, Top(*ARTICLE.moments[:2], 0.0), Top(2.0**-13, 3 * 2.0**-14, -0.
 def test_states_and_pieces_are_those_of_one_push_after_the_other(top, forces):
     """At a stamp of a push it has been given; before the first one the motion goes back in time.
 
-    A piece has the states of its start. The start is that of doubles that are pushed one after the
-    other, to their rounding, which a chain of six adds up.
+    The start of a piece is that of doubles that are pushed one after the other, to their rounding,
+    which a chain of six adds up. The states of the piece alone are those of its start, which is
+    rounded: by half an eps of the rates, and so of the attitude for each radian.
     """
     motion = Motion(top, START, *forces, pushes=PUSHES)
     found = motion.at(ExactTimes(np.array(STAMPS)))
@@ -68,10 +69,11 @@ def test_states_and_pieces_are_those_of_one_push_after_the_other(top, forces):
         assert (piece.begin, piece.number) == (begin, BEGINS.index(begin) + 1)
         assert distance(piece.motion.start, now.start) <= 20 * EPS
         own = piece.motion.at(ExactTimes(stamp - begin))
-        assert found[place] == own == motion.at(ExactTimes(stamp))
+        turned = np.linalg.norm(piece.motion.start.angular_velocity) * abs(stamp - begin) / 1e9
+        assert distance(found[place], own) <= (20 + turned) * EPS
+        assert found[place] == motion.at(ExactTimes(stamp))
         slow = ExactTimes(4 * stamp - 4, 0.25, Fraction(1))
-        later = piece.motion.at(ExactTimes(4 * stamp - 4, 0.25, Fraction(1 - begin)))
-        assert motion.at(slow) == later
+        assert distance(motion.at(slow), found[place]) <= 20 * EPS
 
 
 def distance(one, other):
@@ -82,7 +84,10 @@ def distance(one, other):
 
 
 def draw_chains(count):
-    """Tops of either sign of Mgl and of Iz - Ix, on roots and cusps; some pushes in a nutation."""
+    """Tops of either sign of Mgl and of Iz - Ix, on roots and cusps.
+
+    From one push to the next there is a twelfth of a nutation, or thirty.
+    """
     rng = Numbers("chains of pushes")
     for _ in range(count):
         Ix, unit = rng.power(-4, -1), rng.power(0, 0.7)
@@ -93,45 +98,53 @@ def draw_chains(count):
         rate = rng.choice([0.0, *(each for each in roots if math.isfinite(each))])
         start = State.from_euler(theta=theta, phi_dot=rate, psi_dot=spin)
         period = Motion(top, start).nutation_period
-        pushes = Pushes(2.0**-9 * Ix * unit, min(rng.uniform(1.0, 12.0) / period, 1000.0), 40)
+        pushes = Pushes(2.0**-9 * Ix * unit, min(rng.power(-1.5, 1.08) / period, 1000.0), 27)
         yield Motion(top, start, pushes=pushes)
 
 
 def follow_chain(motion, digits=45):
-    """Return the exact states after the pushes, by Taylor series and with so many digits."""
+    """Return the exact states a nanosecond before and at the pushes, by Taylor series with digits."""
     inputs = Inputs.of(motion.top, motion.start)
     _, rate, number = astuple(motion.pushes)
     begins = [Pushes(0.0, rate, k + 1).last_time for k in range(number)]
     states = []
     for before, begin in itertools.pairwise(begins):
         series = Series(inputs, digits)
-        found = series.find(Fraction(begin - before, 10**9))
-        scale = Fraction(1, 2**series.bits)
-        w, x, y, z = q = [Fraction(int(each)) * scale for each in found[:4]]
-        omega = [Fraction(int(each)) * scale * series.second for each in found[4:]]
-        across = [x * z - w * y, y * z + w * x]
-        square = across[0] ** 2 + across[1] ** 2
-        sine = Fraction(math.isqrt(int(square * 2 ** (4 * series.bits))), 2 ** (2 * series.bits))
-        change = Fraction(motion.pushes.impulse) / inputs.Ix
-        omega[:2] = [rate + change * part / sine for rate, part in zip(omega, across, strict=False)]
-        inputs = inputs._replace(orientation=tuple(q), angular_velocity=tuple(omega))
-        states.append((begin, inputs))
+        last, found = (read(series, begin - before - ns) for ns in (1, 0))
+        states.append((begin - 1, *last))
+        inputs = inputs._replace(orientation=found[0], angular_velocity=push(motion, *found, series))
+        states.append((begin, inputs.orientation, inputs.angular_velocity))
     return states
 
 
-@pytest.mark.parametrize("count", trials(12, 200))
-def test_states_of_a_chain_are_as_exact_as_those_of_one_motion(count):
-    """Pieces of up to eight steps carry more digits than a double has: rounding does not add up.
+def read(series, ns):
+    """Return the quaternion and the angular velocity at a time as fractions."""
+    scale = Fraction(1, 2**series.bits)
+    found = [Fraction(int(each)) * scale for each in series.find(Fraction(ns, 10**9))]
+    return found[:4], [each * series.second for each in found[4:]]
 
-    The promise of any motion is 20 eps of the quaternion and 10 eps of the rates. That of longer
-    pieces begins anew from doubles, and is not asked for here.
+
+def push(motion, q, omega, series):
+    w, x, y, z = q
+    across = [x * z - w * y, y * z + w * x]
+    square = across[0] ** 2 + across[1] ** 2
+    sine = Fraction(math.isqrt(int(square * 2 ** (4 * series.bits))), 2 ** (2 * series.bits))
+    change = Fraction(motion.pushes.impulse) / Fraction(motion.top.Ix)
+    pushed = [rate + change * part / sine for rate, part in zip(omega, across, strict=False)]
+    return [*pushed, omega[2]]
+
+
+@pytest.mark.parametrize("count", trials(3, 300))
+def test_states_of_a_chain_are_as_exact_as_those_of_one_motion(count):
+    """Pieces carry more digits than a double has: rounding does not add up, nor grow in a piece.
+
+    The promise of any motion is 20 eps of the quaternion and 10 eps of the rates.
     """
     for motion in draw_chains(count):
-        for begin, exact in follow_chain(motion)[::13]:
-            state = motion.at(ExactTimes(begin))
-            q = [float(each) for each in exact.orientation]
-            omega = np.array([float(each) for each in exact.angular_velocity])
-            attitude = min(abs(state.orientation - sign * np.array(q)).max() for sign in (1, -1))
+        for stamp, *exact in follow_chain(motion)[::13]:
+            state = motion.at(ExactTimes(stamp))
+            q, omega = (np.array([float(each) for each in part]) for part in exact)
+            attitude = min(abs(state.orientation - sign * q).max() for sign in (1, -1))
             assert attitude <= 20 * EPS
             assert abs(state.angular_velocity - omega).max() <= 10 * EPS * abs(omega).max()
 

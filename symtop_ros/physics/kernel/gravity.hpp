@@ -17,6 +17,12 @@ struct Rates {
   bool spin_reverses;
 };
 
+// Mean rates of the nutation, and of the arguments of A and B in the frame that does not turn by c: after
+// a whole nutation they have turned, and all else is as it was.
+struct Turning {
+  Precise nutation, of_A, of_B;
+};
+
 // What is not needed is not computed: each stage is prepared when it is first asked for.
 class GravityMotion {
  public:
@@ -72,6 +78,16 @@ class GravityMotion {
     const Precise& exact = is_free_ ? free_.nutation_rate : closed_.nutation_rate;
     rate[0] = exact.to_double();
     rate[1] = rest_of(exact, rate[0]);
+  }
+
+  // In a world that was turned over, A was conj(B), and B was -conj(A). Without a torque a turn about L,
+  // of which the quaternion has half the angle, is a nutation.
+  Turning find_turning() {
+    prepare(SOLVED);
+    if (is_free_) return {free_.nutation_rate, free_.nutation_rate.scale(-1), free_.nutation_rate.scale(-1)};
+    const Precise &A = closed_.means[OF_A], &B = closed_.means[OF_B];
+    if (is_turned_over_) return {closed_.nutation_rate, -B, -A};
+    return {closed_.nutation_rate, A, B};
   }
 
   Rates find_rates() {

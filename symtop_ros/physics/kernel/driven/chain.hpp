@@ -1,17 +1,28 @@
-// Short ways of a free motion from a state with 32 digits to another: what a series of pushes carries on
-// from one to the next, where doubles would lose half a last place each time (derivation.md, section 15).
+// Ways of a free motion from a state with 32 digits to another: what a series of pushes carries on from
+// one to the next, where doubles would lose half a last place each time (derivation.md, section 15).
 #pragma once
 
+#include "../gravity.hpp"
 #include "body_state.hpp"
 #include "stepper.hpp"
 
 namespace symtop {
 
-// So many steps take as long as the closed form, for one and a half nutations or more. A longer way
-// has it.
-const int MOST_CARRIED = 8;
+// What the last terms of a step leave out, and the rounding of those that are doubles, count in all pieces
+// that follow: of half a step it is a two-thousandth, some 1e-24.
+const double CARRIED_SHARE = 0.5;
+// rad of the fastest rate, some three steps, that take less time than a set-up. A longer way begins with
+// whole nutations.
+const double NEAR = 4.0;
+// Steps of half a nutation are some five, and a hundred next to the separatrix, where it is long.
+const int MOST_CARRIED = 1000;
 // The square of a smaller sine would be no normal number.
 const double LEAST_SINE = 1e-100;
+
+inline Double2 to_double2(const Precise& x) {
+  const double high = x.to_double();
+  return {high, rest_of(x, high)};
+}
 
 // A state stays in the turning frame: the angle of spin, which grows, has its digits, and those of its
 // sine would be some less than 32.
@@ -19,19 +30,18 @@ class Chain {
  public:
   explicit Chain(const DrivenArguments& top) { stepper_.equations.prepare(top); }
 
-  // Moves a state on by a time in two parts; false if the way is too long.
-  bool advance(Variables& state, double t, double rest) {
-    Knot knot = {0.0, state};
-    for (int n = 0; n < MOST_CARRIED; n++) {
-      stepper_.step(knot, 1, piece_);
-      if (piece_.end == knot.t || piece_.end * MOST_CARRIED < t) return false;
-      if (piece_.end >= t) {
-        state = piece_.evaluate(piece_.locate(t, rest));
-        return true;
-      }
-      knot = piece_.following;
-    }
-    return false;
+  // Moves the start of a motion on by a time in s; false if the way is too long.
+  bool advance(Variables& state, const Precise& time, GravityMotion& motion) {
+    if (time.to_double() * stepper_.equations.estimate_rate(state) < NEAR) return follow(state, time);
+    const Turning turning = motion.find_turning();
+    const double nutations = round_to_integer((time * turning.nutation * PER_TURN).to_double());
+    if (!nutations) return follow(state, time);
+    const Precise seconds_a_radian = invert(turning.nutation), count(nutations);
+    const Precise passed = count * TWO_PI * seconds_a_radian;
+    turn(state, count * turning.of_A * seconds_a_radian, count * turning.of_B * seconds_a_radian);
+    const Double2 spin = pick(state.rates, SPIN) + pick(state.rates, OMEGA_Z) * to_double2(passed);
+    state.rates.high[SPIN] = spin.high, state.rates.low[SPIN] = spin.low;
+    return follow(state, time - passed);
   }
 
   // A push on the axle, as push_axle in rule/kicks.hpp: it is across the axle, and in the frame the same as
@@ -48,11 +58,52 @@ class Chain {
     return true;
   }
 
-  BodyState find_state(const Variables& state) const { return BodyState(state, stepper_.equations); }
+  BodyState find_state(const Variables& state) const {
+    return BodyState(state, find_fine_unit(find_spin_in_frame(state, stepper_.equations)));
+  }
 
  private:
-  Stepper stepper_;
+  Stepper stepper_{CARRIED_SHARE};
   Piece piece_;
+
+  // By Taylor series, in either direction of time; false if that takes too many steps.
+  bool follow(Variables& state, const Precise& time) {
+    const Double2 wanted = to_double2(time);
+    const int direction = time.sign < 0 ? -1 : 1;
+    Knot knot = {0.0, state};
+    for (int n = 0; n < MOST_CARRIED; n++) {
+      stepper_.step(knot, direction, piece_);
+      if (piece_.end == knot.t) return false;
+      if (std::fabs(piece_.end) >= std::fabs(wanted.high)) {
+        state = piece_.evaluate(piece_.locate(wanted.high, wanted.low));
+        return true;
+      }
+      knot = piece_.following;
+    }
+    return false;
+  }
+
+  // Whole nutations turn a state by two angles, here in turns: A and B have the phases of quotients that
+  // are what they were, and omega_xy turns as conj(A) B (section 6).
+  static void turn(Variables& state, const Precise& turns_of_A, const Precise& turns_of_B) {
+    const Unit A = find_unit_of(turns_of_A), B = find_unit_of(turns_of_B);
+    turn(state.q, W, Z, A);
+    turn(state.q, X, Y, B);
+    turn(state.rates, OMEGA_X, OMEGA_Y, B);
+    turn(state.rates, OMEGA_X, OMEGA_Y, {A.c, -A.s});
+  }
+
+  static Unit find_unit_of(const Precise& turns) {
+    const Precise part = turns - Precise(round_to_integer(turns.to_double()));
+    return find_fine_unit(to_double2(part * TWO_PI));
+  }
+
+  static void turn(SumOf<Lanes>& all, int real, int imaginary, Unit by) {
+    const Double2 x = pick(all, real), y = pick(all, imaginary);
+    const Double2 turned[2] = {x * by.c - y * by.s, y * by.c + x * by.s};
+    all.high[real] = turned[0].high, all.low[real] = turned[0].low;
+    all.high[imaginary] = turned[1].high, all.low[imaginary] = turned[1].low;
+  }
 };
 
 }  // namespace symtop

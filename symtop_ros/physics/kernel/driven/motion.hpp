@@ -15,7 +15,11 @@ const double MOST_DECAYS = 1e5;  // decay times on the way, each of which takes 
 // A call moves along the pieces of a trail: a lock keeps it whole.
 class DrivenMotion {
  public:
-  explicit DrivenMotion(const DrivenArguments& given) : given_(given) {
+  // `carried` is the start with 32 digits, where it has them.
+  explicit DrivenMotion(const DrivenArguments& given, const Variables* carried = nullptr)
+      : given_(given), is_carried_(carried) {
+    if (carried) carried_ = *carried;
+
     Start s = {};
     s.w = given.orientation[0], s.x = given.orientation[1], s.y = given.orientation[2],
     s.z = given.orientation[3];
@@ -36,6 +40,15 @@ class DrivenMotion {
     return ARRIVED;
   }
 
+  // What the integration has at t + rest.
+  Progress find(double t, double rest, double* steps, Variables* found) {
+    const Lock lock(mutex_);
+    Progress progress;
+    Trail* trail = move(t, steps, &progress);
+    if (progress == ARRIVED) *found = trail->find(t, rest);
+    return progress;
+  }
+
   Progress reach(double t, double steps, double* reached) {
     const Lock lock(mutex_);
     Trail* trail = find_trail(t);
@@ -49,6 +62,8 @@ class DrivenMotion {
 
  private:
   DrivenArguments given_;
+  bool is_carried_;
+  Variables carried_;
   Start start_;
   std::unique_ptr<Trail> forward_, backward_;
   Mutex mutex_;
@@ -57,7 +72,8 @@ class DrivenMotion {
     std::unique_ptr<Trail>& trail = t >= 0 ? forward_ : backward_;
     if (!trail) {
       trail.reset(new (std::nothrow) Trail());
-      if (trail && !trail->prepare(given_, t >= 0 ? 1 : -1)) trail.reset();
+      const Variables start = is_carried_ ? carried_ : BodyState(given_).in_frame();
+      if (trail && !trail->prepare(given_, start, t >= 0 ? 1 : -1)) trail.reset();
     }
     return trail.get();
   }
@@ -68,15 +84,21 @@ class DrivenMotion {
                   given_.omega[2], to);
       return ARRIVED;
     }
-    Trail* trail = find_trail(t);
-    if (!trail) return HAS_NO_MEMORY;
     Progress progress;
-    double none = 0.0;
-    const double before = trail->reach(t, &none, LONGEST_WAY, &progress);
-    if (std::fabs(t - before) * trail->decay() > MOST_DECAYS) return IS_TOO_STIFF;
-    if (before != t) trail->reach(t, steps, LONGEST_WAY, &progress);
+    const Trail* trail = move(t, steps, &progress);
     if (progress == ARRIVED) trail->read(t, rest, to.orientation, to.omega);
     return progress;
+  }
+
+  // Integrates to a time, and returns the trail that has got there.
+  Trail* move(double t, double* steps, Progress* progress) {
+    Trail* trail = find_trail(t);
+    if (!trail) return *progress = HAS_NO_MEMORY, nullptr;
+    double none = 0.0;
+    const double before = trail->reach(t, &none, LONGEST_WAY, progress);
+    if (std::fabs(t - before) * trail->decay() > MOST_DECAYS) return *progress = IS_TOO_STIFF, trail;
+    if (before != t) trail->reach(t, steps, LONGEST_WAY, progress);
+    return trail;
   }
 };
 

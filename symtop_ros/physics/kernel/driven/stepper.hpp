@@ -36,6 +36,9 @@ class Stepper {
  public:
   DrivenEquations equations;
 
+  // Steps have a share of their usual length, a power of two.
+  explicit Stepper(double share = 1.0) : share_(share) {}
+
   void step(const Knot& knot, int direction, Piece& piece) {
     piece.start = knot;
     const double rate = equations.estimate_rate(knot.now);
@@ -49,7 +52,7 @@ class Stepper {
     piece.terms[0][1] = rates.high, piece.rests[0][1] = rates.low;
     series_.expand(in_unit_, equations.share, equations.has_torque, piece);
     if (!is_moving(piece)) return piece.rest_until(direction * INFINITY);
-    double length = direction * find_length(piece.terms) * unit_;
+    double length = direction * share_ * find_length(piece.terms) * unit_;
     piece.end = knot.t + length;
     piece.find_end();
     while (std::fabs(piece.following.now.rates.high[SPIN] * equations.half_rest.high) > LARGEST_SPIN) {
@@ -60,7 +63,7 @@ class Stepper {
   }
 
  private:
-  double unit_ = 0.0;
+  double share_, unit_ = 0.0;
   Coefficients in_unit_;
   TaylorSeries series_;
 

@@ -28,13 +28,13 @@ enum Progress {
 class Trail {
  public:
   // False if there is no memory.
-  bool prepare(const DrivenArguments& top, int direction) {
+  bool prepare(const DrivenArguments& top, const Variables& start, int direction) {
     kept_.reset(new (std::nothrow) Knot[KEPT + 1]);
     recent_.reset(new (std::nothrow) Piece[RECENT]);
     if (!kept_ || !recent_) return false;
     direction_ = direction;
     stepper_.equations.prepare(top);
-    kept_[0] = {0.0, BodyState(top).in_frame()};
+    kept_[0] = {0.0, start};
     kept_count_ = spacing_ = 1;
     return true;
   }
@@ -59,10 +59,12 @@ class Trail {
     return t;
   }
 
-  // Write the state at t + rest; the time has been reached.
+  // The variables at t + rest; the time has been reached.
+  Variables find(double t, double rest) const { return present().evaluate(present().locate(t, rest)); }
+
   void read(double t, double rest, double orientation[4], double omega[3]) const {
-    const Piece& piece = present();
-    const BodyState now(piece.evaluate(piece.locate(t, rest)), stepper_.equations);
+    const Variables found = find(t, rest);
+    const BodyState now(found, find_unit(find_spin_in_frame(found, stepper_.equations)));
     for (int k = 0; k < 4; k++) orientation[k] = now.q[k].high;
     for (int k = 0; k < 3; k++) omega[k] = now.omega[k].high;
   }

@@ -39,6 +39,21 @@ struct Start {  // what a motion starts from; Mgl > 0 and the orientation as it 
   double w, x, y, z;
   double wx, wy, wz;
   bool is_clamped = false;  // phi' is held at 0: see `clamp`
+  // What the doubles of a state that is carried on leave over; a push across the axle leaves wz as it is.
+  struct { double w, x, y, z, wx, wy; } rest = {};
+};
+
+// The numbers of a start with what their doubles leave over.
+template <class T>
+struct StartIn {
+  T w, x, y, z, wx, wy;
+
+  explicit StartIn(const Start& s)
+      : w(sum(s.w, s.rest.w)), x(sum(s.x, s.rest.x)), y(sum(s.y, s.rest.y)), z(sum(s.z, s.rest.z)),
+        wx(sum(s.wx, s.rest.wx)), wy(sum(s.wy, s.rest.wy)) {}
+
+ private:
+  static T sum(double high, double low) { return low == 0 ? T(high) : T(high) + T(low); }
 };
 
 // The start of a motion whose precession is held (derivation.md, section 11). The hand takes up what
@@ -55,11 +70,16 @@ constexpr double NORM_ROUNDING = 4 * EPS;  // normalising a norm this close to 1
 // below this share of its terms is treated as zero.
 constexpr double START_ROUNDING = 64 * EPS;
 
+inline void turn_over(double& w, double& x, double& y, double& z) {
+  const double w_before = w, y_before = y;
+  w = -x, x = w_before, y = -z, z = y_before;
+}
+
 // The closed form wants Mgl > 0: a world turned by pi about x' has it. Returns true if it was turned.
 inline bool turn_over(Start& s) {
   if (!(s.Mgl < 0)) return false;
-  const double w = s.w, y = s.y;
-  s.w = -s.x, s.x = w, s.y = -s.z, s.z = y;
+  turn_over(s.w, s.x, s.y, s.z);
+  turn_over(s.rest.w, s.rest.x, s.rest.y, s.rest.z);
   s.Mgl = -s.Mgl;
   return true;
 }
@@ -96,8 +116,9 @@ typedef NutationOf<3> Nutation;
 template <int N>
 SYMTOP_SET_UP inline void sum_exactly(const Start& start, NutationOf<N>& nutation) {
   typedef Float<N> Rounded;
-  const Exact Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
-      z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
+  const Exact Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), wz(start.wz);
+  const StartIn<Exact> all(start);
+  const Exact &w = all.w, &x = all.x, &y = all.y, &z = all.z, &wx = all.wx, &wy = all.wy;
   const Exact upper = w * w + z * z, lower = x * x + y * y, norm = upper + lower;
   const Exact gx = x * z - w * y, gy = y * z + w * x;
   const Exact along = wx * gx + wy * gy, spin = Iz * wz, squared = wx * wx + wy * wy;
@@ -173,8 +194,9 @@ template <int N>
 inline NutationOf<N> find_nutation(const Start& start) {
   if (start.is_clamped) return find_plane_nutation<N>(start);
   typedef Float<N> P;
-  const P Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), w(start.w), x(start.x), y(start.y),
-      z(start.z), wx(start.wx), wy(start.wy), wz(start.wz);
+  const P Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), wz(start.wz);
+  const StartIn<P> all(start);
+  const P &w = all.w, &x = all.x, &y = all.y, &z = all.z, &wx = all.wx, &wy = all.wy;
   const P upper = w * w + z * z, lower = x * x + y * y;
   // The doubles of a quaternion have norm 1 to rounding only. With this factor 1 - u0 and 1 + u0
   // have the sum 2 exactly, as the cubic assumes.

@@ -2,9 +2,9 @@
 //
 // A push comes at a whole number of nanoseconds after the first one, at which the motion starts. Up to
 // the next one the motion is a stretch of its own, from the state that the push leaves. A stretch is
-// made when it is first asked for: those before it are made, too, and are kept. The state at the end of
-// a short one is carried on with more digits than a stretch starts from: else rounding would add up from
-// push to push, and that of a rate grow with time.
+// made when it is first asked for: those before it are made, too, and are kept. The state at its end is
+// carried on with 32 digits: else rounding would add up from push to push, and that of a rate grow with
+// time.
 #pragma once
 
 #include <atomic>
@@ -159,7 +159,8 @@ class Stretches {
   std::unique_ptr<std::unique_ptr<Stretch>[]> later_;
   std::atomic<int> made_{0};  // of later_
   std::unique_ptr<Chain> chain_;
-  std::unique_ptr<Variables> carried_;  // the start of the last stretch, if it has more digits
+  bool is_carried_ = false;  // the start of the last stretch, with 32 digits
+  Variables carried_;
   Mutex mutex_;
 
   // ns from the first push on, whole
@@ -200,41 +201,58 @@ class Stretches {
   }
 
   symtop_status make_next(int next, double* steps) {
-    symtop_start s = at(next - 1).start;
+    Stretch& before = at(next - 1);
     const int64_t passed = static_cast<int64_t>(find_begin(next) - find_begin(next - 1));
-    Variables state = carried_ ? *carried_ : BodyState(to_driven(s)).in_frame();
-    const bool is_carried = carry(state, passed, s);
-    symtop_status status = is_carried ? SYMTOP_OK : restart(at(next - 1), passed, steps, s);
-    if (status == SYMTOP_OK) status = accept(s);
+    Variables state = is_carried_ ? carried_ : BodyState(to_driven(before.start)).in_frame();
+    std::unique_ptr<Stretch> made;
+    symtop_status status = carry(before, passed, steps, state, made);
+    const bool is_carried = bool(made);
+    if (status == SYMTOP_OK && !made) status = restart(before, passed, steps, made);
+    if (status == SYMTOP_OK) status = made ? accept(made->start) : SYMTOP_NO_MEMORY;
     if (status != SYMTOP_OK) return status;
-    later_[next - 1].reset(new (std::nothrow) Stretch(s));
-    if (!later_[next - 1]) return SYMTOP_NO_MEMORY;
-    if (is_carried)
-      carried_.reset(new (std::nothrow) Variables(state));
-    else
-      carried_.reset();
+    later_[next - 1] = std::move(made);
+    carried_ = state, is_carried_ = is_carried;
     return SYMTOP_OK;
   }
 
-  // Moves a state to the next push, and over it; false if it has to begin anew from doubles.
-  bool carry(Variables& state, int64_t passed, symtop_start& s) {
+  // Moves a state to the next push, and over it; makes nothing if it has to begin anew from doubles.
+  symtop_status carry(Stretch& before, int64_t passed, double* steps, Variables& state,
+                      std::unique_ptr<Stretch>& made) {
+    symtop_start s = before.start;
     if (!chain_) chain_.reset(new (std::nothrow) Chain(to_driven(s)));
-    const Pair time = split_seconds(Exact(static_cast<double>(passed)));
+    if (!chain_) return SYMTOP_NO_MEMORY;
+    const symtop_status status = advance(before, passed, steps, state);
+    if (status != SYMTOP_OK) return status == SYMTOP_TOO_FAR ? SYMTOP_OK : status;
     const Double2 change = Double2{pushes_.impulse, 0.0} / Double2{s.Ix, 0.0};
-    if (!chain_ || !chain_->advance(state, time.x, time.y) || !Chain::push(state, change)) return false;
+    if (!Chain::push(state, change)) return SYMTOP_OK;
     const BodyState body = chain_->find_state(state);
     for (const Double2& each : body.omega)
-      if (!are_at_most(&each.high, 1, LARGEST)) return false;
+      if (!are_at_most(&each.high, 1, LARGEST)) return SYMTOP_OK;
     for (int k = 0; k < 3; k++) s.angular_velocity[k] = body.omega[k].high;
     for (int k = 0; k < 4; k++) s.orientation[k] = body.q[k].high;
-    return true;
+    made.reset(new (std::nothrow) Stretch(s, body, state));
+    return SYMTOP_OK;
   }
 
-  symtop_status restart(Stretch& before, int64_t passed, double* steps, symtop_start& s) const {
+  symtop_status advance(Stretch& before, int64_t passed, double* steps, Variables& state) {
+    const double ns = static_cast<double>(passed);
+    if (before.is_driven) {
+      const Pair time = split_seconds(Exact(ns));
+      return to_status(before.driven.find(time.x, time.y, steps, &state));
+    }
+    const Precise time = Precise(ns) / Precise(static_cast<double>(SECOND));
+    return chain_->advance(state, time, before.gravity) ? SYMTOP_OK : SYMTOP_TOO_FAR;
+  }
+
+  symtop_status restart(Stretch& before, int64_t passed, double* steps,
+                        std::unique_ptr<Stretch>& made) const {
+    symtop_start s = before.start;
     size_t done;
-    const symtop_status status = ClockTimes{{1.0, {}}, &passed}.fill(
+    symtop_status status = ClockTimes{{1.0, {}}, &passed}.fill(
         before, 0.0, 0, 1, steps, {s.orientation, s.angular_velocity}, &done);
-    return status == SYMTOP_OK ? push(s) : status;
+    if (status == SYMTOP_OK) status = push(s);
+    if (status == SYMTOP_OK) made.reset(new (std::nothrow) Stretch(s));
+    return status;
   }
 
   symtop_status push(symtop_start& s) const {

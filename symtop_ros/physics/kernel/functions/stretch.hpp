@@ -17,6 +17,13 @@ inline DrivenArguments to_driven(const symtop_start& s) {
   return a;
 }
 
+inline Start to_start(const symtop_start& s, const BodyState& body) {
+  Start start = to_start(s);
+  const Double2 *q = body.q, *omega = body.omega;
+  start.rest = {q[0].low, q[1].low, q[2].low, q[3].low, omega[0].low, omega[1].low};
+  return start;
+}
+
 inline symtop_status to_status(Progress progress) {
   static const symtop_status STATUSES[] = {SYMTOP_OK, SYMTOP_TOO_FAST, SYMTOP_TOO_STIFF,
                                            SYMTOP_TOO_LONG, SYMTOP_MORE_STEPS,
@@ -35,6 +42,10 @@ struct Stretch {
         gravity(is_clamped ? clamp(to_start(s)) : to_start(s)),
         driven(to_driven(s)),
         is_driven(symtop::is_driven(s)) {}
+
+  // From a state that is carried on, of which `s` has the doubles.
+  Stretch(const symtop_start& s, const BodyState& body, const Variables& carried)
+      : start(s), gravity(to_start(s, body)), driven(to_driven(s), &carried), is_driven(symtop::is_driven(s)) {}
 
   // States at the times that `split` returns in two parts, or under gravity at `times`; *steps is
   // lowered by those taken.
