@@ -13,7 +13,7 @@ namespace symtop {
 const double CARRIED_SHARE = 0.5;
 // rad of the fastest rate, some three steps, that take less time than a set-up. A longer way begins with
 // whole nutations.
-const double NEAR = 4.0;
+const double FEW_RADIANS = 4.0;
 // Steps of half a nutation are some five, and a hundred next to the separatrix, where it is long.
 const int MOST_CARRIED = 1000;
 // The square of a smaller sine would be no normal number.
@@ -32,7 +32,7 @@ class Chain {
 
   // Moves the start of a motion on by a time in s; false if the way is too long.
   bool advance(Variables& state, const Precise& time, GravityMotion& motion) {
-    if (time.to_double() * stepper_.equations.estimate_rate(state) < NEAR) return follow(state, time);
+    if (time.to_double() * stepper_.equations.estimate_rate(state) < FEW_RADIANS) return follow(state, time);
     const Turning turning = motion.find_turning();
     const double nutations = round_to_integer((time * turning.nutation * PER_TURN).to_double());
     if (!nutations) return follow(state, time);

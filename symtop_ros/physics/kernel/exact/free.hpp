@@ -51,7 +51,7 @@ struct FreeMotion {
     const Precise Ix(given.Ix);
     const Precise dropped = given.is_clamped ? drop_precession(find_nutation<3>(given), start)
                                              : Precise();
-    const StartIn<Precise> all(start);
+    const WholeStart<Precise> all(start);
     const Precise L[3] = {Ix * all.wx, Ix * all.wy, Precise(given.Iz) * Precise(given.wz)};
     // Of a clamped motion the rounded parts of omega would give another rate.
     const Precise size = given.is_clamped ? Ix * dropped

@@ -45,10 +45,10 @@ struct Start {  // what a motion starts from; Mgl > 0 and the orientation as it 
 
 // The numbers of a start with what their doubles leave over.
 template <class T>
-struct StartIn {
+struct WholeStart {
   T w, x, y, z, wx, wy;
 
-  explicit StartIn(const Start& s)
+  explicit WholeStart(const Start& s)
       : w(sum(s.w, s.rest.w)), x(sum(s.x, s.rest.x)), y(sum(s.y, s.rest.y)), z(sum(s.z, s.rest.z)),
         wx(sum(s.wx, s.rest.wx)), wy(sum(s.wy, s.rest.wy)) {}
 
@@ -117,7 +117,7 @@ template <int N>
 SYMTOP_SET_UP inline void sum_exactly(const Start& start, NutationOf<N>& nutation) {
   typedef Float<N> Rounded;
   const Exact Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), wz(start.wz);
-  const StartIn<Exact> all(start);
+  const WholeStart<Exact> all(start);
   const Exact &w = all.w, &x = all.x, &y = all.y, &z = all.z, &wx = all.wx, &wy = all.wy;
   const Exact upper = w * w + z * z, lower = x * x + y * y, norm = upper + lower;
   const Exact gx = x * z - w * y, gy = y * z + w * x;
@@ -195,7 +195,7 @@ inline NutationOf<N> find_nutation(const Start& start) {
   if (start.is_clamped) return find_plane_nutation<N>(start);
   typedef Float<N> P;
   const P Ix(start.Ix), Iz(start.Iz), Mgl(start.Mgl), wz(start.wz);
-  const StartIn<P> all(start);
+  const WholeStart<P> all(start);
   const P &w = all.w, &x = all.x, &y = all.y, &z = all.z, &wx = all.wx, &wy = all.wy;
   const P upper = w * w + z * z, lower = x * x + y * y;
   // The doubles of a quaternion have norm 1 to rounding only. With this factor 1 - u0 and 1 + u0
