@@ -30,8 +30,9 @@ class Chain {
  public:
   explicit Chain(const DrivenArguments& top) { stepper_.equations.prepare(top); }
 
-  // Moves the start of a motion on by a time in s; false if the way is too long.
-  bool advance(Variables& state, const Precise& time, GravityMotion& motion) {
+  // Moves the start of a motion on by whole ns; false if the way is too long.
+  bool advance(Variables& state, double ns, GravityMotion& motion) {
+    const Precise time = Precise(ns) * per_ns_;
     if (time.to_double() * stepper_.equations.estimate_rate(state) < FEW_RADIANS) return follow(state, time);
     const Turning turning = motion.find_turning();
     const double nutations = round_to_integer((time * turning.nutation * PER_TURN).to_double());
@@ -63,6 +64,7 @@ class Chain {
   }
 
  private:
+  const Precise per_ns_ = invert(Precise(1e9));  // in s
   Stepper stepper_{CARRIED_SHARE};
   Piece piece_;
 
@@ -72,12 +74,13 @@ class Chain {
     const int direction = time.sign < 0 ? -1 : 1;
     Knot knot = {0.0, state};
     for (int n = 0; n < MOST_CARRIED; n++) {
-      stepper_.step(knot, direction, piece_);
+      stepper_.expand(knot, direction, piece_);
       if (piece_.end == knot.t) return false;
       if (std::fabs(piece_.end) >= std::fabs(wanted.high)) {
         state = piece_.evaluate(piece_.locate(wanted.high, wanted.low));
         return true;
       }
+      piece_.find_end();
       knot = piece_.following;
     }
     return false;
@@ -89,8 +92,7 @@ class Chain {
     const Unit A = find_unit_of(turns_of_A), B = find_unit_of(turns_of_B);
     turn(state.q, W, Z, A);
     turn(state.q, X, Y, B);
-    turn(state.rates, OMEGA_X, OMEGA_Y, B);
-    turn(state.rates, OMEGA_X, OMEGA_Y, {A.c, -A.s});
+    turn(state.rates, OMEGA_X, OMEGA_Y, {A.c * B.c + A.s * B.s, A.c * B.s - A.s * B.c});
   }
 
   static Unit find_unit_of(const Precise& turns) {

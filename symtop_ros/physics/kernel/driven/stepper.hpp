@@ -40,9 +40,21 @@ class Stepper {
   explicit Stepper(double share = 1.0) : share_(share) {}
 
   void step(const Knot& knot, int direction, Piece& piece) {
+    if (!expand(knot, direction, piece)) return;
+    piece.find_end();
+    double length = piece.end - knot.t;
+    while (std::fabs(piece.following.now.rates.high[SPIN] * equations.half_rest.high) > LARGEST_SPIN) {
+      length /= 2;
+      piece.end = knot.t + length;
+      piece.find_end();
+    }
+  }
+
+  // The series of a step and its end, without the state there; false if nothing moves or all too fast.
+  bool expand(const Knot& knot, int direction, Piece& piece) {
     piece.start = knot;
     const double rate = equations.estimate_rate(knot.now);
-    if (!(rate < LARGEST_ANGULAR_VELOCITY)) return piece.rest_until(knot.t);
+    if (!(rate < LARGEST_ANGULAR_VELOCITY)) return piece.rest_until(knot.t), false;
     int exponent = 0;
     if (rate) std::frexp(1 / rate, &exponent);
     set_unit(std::ldexp(1.0, exponent));
@@ -51,15 +63,9 @@ class Stepper {
     piece.terms[0][0] = knot.now.q.high, piece.rests[0][0] = knot.now.q.low;
     piece.terms[0][1] = rates.high, piece.rests[0][1] = rates.low;
     series_.expand(in_unit_, equations.share, equations.has_torque, piece);
-    if (!is_moving(piece)) return piece.rest_until(direction * INFINITY);
-    double length = direction * share_ * find_length(piece.terms) * unit_;
-    piece.end = knot.t + length;
-    piece.find_end();
-    while (std::fabs(piece.following.now.rates.high[SPIN] * equations.half_rest.high) > LARGEST_SPIN) {
-      length /= 2;
-      piece.end = knot.t + length;
-      piece.find_end();
-    }
+    if (!is_moving(piece)) return piece.rest_until(direction * INFINITY), false;
+    piece.end = knot.t + direction * share_ * find_length(piece.terms) * unit_;
+    return true;
   }
 
  private:

@@ -240,8 +240,7 @@ class Stretches {
       const Pair time = split_seconds(Exact(ns));
       return to_status(before.driven.find(time.x, time.y, steps, &state));
     }
-    const Precise time = Precise(ns) / Precise(static_cast<double>(SECOND));
-    return chain_->advance(state, time, before.gravity) ? SYMTOP_OK : SYMTOP_TOO_FAR;
+    return chain_->advance(state, ns, before.gravity) ? SYMTOP_OK : SYMTOP_TOO_FAR;
   }
 
   symtop_status restart(Stretch& before, int64_t passed, double* steps,
