@@ -117,10 +117,9 @@ typedef struct {
 } symtop_pushes;
 
 /* Make a motion that is pushed again and again. It starts with the state that the first push leaves;
- * between pushes it is as exact as others. More digits than a double has are carried from one push to the
- * next, if they are at most about one and a half nutations apart; rarer ones begin anew from doubles, of
- * which the rounding adds up. From a push on that cannot be (the axis is vertical, or the top would be too fast)
- * there are no states: their status says why. */
+ * it is as exact as other motions, as 32 digits are carried from one push to the next; the start of a piece
+ * that symtop_find_piece writes is rounded to doubles. From a push on that cannot be (the axis is vertical,
+ * or the top would be too fast) there are no states: their status says why. */
 SYMTOP_API symtop_status symtop_new_pushed(const symtop_start* start, const symtop_pushes* pushes,
                                            symtop_motion** motion);
 

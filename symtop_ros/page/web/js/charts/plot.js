@@ -10,6 +10,9 @@ const FAR = 1e4; // units; out of the drawing
 const DIGITS = 5; // of a number at an axis
 const LETTER = 5.6; // units of its width
 
+/** A number at an axis, with a minus sign. @param {number} value */
+const writeTick = (value) => shorten(value, DIGITS).replace(/^-/, "\u2212");
+
 /** @typedef {[number, number]} Pair */
 /** @typedef {(value: number) => number} Scale */
 
@@ -87,7 +90,7 @@ export class Frame {
   /** @param {number} text @param {number} value */
   drawTick(text, value) {
     return `${this.level(value, 'class="axis"')}
-      <text class="tick" x="${LEFT - 4}" y="${(this.y(value) + 3).toFixed(1)}" text-anchor="end">${shorten(text, DIGITS)}</text>`;
+      <text class="tick" x="${LEFT - 4}" y="${(this.y(value) + 3).toFixed(1)}" text-anchor="end">${writeTick(text)}</text>`;
   }
 
   /** @param {Pair} point @returns {Pair} */
@@ -150,7 +153,7 @@ export class Frame {
   }
 
   /** Values below the axes. @param {number[]} values @param {(value: number) => string} write */
-  writeBelow(values, write = (value) => shorten(value, DIGITS)) {
+  writeBelow(values, write = writeTick) {
     const place = `y="${this.bottom + 12}" text-anchor="middle"`;
     return values
       .map((each) => {

@@ -207,11 +207,27 @@ const createWord = (text, layer) => {
   return word;
 };
 
+const COMMAND = /`([^`]+)`/;
+
+/** What is typed in a terminal. @param {string} text */
+const createCommand = (text) => {
+  const command = document.createElement("code");
+  command.textContent = text;
+  return command;
+};
+
 /**
- * The parts of a text: its formulas, and the words that name an arrow, [torque|torque].
+ * The parts of a text: its formulas, the words that name an arrow, [torque|torque], and commands
+ * between backquotes.
  * @param {string} text @returns {(Node | string)[]}
  */
-export const typeset = (text) => {
+export const typeset = (text) =>
+  text
+    .split(COMMAND)
+    .flatMap((part, k) => (k % 2 ? [createCommand(part)] : typesetWords(part)));
+
+/** @param {string} text @returns {(Node | string)[]} */
+const typesetWords = (text) => {
   const parts = text.split(WORD);
   return parts.flatMap((part, k) => {
     if (k % 3 === 2) return [];
