@@ -19,8 +19,8 @@ import yaml
 
 from symtop_ros import __version__
 from symtop_ros.physics import BODIES, Part
+from symtop_ros.run.simulation.fields import TABLE
 from symtop_ros.run.simulation.presets import describe_scenes, scene_names
-from symtop_ros.run.simulation.run_file import TABLE
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.words.templates import read_templates
 
