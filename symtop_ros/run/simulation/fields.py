@@ -1,4 +1,4 @@
-"""Fields of run.json, read as `run_fields.json` describes them; the reader of the page follows it too."""
+"""Fields of run.json, read as `run_fields.json` describes them; the page reads them by it too."""
 
 import json
 from collections.abc import Callable, Mapping

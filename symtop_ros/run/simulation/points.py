@@ -4,13 +4,13 @@ They are a record of the past, and no part of the motion: nothing is computed fr
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from symtop_ros.base.arrays import Real, Stamps, axis_of
+from symtop_ros.base.arrays import Mask, Real, Stamps, axis_of
 from symtop_ros.base.refusals import number, refuse, vector
 from symtop_ros.physics import State
 from symtop_ros.run.simulation.fields import TABLE
@@ -83,6 +83,11 @@ class Points:
     def stamps(self) -> Stamps:
         """The times in ns."""
         return np.asarray(np.rint(self.times * NANOSECONDS), dtype=np.int64)
+
+    def select(self, rows: Mask) -> "Points":
+        """Return some of the points."""
+        times, values, residuals = self.times[rows], self.values[rows], self.residuals[rows]
+        return replace(self, times=times, values=values, residuals=residuals)
 
     def to_json(self) -> dict[str, Any]:
         """Return the points as they stand in run.json."""

@@ -1,7 +1,7 @@
 """A fit as a run of the page: the motion that was found, with the points that were measured.
 
-A record shows no moment alone, and one of an axis neither Iz nor the spin: what is not given is that
-of the default scene, with the same p_psi and the same path of the axis.
+A record shows no moment alone, and one of an axis neither Iz nor the spin: what is not given is
+that of the default scene, with the same p_psi and the same path of the axis.
 """
 
 import json

@@ -26,6 +26,7 @@ import { Seen } from "./controls/seen.js";
 import { SpeedList } from "./controls/speed.js";
 import { offerTabs } from "./controls/tabs.js";
 import { Timeline } from "./controls/timeline.js";
+import { writePoints } from "./words/points.js";
 import { typesetSymbols } from "./words/typeset.js";
 import { phrase } from "./words/wording.js";
 
@@ -118,6 +119,8 @@ export class Page {
     // A node has the time of its machine, and records there.
     find("time").hidden = Boolean(this.content.node);
     find("record").hidden = !this.content.node;
+    this.charts.marks = top.marks;
+    document.addEventListener("pointermove", (event) => top.marks.follow(event));
     offerFiles(top, source);
     openDropped((run) => this.send({ act: "load", run }));
   }
@@ -286,7 +289,7 @@ export class Page {
   }
 
   /** @param {Frame} frame */
-  showFrame({ samples, stretches, present, isSlow, end }) {
+  showFrame({ samples, marks, points, stretches, present, isSlow, end }) {
     if (!this.facts) return;
     say("instant", present);
     say("stretch-act", stretches.act);
@@ -296,7 +299,8 @@ export class Page {
     this.moments.follow(sample);
     const time = now / NANO;
     Object.assign(document.body.dataset, { time, theta: state.angles.theta });
-    this.charts.draw(this.facts, samples, this.fields.values.factor);
+    this.charts.draw(this.facts, samples, this.fields.values.factor, marks);
+    say("points", writePoints(points));
     this.timeline.show(time, end);
     this.question.show(time);
     const kind = !this.facts.running ? "paused" : isSlow ? "slow" : null;

@@ -26,15 +26,22 @@ import { phrase, setTemplates } from "./words/wording.js";
  *   node?: string}} Content
  */
 
-/** Bytes; a loop takes a fifth of the time of Uint8Array.from. @param {string} text base64 */
+const LETTERS =
+  "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~"; // as join.py
+
+/** Bytes: five letters are four of them, and fewer at the end. @param {string} text base 85 */
 const decode = (text) => {
-  const letters = atob(text);
-  const bytes = new Uint8Array(letters.length);
-  for (let k = 0; k < bytes.length; k += 1) bytes[k] = letters.charCodeAt(k);
-  return bytes;
+  const values = new Map([...LETTERS].map((letter, k) => [letter, k]));
+  const view = new DataView(new ArrayBuffer(4 * Math.ceil(text.length / 5)));
+  for (let k = 0; k < text.length; k += 5) {
+    let sum = 0;
+    for (let j = k; j < k + 5; j += 1) sum = 85 * sum + (values.get(text[j] ?? "~") ?? 0);
+    view.setUint32((4 * k) / 5, sum);
+  }
+  return view.buffer.slice(0, Math.floor((4 * text.length) / 5));
 };
 
-/** What is packed by gzip. @param {string} text base64 */
+/** What is packed by gzip. @param {string} text base 85 */
 const unpack = (text) => {
   const packed = new Blob([decode(text)]).stream();
   return new Response(packed.pipeThrough(new DecompressionStream("gzip")));
