@@ -11,7 +11,7 @@ from symtop_ros.replay.view import entities
 from symtop_ros.run.log.stretches import Stretch
 from symtop_ros.run.simulation.points import SEEN, Points
 
-RADIUS = 0.008  # scene units
+RADIUS = 0.011  # scene units
 SIZE = 2.5  # px in a plot
 ROWS = 4096  # in one call, as of samples
 

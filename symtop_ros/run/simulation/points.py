@@ -109,6 +109,10 @@ class Points:
         states : State
             Those of the motion at the times of the points.
         """
+        with np.errstate(invalid="ignore"):  # a row of zeros has no direction
+            return self._find_directions(states)
+
+    def _find_directions(self, states: State) -> Real:
         if self.kind == "axis":
             return np.asarray(self.values / np.linalg.norm(self.values, axis=1, keepdims=True))
         if self.kind == "attitude":

@@ -11,7 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.base.refusals import RefusedError, one_line, refuse, validate_names
+from symtop_ros.base.refusals import RefusedError, one_line, refuse, show, validate_names
 from symtop_ros.physics import Body, ExactTimes, Friction, Motion, State, Top
 from symtop_ros.run.simulation.changes.requests import (
     KICK_FIELDS,
@@ -188,9 +188,9 @@ def read_run(path: Path) -> tuple[list[RunEvent], int, Points | None]:
     except (ValueError, RecursionError):
         content = None
     if not isinstance(content, dict) or content.get("format") not in FORMATS:
-        raise RefusedError(
-            f"{path} must be a run of the page (run.json, format {' or '.join(map(str, FORMATS))})"
-        )
+        known = f"run.json, format {' or '.join(map(str, FORMATS))}"
+        found = f", got format {show(content['format'])}" if _has_format(content) else ""
+        raise RefusedError(f"{path} must be a run of the page ({known}){found}")
     given = content.get("events")
     if not isinstance(given, list) or not given:
         raise refuse("events", "a list with a start at its beginning", given)
@@ -201,6 +201,10 @@ def read_run(path: Path) -> tuple[list[RunEvent], int, Points | None]:
     points = read_points(content["points"]) if "points" in content else None
     seen = int(points.stamps[-1]) if points else 0
     return events, max(events[-1].time, round(end * NANOSECONDS), seen), points
+
+
+def _has_format(content: Any) -> bool:
+    return isinstance(content, dict) and isinstance(content.get("format"), int)
 
 
 def _read_events(given: list[Any]) -> list[RunEvent]:
