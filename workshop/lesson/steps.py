@@ -10,6 +10,7 @@ from symtop_ros.physics import Hold
 from symtop_ros.words.templates import write_number
 
 TEXTS = ("title", "predict", "look", "seen", "question", "answer", "picture", "source")
+RECORDED = "top_fit --example --run run.json"  # the run of a record, which no node makes
 # Scenes of the steps, and the options by which top_ctl finds the node of each.
 NODES = {"cusps": "", "perry_fails": "--node /disc "}
 
@@ -24,6 +25,7 @@ class LessonAct:
     hold: Hold = "spin_rate"  # the quantity that the hurry leaves unchanged
     push: Mapping[str, float] | None = None  # fields of ~/kick for a series of pushes
     clamp: bool = False  # whether a hand takes hold of the precession
+    record: float | None = None  # of the example's run: so many times its spin
 
     @property
     def command(self) -> str:
@@ -33,6 +35,8 @@ class LessonAct:
             return " ".join(["start", *fields])
         if self.clamp:
             return "clamp on"
+        if self.record:
+            return RECORDED
         if self.push:
             return " ".join(["kick", *(f"{name}={value:g}" for name, value in self.push.items())])
         if self.hold == "spin_rate":
@@ -79,9 +83,12 @@ class LessonStep:
 
     @property
     def commands(self) -> list[str]:
-        """Shell commands that do with ROS what the buttons do."""
-        acts = [f"top_ctl {NODES[self.scene]}{act.command}" for act in self.acts]
-        return [*acts, *self.also]
+        """Shell commands that do with ROS what the buttons do; those of a record need no node."""
+        acts = [
+            act.command if act.record else f"top_ctl {NODES[self.scene]}{act.command}"
+            for act in self.acts
+        ]
+        return [*dict.fromkeys(acts), *self.also]
 
 
 @functools.cache

@@ -8,6 +8,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -17,7 +18,6 @@ from symtop_ros.physics import Motion
 from symtop_ros.run.simulation.points import Points
 from symtop_ros.run.simulation.run_file import RunEvent, write_run
 from symtop_ros.run.simulation.settings import Settings
-from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.fit.camera import CAMERA
 from symtop_ros.truth.fit.model import MOUNT
 from symtop_ros.truth.fit.record import Known
@@ -45,12 +45,14 @@ class FittedRun:
     points: Points
     assumed: Mapping[str, float]
 
+    def to_json(self) -> dict[str, Any]:
+        """Return the content of run.json."""
+        event = RunEvent("start", 0, self.motion, {})
+        return write_run([event], int(self.points.stamps[-1]), self.points)
+
     def write(self, path: Path) -> None:
         """Write the run as run.json."""
-        event = RunEvent("start", 0, self.motion, {})
-        end = round(float(self.points.times[-1]) * NANOSECONDS)
-        content = write_run([event], end, self.points)
-        path.write_text(json.dumps(content), encoding="utf-8")
+        path.write_text(json.dumps(self.to_json()), encoding="utf-8")
 
     def describe(self, path: Path) -> str:
         """Return what was written, and what of it was not measured, in a sentence."""

@@ -18,10 +18,10 @@ import { copyPage, readData } from "./run/files.js";
 import { phrase, setTemplates } from "./words/wording.js";
 
 /**
- * What the file holds: the texts of each language, scenes, the lesson and the
+ * What the file holds: languages, the texts of each key in all of them, scenes, the lesson and the
  * fields of a run; what it opens as the end of an address does; a run, if one was saved; and the name of
  * a node, if it shows one.
- * @typedef {{texts: {[language: string]: {[key: string]: string}}, scenes: any[],
+ * @typedef {{languages: string[], texts: {[key: string]: (string | null)[]}, scenes: any[],
  *   lesson: any[], bodies: {[name: string]: import("./physics/kernel.js").Part[]}, run_fields: import("./run/reader.js").Table, opening?: string, run?: any,
  *   node?: string}} Content
  */
@@ -45,6 +45,19 @@ const decode = (text) => {
 const unpack = (text) => {
   const packed = new Blob([decode(text)]).stream();
   return new Response(packed.pipeThrough(new DecompressionStream("gzip")));
+};
+
+/**
+ * The texts by languages; a key that a language has not is not there.
+ * @param {Content} content @returns {{[language: string]: {[key: string]: string}}}
+ */
+const listTexts = ({ languages, texts }) => {
+  const all = Object.entries(texts);
+  const list = (/** @type {number} */ place) =>
+    all.flatMap(([key, each]) => (each[place] === null ? [] : [[key, each[place]]]));
+  return Object.fromEntries(
+    languages.map((name, place) => [name, Object.fromEntries(list(place))]),
+  );
 };
 
 /**
@@ -90,8 +103,9 @@ export const start = async () => {
     const unpacked = unpack(code).arrayBuffer(); // while the texts are
     /** @type {Content} */
     const content = { ...(await unpack(packed).json()), ...own, run: readData("top-run") };
-    const language = chooseLanguage(content.texts);
-    setTemplates(content.texts[language], language);
+    const texts = listTexts(content);
+    const language = chooseLanguage(texts);
+    setTemplates(texts[language], language);
     const page = new Page(content);
     const kernel = await loadKernel(unpacked);
     if (!kernel) return;
