@@ -79,7 +79,8 @@ def read_motion(spin: float) -> Motion:
 def _draw_record_from_above(axes: Axes, runs: Runs) -> None:
     """Draw the paths of the axis through the points of the record."""
     _draw_from_above(axes, runs)
-    x, y, _ = np.array(read_record(1)["points"]["values"]).T
+    points = read_record(1)["points"]
+    x, y, _ = np.array(points["values"])[np.array(points["times"]) <= TRACE].T
     axes.plot(x, y, ".", color=INK, markersize=2.5, zorder=3)
 
 

@@ -28,6 +28,7 @@ ANGLES = (
     ((0.5, 0.664),),
     ((0.5, 0.5), (0.489, 0.5), (0.5, 0.5), (0.5, 0.506)),  # after the first push
     ((0.5, 0.5), (0.5, 3.142)),
+    ((0.5, 0.694), (0.5, 0.694)),  # of the record
 )
 
 
@@ -36,7 +37,7 @@ def list_names(page, selector):
 
 
 def name_event(act):
-    if act.start:
+    if act.start or act.record:
         return "start"
     return "clamp" if act.clamp else "push" if act.push else "kick"
 
@@ -52,8 +53,8 @@ def press(page, act, turning):
     assert event["friction"] == [0, 0]
     # half of the last of three digits
     assert read_motion(event).turning_angles == pytest.approx(turning, abs=5e-4)
-    assert page.say("pause") == "Pause"
-    if not act.start:
+    assert page.say("pause") == ("Run" if act.record else "Pause")
+    if not (act.start or act.record):
         assert button.is_disabled()
 
 
