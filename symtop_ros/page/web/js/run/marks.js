@@ -39,8 +39,13 @@ export const cutPoints = (points, end) => {
 
 /** @param {Points} points @param {number} end ns */
 const countUntil = ({ times }, end) => {
-  const count = times.findIndex((time) => Math.round(time * NANO) > end);
-  return count < 0 ? times.length : count;
+  let [low, high] = [0, times.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (Math.round(times[middle] * NANO) > end) high = middle;
+    else low = middle + 1;
+  }
+  return low;
 };
 
 /**
