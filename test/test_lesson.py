@@ -73,7 +73,7 @@ def test_the_commands_that_need_no_ros_are_options_of_their_programs():
     assert typed(BEFORE)[:1] == ["top_panel --lesson"]
 
 
-WITH_NODES = {k: step for k, step in enumerate(STEPS, start=1) if not step.acts[0].record}
+WITH_NODES = {k: step for k, step in enumerate(STEPS, start=1) if not step.has_record}
 
 
 @pytest.mark.parametrize("step", WITH_NODES.values(), ids=WITH_NODES)

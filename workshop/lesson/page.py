@@ -41,7 +41,7 @@ def _write_step(number: int, step: LessonStep) -> str:
 
 
 def _name_other_way(step: LessonStep) -> str:
-    return "on a command line" if any(act.record for act in step.acts) else "with a node"
+    return "on a command line" if step.has_record else "with a node"
 
 
 def _write_table(table: LessonTable | None) -> list[str]:

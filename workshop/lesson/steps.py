@@ -35,8 +35,6 @@ class LessonAct:
             return " ".join(["start", *fields])
         if self.clamp:
             return "clamp on"
-        if self.record:
-            return RECORDED
         if self.push:
             return " ".join(["kick", *(f"{name}={value:g}" for name, value in self.push.items())])
         if self.hold == "spin_rate":
@@ -82,13 +80,16 @@ class LessonStep:
     plot: str = "tilt"
 
     @property
+    def has_record(self) -> bool:
+        """True if the step is about measured points."""
+        return any(act.record for act in self.acts)
+
+    @property
     def commands(self) -> list[str]:
         """Shell commands that do with ROS what the buttons do; those of a record need no node."""
-        acts = [
-            act.command if act.record else f"top_ctl {NODES[self.scene]}{act.command}"
-            for act in self.acts
-        ]
-        return [*dict.fromkeys(acts), *self.also]
+        acts = [f"top_ctl {NODES[self.scene]}{act.command}" for act in self.acts if not act.record]
+        recorded = [RECORDED] if self.has_record else []
+        return [*recorded, *acts, *self.also]
 
 
 @functools.cache
