@@ -143,7 +143,7 @@ def test_the_viewer_draws_each_point_where_it_was_seen(kind, tmp_path):
         assert times.tolist() == stamps
         assert np.abs(np.concatenate(drawn) - points.values / norms).max() < FLOAT
         _, labels = rows(recording, entities.POINTS, "Points3D:labels")
-        time, left = labels[7][0].split(" s, seen less computed: ")
+        time, left = labels[7][0].split(" s, measured minus computed: ")
         exact = points.values[7] - see("axis")[7]
         assert float(time) == pytest.approx(TIMES[7], abs=5e-5)
         shown = [float(each.split()[1]) for each in left.split(", ")]

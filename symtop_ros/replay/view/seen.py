@@ -17,7 +17,7 @@ ROWS = 4096  # in one call, as of samples
 
 
 def send_points(stream: entities.Stream, points: Points, stretches: Sequence[Stretch]) -> None:
-    """Send the points, each at its time, with what the motion leaves of it as its label.
+    """Send the points, each at its time, with its residuals as its label.
 
     The motion is that of the last stretch of a log that has begun; where none is known nothing is
     drawn.
@@ -73,8 +73,8 @@ def _split(places: Places) -> list[Places]:
 
 
 def describe_point(points: Points, place: int) -> str:
-    """Return the time of a point, and what was seen less what the motion shows."""
+    """Return the time and the residuals of a point."""
     seen = SEEN[points.kind]
     left = zip(seen.residuals, points.residuals[place].tolist(), seen.units, strict=True)
     texts = (f"{name} {value:.2g} {unit}".rstrip() for name, value, unit in left)
-    return f"{points.times[place]:.4f} s, seen less computed: {', '.join(texts)}"
+    return f"{points.times[place]:.4f} s, measured minus computed: {', '.join(texts)}"

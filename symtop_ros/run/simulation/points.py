@@ -1,4 +1,4 @@
-"""Measured points of a run: what was seen of a top at some times, and what its motion leaves of it.
+"""Measured points of a run, with their differences from its motion.
 
 They are a record of the past, and no part of the motion: nothing is computed from them again.
 """
@@ -23,7 +23,7 @@ DIGITS = 6  # of a residual, which is a small difference
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """What is seen of a top in a kind of record.
+    """Columns of a kind of points: values, and residuals with their units.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Points:
     values : ndarray (n, m)
         By the columns of the kind.
     residuals : ndarray (n, r)
-        What was seen less what the motion shows; of attitudes a rotation vector of the body.
+        Measured minus computed values; for attitudes a rotation vector in the body frame.
     camera : mapping
         Of pixels: the numbers of the camera, by their names in run_fields.json.
     """
@@ -148,7 +148,7 @@ class Points:
 
 
 def unproject(seen: Real, camera: Mapping[str, float], axes: Real) -> Real:
-    """Return the axes (n, 3) of points (n, 2) of a picture; nan for those beside the sphere.
+    """Return the axes (n, 3) of points (n, 2) of a picture; nan for points outside the sphere.
 
     A line of sight meets the sphere twice: in front, and behind. The axis is the one that is nearer
     to an axis (n, 3) of the motion. The camera is that of `truth/fit/camera.py`: it shows right and

@@ -98,7 +98,7 @@ def test_rates_that_were_seen_are_in_the_charts_of_rates(opened):
 
 def read_residuals(text):
     """The time and the residuals of the sentence under the chart of the tilt."""
-    time, left = re.search(r"At ([\d.]+) s, seen less computed: (.*)\.$", text).groups()
+    time, left = re.search(r"At ([\d.]+) s, measured minus computed: (.*)\.$", text).groups()
     numbers = [each.split()[1].replace("\u2212", "-") for each in left.split(", ")]
     return float(time), [float(each) for each in numbers]
 
