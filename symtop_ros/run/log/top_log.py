@@ -63,13 +63,13 @@ class TopLog:
         LogError
             If they are damaged.
         """
+        topic = self.account.topics.get(POINTS.name)
+        if topic is None or not topic.count:
+            return None
         chunks = (select(self._names, chunk, 0) for chunk in self.file.chunks())
         found = (each.data for run in chunks for _, name, each in run if name == POINTS.name)
-        data = next(found, None)
-        if data is None:
-            return None
         try:
-            return read_points(json.loads(Reader(data).string()))
+            return read_points(json.loads(Reader(next(found)).string()))
         except (ValueError, RecursionError) as error:
             raise LogError(f"the measured points cannot be read: {one_line(error)}") from None
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
-from symtop_ros.base.refusals import RefusedError
+from symtop_ros.base.refusals import RefusedError, refuse
 from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.check import FAILS, HOLDS
 from symtop_ros.truth.fit.files import Rows, read_rows
@@ -126,6 +126,8 @@ def _plan(options: argparse.Namespace) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     refuse_plan_options(options)
+    if options.run and options.run.suffix != ".json":
+        raise refuse("--run", "a name that ends in .json", str(options.run))
     path = copy_example() if options.example else options.record
     progress = Progress()
     if options.position:

@@ -176,6 +176,15 @@ def test_rows_that_were_left_out_are_counted(tmp_path):
     assert ": 240 measured points of 1000 rows; " in run.describe(path)
 
 
+def test_a_run_is_refused_by_its_name_and_place_before_and_after_the_fit(table, tmp_path, capsys):
+    assert main([str(table), "--run", "run.txt"]) == 1
+    error = "top_fit: --run must be a name that ends in .json, got 'run.txt'\n"
+    assert capsys.readouterr().err == error
+    path = tmp_path / "none/run.json"
+    assert main([str(table), "--run", str(path)]) == 1
+    assert capsys.readouterr().err == f"top_fit: {path}: No such file or directory\n"
+
+
 def test_a_plan_has_no_points(capsys):
     assert main(["--plan", "cusps", "--run", "run.json"]) == 1
     assert capsys.readouterr().err == "top_fit: --run must have a record, got --plan\n"

@@ -120,7 +120,8 @@ export class Page {
     find("time").hidden = Boolean(this.content.node);
     find("record").hidden = !this.content.node;
     this.charts.marks = top.marks;
-    document.addEventListener("pointermove", (event) => top.marks.follow(event));
+    for (const name of /** @type {const} */ (["pointermove", "pointerdown"])) // also a finger's
+      document.addEventListener(name, (event) => top.marks.follow(event), { capture: true });
     offerFiles(top, source);
     openDropped((run) => this.send({ act: "load", run }));
   }

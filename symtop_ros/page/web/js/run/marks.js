@@ -107,6 +107,7 @@ export class Marks {
   /** Another motion holds, or other points. */
   begin() {
     this.found.clear();
+    this.drawn = {};
     this.pointed = null;
   }
 
