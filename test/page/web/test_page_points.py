@@ -6,7 +6,9 @@ import re
 import numpy as np
 import pytest
 from page.web.modules import load_kernel
+from page.web.opened import KNOWN
 from page.web.test_page_charts import read_axis
+from page.web.test_page_poor import NO_PICTURE, read_circles, read_place
 from run.simulation.page_points import (
     CAMERA,
     TIMES,
@@ -264,6 +266,18 @@ def test_the_scene_tells_the_point_that_is_pointed_at(measured):
         times.add(read_residuals(measured.say("points"))[0])
     assert len(times) > 1  # not the last one alone, which is told without a pointer
     assert times <= {round(time, 4) for time in TIMES.tolist()}
+
+
+def test_without_a_picture_the_points_are_around_the_way_of_the_axle(open_page):
+    page = open_page(script=NO_PICTURE, known=KNOWN)
+    drop(page, make_measured())
+    dots = read_dots(page, "plain")
+    radii, tilts = read_circles(page)
+    places = [read_place(x, y, tilts[-1] / radii[-1]) for x, y in dots]
+    x, y, z = make_points("axis").values.T
+    # a unit has one decimal, and the tilts at the circles have three
+    assert np.abs([place[0] for place in places] - np.arctan2(np.hypot(x, y), z)).max() < 0.004
+    assert np.abs([place[1] for place in places] - np.arctan2(y, x)).max() < 0.01
 
 
 def test_more_points_than_a_picture_shows_are_drawn_in_part(opened):
