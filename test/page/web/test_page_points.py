@@ -280,6 +280,15 @@ def test_without_a_picture_the_points_are_around_the_way_of_the_axle(open_page):
     assert np.abs([place[1] for place in places] - np.arctan2(y, x)).max() < 0.01
 
 
+def test_a_run_that_is_dropped_ends_the_question_of_a_first_visit(open_page):
+    page = open_page(known="")
+    asked = page.tab.locator("body[data-asked]")
+    assert asked.count() == 1
+    drop(page, make_measured())
+    assert asked.count() == 0
+    assert page.tab.is_visible("#hurry")
+
+
 def test_more_points_than_a_picture_shows_are_drawn_in_part(opened):
     times = np.arange(2000) / 4096
     drop(opened, make_measured("theta", times=times))

@@ -123,7 +123,10 @@ export class Page {
     for (const name of /** @type {const} */ (["pointermove", "pointerdown"])) // also a finger's
       document.addEventListener(name, (event) => top.marks.follow(event), { capture: true });
     offerFiles(top, source);
-    openDropped((run) => this.send({ act: "load", run }));
+    openDropped((run) => {
+      this.question.leave(); // a run of one start is no new act that would end it
+      this.send({ act: "load", run });
+    });
   }
 
   /** @param {Message} message */
