@@ -167,6 +167,7 @@ setup(
             "page/web/js/*/*.js",
             "page/web/*.html",
             "page/web/*.yaml",
+            "page/web/record.json",
             "page/web/texts/*.json",
             "page/web/*.wasm",
             "page/web/symbols.*",

@@ -1,11 +1,14 @@
 """Every number with decimals in the lesson is one that its motions have, with the digits shown."""
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq, minimize_scalar
 
+from symtop_ros.base.measured import write_measured
+from symtop_ros.page.web.join import read_record
 from symtop_ros.physics import (
     Body,
     EffectivePotential,
@@ -18,12 +21,19 @@ from symtop_ros.physics import (
 )
 from symtop_ros.physics import regular_precession_rates as find_roots
 from symtop_ros.run.simulation.changes.outcomes import Pushed
+from symtop_ros.truth.fit.main import describe_record, make_parser
+from symtop_ros.truth.fit.plan_options import make_plan
+from symtop_ros.truth.fit.plan_report import PlanReport
+from symtop_ros.truth.fit.report import Report
+from symtop_ros.truth.fit.runs import make_run
 from workshop.article.answers.impulses import find_impulses, torques_at
 from workshop.article.answers.ledger import hurry_ledger
 from workshop.article.motions import FAST, HANGING_DISC, HURRIED, SLOW, TOP
 from workshop.article.nutation import times_of_extreme_rate
 from workshop.article.pivot import SHORT_ARM
 from workshop.lesson.euler import Tilted, count_steps, fall
+from workshop.lesson.example import fit_example, write_content
+from workshop.lesson.pictures import read_motion
 from workshop.lesson.steps import read_lesson
 
 THETA, SPIN, FACTOR = 0.5, 200.0, 1.4
@@ -243,8 +253,67 @@ def held():
     return [f"{half:.2f}", f"{10 * half:.1f}"]
 
 
+@cache
+def fitted():
+    return fit_example()
+
+
+def unseen_spin():
+    fit = fitted()
+    values = {each.name: each for each in Report("record", 240, fit, {}).values}
+    measured = (values[name] for name in ("mean_precession_rate", "Mgl/Ix", "p_psi/Ix"))
+    motion = make_run(fit, 240, {}).motion
+    spin = motion.start.angular_velocity[2]
+    ends = [f"{angle:.3f}" for angle in motion.turning_angles]
+    highest = minimize_scalar(
+        lambda t: motion.at(t).euler_angles.theta,
+        bounds=np.array([0.5, 1.5]) * motion.nutation_period,
+        method="bounded",
+    ).x
+    instants = highest, highest + motion.nutation_period / 2
+    rates = [f"{motion.at(t).euler_rates.phi:.2f}" for t in instants]
+    momentum, weight = solve_by_hand(*map(float, (*ends, *rates)))
+    assert f"Mgl/Ix = {weight:.0f} 1/s^2" in STEPS[14].seen
+    return [
+        *(text for each in measured for text in write_measured(each.value, each.deviation)),
+        f"{fit.residuals.std():.4f}",
+        *(f"{each:.1f}" for each in (spin, 2 * spin)),
+        *ends,
+        *rates,
+        f"{momentum:.1f}",
+        *plan_starts(),
+    ]
+
+
+def solve_by_hand(high, low, slow, fast):
+    """p_psi/Ix and Mgl/Ix of the tilts and rates at the highest and the lowest point."""
+    matrix = np.cos([high, low])
+    sines = np.sin([high, low]) ** 2
+    rates = np.array([slow, fast])
+    momentum = np.diff(rates * sines) / -np.diff(matrix)
+    weight = np.diff(rates**2 * sines / 2) / -np.diff(matrix)
+    return float(momentum[0]), float(weight[0])
+
+
+def plan_starts():
+    """The deviations of p_psi/Ix of two starts, and how far the second is off."""
+    words = STEPS[14].also[0].split()
+    assert words[:2] == ["top_fit", "--plan"]
+    options = make_parser().parse_args(words[1:])
+    plan = make_plan(options, options.kind, describe_record(options.kind, options))
+    starts = PlanReport("", plan, {}).facts()["starts"]
+    (rest,) = (each for each in starts if each["kind"] in ("given", "rest"))
+    nearest = min((each for each in starts if each["kind"] == "off"), key=lambda each: each["off"])
+    return [
+        f"{rest['deviation']:.2g}",
+        f"{nearest['deviation']:.2g}",
+        f"{nearest['off']:g}",
+    ]
+
+
 NUMBERS = {1: let_go, 3: depths, 4: slow_root, 5: fast_root, 6: three_pushes, 7: below_and_above}
 NUMBERS |= {8: hurry_on, 10: observer, 11: disc, 12: one_fall, 13: pushed_along, 14: held}
+NUMBERS |= {15: unseen_spin}
 
 
 STEPS = read_lesson()
@@ -312,3 +381,28 @@ def test_equal_constants_make_one_band_and_shifted_curves():
     later = first.at(times + shift).euler_angles.theta
     fastest = np.abs(second.at(times).euler_rates.theta).max()
     assert np.abs(later - second.at(times).euler_angles.theta).max() < 5e-4 * fastest * 1.1
+
+
+def test_the_run_of_the_record_is_what_the_fit_of_the_example_gives():
+    """Else: python -m workshop.lesson.example."""
+    kept, fresh = read_record(1), write_content()
+    assert kept["points"]["times"] == fresh["points"]["times"]
+    assert kept["points"]["values"] == fresh["points"]["values"]
+    left = [np.array(each["points"]["residuals"]) for each in (kept, fresh)]
+    # a search ends within a hundredth of a deviation of the least, and that is 0.07 of the noise
+    assert np.abs(left[0] - left[1]).max() < 1e-3 * left[0].std()
+    (event,), (again,) = kept["events"], fresh["events"]
+    assert event["top"] == pytest.approx(again["top"], rel=1e-5)
+    assert event["angular_velocity"][2] == pytest.approx(again["angular_velocity"][2], rel=1e-5)
+
+
+def test_twice_the_spin_moves_the_axle_alike():
+    motions = [read_motion(spin) for spin in (1, 2)]
+    times = np.array(read_record(1)["points"]["times"])
+    first, second = (each.at(times) for each in motions)
+    axes = [each.to_world([0.0, 0.0, 1.0]) for each in (first, second)]
+    # of phases up to 700 rad, through a dozen roundings
+    assert np.abs(axes[0] - axes[1]).max() < 1e-11
+    spins = [each.start.angular_velocity[2] for each in motions]
+    assert spins[1] == 2 * spins[0]
+    assert motions[0].top.Iz == 2 * motions[1].top.Iz

@@ -29,6 +29,7 @@ MISCONCEPTIONS = (  # of students: nobody's words
     "equal accelerations are equal motions",
     "the push lifts the top",
     "a centrifugal force lifts it",
+    "who measures the motion knows the spin",
 )
 KNOWN = {*ARTICLE, *PERRY, *TITLES, *MISCONCEPTIONS}
 PAGES = ("article", "derivation", "lesson", "library", "ros")

@@ -21,6 +21,7 @@ from symtop_ros.run.log.reader import LogError, McapFile, log_errors
 from symtop_ros.run.log.repair import repair
 from symtop_ros.run.log.top_log import TopLog
 from symtop_ros.run.session.run_log import write_run_log
+from symtop_ros.run.simulation.points import Points
 from symtop_ros.run.simulation.run_file import RATE, RunEvent, read_run, record_run, write_run
 from symtop_ros.run.simulation.settings import MAX_PUBLISH_RATE
 
@@ -82,7 +83,7 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
         if save.suffix == ".html":
             _save_page(log, save)
         elif save.suffix == ".rrd":
-            viewer.replay(log, save, drawn)
+            viewer.replay(log, save, drawn, _find_points(log))
         else:
             raise LogError(f"--save must be a name that ends in .rrd or .html, got {save}")
         program = "in a browser" if save.suffix == ".html" else f"with: rerun {save}"
@@ -95,7 +96,7 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
         )
     with tempfile.TemporaryDirectory() as folder:
         recording = Path(folder, f"{log.file.path.stem}.rrd")
-        viewer.replay(log, recording, drawn)
+        viewer.replay(log, recording, drawn, _find_points(log))
         return viewer.show(recording, options.web)
 
 
@@ -105,8 +106,8 @@ def _print_problems(account: Account) -> None:
         print(f"top_replay: {line}", file=sys.stderr)
 
 
-def _read_run(paths: Sequence[Path]) -> tuple[list[RunEvent], int]:
-    """Return the events of a run of the page, and its end in ns."""
+def _read_run(paths: Sequence[Path]) -> tuple[list[RunEvent], int, Points | None]:
+    """Return the events of a run of the page, its end in ns, and its measured points."""
     if len(paths) != 1:
         raise LogError(f"a run of the page must be one file, got {len(paths)}")
     with log_errors("open", paths[0]):
@@ -121,7 +122,8 @@ def _open_file(paths: Sequence[Path], node: str | None) -> Iterator[TopLog]:
         return
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, f"{paths[0].stem}.mcap")
-        write_run_log(*_read_run(paths), path)
+        events, end, points = _read_run(paths)
+        write_run_log(events, end, path, points=points)
         yield TopLog(open_run([path]), node)
 
 
@@ -138,7 +140,17 @@ def _save_page(log: TopLog, path: Path) -> None:
         print(f"top_replay: {text}", file=sys.stderr)
     run, reached = record_run((each.event for each in shown if each.event), end)
     with log_errors("write", path):
-        path.write_text(write_file(run=write_run(run, reached)), encoding="utf-8")
+        content = write_run(run, reached, _find_points(log))
+        path.write_text(write_file(run=content), encoding="utf-8")
+
+
+def _find_points(log: TopLog) -> Points | None:
+    """Return the measured points of a log; damaged ones are left out, and named."""
+    try:
+        return log.read_points()
+    except LogError as error:
+        print(f"top_replay: {error}", file=sys.stderr)
+        return None
 
 
 def _write_mcap(paths: Sequence[Path], path: Path, rate: float) -> None:
@@ -147,4 +159,5 @@ def _write_mcap(paths: Sequence[Path], path: Path, rate: float) -> None:
         raise LogError(f"--mcap must be a name that ends in .mcap in a folder, got {path}")
     number("--rate", rate, "Hz", 1.0, MAX_PUBLISH_RATE)
     with log_errors("write", path):
-        write_run_log(*_read_run(paths), path, rate)
+        events, end, points = _read_run(paths)
+        write_run_log(events, end, path, rate, points)

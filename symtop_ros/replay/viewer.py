@@ -22,6 +22,7 @@ import rerun_cli
 from symtop_ros.replay.view.view import DEFAULT_OPTIONS, View, ViewOptions
 from symtop_ros.run.log.reader import LogError
 from symtop_ros.run.log.top_log import TopLog
+from symtop_ros.run.simulation.points import Points
 
 PROGRAM = Path(rerun_cli.__file__).parent / "rerun"
 HOST = "127.0.0.1"
@@ -152,8 +153,16 @@ def _handler(page: int, data: int) -> type[http.server.BaseHTTPRequestHandler]:
     return Handler
 
 
-def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) -> None:
-    """Write a log as a Rerun recording; problems of the log are listed with its events."""
+def replay(
+    log: TopLog,
+    target: Path,
+    options: ViewOptions = DEFAULT_OPTIONS,
+    points: Points | None = None,
+) -> None:
+    """Write a log as a Rerun recording, with the measured points of its run.
+
+    Problems of the log are listed with its events.
+    """
     try:
         if shutil.disk_usage(target.parent).free < GROWTH * log.file.size:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))  # else Rerun waits for ever
@@ -167,6 +176,8 @@ def replay(log: TopLog, target: Path, options: ViewOptions = DEFAULT_OPTIONS) ->
     for batch in log.batches():
         view.send(batch)
         _show_progress(log.file.offset, log.file.size)
+    if points:
+        view.send_points(points, account.stretches)
     for problem in account.lines:
         view.log_text(problem)
     recording.flush()

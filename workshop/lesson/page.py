@@ -29,7 +29,7 @@ def _write_step(number: int, step: LessonStep) -> str:
             f"## {number}. {step.title}",
             _wrap(f"Predict: {step.predict}"),
             *map(_wrap, filter(None, step.compute.split("\n"))),
-            f"[On the page](../top.html#lesson={number}), or with a node:",
+            f"[On the page](../top.html#lesson={number}), or {_name_other_way(step)}:",
             f"```sh\n{commands}\n```",
             _wrap(f"Observe: {step.look}{_name_view(step)}"),
             f"![{step.picture}](lesson/step_{number:02}.png)",
@@ -38,6 +38,10 @@ def _write_step(number: int, step: LessonStep) -> str:
             _wrap(f"Question: {step.question} (In the article: {step.source}.)") + "\n",
         ]
     )
+
+
+def _name_other_way(step: LessonStep) -> str:
+    return "on a command line" if step.has_record else "with a node"
 
 
 def _write_table(table: LessonTable | None) -> list[str]:

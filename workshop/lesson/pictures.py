@@ -14,9 +14,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.page.web.join import read_record
 from symtop_ros.physics import (
     Motion,
     State,
+    Top,
     hurry,
     push_axle,
     regular_precession_rates,
@@ -52,7 +54,11 @@ def run_step(step: LessonStep) -> Runs:
     settings = Settings.from_scene(step.scene)
     runs = Runs()
     for act in step.acts:
-        if act.start is None:
+        if act.record:
+            motion = read_motion(act.record)
+            spin = float(motion.start.angular_velocity[2])
+            runs[rf"$\omega_z$ = {spin:.4g} rad/s"] = KickedMotion.of(motion)
+        elif act.start is None:
             _, run = runs.popitem()
             runs.pop(NOT_KICKED, None)
             rate = run.pieces[0][1].start.euler_rates.phi
@@ -62,6 +68,30 @@ def run_step(step: LessonStep) -> Runs:
             start = initial_state(settings.top, settings.initial, act.start or {})
             runs[_name_start(start)] = KickedMotion.of(Motion(settings.top, start))
     return runs
+
+
+def read_motion(spin: float) -> Motion:
+    """Return the motion of the record's run, of a top with so many times its spin."""
+    (event,) = read_record(spin)["events"]
+    return Motion(Top(*event["top"]), State(event["orientation"], event["angular_velocity"]))
+
+
+def _draw_record_from_above(axes: Axes, runs: Runs) -> None:
+    """Draw the paths of the axis through the points of the record."""
+    _draw_from_above(axes, runs)
+    points = read_record(1)["points"]
+    x, y, _ = np.array(points["values"])[np.array(points["times"]) <= TRACE].T
+    axes.plot(x, y, ".", color=INK, markersize=2.5, zorder=3)
+
+
+def draw_record(axes: Axes, runs: Runs) -> None:
+    """Draw theta against time, with the points of the record."""
+    draw_tilt(axes, runs)
+    points = read_record(1)["points"]
+    x, y, z = np.array(points["values"]).T
+    times = np.array(points["times"])
+    shown = times <= SPAN
+    axes.plot(times[shown], np.arctan2(np.hypot(x, y), z)[shown], ".", color=INK, markersize=3.5)
 
 
 def _name_start(start: State) -> str:
@@ -304,6 +334,7 @@ DRAWS: dict[str, tuple[Draw, Draw]] = {  # left and right, by the field `plot` o
     "ledger": (draw_tilt, draw_ledger),
     "impulses": (_draw_from_above, draw_impulses),
     "pushes": (draw_tilt, draw_pushes),
+    "record": (_draw_record_from_above, draw_record),
 }
 
 

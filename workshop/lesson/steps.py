@@ -10,6 +10,7 @@ from symtop_ros.physics import Hold
 from symtop_ros.words.templates import write_number
 
 TEXTS = ("title", "predict", "look", "seen", "question", "answer", "picture", "source")
+RECORDED = "top_fit --example --run run.json"  # the run of a record, which no node makes
 # Scenes of the steps, and the options by which top_ctl finds the node of each.
 NODES = {"cusps": "", "perry_fails": "--node /disc "}
 
@@ -24,6 +25,7 @@ class LessonAct:
     hold: Hold = "spin_rate"  # the quantity that the hurry leaves unchanged
     push: Mapping[str, float] | None = None  # fields of ~/kick for a series of pushes
     clamp: bool = False  # whether a hand takes hold of the precession
+    record: float | None = None  # of the example's run: so many times its spin
 
     @property
     def command(self) -> str:
@@ -78,10 +80,16 @@ class LessonStep:
     plot: str = "tilt"
 
     @property
+    def has_record(self) -> bool:
+        """True if the step is about measured points."""
+        return any(act.record for act in self.acts)
+
+    @property
     def commands(self) -> list[str]:
-        """Shell commands that do with ROS what the buttons do."""
-        acts = [f"top_ctl {NODES[self.scene]}{act.command}" for act in self.acts]
-        return [*acts, *self.also]
+        """Shell commands that do with ROS what the buttons do; those of a record need no node."""
+        acts = [f"top_ctl {NODES[self.scene]}{act.command}" for act in self.acts if not act.record]
+        recorded = [RECORDED] if self.has_record else []
+        return [*recorded, *acts, *self.also]
 
 
 @functools.cache

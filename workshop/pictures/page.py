@@ -14,7 +14,7 @@ import yaml
 from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
-from symtop_ros.page.web.join import write_file
+from symtop_ros.page.web.join import read_record, write_file
 from symtop_ros.physics import ExactTimes, Motion
 from symtop_ros.run.simulation.changes.requests import plan_kick, start_motion
 from symtop_ros.run.simulation.run_file import RunEvent, write_run
@@ -40,6 +40,7 @@ class Picture(NamedTuple):
     tab: str = ""
     step: int = 0
     prediction: str = ""
+    record: bool = False
 
 
 TABLE = Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8")
@@ -61,7 +62,8 @@ def draw(browser: Browser, picture: Picture, folder: Path) -> Path:
     width, height = picture.window
     with tempfile.TemporaryDirectory() as place:
         page = Path(place, "top.html")
-        run = play(picture) if any(picture.nutations) else None  # without one it asks its question
+        is_played = picture.record or any(picture.nutations)
+        run = play(picture) if is_played else None  # without one it asks its question
         page.write_text(write_file(run=run), encoding="utf-8")
         tab = browser.new_page(
             viewport={"width": width, "height": height},
@@ -85,6 +87,8 @@ def draw(browser: Browser, picture: Picture, folder: Path) -> Path:
 
 def play(picture: Picture) -> dict[str, Any]:
     """Return the run of a picture."""
+    if picture.record:
+        return read_record(1)
     motion = start_motion(Settings.from_scene(picture.scene))
     before, after = picture.nutations
     events = [RunEvent("start", 0, motion, {})]

@@ -44,7 +44,7 @@ def make_parser() -> argparse.ArgumentParser:
         f"its own, {FILE} in this folder, unless it is served or shows a running node.",
     )
     parser.add_argument(
-        "--lesson", action="store_true", help="open the lesson: fourteen steps for a class"
+        "--lesson", action="store_true", help="open the lesson: fifteen steps for a class"
     )
     parser.add_argument(
         "--language", choices=LANGUAGES, help="language of the page (default: the browser's)"

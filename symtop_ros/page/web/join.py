@@ -19,8 +19,8 @@ import yaml
 
 from symtop_ros import __version__
 from symtop_ros.physics import BODIES, Part
+from symtop_ros.run.simulation.fields import TABLE
 from symtop_ros.run.simulation.presets import describe_scenes, scene_names
-from symtop_ros.run.simulation.run_file import TABLE
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.words.templates import read_templates
 
@@ -29,7 +29,10 @@ MODULES = FOLDER.resolve() / "js"
 MAIN = MODULES / "start.js"
 IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.[./\w]*)\.js";\n', re.M)
 # What the page takes of a button and of a step of the lesson, and what stands for what is left out.
-ACT = {"start": None, "hurry": None, "hold": "spin_rate", "push": None, "clamp": None}
+ACT = {
+    **dict.fromkeys(("start", "hurry", "push", "clamp", "run")),
+    "hold": "spin_rate",
+}
 STEP = {"name": "", "scene": "cusps", "charts": (), "layers": (), "ask": None, "table": None}
 PART = re.compile(r"/\*([A-Z]+)\*/")  # of page.html
 EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
@@ -40,6 +43,8 @@ POLICY = (
     "default-src 'none'; script-src {script} 'wasm-unsafe-eval'; style-src {style}; "
     "img-src data: blob:; font-src data:; connect-src {server}; base-uri 'none'; form-action 'none'"
 )
+RECORD = FOLDER / "record.json"  # a run with measured points, which workshop.lesson.example writes
+LESS = ","  # in place of < in packed data
 TEXTS = FOLDER / "texts"
 LANGUAGES = tuple(sorted(path.stem for path in TEXTS.glob("*.json")))
 TERMS = "terms"  # those of the textbooks of a language, for its translators
@@ -95,8 +100,12 @@ def _write_data(data: Any) -> str:
 
 
 def _pack(data: bytes) -> str:
-    """Return data packed by gzip, in base64: the kernel and five languages are half as long."""
-    return _encode(gzip.compress(data, mtime=0))
+    """Return data packed by gzip, in base 85: the kernel and five languages are half as long.
+
+    Five letters hold four bytes, and four of base64 three. The one letter that ends an element of a
+    page is replaced by one that base 85 (RFC 1924) has not.
+    """
+    return base64.b85encode(gzip.compress(data, mtime=0)).decode().replace("<", LESS)
 
 
 def _encode(data: bytes) -> str:
@@ -106,12 +115,24 @@ def _encode(data: bytes) -> str:
 def collect_content() -> dict[str, Any]:
     """Return what the script reads: texts, scenes, fields of a run, lesson."""
     return {
-        "texts": {language: read_texts(language) for language in LANGUAGES},
+        "languages": LANGUAGES,
+        "texts": _list_texts(),
         "scenes": [{"name": name, **_read_values(name)} for name in scene_names()],
         "run_fields": TABLE,
         "bodies": {name: list(map(_list_part, parts)) for name, parts in BODIES.items()},
         "lesson": [_read_step(step) for step in read_steps()],
     }
+
+
+def _list_texts() -> dict[str, list[str | None]]:
+    """Return the texts of each key in all languages, next to each other.
+
+    Numbers and formulas are the same in all of them, and gzip finds what is alike within 32 kB: the
+    texts are then a fifth shorter.
+    """
+    known = [read_texts(language) for language in LANGUAGES]
+    keys = dict.fromkeys(key for texts in known for key in texts)
+    return {key: [texts.get(key) for texts in known] for key in keys}
 
 
 def _list_part(part: Part) -> dict[str, Any]:
@@ -122,9 +143,26 @@ def _list_part(part: Part) -> dict[str, Any]:
 def _read_step(step: Mapping[str, Any]) -> dict[str, Any]:
     """Return the fields of a step that are the same in all languages."""
     return {
-        "acts": [{**ACT, **act} for act in step["acts"]],
+        "acts": [{**ACT, **_name_run(act)} for act in step["acts"]],
         **{name: step.get(name, default) for name, default in STEP.items()},
     }
+
+
+def _name_run(act: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return an act; one of the record has its run."""
+    return {"run": read_record(act["record"])} if "record" in act else act
+
+
+def read_record(spin: float) -> dict[str, Any]:
+    """Return the run of the record with so many times its spin: of a top with less Iz.
+
+    Its axle moves in the same way, as p_psi = Iz omega_z is the same.
+    """
+    run: dict[str, Any] = json.loads(RECORD.read_text(encoding="utf-8"))
+    (start,) = run["events"]
+    start["top"][1] /= spin
+    start["angular_velocity"][2] *= spin
+    return run
 
 
 def _read_values(name: str) -> dict[str, Any]:

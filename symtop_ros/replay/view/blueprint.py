@@ -165,7 +165,7 @@ def create_space_view(framing: Framing) -> rrb.Spatial3DView:
         eye_controls=rrb.EyeControls3D(position=eye, look_target=target, eye_up=(0, 0, 1)),
         overrides={
             entity: around_cursor(-framing.trace, 0.0)
-            for entity in (entities.TRACE, entities.GHOST_TRACE)
+            for entity in (entities.TRACE, entities.GHOST_TRACE, entities.POINTS)
         },
     )
 

@@ -39,6 +39,7 @@ STONE = (92, 98, 110)
 
 TIMELINE = "time"  # s since the first sample
 SPACE = "/space"
+POINTS = "/space/points"  # measured ones
 BODY = "/space/top"
 STAND = "/space/stand"
 SPHERE = "/space/sphere"
@@ -69,6 +70,7 @@ L_HORIZONTAL = "/plots/L_horizontal"
 DRIFT = "/plots/drift"
 ENERGY = "/plots/energy"
 NODES_TORQUE = "/plots/torque_along_nodes"
+SEEN = f"{THETA}/measured", f"{PHI_DOT}/measured", f"{PSI_DOT}/measured"
 # Titles of the plots
 PLOTS = {
     THETA: "tilt theta (rad)",

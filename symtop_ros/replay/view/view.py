@@ -13,9 +13,11 @@ from symtop_ros.replay.view import entities, quantities, surroundings, torques
 from symtop_ros.replay.view.blueprint import Framing, create_blueprint
 from symtop_ros.replay.view.ghost import GhostView
 from symtop_ros.replay.view.plots import Plots, describe_motion, describe_nothing
+from symtop_ros.replay.view.seen import send_points
 from symtop_ros.run.log.batch import Batch, Columns, choose
 from symtop_ros.run.log.stretches import Stretch, Unknown
 from symtop_ros.run.simulation.events import RESTARTS, Event
+from symtop_ros.run.simulation.points import Points
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS
 
@@ -98,6 +100,11 @@ class View:
                 self._send_event(event)
             if columns and self._stream.origin is not None:
                 self._send_columns(columns)
+
+    @np.errstate(all="ignore")
+    def send_points(self, points: Points, stretches: Sequence[Stretch]) -> None:
+        """Send measured points over the motions of some stretches."""
+        send_points(self._stream, points, stretches)
 
     def log_text(self, sentence: str, level: str = "WARN") -> None:
         """Add a sentence to the list of events at the current time."""

@@ -17,6 +17,7 @@ from symtop_ros.run.log.writer import METADATA, NODE_ENTRY, TOPICS_ENTRY
 from symtop_ros.run.simulation.topics import (
     APPLIED_TORQUE,
     EVENTS,
+    POINTS,
     SAMPLE_TOPICS,
     TOPICS,
     Topic,
@@ -24,7 +25,11 @@ from symtop_ros.run.simulation.topics import (
 )
 from symtop_ros.run.wire.names import full_name
 
-KNOWN: dict[str, Topic] = {**TOPICS, APPLIED_TORQUE.name: APPLIED_TORQUE}
+KNOWN: dict[str, Topic] = {
+    **TOPICS,
+    APPLIED_TORQUE.name: APPLIED_TORQUE,
+    POINTS.name: POINTS,
+}
 # Topics by whose names a top is found. /tf is that of all nodes.
 TELLING = {name: KNOWN[name].type for name in (EVENTS.name, *SAMPLE_TOPICS) if name != TF}
 

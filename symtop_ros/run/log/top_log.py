@@ -3,10 +3,12 @@
 Topics that are missing are missing in the batches.
 """
 
+import json
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
 
+from symtop_ros.base.refusals import one_line
 from symtop_ros.run.log.account import Account, read_account
 from symtop_ros.run.log.batch import Batch, BatchReader
 from symtop_ros.run.log.contents import DECODED, Chosen, select
@@ -14,6 +16,9 @@ from symtop_ros.run.log.names import Names
 from symtop_ros.run.log.reader import LogError
 from symtop_ros.run.log.source import MessageSource
 from symtop_ros.run.simulation.events import Event
+from symtop_ros.run.simulation.points import Points, read_points
+from symtop_ros.run.simulation.topics import POINTS
+from symtop_ros.run.wire.layout import Reader
 
 ROWS = 4096  # samples of a topic in a batch: Rerun's viewer is fastest with columns of this length
 
@@ -49,6 +54,24 @@ class TopLog:
                 [(name, each.data) for _, name, each in chosen], [place for place, *_ in chosen]
             )
             yield replace(batch, events=[each for each in batch.events if _key(*each) in own])
+
+    def read_points(self) -> Points | None:
+        """Return the measured points of a run that the log keeps; None without them.
+
+        Raises
+        ------
+        LogError
+            If they are damaged.
+        """
+        topic = self.account.topics.get(POINTS.name)
+        if topic is None or not topic.count:
+            return None
+        chunks = (select(self._names, chunk, 0) for chunk in self.file.chunks())
+        found = (each.data for run in chunks for _, name, each in run if name == POINTS.name)
+        try:
+            return read_points(json.loads(Reader(next(found)).string()))
+        except (ValueError, RecursionError) as error:
+            raise LogError(f"the measured points cannot be read: {one_line(error)}") from None
 
     def list_messages(self) -> Iterator[list[Chosen]]:
         """Yield the messages of the top in runs that keep the topics of each sample together."""

@@ -27,6 +27,7 @@ from symtop_ros.run.simulation.topics import (
     DIAGNOSTICS,
     EVENTS,
     MARKERS,
+    POINTS,
     SAMPLE_TOPICS,
     TF_STATIC,
     Topic,
@@ -113,7 +114,14 @@ class Output:
 class Outputs:
     """All topics of a run; the sink of its simulation."""
 
-    def __init__(self, settings: Settings, host: OutputHost, recorder: Recorder, name: str) -> None:
+    def __init__(
+        self,
+        settings: Settings,
+        host: OutputHost,
+        recorder: Recorder,
+        name: str,
+        points: str = "",  # JSON of measured points, which the log keeps
+    ) -> None:
         add = partial(Output, host=host, recorder=recorder)
         self._recorder, self._name = recorder, name
         self._frame = settings.world_frame
@@ -135,6 +143,8 @@ class Outputs:
         self._markers = Markers(settings.world_frame)
         self._marker_output = add(MARKERS) if settings.publish_markers else None
         self._torque = recorder.add_channel(host.resolve(APPLIED_TORQUE), APPLIED_TORQUE)
+        if points:
+            add(POINTS).send(0, lambda: encode_string(points))
         self.enable_tf(settings.publish_tf)
 
     def enable_tf(self, enabled: bool) -> None:

@@ -4,6 +4,7 @@ The run is done again: a session with its own clock gets the same starts, kicks 
 the same nanoseconds, and records what it publishes.
 """
 
+import json
 import os
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -18,6 +19,7 @@ from symtop_ros.physics import Motion
 from symtop_ros.run.session.outputs import Publisher
 from symtop_ros.run.session.session import Session
 from symtop_ros.run.simulation.events import KICKS
+from symtop_ros.run.simulation.points import Points
 from symtop_ros.run.simulation.run_file import RATE, RunEvent
 from symtop_ros.run.simulation.settings import Settings, list_body
 from symtop_ros.run.simulation.topics import Topic
@@ -68,8 +70,16 @@ class Silent:
     report_error = warn
 
 
-def write_run_log(events: Sequence[RunEvent], end: int, path: Path, rate: float = RATE) -> None:
+def write_run_log(
+    events: Sequence[RunEvent],
+    end: int,
+    path: Path,
+    rate: float = RATE,
+    points: Points | None = None,
+) -> None:
     """Write the log of a run that has reached a time in ns, in samples per second.
+
+    Measured points become a message of their own, which bags keep as well.
 
     Raises
     ------
@@ -79,7 +89,8 @@ def write_run_log(events: Sequence[RunEvent], end: int, path: Path, rate: float 
         If the file cannot be written.
     """
     with tempfile.TemporaryDirectory(dir=path.absolute().parent) as folder:
-        again = _Again(events[0], rate, folder)
+        seen = json.dumps(points.to_json()) if points else ""
+        again = _Again(events[0], rate, folder, seen)
         for place, event in enumerate(events):
             again.go(event.time)
             again.do(event, f"events[{place}]", is_first=place == 0)
@@ -90,7 +101,7 @@ def write_run_log(events: Sequence[RunEvent], end: int, path: Path, rate: float 
 class _Again:
     """A run that is done again."""
 
-    def __init__(self, first: RunEvent, rate: float, folder: str) -> None:
+    def __init__(self, first: RunEvent, rate: float, folder: str, points: str) -> None:
         self._clock, self._host = SetClock(), Silent()
         self._session = Session(
             Settings.from_values(
@@ -108,6 +119,7 @@ class _Again:
             "run.json",
             {"program": "top_replay"},
             NODE,
+            points,
         )
         self._simulation = self._session.simulation
         self._told = 0  # s of the last diagnostics

@@ -52,10 +52,11 @@ class Session:
         scene: str,
         environment: Mapping[str, str],
         name: str = "/top",
+        points: str = "",  # as for `Outputs`
     ) -> None:
         self._host = host
         self._recorder = Recorder(settings.record)
-        self._outputs = Outputs(settings, host, self._recorder, name)
+        self._outputs = Outputs(settings, host, self._recorder, name, points)
         self.simulation = simulate(settings, clock, self._outputs, host)
         self._recorder.count_missed = lambda: self.simulation.ticker.missed
         verdict = self.simulation.apply(self.simulation.timeline.announce(scene))

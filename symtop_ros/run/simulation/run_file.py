@@ -5,23 +5,13 @@ top is watched leave no trace in it.
 """
 
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 from fractions import Fraction
-from math import inf
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.base.refusals import (
-    RefusedError,
-    choice,
-    flag,
-    number,
-    one_line,
-    refuse,
-    validate_names,
-    vector,
-)
+from symtop_ros.base.refusals import RefusedError, one_line, refuse, show, validate_names
 from symtop_ros.physics import Body, ExactTimes, Friction, Motion, State, Top
 from symtop_ros.run.simulation.changes.requests import (
     KICK_FIELDS,
@@ -31,22 +21,22 @@ from symtop_ros.run.simulation.changes.requests import (
     read_pushes,
 )
 from symtop_ros.run.simulation.events import BODY, KICKS, MOTION, RELEASE, RESTARTS, Event
+from symtop_ros.run.simulation.fields import TABLE, read_field
+from symtop_ros.run.simulation.points import Points, read_points
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import PARAMETERS
 from symtop_ros.run.wire.layout import NANOSECONDS
 
-# The fields of a run, which the reader of the page follows as well. A time is at most 4e6 s: up to
-# there a double in s has its own ns.
-TABLE = json.loads(Path(__file__).with_name("run_fields.json").read_text(encoding="utf-8"))
+# A time is at most 4e6 s: up to there a double in s has its own ns.
 FORMATS: list[int] = TABLE["formats"]  # that are read
-# Formats by what a run has that readers of the one before would not know.
-PLAIN, CLAMPED, WEIGHED = FORMATS[1:]
+# Formats by what a run has that readers of the one before would not know: a run without it has the
+# format that it had before, which more versions read.
+PLAIN, CLAMPED, WEIGHED, MEASURED = FORMATS[1:]
 # Mass and gravity of a body, as events of a run have them that do not say so.
 ASSUMED = {name: TABLE["event"][name]["absent"] for name in BODY}
 KINDS: list[str] = TABLE["event"]["kind"]["words"]
 ACTS = ("start", *KICKS, "clamp", "unclamp")
 MAX_BYTES = 100_000_000
-Field = Mapping[str, Any]
 RATE: float = PARAMETERS["publish_rate"].default  # Hz, of the log that is written of a run
 
 
@@ -164,13 +154,14 @@ def record_run(events: Iterable[Event], stamp: int) -> tuple[list[RunEvent], int
     return found, max(recorder.time_at(stamp), *(event.time for event in found[-1:]), 0)
 
 
-def write_run(events: Iterable[RunEvent], end: int) -> dict[str, Any]:
+def write_run(events: Iterable[RunEvent], end: int, points: Points | None = None) -> dict[str, Any]:
     """Return the content of run.json, of a run that has reached a time in ns."""
     listed = [*events]
     return {
-        "format": _find_format(listed),
+        "format": MEASURED if points else _find_format(listed),
         "events": [event.to_json() for event in listed],
         "end": end / NANOSECONDS,
+        **({"points": points.to_json()} if points else {}),
     }
 
 
@@ -180,8 +171,8 @@ def _find_format(events: Sequence[RunEvent]) -> int:
     return CLAMPED if any(event.motion.clamped for event in events) else PLAIN
 
 
-def read_run(path: Path) -> tuple[list[RunEvent], int]:
-    """Return the events of run.json, and the time in ns that the run has reached.
+def read_run(path: Path) -> tuple[list[RunEvent], int, Points | None]:
+    """Return the events of run.json, the time in ns that it has reached, and its measured points.
 
     Raises
     ------
@@ -197,17 +188,23 @@ def read_run(path: Path) -> tuple[list[RunEvent], int]:
     except (ValueError, RecursionError):
         content = None
     if not isinstance(content, dict) or content.get("format") not in FORMATS:
-        raise RefusedError(
-            f"{path} must be a run of the page (run.json, format {' or '.join(map(str, FORMATS))})"
-        )
+        known = f"run.json, format {' or '.join(map(str, FORMATS))}"
+        found = f", got format {show(content['format'])}" if _has_format(content) else ""
+        raise RefusedError(f"{path} must be a run of the page ({known}){found}")
     given = content.get("events")
     if not isinstance(given, list) or not given:
         raise refuse("events", "a list with a start at its beginning", given)
     if len(given) > TABLE["most"]:
         raise refuse("events", f"a list of at most {TABLE['most']}", len(given))
     events = _read_events(given)
-    end = _read_field("end", {**TABLE["end"], "absent": 0.0}, content)
-    return events, max(events[-1].time, round(end * NANOSECONDS))
+    end = read_field("end", {**TABLE["end"], "absent": 0.0}, content)
+    points = read_points(content["points"]) if "points" in content else None
+    seen = int(points.stamps[-1]) if points else 0
+    return events, max(events[-1].time, round(end * NANOSECONDS), seen), points
+
+
+def _has_format(content: Any) -> bool:
+    return isinstance(content, dict) and isinstance(content.get("format"), int)
 
 
 def _read_events(given: list[Any]) -> list[RunEvent]:
@@ -221,7 +218,7 @@ def _read_events(given: list[Any]) -> list[RunEvent]:
 
 
 def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEvent:
-    values = {name: _read_field(name, field, given) for name, field in TABLE["event"].items()}
+    values = {name: read_field(name, field, given) for name, field in TABLE["event"].items()}
     kind = values["kind"]
     time = round(values["time"] * NANOSECONDS)
     if not before and kind != "start":
@@ -244,42 +241,4 @@ def _read_kick(given: Any) -> Mapping[str, Any]:
     if not isinstance(given, dict):
         raise refuse("act", "the fields of a kick", given)
     validate_names(given, TABLE["act"])
-    return {name: _read_field(name, TABLE["act"][name], given) for name in given}
-
-
-def _read_record(name: str, value: Any, field: Field) -> dict[str, Any]:
-    kinds = field["records"]
-    kind = value.get("kind") if isinstance(value, dict) else None
-    if not isinstance(kind, str) or kind not in kinds:
-        raise refuse(name, f"a record of kind {', '.join(kinds)}", value)
-    fields = {each: _read_field(each, found, value) for each, found in kinds[kind].items()}
-    return {"kind": kind, **fields}
-
-
-def _read_text(name: str, value: Any, field: Field) -> str:
-    if not isinstance(value, str) or len(value) > field["length"]:
-        raise refuse(name, f"a text of at most {field['length']} characters", value)
-    return value
-
-
-# By what the description of a field has; others are numbers.
-READERS: dict[str, Callable[[str, Any, Field], Any]] = {
-    "size": lambda name, value, field: vector(
-        name, value, field["size"], field["limit"], field["unit"]
-    ),
-    "records": _read_record,
-    "flag": lambda name, value, _: flag(name, value),
-    "words": lambda name, value, field: choice(name, value, tuple(field["words"])),
-    "length": _read_text,
-}
-
-
-def _read_field(name: str, field: Field, given: Mapping[str, Any]) -> Any:
-    """Return a value that follows the description of its field."""
-    if name not in given and "absent" in field:
-        return field["absent"]
-    value = given.get(name)
-    for sign, read in READERS.items():
-        if sign in field:
-            return read(name, value, field)
-    return number(name, value, field["unit"], field.get("low", -inf), field.get("high", inf))
+    return {name: read_field(name, TABLE["act"][name], given) for name in given}

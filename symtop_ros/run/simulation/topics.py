@@ -265,6 +265,8 @@ CLOCK = Topic("/clock", "rosgraph_msgs/msg/Clock")
 MARKERS = Topic("~/markers", "visualization_msgs/msg/MarkerArray", depth=10)
 # Only received; logged with the bytes that came.
 APPLIED_TORQUE = Topic("~/applied_torque", messages.WRENCH.type)
+# Only in the log of a run with measured points: these, as in run.json.
+POINTS = Topic("~/points", DESCRIPTION.type, depth=1, latched=True)
 # Events come first, so that they precede the samples of the same stamp in every log.
 TOPICS: dict[str, Topic] = {
     topic.name: topic

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from symtop_ros.run.simulation.points import SEEN
+
 
 @dataclass(frozen=True)
 class Kind:
@@ -34,21 +36,20 @@ class Kind:
         return len(self.columns)
 
 
+def _kind(name: str, **more: bool | float) -> Kind:
+    seen = SEEN[name]
+    return Kind(name, seen.columns, residuals=len(seen.residuals), **more)  # type: ignore[arg-type]
+
+
 KINDS = {
     kind.name: kind
     for kind in (
-        Kind("attitude", ("w", "x", "y", "z"), shows_spin=True, residuals=3),
-        Kind("rates", ("wx", "wy", "wz"), shows_spin=True, shows_azimuth=False, residuals=3),
-        Kind(
-            "inertial",
-            ("wx", "wy", "wz", "fx", "fy", "fz"),
-            shows_spin=True,
-            shows_azimuth=False,
-            residuals=6,
-        ),
-        Kind("axis", ("x", "y", "z"), residuals=3),
-        Kind("angles", ("theta", "phi"), residuals=2, rounds=6.283185307179586),
-        Kind("pixels", ("u", "v"), residuals=2),
-        Kind("theta", ("theta",), shows_azimuth=False, residuals=1),
+        _kind("attitude", shows_spin=True),
+        _kind("rates", shows_spin=True, shows_azimuth=False),
+        _kind("inertial", shows_spin=True, shows_azimuth=False),
+        _kind("axis"),
+        _kind("angles", rounds=6.283185307179586),
+        _kind("pixels"),
+        _kind("theta", shows_azimuth=False),
     )
 }

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
-from symtop_ros.base.refusals import RefusedError
+from symtop_ros.base.refusals import RefusedError, refuse
 from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.check import FAILS, HOLDS
 from symtop_ros.truth.fit.files import Rows, read_rows
@@ -24,6 +24,7 @@ from symtop_ros.truth.fit.plan_options import add_options, make_plan, refuse_pla
 from symtop_ros.truth.fit.plan_report import PlanReport
 from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
 from symtop_ros.truth.fit.report import Report
+from symtop_ros.truth.fit.runs import make_run
 from symtop_ros.truth.fit.search import NEAREST
 from symtop_ros.truth.judge.forms import is_table
 
@@ -98,6 +99,12 @@ def make_parser() -> argparse.ArgumentParser:
     add_options(parser)
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
+        "--run",
+        type=Path,
+        metavar="FILE.json",
+        help="write the motion with the measured points as a run of the page (run.json)",
+    )
+    parser.add_argument(
         "--plot", type=Path, metavar="FILE", help="draw record, motion and residuals (.png, .svg)"
     )
     return parser
@@ -107,8 +114,9 @@ def _plan(options: argparse.Namespace) -> int:
     """Print what a record will show."""
     kind = "inertial" if options.position else options.kind or "axis"
     _refuse_options(kind, options)
-    if options.plot:
-        raise RefusedError("--plot must have a record, got --plan")
+    for name in ("plot", "run"):
+        if getattr(options, name):
+            raise RefusedError(f"--{name} must have a record, got --plan")
     plan = make_plan(options, kind, describe_record(kind, options))
     given = {name: known for name, known in find_given(options).items() if known}
     report = PlanReport(" ".join(options.plan), plan, given)
@@ -118,6 +126,8 @@ def _plan(options: argparse.Namespace) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     refuse_plan_options(options)
+    if options.run and options.run.suffix != ".json":
+        raise refuse("--run", "a name that ends in .json", str(options.run))
     path = copy_example() if options.example else options.record
     progress = Progress()
     if options.position:
@@ -135,6 +145,10 @@ def _run(options: argparse.Namespace) -> int:
     print(json.dumps(report.facts(), indent=1) if options.json else report.format())
     if options.plot:
         draw(report, options.plot)
+    if options.run:
+        run = make_run(fit, len(record), given)
+        run.write(options.run)
+        print(run.describe(options.run), file=sys.stderr if options.json else sys.stdout)
     return int(report.check.verdict == FAILS)
 
 

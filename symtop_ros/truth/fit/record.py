@@ -8,10 +8,11 @@ import numpy as np
 
 from symtop_ros.base.arrays import Mask, Places, Real
 from symtop_ros.base.refusals import RefusedError, refuse, require
+from symtop_ros.run.simulation import points
 from symtop_ros.truth.fit.kinds import KINDS, Kind
 
 FEWEST = 12  # rows
-MOST = 100_000  # rows of a fit; more are thinned
+MOST = points.MOST  # rows of a fit, as many as a run has points; more are thinned
 RUN = 200  # rows that follow each other in a record that was thinned, for the correlation of noise
 GAP = 1.5  # medians of the steps; a longer step ends a run of noise
 ROUNDED = 2  # rows for each value of a column, at least, if it is rounded

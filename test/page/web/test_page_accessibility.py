@@ -126,9 +126,10 @@ def test_the_arrows_are_of_different_colours_without_seeing_green_and_when_force
     arrows = [color for name in ("L", "ω", "torque", "trace") for color in marks[name]]
     torques = marks["fictitious torques"]
     assert len(arrows) == len(torques) == 4
-    for group in (arrows, torques, [marks["torque"][0], torques[0]]):
+    over = [marks["trace"][0], marks["measured points"][0]]
+    for group in (arrows, torques, over, [marks["torque"][0], torques[0]]):
         pairs = combinations([perceive(color, "deuteranopia") for color in group], 2)
         assert min(np.linalg.norm(a - b) for a, b in pairs) > 35  # 2.3 can just be seen
     opened.tab.emulate_media(forced_colors="active")
     forced = [tuple(each) for colors in read_marks(opened).values() for each in colors]
-    assert len(set(forced)) == len(forced) == 12
+    assert len(set(forced)) == len(forced) == 13

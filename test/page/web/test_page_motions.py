@@ -151,7 +151,7 @@ def test_what_is_done_during_the_pushes_of_a_run_ends_them(open_page, tmp_path):
     opened.tab.click("text=Delay")
     path = tmp_path / "run.json"
     path.write_text(json.dumps(opened.read_run()))
-    events, _ = read_run(path)
+    events, *_ = read_run(path)
     assert [each.kind for each in events] == ["start", "push", "kick"]
     assert events[1].act["number"] == 7
     assert to_json(events[:1]) == to_json(run[:1])

@@ -34,7 +34,7 @@ BROKEN = [
 ]
 LATE = 1500.0  # s; after 956 s one state would take 100 000 steps
 LINK = "#theta=0.7&psi_dot=180"
-NO_RUN = [[], None, 3, "", {}, {"format": 5, "events": []}, {"__proto__": 1}]
+NO_RUN = [[], None, 3, "", {}, {"format": 6, "events": []}, {"__proto__": 1}]
 UNREADABLE = (change(1, kind="__proto__"), change(1, act=None), {"events": 1})
 # The kernel and Python have other words for these.
 NO_MOTION = [change(1, orientation=[number] * 4) for number in (0, 1)]
@@ -58,7 +58,7 @@ def test_hostile_runs_are_refused_as_by_python_and_the_present_run_stays(opened,
     known = [*HOSTILE[::step], *BROKEN]
     refusals = map(get_condition, refuse(opened, known))
     assert [*refusals] == [get_condition(find_refusal(run)) for run in known]
-    expected = "a run must be one of the page (run.json, format 1 or 2 or 3 or 4)"
+    expected = "a run must be one of the page (run.json, format 1 or 2 or 3 or 4 or 5)"
     assert {*map(get_condition, refuse(opened, NO_RUN))} == {expected}
     for refusal, run in zip(refuse(opened, NO_MOTION), NO_MOTION, strict=True):
         assert refusal.startswith("events[1]: ")

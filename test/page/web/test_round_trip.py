@@ -24,7 +24,8 @@ from symtop_ros.physics.reference import exact_state
 from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.session.run_log import write_run_log
 from symtop_ros.run.simulation.changes.requests import FIELDS, KINDS
-from symtop_ros.run.simulation.run_file import TABLE, read_run, record_run, write_run
+from symtop_ros.run.simulation.fields import TABLE
+from symtop_ros.run.simulation.run_file import read_run, record_run, write_run
 from symtop_ros.run.simulation.settings import PARAMETERS
 
 STEP = 1 / 64  # s between two acts
@@ -198,7 +199,7 @@ def test_run_json_and_its_replay_have_every_motion_and_every_kick(told, run, tmp
     assert sum(is_released) == 1
     path, again = tmp_path / "run.json", tmp_path / "again.mcap"
     path.write_text(json.dumps(write_run(events, end)))
-    read, reached = read_run(path)
+    read, reached, _ = read_run(path)
     assert [pack(each.motion) for each in read] == [pack(each.motion) for each in events]
     assert json.dumps([each.act for each in read]) == json.dumps([each.act for each in events])
     write_run_log(read, reached, again, rate=50.0)

@@ -552,7 +552,7 @@ ORACLES: dict[str, Callable[[Drawn, str], None] | None] = {
 # arrow of the sensor, which this log has not, by test_view.py.
 READ_ELSEWHERE = re.compile(
     r".*/(name|letter|marks)|/(motion|sentence|events)|/__properties(/.*)?|"
-    r"/space/(angles/world|top/axes)(/names)?|/space/specific_force"
+    r"/space/(angles/world|top/axes)(/names)?|/space/(specific_force|points)"
 )
 
 

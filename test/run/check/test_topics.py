@@ -1,28 +1,32 @@
 """One damaged and one tampered message of each topic, all of which are remapped."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from mcap.writer import CompressionType
 from run.log.damaged import Log, Recorded
+from run.simulation.page_points import make_points
 
 from symtop_ros.replay.main import main
 from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.log.names import KNOWN
 from symtop_ros.run.log.reader import LogError
 from symtop_ros.run.log.top_log import TopLog
-from symtop_ros.run.simulation.topics import APPLIED_TORQUE, MARKERS, SAMPLE_TOPICS
+from symtop_ros.run.simulation.topics import APPLIED_TORQUE, MARKERS, POINTS, SAMPLE_TOPICS
 from symtop_ros.run.wire.messages import WRENCH
 
 ON = ("imu__enabled", "magnetic_field__enabled", "odometry__enabled")
 OPTIONS = {**dict.fromkeys(ON, True), "publish_markers": True, "publish_clock": True}
+OPTIONS["points"] = json.dumps(make_points("theta").to_json())
 NAMES = {topic.ros_name: f"/other/{name}s" for name, topic in KNOWN.items()} | {
     "robot_description": "/other/robot_descriptions"
 }
 NOT_COMPARED = {
     MARKERS.name: "markers are drawings of the samples before them",
     APPLIED_TORQUE.name: "it was received, and not computed",
+    POINTS.name: "measured points are seen, and not computed",
 }
 
 

@@ -123,7 +123,7 @@ def test_a_run_keeps_the_body_and_one_of_before_has_none(tmp_path):
     assert [event.get("mass") for event in content["events"]] == [None, 2.6]
     path = tmp_path / "run.json"
     path.write_text(json.dumps(content))
-    again, _ = read_run(path)
+    again, *_ = read_run(path)
     assert [(each.mass, each.gravity) for each in again] == [(0.0, 9.81), (2.6, 9.80)]
     write_run_log(again, end, tmp_path / "run.mcap")
     last = TopLog(open_run([tmp_path / "run.mcap"])).account.events[-1].segment()

@@ -64,9 +64,9 @@ class Program:
         self.errors.append(text)
 
 
-def start(host, scene="cusps", **changes):
+def start(host, scene="cusps", points="", **changes):
     clock = HandClock()
-    session = Session(Settings.from_scene(scene, **changes), clock, host, scene, {})
+    session = Session(Settings.from_scene(scene, **changes), clock, host, scene, {}, points=points)
     return session, clock
 
 

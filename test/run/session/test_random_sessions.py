@@ -249,7 +249,7 @@ def try_again(rng, folder):
     events, end = record_run(check(path), stamp)
     content = folder / "run.json"
     content.write_text(json.dumps(write_run(events, end)))
-    read, reached = read_run(content)
+    read, reached, _ = read_run(content)
     assert (to_json(read), reached) == (to_json(events), end)
     again = folder / "again.mcap"
     write_run_log(read, reached, again, rate=50.0)

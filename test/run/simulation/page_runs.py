@@ -8,7 +8,8 @@ from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import ExactTimes, Friction, Motion, hurry
-from symtop_ros.run.simulation.run_file import TABLE, RunEvent, read_run, write_run
+from symtop_ros.run.simulation.fields import TABLE
+from symtop_ros.run.simulation.run_file import RunEvent, read_run, write_run
 
 START = Motion(ARTICLE, CUSPS)
 KICK = {"precession_rate_factor": 1.4, "hold": "spin_rate"}

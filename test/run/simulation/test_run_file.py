@@ -19,7 +19,8 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.simulation.changes.follow import Act
 from symtop_ros.run.simulation.changes.timeline import Timeline
 from symtop_ros.run.simulation.events import Event
-from symtop_ros.run.simulation.run_file import TABLE, RunRecorder, read_run, record_run
+from symtop_ros.run.simulation.fields import TABLE
+from symtop_ros.run.simulation.run_file import RunRecorder, read_run, record_run
 from symtop_ros.run.simulation.settings import Settings
 
 SECOND = 1_000_000_000
@@ -36,7 +37,7 @@ def test_a_run_without_an_end_ends_with_its_last_event(tmp_path):
 NO_RUNS = [
     (b"\xff" * 100, "must be a run of the page"),
     ([], "must be a run of the page"),
-    ({"format": 5, "events": []}, "must be a run of the page"),
+    ({"format": 6, "events": []}, "must be a run of the page"),
     ({"format": 1, "events": []}, "events must be "),
     ({"format": 1, "events": [3]}, r"events\[0\]: kind must be "),
     (change(0, kind="torque"), r'events\[0\]: kind must be "start" for the first event, got '),

@@ -26,6 +26,7 @@ import { Seen } from "./controls/seen.js";
 import { SpeedList } from "./controls/speed.js";
 import { offerTabs } from "./controls/tabs.js";
 import { Timeline } from "./controls/timeline.js";
+import { writePoints } from "./words/points.js";
 import { typesetSymbols } from "./words/typeset.js";
 import { phrase } from "./words/wording.js";
 
@@ -118,8 +119,14 @@ export class Page {
     // A node has the time of its machine, and records there.
     find("time").hidden = Boolean(this.content.node);
     find("record").hidden = !this.content.node;
+    this.charts.marks = top.marks;
+    for (const name of /** @type {const} */ (["pointermove", "pointerdown"])) // also a finger's
+      document.addEventListener(name, (event) => top.marks.follow(event), { capture: true });
     offerFiles(top, source);
-    openDropped((run) => this.send({ act: "load", run }));
+    openDropped((run) => {
+      this.question.leave(); // a run of one start is no new act that would end it
+      this.send({ act: "load", run });
+    });
   }
 
   /** @param {Message} message */
@@ -286,7 +293,7 @@ export class Page {
   }
 
   /** @param {Frame} frame */
-  showFrame({ samples, stretches, present, isSlow, end }) {
+  showFrame({ samples, marks, points, stretches, present, isSlow, end }) {
     if (!this.facts) return;
     say("instant", present);
     say("stretch-act", stretches.act);
@@ -296,7 +303,8 @@ export class Page {
     this.moments.follow(sample);
     const time = now / NANO;
     Object.assign(document.body.dataset, { time, theta: state.angles.theta });
-    this.charts.draw(this.facts, samples, this.fields.values.factor);
+    this.charts.draw(this.facts, samples, this.fields.values.factor, marks);
+    say("points", writePoints(points));
     this.timeline.show(time, end);
     this.question.show(time);
     const kind = !this.facts.running ? "paused" : isSlow ? "slow" : null;

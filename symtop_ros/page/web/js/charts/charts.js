@@ -14,24 +14,33 @@ import { drawWell } from "./well_chart.js";
 
 /** @import { Facts } from "../words/facts.js" */
 /** @import { Sample } from "../run/telling.js" */
-/** @typedef {(facts: Facts, samples: Sample[], factor: number) => void} Draw */
+/** @import { Mark, Marks } from "../run/marks.js" */
+/** @typedef {(facts: Facts, samples: Sample[], factor: number, marks: Mark[]) => void} Draw */
 
 export class Charts {
   /** @param {(isKept: boolean) => void} keep a run for comparison, or let it go */
   constructor(keep) {
     const free = new FreeChart(keep);
+    /** Those of the top that is shown. @type {Marks | null} */
+    this.marks = null;
+    /** @param {"theta" | "phi_dot" | "psi_dot"} id @returns {Draw} */
+    const listSeries = (id) => (facts, samples, _, marks) => {
+      if (this.marks) drawOneSeries(id, samples, facts, marks, this.marks);
+    };
     /** @type {{[name: string]: Draw}} */
     this.all = {
       rule: (facts, samples, factor) => drawRule(facts, last(samples).state, factor),
       well: ({ potential }, samples) => drawWell(potential, last(samples).state.angles.theta),
-      theta: (facts, samples) => drawOneSeries("theta", samples, facts),
-      phi_dot: (facts, samples) => drawOneSeries("phi_dot", samples, facts),
-      psi_dot: (facts, samples) => drawOneSeries("psi_dot", samples, facts),
+      theta: listSeries("theta"),
+      phi_dot: listSeries("phi_dot"),
+      psi_dot: listSeries("psi_dot"),
       impulses: ({ began }, samples) => {
         const { course, time } = last(samples);
         if (!course.clamped) drawImpulses(course, time / NANO - began);
       },
-      free: (_, samples) => free.draw(samples),
+      free: (_, samples, __, marks) => {
+        if (this.marks) free.draw(samples, marks, this.marks);
+      },
     };
     /** @type {Draw} */
     this.write = guard("tables", ({ table }, samples) => {
@@ -65,10 +74,11 @@ export class Charts {
    * @param {Facts} facts
    * @param {Sample[]} samples
    * @param {number} factor by which Hurry multiplies phi'
+   * @param {Mark[]} marks of measured points
    */
-  draw(facts, samples, factor) {
-    this.drawOne = (/** @type {string} */ name) => this.all[name]?.(facts, samples, factor);
-    this.write(facts, samples, factor);
+  draw(facts, samples, factor, marks) {
+    this.drawOne = (/** @type {string} */ name) => this.all[name]?.(facts, samples, factor, marks);
+    this.write(facts, samples, factor, marks);
     if (!this.isComplete) this.drawAll();
     this.isComplete = true;
     if (this.waiting.length) return; // these will be drawn from what is shown now

@@ -5,12 +5,14 @@ import { nameQuantity, QUANTITIES } from "./axes_list.js";
 import { keepChoice } from "../controls/choices.js";
 import { find, make, write } from "../controls/document.js";
 import { draw, findSpan, Frame, WIDE } from "./plot.js";
+import { drawMarks, placeMarks } from "./seen_points.js";
 import { nameUnit, shorten, toUnit } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Sample } from "../run/telling.js" */
 /** @import { Quantity } from "./axes_list.js" */
 /** @import { Pair } from "./plot.js" */
+/** @import { Mark, Marks } from "../run/marks.js" */
 /** @typedef {"state" | "ghost" | "kept"} Whose */
 
 const HEIGHT = 195;
@@ -73,9 +75,13 @@ export class FreeChart {
     this.place.value = String(nearest / Math.max(distances.length - 1, 1));
   }
 
-  /** @param {Sample[]} samples */
-  draw(samples) {
+  /** @param {Sample[]} samples @param {Mark[]} marks of measured points @param {Marks} all */
+  draw(samples, marks, all) {
     const [horizontal, vertical] = [this.x, this.y].map((list) => QUANTITIES[list.value]);
+    const placed = placeMarks(marks, [this.x.value, this.y.value], (mark) => {
+      const seen = { ...mark, ghost: null, kept: null };
+      return [measure(horizontal, seen, "state"), measure(vertical, seen, "state")];
+    });
     const curves = CURVES.map(([whose, style]) => {
       const values = samples.map((each) => [
         measure(horizontal, each, whose),
@@ -85,7 +91,9 @@ export class FreeChart {
     });
     const [range, edges] = [0, 1].map((k) =>
       findSpan(
-        curves.flatMap(({ values }) => values.map((each) => each[k])),
+        [...curves.flatMap(({ values }) => values), ...placed.map(({ point }) => point)].map(
+          (each) => each[k],
+        ),
         1e-6,
       ),
     );
@@ -96,7 +104,7 @@ export class FreeChart {
     draw(
       "free",
       HEIGHT,
-      `${frame.axes}${paths.join("")}
+      `${frame.axes}${paths.join("")}${drawMarks("free", frame, all, placed)}
       ${frame.dot(own[this.findShown(samples)], 'fill="var(--theta)"')}
       ${frame.nameVertical(nameUnit(vertical.unit))}${frame.nameHorizontal(nameUnit(horizontal.unit))}`,
       phrase("chart.free", { up: nameQuantity(this.y.value), over: nameQuantity(this.x.value) }),

@@ -130,6 +130,19 @@ export class Frame {
     return `<rect x="${left.toFixed(1)}" y="${UPPER}" width="${width}" height="${this.bottom - UPPER}" ${style}/>`;
   }
 
+  /** Many small dots. @param {Pair[]} points @param {string} style */
+  dots(points, style) {
+    const path = points.map(
+      (each) =>
+        `M${this.place(each)
+          .map((part) => part.toFixed(1))
+          .join(" ")}h0`,
+    );
+    return this.clip(
+      `<path d="${path.join("")}" stroke="var(--dim)" stroke-width="3.4" stroke-linecap="round" ${style}/>`,
+    );
+  }
+
   /** @param {Pair} point @param {string} style */
   dot(point, style) {
     const [x, y] = this.place(point).map((each) => each.toFixed(1));

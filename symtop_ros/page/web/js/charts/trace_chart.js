@@ -69,9 +69,13 @@ export class TraceChart {
       const [x, y] = place(each).map((part) => part.toFixed(1));
       return `<path d="M${WIDE / 2} ${HEIGHT / 2}L${x} ${y}" stroke-width="2" ${style}/><circle cx="${x}" cy="${y}" r="6" ${style}/>`;
     };
+    const { marks, trace } = top;
+    const seen = top.layers.points ? marks.list(trace.since, top.time) : [];
+    const dots = seen.filter(({ shows }) => shows.includes("phi")).map((each) => place(each.state));
     const circles = top.telling.free.motion.turning_angles.filter((theta) => theta > 0);
     return `${circles.map((theta) => drawCircle(theta, most, 'stroke="var(--grey)" stroke-dasharray="2 3"')).join("")}
       <path d="${writePath([...states, state].map(place))}" fill="none" stroke="var(--phi)" stroke-width="1.8" id="way"/>
+      <path d="${dots.map(([x, y]) => `M${x.toFixed(1)} ${y.toFixed(1)}h0`).join("")}" stroke="var(--dim)" stroke-width="3.4" stroke-linecap="round" class="seen"/>
       ${ghost ? dot(ghost, 'fill="var(--grey)" stroke="var(--grey)" class="ghost"') : ""}
       ${dot(state, 'fill="var(--theta)" stroke="var(--theta)" class="axle"')}
       <circle cx="${WIDE / 2}" cy="${HEIGHT / 2}" r="2" fill="currentColor"/>`;

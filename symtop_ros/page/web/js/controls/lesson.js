@@ -12,9 +12,10 @@ import { isKnown, phrase } from "../words/wording.js";
 /** @import { Hold } from "../physics/kernel.js" */
 /** @import { Message } from "../run/acts.js" */
 /**
- * A button of a step, as in lesson.yaml: one of a start, a hurry, a push and a clamp.
+ * A button of a step, as in lesson.yaml: one of a start, a hurry, a push, a clamp and a run with measured
+ * points.
  * @typedef {{start: {[name: string]: any} | null, hurry: number | null, hold: Hold,
- *   push: {[name: string]: number} | null, clamp: boolean | null}} Act
+ *   push: {[name: string]: number} | null, clamp: boolean | null, run: unknown}} Act
  */
 /** A number that is predicted, in rad, and how near the prediction is to be. @typedef {{value: number, within: number}} Ask */
 /** Numbers in rows, and the form of each column. @typedef {{forms: string[], rows: number[][]}} Table */
@@ -54,7 +55,8 @@ export const writePredictions = (steps, answer) => {
 };
 
 /** What a button asks for. @param {Act} act @param {string} scene @returns {Message} */
-export const nameAct = ({ start, push, clamp, hurry: factor, hold }, scene) => {
+export const nameAct = ({ start, push, clamp, run, hurry: factor, hold }, scene) => {
+  if (run) return { act: "load", run };
   if (clamp) return { act: "clamp" };
   if (start) return { act: "link", link: { scene, ...start } };
   if (push) return { act: "pushes", ...push };
@@ -229,9 +231,10 @@ export class Lesson {
     this.hurries = [];
     const buttons = acts.map((act, k) => {
       const text = phrase(`lesson.${name}.act_${k + 1}`);
-      const button = make("button", { disabled: !act.start, "aria-label": text });
+      const isFirst = Boolean(act.start || act.run);
+      const button = make("button", { disabled: !isFirst, "aria-label": text });
       write(button, text);
-      if (!act.start) this.hurries.push(button);
+      if (!isFirst) this.hurries.push(button);
       button.addEventListener("click", () => this.do(act, scene));
       return button;
     });

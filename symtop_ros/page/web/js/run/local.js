@@ -7,6 +7,7 @@ import { phrase } from "../words/wording.js";
 import { nameError } from "./errors.js";
 import { findScene, OPENING, readScene } from "./links.js";
 import { Frames } from "./frames.js";
+import { cutPoints, Marks } from "./marks.js";
 import { recall, remember, rememberRun } from "./memory.js";
 import { readRun } from "./reader.js";
 import { isOfKnownWeight, Run } from "./run.js";
@@ -44,6 +45,9 @@ export class LocalTop {
     /** What buttons that are held do. @type {Set<Held>} */
     this.held = new Set();
     this.trace = new Trace(this);
+    /** What was measured of the run. @type {import("./marks.js").Points | null} */
+    this.points = null;
+    this.marks = new Marks(this);
     this.telling = new Telling(this);
     this.frames = new Frames(this);
     /** @type {(news: News) => void} */
@@ -149,6 +153,7 @@ export class LocalTop {
   add(kind, course, asked = {}) {
     this.demandRoom();
     this.run.add(kind, this.time, course, asked);
+    this.points = cutPoints(this.points, this.time); // the rest was seen of another motion
     this.changed();
   }
 
@@ -193,6 +198,7 @@ export class LocalTop {
   /** What holds for the motion of now has changed. */
   changed() {
     this.trace.begin(this.course);
+    this.marks.begin();
     this.telling.begin();
     this.begin();
   }
@@ -225,7 +231,7 @@ export class LocalTop {
    * @param {Message} message
    */
   take(message) {
-    const { time, end, initial, isRunning } = this;
+    const { time, end, initial, isRunning, points } = this;
     const [moments, held] = [[...this.run.moments], new Set(this.held)];
     try {
       perform(this, message);
@@ -233,7 +239,7 @@ export class LocalTop {
       this.tell({ granted: true });
       return true;
     } catch (error) {
-      Object.assign(this, { time, end, initial, isRunning, held });
+      Object.assign(this, { time, end, initial, isRunning, points, held });
       this.run.moments = moments;
       this.changed();
       this.tell({ refused: nameError(error), isOfData: DATA.includes(message.act) });
@@ -251,15 +257,17 @@ export class LocalTop {
     if (this.held.has("press")) run.release(this.time);
     const isClamped = run.moments.some(({ course }) => course.clamped);
     const isWeighed = run.moments.some(({ course }) => isOfKnownWeight(course.weighed));
-    const [, plain, clamped, weighed] = this.content.run_fields.formats; // as run_file.py
-    const format = isWeighed ? weighed : isClamped ? clamped : plain;
-    return { format, events: run.records, end: this.end / NANO };
+    const [, plain, clamped, weighed, measured] = this.content.run_fields.formats; // as run_file.py
+    const { points } = this;
+    const format = points ? measured : isWeighed ? weighed : isClamped ? clamped : plain;
+    return { format, events: run.records, end: this.end / NANO, ...(points ? { points } : {}) };
   }
 
   /** @param {any} json of run.json; one that cannot be read leaves all as it is */
   load(json) {
-    const { events, end } = readRun(this.content.run_fields, json);
+    const { events, end, points } = readRun(this.content.run_fields, json);
     this.run.load(events);
+    this.points = points;
     const wanted = Math.round(Math.max(end, events[events.length - 1].time) * NANO);
     const { time, course } = this.run.findEvent(wanted);
     // What takes too long to integrate is reached later.

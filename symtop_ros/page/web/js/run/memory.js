@@ -41,11 +41,14 @@ const PERIOD = 2000; // ms; browsers allow some hundred changes of the history i
 /** Remember the run of a top from now on. @param {{json: any, speed: number, isRunning: boolean}} top */
 export const rememberRun = (top) => {
   let last = "";
+  /** The points that were measured: many, of which none changes. @type {unknown} */
+  let before;
   const keep = () => {
     const { json: run, speed, isRunning } = top;
-    const now = JSON.stringify([run, speed, isRunning]);
-    if (now !== last) remember({ run, speed, isRunning });
-    last = now;
+    const { points, ...rest } = run;
+    const now = JSON.stringify([rest, speed, isRunning]);
+    if (now !== last || points !== before) remember({ run, speed, isRunning });
+    [last, before] = [now, points];
   };
   setInterval(keep, PERIOD);
   addEventListener("beforeunload", keep);

@@ -4,6 +4,7 @@
 import { NAMES } from "../physics/records.js";
 import { writeNumber } from "../words/numbers.js";
 
+/** @import { Points } from "./marks.js" */
 /** @import { EventRecord } from "./run.js" */
 /**
  * A field: one of some words, a text of some length, true or false (`flag`), some numbers of limited
@@ -14,10 +15,13 @@ import { writeNumber } from "../words/numbers.js";
  *   records?: {[kind: string]: {[name: string]: Field}}, size?: number, limit?: number, unit?: string,
  *   low?: number, high?: number, absent?: any, kick?: string, holds?: any}} Field
  */
+/** A kind of measured points. @typedef {{columns: string[], residuals?: string[], units: string[]}} Seen */
 /**
- * What run_fields.json holds: the fields of an event, of the act of a kick, and of the run.
+ * What run_fields.json holds: the fields of an event, of the act of a kick, of measured points, and of the
+ * run.
  * @typedef {{formats: number[], most: number, end: Field, event: {[name: string]: Field},
- *   act: {[name: string]: Field}}} Table
+ *   act: {[name: string]: Field}, points: {most: number, limit: number, rows: Field, time: Field,
+ *   kinds: {[kind: string]: Seen}, camera: {[name: string]: Field}}}} Table
  */
 
 const PUSHES = ["axle_impulse", "rate", "number"]; // fields of a push
@@ -142,6 +146,52 @@ const readEvent = (table, given, before) => {
 };
 
 /**
+ * Rows of numbers, one for each time.
+ * @param {string} name @param {any} given @param {number} count @param {string[]} columns @param {number} limit
+ */
+const readRows = (name, given, count, columns, limit) => {
+  if (!Array.isArray(given) || given.length !== count)
+    throw reject(`points: ${name}`, `be a list of ${count}, one for each time`, given?.length);
+  const field = { size: columns.length, limit, unit: columns.join(", ") };
+  return given.map((row, k) => readVector(`points: ${name}[${k}]`, field, row));
+};
+
+/** @param {Table["points"]} fields @param {any} given @returns {number[]} */
+const readTimes = ({ most, time }, given) => {
+  const count = Array.isArray(given) ? given.length : 0;
+  if (!count || count > most)
+    throw reject("points: times", `be a list of 1 to ${most}`, count || given);
+  const times = given.map((/** @type {any} */ each, /** @type {number} */ k) =>
+    readNumber(`points: times[${k}]`, time, each),
+  );
+  for (let k = 1; k < count; k += 1)
+    if (!(times[k - 1] < times[k]))
+      throw reject(`points: times[${k}]`, "be later than the one before it", times[k]);
+  return times;
+};
+
+/** @param {Table["points"]} fields @param {any} given @returns {Points} */
+const readPoints = (fields, given) => {
+  if (!isObject(given))
+    throw reject("points", "be a record with kind, times, values and residuals", given);
+  const { kind } = given;
+  const kinds = Object.keys(fields.kinds);
+  if (!kinds.includes(kind)) throw reject("points: kind", `be one of ${kinds.join(", ")}`, kind);
+  const { columns, residuals = columns } = fields.kinds[kind];
+  const times = readTimes(fields, given.times);
+  const rows = readNumber("points: rows", fields.rows, given.rows ?? times.length);
+  const read = (/** @type {string} */ name, /** @type {string[]} */ names) =>
+    readRows(name, given[name], times.length, names, fields.limit);
+  const points = { kind, rows, times, values: read("values", columns) };
+  const left = { ...points, residuals: read("residuals", residuals) };
+  if (kind !== "pixels") return left;
+  const camera = Object.entries(fields.camera).map(([name, field]) => {
+    return [name, readNumber(`points: camera: ${name}`, field, given.camera?.[name])];
+  });
+  return { ...left, camera: Object.fromEntries(camera) };
+};
+
+/**
  * Do something for an event; a refusal names its place.
  * @template T
  * @param {number} place
@@ -157,7 +207,7 @@ export const nameEvent = (place, work) => {
 };
 
 /**
- * The events of run.json, and the time in s that the run has reached.
+ * The events of run.json, its measured points, and the time in s that the run has reached.
  * @param {Table} table @param {any} json
  */
 export const readRun = (table, json) => {
@@ -175,5 +225,7 @@ export const readRun = (table, json) => {
     const place = events.length;
     events.push(nameEvent(place, () => readEvent(table, each, events[place - 1] ?? null)));
   }
-  return { events, end: readField("end", { ...table.end, absent: 0 }, json.end) };
+  const end = readField("end", { ...table.end, absent: 0 }, json.end);
+  const points = json.points === undefined ? null : readPoints(table.points, json.points);
+  return { events, points, end: Math.max(end, points?.times.at(-1) ?? 0) };
 };

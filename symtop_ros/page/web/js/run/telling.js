@@ -11,6 +11,7 @@ import { describeStretches } from "../words/stretch.js";
 /** @import { Facts, MotionFacts, Now } from "../words/facts.js" */
 /** @import { SceneFile } from "./links.js" */
 /** @import { LocalTop } from "./local.js" */
+/** @import { Mark } from "./marks.js" */
 /**
  * States at a time of the run, in ns: of the top, of the ghost, and of a run that is kept for
  * comparison, at the same time since its start.
@@ -23,8 +24,9 @@ import { describeStretches } from "../words/stretch.js";
  *   lesson: import("../controls/lesson.js").Step[], bodies: {[name: string]: Part[]}}} Hello
  */
 /**
- * A frame: samples up to now, what was exchanged, why the axle moves so just now, and the end of the run in
- * s. @typedef {{samples: Sample[], stretches: ReturnType<typeof describeStretches>, present: string,
+ * A frame: samples up to now, measured points and what is told of one, what was exchanged, why the axle moves so just now, and the end of the run in
+ * s. @typedef {{samples: Sample[], marks: Mark[],
+ *   points: ReturnType<import("./marks.js").Marks["describe"]>, stretches: ReturnType<typeof describeStretches>, present: string,
  *   end: number, isSlow: boolean}} Frame
  */
 /**
@@ -107,7 +109,9 @@ export class Telling {
     const isWatched = isSlow || !isRunning; // else the sentence would be gone before it is read
     const present = isWatched ? describePresent(course, state) : "";
     const stretches = describeStretches(run, time);
-    this.top.tell({ samples, stretches, present, end: end / NANO, isSlow });
+    const { marks, trace } = this.top;
+    const seen = { marks: marks.list(trace.since, time), points: marks.describe() };
+    this.top.tell({ samples, ...seen, stretches, present, end: end / NANO, isSlow });
   }
 
   /** @param {number} time ns @param {State} state @returns {Sample} */

@@ -28,10 +28,16 @@ export class Trace {
     this.states.clear();
   }
 
+  /** The time in ns at which the last window begins. */
+  get since() {
+    const { run, time } = this.top;
+    return Math.max(run.findStart(time), time - this.window * NANO);
+  }
+
   /** Times of the last window in ns: those of a grid, and now. */
   listTimes() {
-    const { run, time } = this.top;
-    const begin = Math.max(run.findStart(time), time - this.window * NANO);
+    const { time } = this.top;
+    const begin = this.since;
     const step = Math.max(1, Math.round((this.window * NANO) / this.points));
     const first = Math.ceil(begin / step) * step;
     const count = Math.max(0, Math.ceil((time - first) / step));

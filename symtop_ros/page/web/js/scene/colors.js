@@ -22,6 +22,7 @@ export const COLORS = {
   ball: "#ec8c00",
   lift: "#d81b60",
   ghost: "#c9ced6",
+  points: "#1f77d0",
 };
 
 export const FICTITIOUS = "fictitious torques";
@@ -34,6 +35,7 @@ export const LAYERS = {
   trace: true,
   ghost: true,
   push: true,
+  points: true,
   "turning circles": false,
   "line of nodes": false,
   sphere: false,
@@ -58,6 +60,7 @@ export const LEGEND = [
   ["trace", "trace"],
   ["ghost", "ghost"],
   ["ball", "push"],
+  ["points", "points"],
   ["circles", "turning circles"],
   ["nodes", "line of nodes"],
   ["gravity", FICTITIOUS],

@@ -19,6 +19,7 @@ import { Painter } from "./painter.js";
 import { findPush, listReached, listBracket } from "./push.js";
 import { findTorques, findVectors } from "./vectors.js";
 import { NANO } from "../physics/course.js";
+import { writePoint } from "../words/points.js";
 import { inDegrees } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
@@ -36,6 +37,7 @@ const GHOST_OPACITY = 0.34;
 const BALL = 0.055;
 const LEAD = 36; // px from the pale ball to its name
 const ASIDE = 16; // px from a bracket to its words
+const CROSS = 0.013; // arm of a measured point
 const PUSH = 0.34; // length of the arrow of a push
 // rad; the axis goes below the pivot: no stand, and the whole sphere
 const WIDE = 1.1;
@@ -118,6 +120,7 @@ export class Scene {
       sphere: painter.loadLines([]),
       circles: painter.loadLines([]),
       trace: painter.loadLines([]),
+      points: painter.loadLines([]),
       body: painter.loadMesh(new Float32Array()),
     };
   }
@@ -163,7 +166,33 @@ export class Scene {
     if (!grip.preview) this.drawVectors(state);
     if (this.top.layers.push) this.drawPush(state, states);
     if (this.top.layers.ghost) this.drawGhost(this.top.run.findGhost(this.top.time));
+    if (this.top.layers.points) this.drawPoints();
     this.labels.end();
+  }
+
+  /** Measured points of the axis as crosses, and what the motion leaves of the one that is pointed at. */
+  drawPoints() {
+    const { painter, camera, models, top } = this;
+    const { marks, trace } = top;
+    const seen = marks.list(trace.since, top.time).filter(({ shows }) => shows.includes("phi"));
+    const places = seen.map(({ state }) => state.toWorld([0, 0, 1]));
+    const crosses = seen.flatMap(({ state }, k) =>
+      [state.toWorld([CROSS, 0, 0]), state.toWorld([0, CROSS, 0])].flatMap((arm) => [
+        ...subtract(places[k], arm),
+        ...add(places[k], arm),
+      ]),
+    );
+    painter.loadLines(crosses, models.points);
+    painter.drawLines(models.points, paint("points"), 2, STILL);
+    const dots = seen.flatMap(({ place }, k) => {
+      const at = camera.project(places[k]);
+      return at ? [/** @type {[number, number, number]} */ ([at.x, at.y, place])] : [];
+    });
+    marks.keep("picture", dots, camera.size.width);
+    const told = marks.describe();
+    const pointed = seen.findIndex(({ place }) => place === marks.pointed);
+    if (told && pointed >= 0)
+      this.labels.put("point", COLORS.points, places[pointed], [0, 0, 0], writePoint(told), LEAD);
   }
 
   /**
