@@ -22,10 +22,11 @@ ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 def read_axis(page, name):
     """A value of the vertical axis of a chart, its height, and the change by a unit of height."""
     ticks = page.tab.locator(f"#{name} text.tick[text-anchor=end]").evaluate_all(
-        "all => all.map(e => [Number(e.textContent.replace('\u2212', '-')), e.getAttribute('y') - 3])"
+        "all => all.map(e => [e.textContent, e.getAttribute('y') - 3])"
     )
-    first, lowest = ticks[0]
-    last, highest = ticks[-1]
+    (first, lowest), (last, highest) = (
+        (float(text.replace("\N{MINUS SIGN}", "-")), y) for text, y in (ticks[0], ticks[-1])
+    )
     assert lowest != highest
     return first, lowest, (last - first) / (highest - lowest)
 

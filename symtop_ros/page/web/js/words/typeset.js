@@ -222,9 +222,7 @@ const createCommand = (text) => {
  * @param {string} text @returns {(Node | string)[]}
  */
 export const typeset = (text) =>
-  text
-    .split(COMMAND)
-    .flatMap((part, k) => (k % 2 ? [createCommand(part)] : typesetWords(part)));
+  text.split(COMMAND).flatMap((part, k) => (k % 2 ? [createCommand(part)] : typesetWords(part)));
 
 /** @param {string} text @returns {(Node | string)[]} */
 const typesetWords = (text) => {
