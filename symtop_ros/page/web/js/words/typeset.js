@@ -193,6 +193,19 @@ const setProse = (text) =>
     .replace(/(?<=[\p{L}\d])\^(-?\d+)/gu, (_, exponent) => raise(exponent))
     .replace(/(?<![\p{L}\d])-(?=\d)/gu, SIGNS["-"]);
 
+const QUANTITY =
+  /([\u2212\d.,]*\d (?:rad\/s\u00b2|rad\/s|rad|kg m\u00b2|N m s|N m|mJ|J|1\/s\u00b2|1\/s|ms|mm|cm|m|s|Hz)(?![\p{L}\d/]))/u;
+
+/** A number stays on the line of its unit. @param {string} text @returns {(Node | string)[]} */
+const holdUnits = (text) =>
+  text.split(QUANTITY).map((part, k) => {
+    if (k % 2 === 0) return part;
+    const quantity = document.createElement("span");
+    quantity.className = "quantity";
+    quantity.textContent = part;
+    return quantity;
+  });
+
 const WORD = /\[([^|\]]+)\|([^|\]]+)\]/;
 
 /**
@@ -255,5 +268,8 @@ export const typesetSymbols = (text) => {
     const own = k > 0 ? text.replace(CLOSING, "") : text;
     return setProse(k < parts.length - 1 ? own.replace(OPENING, "") : own);
   });
-  return set.map((part, k) => endParagraph(part, set[k - 1])).filter((part) => part !== "");
+  return set
+    .map((part, k) => endParagraph(part, set[k - 1]))
+    .flatMap((part) => (typeof part === "string" ? holdUnits(part) : [part]))
+    .filter((part) => part !== "");
 };
