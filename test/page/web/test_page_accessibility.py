@@ -73,7 +73,8 @@ def test_symbols_are_formulas_and_explained_at_their_first_place(opened):
     opened.open_tab("start")
     label = opened.tab.locator("label[for=field-phi_dot]")
     assert label.text_content() == "precession rate φ˙ (rad/s)"
-    assert opened.tab.get_by_label("precession rate phi' (rad/s)").count() == 2  # and its slider
+    spoken = opened.tab.get_by_label("precession rate phi dot (rad/s)")
+    assert spoken.count() == 2  # and its slider
     shown = opened.tab.inner_text("#start")
     for explained in ("weight times the distance of the centre of mass", "slow root"):
         assert explained in shown

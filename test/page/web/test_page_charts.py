@@ -206,7 +206,7 @@ def test_a_chart_shows_the_quantities_that_are_chosen_and_a_run_kept_for_compari
     shown = re.fullmatch(form, opened.say("free-values"))
     assert float(shown[1]) == pytest.approx(time, rel=1e-4)
     assert float(shown[2]) == pytest.approx(acceleration, rel=1e-3)
-    name = "tilt acceleration theta'' over time"  # of the picture, for a screen reader
+    name = "tilt acceleration theta double dot over time"  # of the picture, for a screen reader
     opened.until(lambda: opened.tab.get_attribute("#free svg", "aria-label") == name)
     box = opened.tab.locator("#free svg").bounding_box()
     opened.tab.locator("#free svg").hover(position={"x": 50, "y": box["height"] / 2})

@@ -2,6 +2,7 @@
 
 import { find } from "../controls/document.js";
 import { shorten } from "../words/quantities.js";
+import { speakText } from "../words/spoken.js";
 
 export const WIDE = 300; // units of the drawing
 export const LEFT = 44; // of the axes
@@ -27,7 +28,7 @@ export const draw = (id, height, drawing, label) => {
   const svg = /** @type {Element} */ (find(id).firstElementChild);
   svg.setAttribute("viewBox", `0 0 ${WIDE} ${height}`);
   svg.innerHTML = drawing;
-  if (label) svg.ariaLabel = label;
+  if (label) svg.ariaLabel = speakText(label);
 };
 
 /** Round values between two, about so many. @param {number} low @param {number} high @param {number} count */

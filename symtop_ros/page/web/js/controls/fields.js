@@ -14,6 +14,7 @@ import {
   shorten,
   writeLimit,
 } from "../words/quantities.js";
+import { speakText } from "../words/spoken.js";
 import { UNITS } from "../words/units.js";
 import { phrase } from "../words/wording.js";
 
@@ -55,7 +56,12 @@ class Entry {
     this.title = label;
     this.label = make("label", { htmlFor: id });
     write(this.label, label);
-    this.text = make("input", { id, type: "text", autocomplete: "off", "aria-label": label });
+    this.text = make("input", {
+      id,
+      type: "text",
+      autocomplete: "off",
+      "aria-label": speakText(label),
+    });
     place.append(this.label, this.text);
     this.isTyped = false; // and not yet taken over
     this.value = NaN; // that was asked for last
@@ -145,7 +151,7 @@ class Entry {
       min,
       max,
       step: "any",
-      "aria-label": this.title,
+      "aria-label": speakText(this.title),
     });
     this.slider = slider;
     slider.addEventListener("keydown", (event) => this.moveByKey(event));
@@ -197,8 +203,8 @@ class Entry {
     if (!this.field.isAngle) return;
     const text = addUnit(this.title, "rad");
     write(this.label, text);
-    this.text.setAttribute("aria-label", text);
-    this.slider?.setAttribute("aria-label", text);
+    this.text.ariaLabel = speakText(text);
+    if (this.slider) this.slider.ariaLabel = speakText(text);
   }
 
   /** Let the slider reach some values on both sides. @param {number[]} reached */

@@ -14,6 +14,7 @@ import {
   writeLimit,
   writeRounded,
 } from "../words/quantities.js";
+import { speakText } from "../words/spoken.js";
 import { QUANTITIES, UNITS } from "../words/units.js";
 import { phrase } from "../words/wording.js";
 
@@ -107,7 +108,8 @@ export class Seen {
     this.names.forEach((name, k) => {
       const text = addUnit(phrase(`known.${name}`), QUANTITIES[name]);
       write(this.labels[k], text);
-      this.inputs[k].ariaLabel = text;
+      this.inputs[k].ariaLabel = speakText(text);
+      this.inputs[k].dataset.name = text;
     });
   }
 

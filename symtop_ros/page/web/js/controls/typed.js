@@ -45,6 +45,7 @@ export const readTyped = (input, unit, isPositive = false) => {
   acceptField(input);
   if (!refusal) return value;
   const got = typed || phrase("nothing");
-  refuseField(input, phrase("refused", { kind: refusal, name: input.ariaLabel, ...readings, got }));
+  const name = input.dataset.name ?? input.ariaLabel; // a label has formulas in words
+  refuseField(input, phrase("refused", { kind: refusal, name, ...readings, got }));
   return null;
 };

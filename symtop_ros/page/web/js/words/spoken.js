@@ -1,6 +1,6 @@
 // Formulas as they are read aloud, in the language of the page.
 
-import { LETTERS } from "./formula.js";
+import { findFormulas, LETTERS } from "./formula.js";
 import { phrase } from "./wording.js";
 
 /** @import { Node_, Symbol_, Term } from "./formula.js" */
@@ -68,3 +68,9 @@ const speakTerms = (terms) =>
 
 /** A formula in words. @param {Term[]} terms */
 export const speakFormula = (terms) => speakTerms(terms).filter(Boolean).join(" ");
+
+/** A text whose formulas are in words, for a label that a screen reader alone has. @param {string} text */
+export const speakText = (text) =>
+  findFormulas(text)
+    .map(({ text, terms }) => (terms ? speakFormula(terms) : text))
+    .join("");
