@@ -15,7 +15,8 @@ FEWEST = 12  # rows
 MOST = points.MOST  # rows of a fit, as many as a run has points; more are thinned
 RUN = 200  # rows that follow each other in a record that was thinned, for the correlation of noise
 GAP = 1.5  # medians of the steps; a longer step ends a run of noise
-ROUNDED = 2  # rows for each value of a column, at least, if it is rounded
+MULTIPLES = 6  # the smallest difference of rounded values is a step, or 2 or 3, and seldom more
+EVEN = 0.1  # of a unit; what decimals, or a change of units, leave of whole numbers
 LENGTH, USUAL = 0.1, 75  # relative differences of lengths in most rows, in per cent of them
 STILL = 1e-9  # of the size of the numbers; what changes less does not move
 NORMAL = 1.4826  # deviation of a normal distribution, in median distances from the median
@@ -84,16 +85,10 @@ class Record:
     def rounding(self) -> Real:
         """Deviation (m,) of the rounding of each column to its decimals; 0 if none is seen.
 
-        A column that is rounded has few values; rounding to a step has the deviation step/sqrt(12).
+        Rounding to a step has the deviation step/sqrt(12).
         """
-        found = np.zeros(self.values.shape[1])
-        for column, values in enumerate(self.values.T):
-            unique = np.unique(values)
-            if 1 < len(unique) < len(self) / ROUNDED:
-                found[column] = np.diff(unique).min() / np.sqrt(12)
-            elif len(unique) == 1:
-                found[column] = find_decimal(values[0]) / np.sqrt(12)
-        return found
+        steps = [find_step(values) for values in self.values.T]
+        return np.asarray(np.array(steps) / np.sqrt(12))
 
     @property
     def plain(self) -> "Record":
@@ -121,6 +116,18 @@ class Record:
         pieces = max(most // RUN, 1)
         firsts = np.linspace(0, len(self) - RUN, pieces).astype(int)
         return self.select(np.unique(firsts[:, np.newaxis] + np.arange(RUN)).ravel())
+
+
+def find_step(values: Real) -> float:
+    """Return the step of which all values (n,) are multiples, apart from a constant; 0: of none."""
+    differences = np.diff(np.unique(values))
+    if not len(differences):
+        return find_decimal(values[0])
+    unit = differences.min() / MULTIPLES
+    counts = differences / unit
+    if np.abs(counts - np.round(counts)).max() > EVEN:
+        return 0.0
+    return float(np.gcd.reduce(np.round(counts).astype(np.int64)) * unit)
 
 
 def find_decimal(value: float) -> float:
