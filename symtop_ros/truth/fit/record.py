@@ -16,6 +16,7 @@ MOST = points.MOST  # rows of a fit, as many as a run has points; more are thinn
 RUN = 200  # rows that follow each other in a record that was thinned, for the correlation of noise
 GAP = 1.5  # medians of the steps; a longer step ends a run of noise
 MULTIPLES = 6  # the smallest difference of rounded values is a step, or 2 or 3, and seldom more
+MANY = 1e12  # units; such differences of doubles are whole numbers by their own rounding
 EVEN = 0.1  # of a unit; what decimals, or a change of units, leave of whole numbers
 LENGTH, USUAL = 0.1, 75  # relative differences of lengths in most rows, in per cent of them
 STILL = 1e-9  # of the size of the numbers; what changes less does not move
@@ -85,10 +86,13 @@ class Record:
     def rounding(self) -> Real:
         """Deviation (m,) of the rounding of each column to its decimals; 0 if none is seen.
 
-        Rounding to a step has the deviation step/sqrt(12).
+        Rounding to a step has the deviation step/sqrt(12). A column that does not change shows no
+        step: it is that of its last decimal, or of the other columns if theirs are larger.
         """
-        steps = [find_step(values) for values in self.values.T]
-        return np.asarray(np.array(steps) / np.sqrt(12))
+        steps = np.array([find_step(values) for values in self.values.T])
+        still = np.ptp(self.values, axis=0) == 0
+        steps[still] = np.maximum(steps[still], steps[~still].min())
+        return np.asarray(steps / np.sqrt(12))
 
     @property
     def plain(self) -> "Record":
@@ -125,7 +129,7 @@ def find_step(values: Real) -> float:
         return find_decimal(values[0])
     unit = differences.min() / MULTIPLES
     counts = differences / unit
-    if np.abs(counts - np.round(counts)).max() > EVEN:
+    if counts.max() > MANY or np.abs(counts - np.round(counts)).max() > EVEN:
         return 0.0
     return float(np.gcd.reduce(np.round(counts).astype(np.int64)) * unit)
 

@@ -24,6 +24,7 @@ PRECISE = 1e-7  # of the sum of squares: a hundredth of a deviation of a paramet
 FIXED = 12.0  # deviations of rounding, of which a step has 3.5
 DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
 LONG = 1e4  # rad, of the fastest phase in a record
+SLIGHT = 1e-3  # part of the errors of rounding, below which they are noise
 PLACES = 16  # of the steps of rounding, from one to the next
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
 
@@ -110,12 +111,13 @@ class Fit:
         exp(-2 (pi sigma/step)^2) at least (Widrow and Kollar, Quantization Noise, 2008).
         """
         rounding, fixed = find_rounding(self.model.record, self.white.shape[1])
-        if not rounding.any():
-            return np.zeros((1, *self.columns.shape[1:]))
         steps = np.where(rounding, np.sqrt(12) * rounding, np.inf)
         left = (self.residuals[self.noise.kept] ** 2).mean(axis=0)
         noise = np.where(fixed, 0.0, np.maximum(left - rounding**2, 0.0))
-        sizes = np.where(rounding, steps * np.exp(-2 * np.pi**2 * noise / steps**2), 0.0)
+        stays = np.exp(-2 * np.pi**2 * noise / steps**2)
+        sizes = np.where(rounding * (stays > SLIGHT), steps * stays, 0.0)
+        if not sizes.any():
+            return np.zeros((1, *self.columns.shape[1:]))
         places = self.model.show(self.x[np.newaxis])[0] / steps
         found = []
         for place in places + (np.arange(PLACES) + 0.5)[:, np.newaxis, np.newaxis] / PLACES:
