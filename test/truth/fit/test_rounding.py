@@ -11,6 +11,9 @@ from symtop_ros.truth.fit.model import Model, find_axis, name_parameters
 from symtop_ros.truth.fit.record import find_step
 from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
+from symtop_ros.truth.fit.values import find_slope, list_values
+from workshop.fit.records import draw_sample
+from workshop.fit.trial import fit_from_truth
 
 FAR = 5.0  # deviations; a normal number is farther once in two million
 STEP = 2.0**-6
@@ -71,9 +74,15 @@ def test_deviations_hold_wherever_the_steps_of_a_slow_motion_are():
 
 
 def test_rounding_that_follows_a_slow_motion_is_no_white_noise():
-    fit = fit_axis(round_to(find_axis(SLOW.at(OFTEN).orientation), 0.25))
-    # rows of one step have one error: there are fewer independent ones than rows
-    assert np.max(measure(fit) / measure_white(fit)) > 2
+    sample = draw_sample("axis", "rounded", 414)  # 21 rows in a nutation of a few steps
+    fit = fit_from_truth(sample)
+    slope = find_slope(fit, lambda x: fit.model.find_motion(x).nutation_period)
+    assert fit.find_deviation(slope) > 2 * np.sqrt(slope @ fit.covariance @ slope)
+    values = list_values(fit)
+    assert {"Mgl/Ix", "theta", "phi_dot", "nutation_period"} <= {v.name for v in values}
+    for value in values:
+        assert value.is_known
+        assert abs(value.value - sample.truth[value.name]) < FAR * value.deviation
 
 
 def test_noise_of_a_step_makes_rounding_noise():
