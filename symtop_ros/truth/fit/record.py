@@ -88,10 +88,7 @@ class Record:
 
     @cached_property
     def rounding(self) -> Real:
-        """Deviation (m,) of the rounding of each column to its decimals; 0 if none is seen.
-
-        Rounding to a step has the deviation step/sqrt(12).
-        """
+        """Deviation step/sqrt(12), (m,), of the rounding of each column; 0 if none is seen."""
         return np.asarray(find_steps(self.values) / np.sqrt(12))
 
     @property
@@ -232,7 +229,7 @@ def _normalize(values: Real, kind: str) -> tuple[Real, float]:
     usual = float(np.median(norms))
     if kind != "axis" or np.percentile(np.abs(norms / usual - 1), USUAL) >= LENGTH:
         return np.asarray(values / norms), 1.0
-    errors = max(float(find_spread(norms)[0]), float(find_steps(values).max()))
+    errors = max(float(find_spread(norms)[0]), float(find_steps(values).max()), STILL)
     length = 1.0 if abs(usual - 1) <= errors else usual
     return np.asarray(values / length), length
 
