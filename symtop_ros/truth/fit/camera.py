@@ -13,6 +13,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 
+LARGEST = 50.0  # log_scale; a step along a valley may go beyond any picture
 CAMERA = ("u", "v", "log_scale", "elevation", "roll", "nearness")
 
 
@@ -26,7 +27,7 @@ def project(axis: Real, camera: Mapping[str, Real]) -> Real:
     right = axis[..., 0]
     up, out = np.sin(get["elevation"]), np.cos(get["elevation"])
     high, near = axis[..., 1] * up + axis[..., 2] * out, axis[..., 2] * up - axis[..., 1] * out
-    size = np.exp(get["log_scale"]) / (1 - nearness * near)
+    size = np.exp(np.minimum(get["log_scale"], LARGEST)) / (1 - nearness * near)
     cos, sin = np.cos(get["roll"]), np.sin(get["roll"])
     u = get["u"] + size * (cos * right - sin * high)
     v = get["v"] + size * (sin * right + cos * high)

@@ -13,6 +13,7 @@ from functools import cache
 
 import numpy as np
 from scipy.signal import find_peaks
+from scipy.signal.windows import blackmanharris
 
 from symtop_ros.base.arrays import Real, compose
 from symtop_ros.physics import Motions, State, Top
@@ -24,8 +25,9 @@ SHAPES = 250  # motions whose nutation is scaled to each frequency
 RATES = 20  # frequencies from the slowest to the fastest, besides those of the spectrum
 PEAKS = 6  # of a spectrum
 PAD = 8  # by which a spectrum is finer
-IMPROVED, STEPS = 60, 20  # motions that are improved, and how often
+IMPROVED, STEPS = 2, 20  # motions of a frequency that are improved, and how often
 KEPT = 16
+SAME = 0.02  # of the sizes of Mgl/Ix and p_psi/Ix
 ROWS = 120  # of a part, at which motions are compared
 DELTA = 1e-6  # of differences, in rad or of a rate
 RIDGE = 1e-10  # of the squares of a column: two columns may be one, as without nutation
@@ -79,13 +81,32 @@ def list_camera_starts(part: Record) -> Iterator[Starts]:
     given = part.camera
     pivot = np.array([given["u"], given["v"]]) if "u" in given and "v" in given else None
     pictures = Pictures((part.times - part.times[0])[rows], part.values[rows], pivot)
-    y = np.concatenate([scale(draw_shapes(), rate) for rate in list_rates(part)])
+    y = np.concatenate([choose_shapes(pictures, rate) for rate in list_rates(part)])
+    y = improve_all(pictures, y)
     costs = (pictures.find_residuals(y) ** 2).sum(axis=1)
-    y = improve_all(pictures, y[np.argsort(costs)[:IMPROVED]])
-    costs = (pictures.find_residuals(y) ** 2).sum(axis=1)
-    best = y[np.argsort(costs)[:KEPT]]
+    best = choose_different(y[np.argsort(costs)])
     for each, camera in zip(best, pictures.fit_cameras(pictures.see(best)), strict=True):
         yield fill_camera_start(part, each, camera)
+
+
+def choose_shapes(pictures: Pictures, rate: float) -> Real:
+    """Return the best shapes (k, 5) whose nutation has an angular frequency.
+
+    Those of all frequencies together would be a precession without the nutation, if that is small.
+    """
+    y = scale(draw_shapes(), rate)
+    costs = (pictures.find_residuals(y) ** 2).sum(axis=1)
+    return y[np.argsort(costs)[:IMPROVED]]
+
+
+def choose_different(y: Real) -> Real:
+    """Return the first motions (k, 5) of some in order, each minimum once: most end in one."""
+    scales, kept = find_scales(y), [0]
+    for k in range(1, len(y)):
+        moved = np.abs(y[kept] - y[k])[:, :2] / scales[k, :2]
+        if (moved.max(axis=1) > SAME).all():
+            kept.append(k)
+    return y[kept[:KEPT]]
 
 
 @cache
@@ -110,10 +131,14 @@ def scale(shapes: tuple[Real, Real], rate: float) -> Real:
 
 
 def list_rates(part: Record) -> Real:
-    """Return angular frequencies of a nutation: from slow to fast, and of the spectrum."""
+    """Return angular frequencies of a nutation: from slow to fast, and of the spectrum.
+
+    A nutation may be a hundred times smaller than the precession, whose sidelobes are lower by this
+    window than noise is.
+    """
     times = np.arange(part.times[0], part.times[-1], part.step)
     points = np.stack([np.interp(times, part.times, each) for each in part.values.T], axis=1)
-    waves = (points - points.mean(axis=0)) * np.hanning(len(points))[:, np.newaxis]
+    waves = (points - points.mean(axis=0)) * blackmanharris(len(points))[:, np.newaxis]
     power = (np.abs(np.fft.rfft(waves, PAD * len(waves), axis=0)) ** 2).sum(axis=1)
     frequencies = 2 * np.pi * np.fft.rfftfreq(PAD * len(waves), part.step)
     tops = find_peaks(power)[0]

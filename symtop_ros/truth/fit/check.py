@@ -105,11 +105,15 @@ class Check:
 
     @property
     def verdict(self) -> str:
-        """HOLDS, UNCLEAR (noise that wanders, a stretch left out, another model) or FAILS."""
+        """HOLDS, UNCLEAR (noise that wanders, a stretch left out, a lone search) or FAILS."""
         if self.changes or (not self.is_white and self.is_smooth):
             return FAILS
-        is_noise = self.is_white and not self.is_smooth and not self.fault
-        return HOLDS if is_noise and not self.stretch else UNCLEAR
+        return HOLDS if self.is_noise and not self.fit.is_lone else UNCLEAR
+
+    @property
+    def is_noise(self) -> bool:
+        """True if nothing but noise is left, and nothing was left out but single rows."""
+        return self.is_white and not (self.is_smooth or self.fault or self.stretch)
 
 
 @dataclass(frozen=True, eq=False)

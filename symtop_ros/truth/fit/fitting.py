@@ -16,7 +16,7 @@ from symtop_ros.truth.fit.body_starts import list_spins
 from symtop_ros.truth.fit.check import HOLDS, Check
 from symtop_ros.truth.fit.model import Model, find_momentum
 from symtop_ros.truth.fit.record import Record
-from symtop_ros.truth.fit.refine import Fit, refine
+from symtop_ros.truth.fit.refine import Fit, fit_weighted, refine
 from symtop_ros.truth.fit.search import ALIKE, EFFORTS, Candidate, search
 from symtop_ros.truth.fit.sides import expand, restate
 from symtop_ros.truth.fit.twins import mirror_view, turn_camera, turn_over
@@ -54,17 +54,20 @@ def fit_motion(record: Record, report: Callable[[float], None] | None = None) ->
     [300.0, 50.0]
     """
     record = record.thin()
-    found, rivals = seek(record, report)
+    found, rivals, is_lone = seek(record, report)
     if count_rows(found) < 2 * SPARSE:
         ends = expand(search(record.plain, EFFORTS[2], list_alias_starts(found)), record)
         rivals += ends
         found = choose_better(found, ends, record)
-    found = choose_twin(found)
-    return replace(found, others=tuple(find_others(found, rivals)))
+    best = settle(choose_twin(found), rivals)
+    # What is left of a wrong minimum lasts from row to row.
+    return replace(best, is_lone=is_lone and len(best.noise.partial) > 0)
 
 
-def seek(record: Record, report: Callable[[float], None] | None) -> tuple[Fit, list[Candidate]]:
-    """Return the best motion of searches that agree, and all that they found."""
+def seek(
+    record: Record, report: Callable[[float], None] | None
+) -> tuple[Fit, list[Candidate], bool]:
+    """Return the best motion, all that searches found, and True if one search alone found it."""
     found: Fit | None = None
     rivals: list[Candidate] = []
     bests: list[float] = []
@@ -79,7 +82,7 @@ def seek(record: Record, report: Callable[[float], None] | None) -> tuple[Fit, l
         if is_sure(found, bests):
             break
     assert found is not None
-    return found, rivals
+    return found, rivals, count_agreeing(bests) < SURE
 
 
 def is_sure(fit: Fit, bests: list[float]) -> bool:
@@ -87,15 +90,44 @@ def is_sure(fit: Fit, bests: list[float]) -> bool:
 
     Noise that lasts may be the motion that a wrong minimum leaves: then three have to find it.
     """
-    again = sum(each <= AGAIN * min(bests) for each in bests)
-    return again >= SURE + (len(fit.noise.partial) > 0) and Check(fit).verdict == HOLDS
+    needed = SURE + (len(fit.noise.partial) > 0)
+    return count_agreeing(bests) >= needed and Check(fit).verdict == HOLDS
+
+
+def count_agreeing(bests: list[float]) -> int:
+    """Return how many searches found the best minimum, by the costs of what each found."""
+    return sum(each <= AGAIN * min(bests) for each in bests)
 
 
 def choose_better(fit: Fit | None, ends: list[Candidate], record: Record) -> Fit:
-    """Return the fit whose residuals are smaller, whatever noise they are taken for."""
+    """Return the best of what a search found, or a fit that is no worse."""
     best = min(ends, key=lambda each: each.cost)
     new = refine(best.model.move(record), best.x)
-    return new if fit is None or measure_median(new) < 0.999 * measure_median(fit) else fit
+    return new if fit is None or is_better(new, fit) else fit
+
+
+def is_better(new: Fit, fit: Fit) -> bool:
+    """Return True if a fit leaves less than another, by the noise of either.
+
+    Noise that lasts may hide in a median that is smaller by chance. If each leaves less by its own
+    noise, one of them takes motion for noise, which makes residuals large: the median decides.
+    """
+    gains = [
+        sum_squares(each, fit.residuals) - sum_squares(each, new.residuals) for each in (new, fit)
+    ]
+    if min(gains) * max(gains) > 0:
+        return max(gains) > 0
+    return measure_median(new) < 0.999 * measure_median(fit)
+
+
+def settle(fit: Fit, rivals: list[Candidate]) -> Fit:
+    """Return the best of a fit and of the motions that fit as well, with the others."""
+    best = fit
+    for each in find_others(fit, rivals):
+        other = refine(each.model, each.x)
+        if is_better(other, best):
+            best = other
+    return replace(best, others=tuple(find_others(best, rivals)))
 
 
 def choose_twin(fit: Fit) -> Fit:
@@ -155,11 +187,17 @@ def find_others(fit: Fit, rivals: list[Candidate]) -> list[Fit]:
         mark = find_marks(each.model, each.x)
         if not all(differ(mark, other) for other in marks):
             continue
-        other = Fit(each.model.move(fit.model.record), each.x, fit.noise)
+        other = weigh(each, fit)
         if sum_squares(fit, other.residuals) < own + CLEAR:
             marks.append(mark)
             found.append(choose_twin(other))
     return [each for each in found if differ(find_marks(each.model, each.x), marks[0])]
+
+
+def weigh(rival: Candidate, fit: Fit) -> Fit:
+    """Return the motion next to another one of a search that fits best by the noise of a fit."""
+    model = rival.model.move(fit.model.record)
+    return Fit(model, fit_weighted(model, rival.x, fit.noise), fit.noise)
 
 
 def differ(first: Real, second: Real) -> bool:

@@ -27,6 +27,7 @@ from symtop_ros.truth.fit.record import Record
 
 MOUNT = ("bias_x", "bias_y", "bias_z", "tilt_x", "tilt_y")  # of a gyroscope
 FORCE_BIASES = ("bias_fx", "bias_fy", "bias_fz")  # of an accelerometer
+LENGTH = "log_length"  # of points of an axis; their distance from the pivot is exp(log_length)
 TURNS = ("turn_1", "turn_2", "turn_3")
 FRICTION = ("axial/Iz", "transverse/Ix")
 THINNEST = 1e-4  # Iz/Ix of a rod
@@ -66,6 +67,7 @@ class Model:
             "wy",
             *(FRICTION if self.record.has_friction else ()),
             *(MOUNT if self.record.has_mount else ()),
+            *((LENGTH,) if self.record.has_length else ()),
             *(("gravity",) if is_inertial else ()),
             *(FORCE_BIASES if is_inertial and self.record.has_mount else ()),
             *(camera if self.kind.name == "pixels" else ()),
@@ -160,7 +162,7 @@ class Model:
             return self._mount(state.angular_velocity, x)
         axis = find_axis(state.orientation)
         if self.kind.name == "axis":
-            return axis
+            return axis * np.exp(self.take(x, LENGTH))[:, np.newaxis, np.newaxis]
         if self.kind.name == "pixels":
             return project(axis, self._find_cameras(x))
         theta = np.arctan2(np.hypot(axis[..., 0], axis[..., 1]), axis[..., 2])
@@ -219,7 +221,7 @@ class Model:
             size = float(np.exp(x[self.place["log_scale"]]))
         sizes = {"Mgl/Ix": max(abs(x[0]), 0.01 * rate**2), "u": size, "v": size}
         sizes |= dict.fromkeys(("gravity", *FORCE_BIASES), STANDARD_GRAVITY)
-        ones = "Iz/Ix", "log_scale", "elevation", "roll", "nearness", *TURNS, *MOUNT[3:]
+        ones = "Iz/Ix", "log_scale", "elevation", "roll", "nearness", LENGTH, *TURNS, *MOUNT[3:]
         sizes |= dict.fromkeys(ones, 1.0)
         return np.array([sizes.get(name, rate) for name in self.names])
 

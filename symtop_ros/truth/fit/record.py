@@ -15,7 +15,9 @@ FEWEST = 12  # rows
 MOST = points.MOST  # rows of a fit, as many as a run has points; more are thinned
 RUN = 200  # rows that follow each other in a record that was thinned, for the correlation of noise
 GAP = 1.5  # medians of the steps; a longer step ends a run of noise
-ROUNDED = 2  # rows for each value of a column, at least, if it is rounded
+MULTIPLES = 6  # the smallest difference of rounded values is a step, or 2 or 3, and seldom more
+MANY = 1e12  # units; such differences of doubles are whole numbers by their own rounding
+EVEN = 0.1  # of a unit; what decimals, or a change of units, leave of whole numbers
 LENGTH, USUAL = 0.1, 75  # relative differences of lengths in most rows, in per cent of them
 STILL = 1e-9  # of the size of the numbers; what changes less does not move
 NORMAL = 1.4826  # deviation of a normal distribution, in median distances from the median
@@ -40,6 +42,9 @@ class Record:
         Known values with their standard deviations: "Mgl/Ix", "Iz/Ix", and biases.
     has_friction : bool
         True if friction is looked for.
+    has_length : bool
+        Of points of an axis: True if their distance from the pivot is looked for; values are about
+        one.
     has_mount : bool
         Of rates: True if biases and the tilt of the sensor are looked for.
     has_perspective : bool
@@ -56,6 +61,7 @@ class Record:
     camera: Mapping[str, float] = field(default_factory=dict)
     known: Mapping[str, Known] = field(default_factory=dict)
     has_friction: bool = False
+    has_length: bool = False
     has_mount: bool = False
     has_perspective: bool = False
     position: tuple[float, ...] = (0.0, 0.0, 0.0)
@@ -82,18 +88,8 @@ class Record:
 
     @cached_property
     def rounding(self) -> Real:
-        """Deviation (m,) of the rounding of each column to its decimals; 0 if none is seen.
-
-        A column that is rounded has few values; rounding to a step has the deviation step/sqrt(12).
-        """
-        found = np.zeros(self.values.shape[1])
-        for column, values in enumerate(self.values.T):
-            unique = np.unique(values)
-            if 1 < len(unique) < len(self) / ROUNDED:
-                found[column] = np.diff(unique).min() / np.sqrt(12)
-            elif len(unique) == 1:
-                found[column] = find_decimal(values[0]) / np.sqrt(12)
-        return found
+        """Deviation step/sqrt(12), (m,), of the rounding of each column; 0 if none is seen."""
+        return np.asarray(find_steps(self.values) / np.sqrt(12))
 
     @property
     def plain(self) -> "Record":
@@ -121,6 +117,31 @@ class Record:
         pieces = max(most // RUN, 1)
         firsts = np.linspace(0, len(self) - RUN, pieces).astype(int)
         return self.select(np.unique(firsts[:, np.newaxis] + np.arange(RUN)).ravel())
+
+
+def find_steps(values: Real) -> Real:
+    """Return the steps (m,) to which columns (n, m) are rounded; 0: none is seen.
+
+    A column that does not change shows none: it has the smallest of the others, or else a step of
+    its last decimal.
+    """
+    steps = np.array([find_step(column) for column in values.T])
+    still = np.ptp(values, axis=0) == 0
+    if (steps[~still] > 0).all() and not still.all():
+        steps[still] = steps[~still].min()
+    return steps
+
+
+def find_step(values: Real) -> float:
+    """Return the step of which all values (n,) are multiples, apart from a constant; 0: of none."""
+    differences = np.diff(np.unique(values))
+    if not len(differences):
+        return find_decimal(values[0])
+    unit = differences.min() / MULTIPLES
+    counts = differences / unit
+    if counts.max() > MANY or np.abs(counts - np.round(counts)).max() > EVEN:
+        return 0.0
+    return float(np.gcd.reduce(np.round(counts).astype(np.int64)) * unit)
 
 
 def find_decimal(value: float) -> float:
@@ -169,10 +190,11 @@ def make_record(times: Real, values: Real, kind: str, **more: object) -> Record:
             f"{times.size} times, got shape {values.shape}"
         )
     _refuse_odd(times, values)
+    length = 1.0
     if kind in {"axis", "attitude"}:
-        values = _normalize(values, kind)
+        values, length = _normalize(values, kind)
     _refuse_still(values, found)
-    return Record(times, values, found, **more)  # type: ignore[arg-type]
+    return Record(times, values, found, has_length=length != 1, **more)  # type: ignore[arg-type]
 
 
 def _refuse_odd(times: Real, values: Real) -> None:
@@ -194,19 +216,22 @@ def _refuse_odd(times: Real, values: Real) -> None:
         )
 
 
-def _normalize(values: Real, kind: str) -> Real:
-    """Return rows of norm 1; those of points at one distance are divided by one length.
+def _normalize(values: Real, kind: str) -> tuple[Real, float]:
+    """Return rows of norm 1, and by which length those of points at one distance were divided.
 
-    Errors that last would be modulated by the motion, if each row were divided by its own.
+    Errors that last would be modulated by the motion, if each row were divided by its own. Points
+    whose length is 1 but for their errors are not divided: the errors would become one of the tilt.
     """
     norms = np.linalg.norm(values, axis=1, keepdims=True)
     if not norms.all():
         row = int(np.argmin(norms)) + 1
         raise refuse(f"{kind} in row {row}", "a vector other than zero", 0.0)
-    usual = np.median(norms)
-    if kind == "axis" and np.percentile(np.abs(norms / usual - 1), USUAL) < LENGTH:
-        return np.asarray(values / usual)
-    return np.asarray(values / norms)
+    usual = float(np.median(norms))
+    if kind != "axis" or np.percentile(np.abs(norms / usual - 1), USUAL) >= LENGTH:
+        return np.asarray(values / norms), 1.0
+    errors = max(float(find_spread(norms)[0]), float(find_steps(values).max()), STILL)
+    length = 1.0 if abs(usual - 1) <= errors else usual
+    return np.asarray(values / length), length
 
 
 def _refuse_still(values: Real, kind: Kind) -> None:

@@ -24,6 +24,8 @@ PRECISE = 1e-7  # of the sum of squares: a hundredth of a deviation of a paramet
 FIXED = 12.0  # deviations of rounding, of which a step has 3.5
 DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
 LONG = 1e4  # rad, of the fastest phase in a record
+SLIGHT = 1e-3  # part of the errors of rounding, below which they are noise
+PLACES = 16  # of the steps of rounding, from one to the next
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
 
 
@@ -38,12 +40,15 @@ class Fit:
     noise : Noise
     others : tuple of Fit
         Other motions that fit as well.
+    is_lone : bool
+        True if one search of all found this motion, and what it leaves lasts from row to row.
     """
 
     model: Model
     x: Real
     noise: Noise
     others: tuple["Fit", ...] = field(default=())
+    is_lone: bool = False
 
     @cached_property
     def residuals(self) -> Real:
@@ -98,23 +103,37 @@ class Fit:
 
     @cached_property
     def _shifts(self) -> Real:
-        """Changes (r, p) of the parameters by the rounding of columns that hardly change.
+        """Changes (k, r, p) of the parameters if each column is rounded, for k places of the steps.
 
-        If a number stays within its last decimal, the errors of all rows are one error.
+        Rounding that follows a slow motion is no noise: its errors are those of the motion that was
+        found, whose rows all have one error if a number stays within its last decimal. Where the
+        steps are is chance. Noise makes the errors noise: their mean is smaller by the factor
+        exp(-2 (pi sigma/step)^2) at least (Widrow and Kollar, Quantization Noise, 2008).
         """
         rounding, fixed = find_rounding(self.model.record, self.white.shape[1])
-        sums = self.columns.sum(axis=0) / self.noise.sigma[:, np.newaxis]
-        return np.asarray((rounding * fixed)[:, np.newaxis] * (sums @ self.covariance))
+        steps = np.where(rounding, np.sqrt(12) * rounding, np.inf)
+        left = (self.residuals[self.noise.kept] ** 2).mean(axis=0)
+        noise = np.where(fixed, 0.0, np.maximum(left - rounding**2, 0.0))
+        stays = np.exp(-2 * np.pi**2 * noise / steps**2)
+        sizes = np.where(rounding * (stays > SLIGHT), steps * stays, 0.0)
+        if not sizes.any():
+            return np.zeros((1, *self.columns.shape[1:]))
+        places = self.model.show(self.x[np.newaxis])[0] / steps
+        found = []
+        for place in places + (np.arange(PLACES) + 0.5)[:, np.newaxis, np.newaxis] / PLACES:
+            white = self.noise.whiten(sizes * (np.round(place) - place))
+            found.append(np.einsum("tip,ti->ip", self.columns, white) @ self.covariance)
+        return np.array(found)
 
     def find_deviation(self, slope: Real) -> float:
         """Return the deviation of a combination (p,), also for noise that is correlated."""
         free = self.remainder.independent
         robust = sum_influences(self._influences @ slope, len(self.x), free)
         by_known = float((self.covariance @ slope) ** 2 @ self.priors)
-        by_rounding = float(((self._shifts @ slope) ** 2).sum())
+        by_rounding = float(((self._shifts @ slope) ** 2).mean(axis=0).sum())
         # the few slow swings of a record may happen to be small
         white = float(slope @ self.covariance @ slope)
-        return float(np.sqrt(max(robust + by_known, white) + by_rounding))
+        return float(np.sqrt(max(robust + by_known, white, by_rounding)))
 
 
 def find_sizes(columns: Real, priors: Real) -> Real:
@@ -173,6 +192,7 @@ def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
     least = np.maximum(rounding, DOUBLE * np.abs(record.values).max())
     floor = np.maximum(find_spread(left), least)
     good = np.asarray((np.abs(left) < OUTLIER * floor).all(axis=1))
+    good |= not good.any()
     partial = np.zeros((0, left.shape[1]))
     if lasts:
         partial = np.where(fixed, 0.0, find_lasting(left, good, record.follows, len(x)))

@@ -10,7 +10,7 @@ import numpy as np
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.header import make_header
 from symtop_ros.base.measured import format_measured
-from symtop_ros.truth.fit.check import FAILS, Check
+from symtop_ros.truth.fit.check import FAILS, UNCLEAR, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
@@ -96,6 +96,7 @@ class Report:
             "stretch": check.stretch,
             "noise_order": len(noise.partial),
             "is_flicker": noise.is_flicker,
+            "is_lone": self.fit.is_lone,
             "independent_rows": self.fit.remainder.independent,
             "no_deviations_as": check.fault or None,
             "changed": [vars(each) for each in check.changes],
@@ -121,8 +122,9 @@ class Report:
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""
         noise, order = self.fit.noise, len(self.fit.noise.partial)
+        is_lone = self.check.verdict == UNCLEAR and self.check.is_noise
         record = {
-            "verdict": self.check.verdict,
+            "verdict": "lone" if is_lone else self.check.verdict,
             "undamped": {} if self._lacks_friction else None,
             "outliers": {"count": write_count(noise.outliers, "row")} if noise.outliers else None,
             "lasting": {"order": order} if order and not noise.is_flicker else None,

@@ -74,7 +74,7 @@ class Valley:
         if parts[self.is_curved].sum() > CURVED * parts.sum():
             return False
         own = of(self.fit.x)
-        bends = [np.mean([of(end) for end in ends]) - own for ends in self.floors.values()]
+        bends = [np.mean([_ask(of, end) for end in ends]) - own for ends in self.floors.values()]
         return bool(np.square(bends).sum() <= (BENT * FAR**2) ** 2 * parts.sum())
 
     def _measure_growth(self, x: Real) -> float:
@@ -92,7 +92,10 @@ class Valley:
         )
 
     def _descend(self, x: Real, k: int) -> Real:
-        """Return the lowest point that the directions after the k-th reach from x."""
+        """Return the lowest point that the directions after the k-th reach from x.
+
+        A valley that is very curved may lead to numbers that are those of no motion.
+        """
         values, vectors = self.fit.spectrum
         better = vectors[:, k + 1 :] / self.fit.sizes[:, np.newaxis]
         for _ in range(DESCENTS):
@@ -111,6 +114,14 @@ class Valley:
         _, fixed = find_rounding(self.fit.model.record, self.fit.white.shape[1])
         moved = np.einsum("tip,kp->tik", self.fit.columns[:, fixed], self.steps)
         return np.asarray(self.steps**2 @ self.fit.priors + (moved**2).sum(axis=(0, 1)) > GIVEN)
+
+
+def _ask(of: Callable[[Real], float], x: Real) -> float:
+    """Return a number of the motion of some parameters; NaN if there is no such motion."""
+    try:
+        return of(x)
+    except ValueError:
+        return np.nan
 
 
 def is_near(growth: float) -> bool:

@@ -17,9 +17,9 @@ from symtop_ros.base.arrays import Mask, Places, Real
 ORDERS = 12  # of an autoregression, at most
 PER_ORDER = 20  # rows for each order
 # Twice the logarithm of a ratio of likelihoods, for each column. In 150 to 500 rows of flicker an
-# autoregression is ahead by up to 18, as a few rows hardly show what is slow, and in those of one
+# autoregression is ahead by up to 19, as a few rows hardly show what is slow, and in those of one
 # that keeps 0.8 from row to row by 17 to 90. If neither is clear, the slower one is taken.
-CLEAR = 14.0
+CLEAR = 20.0
 POWERS = np.linspace(0.05, 0.49, 12)  # d of fractional noise, whose power goes with f^(-2 d)
 LONGEST, PER_LAG = 64, 4  # rows by which it is predicted, at most, and rows for each
 LARGEST = 0.9999  # partial autocorrelation

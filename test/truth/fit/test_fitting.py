@@ -48,6 +48,19 @@ def test_the_axis_shows_the_motion_and_the_noise(fit):
     assert Check(fit).verdict == HOLDS
 
 
+def test_the_distance_of_points_other_than_one_is_looked_for(fit):
+    exact = find_axis(CUSPS.at(TIMES).orientation)
+    assert not fit.model.record.has_length
+    assert not make_record(TIMES, exact, "axis").has_length
+    found = fit_motion(make_record(TIMES, 23.0 * make_axis(), "axis"))
+    assert found.model.record.has_length
+    values, known = read_values(found), read_values(fit)
+    assert_near(values["theta"], 0.5)
+    assert_near(values["Mgl/Ix"], 300.0)
+    # a distance that is too large by a part is a tilt
+    assert values["theta"].deviation > known["theta"].deviation
+
+
 def test_angles_show_the_same_across_the_period_of_phi(fit):
     angles = CUSPS.at(TIMES).euler_angles
     seen = np.stack([angles.theta, angles.phi], axis=1)

@@ -101,3 +101,9 @@ def test_noise_of_the_accelerometer_has_its_own_deviation():
     fit = fit_motion(make_noisy("inertial", seen + noise, 0.0, position=POSITION))
     # five deviations of 240 numbers each
     assert fit.noise.sigma == pytest.approx(size, rel=5 / np.sqrt(2 * len(TIMES)))
+
+
+def test_a_camera_beyond_any_picture_overflows_nothing():
+    """Steps along a valley may lead there; warnings are errors in these tests."""
+    camera = {n: np.array([v]) for n, v in {**CAMERA, "log_scale": 1e4}.items()}
+    assert np.isfinite(project(np.eye(3)[None], camera)).all()

@@ -53,3 +53,15 @@ def test_the_floor_of_a_valley_is_where_the_squares_grow_as_they_should():
         )
         # three deviations away: nine, and within a factor of two if a deviation is to hold
         assert 4.5 < floor < 18 < higher
+
+
+def test_a_valley_that_leads_to_no_motion_makes_a_number_doubtful():
+    valley = Valley(fit_from_truth(np.arange(8192) / 32, 1))
+    assert valley.floors
+
+    def ask(x):
+        if not np.array_equal(x, valley.fit.x):
+            raise ValueError
+        return 0.0
+
+    assert not valley.is_straight(np.ones(len(valley.fit.x)), ask)
