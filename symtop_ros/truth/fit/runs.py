@@ -19,7 +19,7 @@ from symtop_ros.run.simulation.points import Points
 from symtop_ros.run.simulation.run_file import RunEvent, write_run
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.truth.fit.camera import CAMERA
-from symtop_ros.truth.fit.model import MOUNT
+from symtop_ros.truth.fit.model import LENGTH, MOUNT
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.twins import change_axial_moment, scale_moments
@@ -100,7 +100,8 @@ def make_run(fit: Fit, rows: int, given: Mapping[str, Known]) -> FittedRun:
 def find_points(fit: Fit, rows: int) -> Points:
     """Return the points of a record and what the motion leaves of them.
 
-    Of a sensor whose bias and tilt were found they are those of a sensor without.
+    Of a sensor whose bias and tilt were found they are those of a sensor without, and of points at a
+    distance from the pivot that was found those at one.
     """
     record = fit.model.record
     values, residuals = record.values, -fit.residuals
@@ -111,6 +112,9 @@ def find_points(fit: Fit, rows: int) -> Points:
         tilt = [*(found[name] for name in MOUNT[3:]), 0.0]
         values = _turn_back(values - bias, tilt)
         residuals = _turn_back(residuals, tilt)
+    if record.has_length:
+        length = np.exp(fit.x[fit.model.place[LENGTH]])
+        values, residuals = values / length, residuals / length
     camera: dict[str, float] = {}
     if record.kind.name == "pixels":
         camera = {name: fit.model.find_camera(fit.x)[name] for name in CAMERA}

@@ -145,6 +145,16 @@ def test_points_of_a_sensor_are_those_of_one_without_bias_and_tilt():
     assert np.abs(left).max() < 6 * SIGMA
 
 
+def test_points_at_a_distance_are_those_of_an_axis_of_one():
+    seen = 23.0 * make_axis()
+    fit = fit_at_truth(make_record(TIMES, seen, "axis"))
+    assert fit.model.record.has_length
+    points = make_run(fit, len(TIMES), {}).points
+    axes = points.values - points.residuals
+    # of unit vectors in double precision
+    assert np.linalg.norm(axes, axis=1) == pytest.approx(np.ones(len(TIMES)), rel=1e-14)
+
+
 def test_pixels_keep_their_camera():
     given = {"u": 600.0, "v": 400.0, "log_scale": 5.5, "elevation": 0.5, "roll": 0.0}
     x, y, z = find_axis(CUSPS.at(TIMES).orientation).T
