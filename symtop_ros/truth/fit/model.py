@@ -250,7 +250,9 @@ class Model:
         count = len(x)
         far = left[count:]  # those of the other side, or of x itself
         taken = moved[:count] - (moved[count:] if central else x)
-        slopes = self._subtract(left[:count], far) / np.diag(taken)[:, np.newaxis, np.newaxis]
+        # Phases beyond 1e10 rad have steps of no digit: NaN ends a search that has lost its way.
+        with np.errstate(invalid="ignore"):
+            slopes = self._subtract(left[:count], far) / np.diag(taken)[:, np.newaxis, np.newaxis]
         return np.asarray(np.moveaxis(slopes, 0, -1))
 
     def _subtract(self, first: Real, second: Real) -> Real:

@@ -100,8 +100,8 @@ def make_run(fit: Fit, rows: int, given: Mapping[str, Known]) -> FittedRun:
 def find_points(fit: Fit, rows: int) -> Points:
     """Return the points of a record and what the motion leaves of them.
 
-    Of a sensor whose bias and tilt were found they are those of a sensor without, and of points at a
-    distance from the pivot that was found those at one.
+    Of a sensor whose bias and tilt were found they are those of a sensor without, and of
+    points at a distance from the pivot that was found those at one.
     """
     record = fit.model.record
     values, residuals = record.values, -fit.residuals
