@@ -27,6 +27,18 @@ SYMTOP_CLONES inline void fill_lanes(const ClosedForm& motion, const double* tim
                  state.omega_y[i]}, motion.start.wz, to.from(i));
 }
 
+// The times in s to a few roundings.
+inline double find_rough_time(const double* times, int64_t i) { return times[i]; }
+
+// True if some of the times lie in the first instants, or if they are so many that to look at all of them
+// would take longer than to prepare for it.
+template <class Times>
+bool needs_first_instants(const ClosedForm& motion, const Times& times, int64_t count) {
+  bool needs = count > LANES;
+  for (int64_t i = 0; i < count && !needs; i++) needs = motion.is_first(find_rough_time(times, i));
+  return needs;
+}
+
 // True if a time lies after the first instants and is not far.
 inline bool is_later(const ClosedForm& motion, double t) {
   return std::fabs(t) > motion.first_end && std::fabs(t) < motion.steps.farthest;
@@ -89,14 +101,17 @@ struct Stamps {
   double find_seconds(int64_t i) const { return to_seconds(find_exact_time(i)); }
 };
 
+inline double find_rough_time(const Stamps& stamps, int64_t i) { return stamps.find_rough_seconds(i); }
+
 // States at stamps. Between the first instants and the first time that is too far, LANES at once.
 class StampedStates {
  public:
-  StampedStates(const ClosedForm& motion, const Stamps& stamps)
+  // What is not needed may not be prepared, or just now by another thread.
+  StampedStates(const ClosedForm& motion, const Stamps& stamps, bool needs_first)
       : motion_(motion),
         stamps_(stamps),
         steps_(motion.steps, FUNCTIONS, stamps.clock),
-        half_turn_(motion.first_instants.half_turn, 1, stamps.clock) {}
+        half_turn_(needs_first ? motion.first_instants.half_turn : Steps(), needs_first, stamps.clock) {}
 
   int64_t fill(int64_t count, const Target& to) const {
     for (int64_t i = 0; i < count;) {
@@ -160,7 +175,7 @@ class StampedStates {
 
 inline int64_t fill(const ClosedForm& motion, const Stamps& stamps, int64_t count,
                     const Target& to) {
-  return StampedStates(motion, stamps).fill(count, to);
+  return StampedStates(motion, stamps, needs_first_instants(motion, stamps, count)).fill(count, to);
 }
 
 inline int64_t fill(const FreeMotion& motion, const Stamps& stamps, int64_t count,

@@ -34,11 +34,12 @@ class GravityMotion {
   bool is_free() const { return is_free_; }
 
   // States at times or stamps, up to the first that is too far; returns how many.
-  template <class... Times>
-  int64_t fill(const Target& to, int64_t count, const Times&... times) {
-    prepare(FIRST_INSTANTS);
-    return is_free_ ? symtop::fill(free_, times..., count, to)
-                    : symtop::fill(closed_, times..., count, to);
+  template <class Times>
+  int64_t fill(const Target& to, int64_t count, const Times& times) {
+    prepare(STATES);
+    if (!is_free_ && needs_first_instants(closed_, times, count)) prepare(FIRST_INSTANTS);
+    return is_free_ ? symtop::fill(free_, times, count, to)
+                    : symtop::fill(closed_, times, count, to);
   }
 
   // False if the time is too far.
