@@ -122,12 +122,14 @@ def is_better(new: Fit, fit: Fit) -> bool:
 
 def settle(fit: Fit, rivals: list[Candidate]) -> Fit:
     """Return the best of a fit and of the motions that fit as well, with the others."""
-    best = fit
-    for each in find_others(fit, rivals):
+    best, others = fit, find_others(fit, rivals)
+    for each in others:
         other = refine(each.model, each.x)
         if is_better(other, best):
             best = other
-    return replace(best, others=tuple(find_others(best, rivals)))
+    if best is not fit:
+        others = find_others(best, rivals)
+    return replace(best, others=tuple(others))
 
 
 def choose_twin(fit: Fit) -> Fit:

@@ -93,11 +93,14 @@ class DrivenMotion {
   // Integrates to a time, and returns the trail that has got there.
   Trail* move(double t, double* steps, Progress* progress) {
     Trail* trail = find_trail(t);
-    if (!trail) return *progress = HAS_NO_MEMORY, nullptr;
+    *progress = HAS_NO_MEMORY;
+    if (!trail) return nullptr;
     double none = 0.0;
     const double before = trail->reach(t, &none, LONGEST_WAY, progress);
-    if (std::fabs(t - before) * trail->decay() > MOST_DECAYS) return *progress = IS_TOO_STIFF, trail;
-    if (before != t) trail->reach(t, steps, LONGEST_WAY, progress);
+    if (std::fabs(t - before) * trail->decay() > MOST_DECAYS)
+      *progress = IS_TOO_STIFF;
+    else if (before != t)
+      trail->reach(t, steps, LONGEST_WAY, progress);
     return trail;
   }
 };

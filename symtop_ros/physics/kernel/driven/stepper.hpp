@@ -54,7 +54,10 @@ class Stepper {
   bool expand(const Knot& knot, int direction, Piece& piece) {
     piece.start = knot;
     const double rate = equations.estimate_rate(knot.now);
-    if (!(rate < LARGEST_ANGULAR_VELOCITY)) return piece.rest_until(knot.t), false;
+    if (!(rate < LARGEST_ANGULAR_VELOCITY)) {
+      piece.rest_until(knot.t);
+      return false;
+    }
     int exponent = 0;
     if (rate) std::frexp(1 / rate, &exponent);
     set_unit(std::ldexp(1.0, exponent));
@@ -63,7 +66,10 @@ class Stepper {
     piece.terms[0][0] = knot.now.q.high, piece.rests[0][0] = knot.now.q.low;
     piece.terms[0][1] = rates.high, piece.rests[0][1] = rates.low;
     series_.expand(in_unit_, equations.share, equations.has_torque, piece);
-    if (!is_moving(piece)) return piece.rest_until(direction * INFINITY), false;
+    if (!is_moving(piece)) {
+      piece.rest_until(direction * INFINITY);
+      return false;
+    }
     piece.end = knot.t + direction * share_ * find_length(piece.terms) * unit_;
     return true;
   }
