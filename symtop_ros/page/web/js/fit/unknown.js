@@ -1,0 +1,128 @@
+// Statements on what a record cannot show, and why: twin of truth/fit/unknown.py.
+//
+// A twin is named only if it was computed and shows the same points to rounding.
+
+import { project } from "./projection.js";
+import { mirrorView, seeFromAbove, turnCamera } from "./twins.js";
+import { ALIASED, SPARSE, countRows, isLevel } from "./values.js";
+
+/** @import { Camera } from "./projection.js" */
+/** @import { Thrown } from "./many.js" */
+/** @import { Fit } from "./refine.js" */
+/** @import { Value } from "./values.js" */
+/** One statement, whose words are those of the template `unknown.KIND`. @typedef {{kind: string, names: string, numbers: number[]}} Unknown */
+
+const EXACT = 1e-9; // of the size of a record
+const STRONG = 0.98; // correlation of two numbers that are only known together
+const ABOVE = 4; // deviations within which a camera may be straight above
+
+/** @param {Fit} fit @param {Value[]} values @returns {Unknown[]} */
+export const listUnknown = (fit, values) => {
+  const together = listTogether(fit, values);
+  const found = [...listTwins(fit), ...together, ...listAmbiguities(fit, values)];
+  const said = found.flatMap(({ names }) => names.split(", "));
+  const curved = values.filter((each) => !each.is_straight && !said.includes(each.name));
+  if (curved.length)
+    found.push({ kind: "curved", names: curved.map(({ name }) => name).join(", "), numbers: [] });
+  const paired = together.flatMap(({ names }) => names.split(" and "));
+  const named = found.flatMap(({ names }) => names.split(", "));
+  for (const { name, value, deviation, is_known } of values)
+    if (!is_known && Number.isFinite(deviation) && !paired.includes(name) && !named.includes(name))
+      found.push({ kind: "weak", names: name, numbers: [value, deviation] });
+  // along a combination that alone is known there is a motion for each of its values
+  const others = together.length ? [] : fit.others;
+  for (const other of others) {
+    const { weight, omega } = other.model.read(other.x);
+    found.push({ kind: "other", names: "Mgl/Ix, p_psi/Ix", numbers: [weight, omega[2]] });
+  }
+  return found;
+};
+
+/** Exact twins: those of any record of an axis, and those that a camera shows as well. @param {Fit} fit @returns {Unknown[]} */
+const listTwins = (fit) => {
+  const { model, x } = fit;
+  // The parameters hold neither a moment alone nor the spin: the model is the same for all of them.
+  const always = [
+    { kind: "moments", names: "Ix, Iz, Mgl", numbers: [] },
+    { kind: "spin", names: "Iz/Ix, spin", numbers: [] },
+  ];
+  if (model.record.kind !== "pixels") return always;
+  const [motion, camera] = [model.read(x), model.findCamera(x)];
+  const [p, weight] = [motion.omega[2], motion.weight];
+  const [over, low] = [turnCamera(motion, camera), mirrorView(motion, camera)];
+  const level = { ...camera, elevation: Math.PI / 2 };
+  /** @type {[Unknown, Seen, Seen][]} */
+  const twins = [
+    [{ kind: "upright", names: "sign of Mgl", numbers: [-weight, p] }, { motion, camera }, over],
+    [
+      { kind: "high", names: "sign of p_psi", numbers: [low.camera.elevation, -p] },
+      { motion, camera },
+      low,
+    ],
+  ];
+  if (isAbove(fit))
+    twins.push([
+      { kind: "above", names: "sign of Mgl", numbers: [-weight, -p] },
+      { motion, camera: level },
+      { motion: seeFromAbove(motion), camera: level },
+    ]);
+  return [
+    ...always,
+    ...twins.flatMap(([said, own, twin]) => (isSame(fit, own, twin) ? [said] : [])),
+  ];
+};
+
+/** @typedef {{motion: Thrown, camera: Camera}} Seen */
+
+/** Whether two motions show the same points. @param {Fit} fit @param {Seen} own @param {Seen} twin */
+const isSame = ({ model }, own, twin) => {
+  const { many, record } = model;
+  const axes = many.findAxes([own.motion, twin.motion], record.times);
+  const [first, second] = [own, twin].map(({ camera }, k) => {
+    const seen = axes[k];
+    return seen && project(seen, camera, new Float64Array(record.flat.length));
+  });
+  if (!first || !second) return false;
+  const size = first.reduce((most, each) => Math.max(most, Math.abs(each)), 0);
+  return first.every((each, k) => Math.abs(each - second[k]) <= EXACT * size);
+};
+
+/** Whether a camera may look straight down. @param {Fit} fit */
+const isAbove = (fit) => {
+  const place = fit.model.place.elevation;
+  const deviation = fit.findDeviation(fit.x.map((_, k) => Number(k === place)));
+  return Math.PI / 2 - fit.x[place] < ABOVE * deviation;
+};
+
+/** Numbers that are not known, but for a combination of both. @param {Fit} fit @param {Value[]} values @returns {Unknown[]} */
+const listTogether = (fit, values) => {
+  const { place } = fit.model;
+  const doubtful = values.filter(({ is_known }) => !is_known).map(({ name }) => name);
+  /** @type {Unknown[]} */
+  const found = [];
+  const names = ["Mgl/Ix", "p_psi/Ix"];
+  if (names.every((each) => doubtful.includes(each))) {
+    const [a, p] = names.map((each) => place[each]);
+    const { covariance } = fit;
+    const ratio = covariance[a][p] / Math.sqrt(covariance[a][a] * covariance[p][p]);
+    const slope = covariance[a][p] / covariance[p][p];
+    const row = fit.x.map((_, k) => (k === a ? 1 : k === p ? -slope : 0));
+    const value = fit.x[a] - slope * fit.x[p];
+    const numbers = [slope, value, fit.findDeviation(row)];
+    if (Math.abs(ratio) > STRONG)
+      found.push({ kind: "together", names: names.join(" and "), numbers });
+  }
+  if (doubtful.includes("scale"))
+    found.push({ kind: "tilt", names: "scale and theta", numbers: [] });
+  return found;
+};
+
+/** Nutations with few rows, and level cameras. @param {Fit} fit @param {Value[]} values @returns {Unknown[]} */
+const listAmbiguities = (fit, values) => {
+  const hidden = ALIASED.filter((name) => values.some((each) => each.name === name)).join(", ");
+  const rows = countRows(fit);
+  return [
+    ...(rows < SPARSE ? [{ kind: "sparse", names: hidden, numbers: [rows] }] : []),
+    ...(isLevel(fit) ? [{ kind: "level", names: "sign of p_psi", numbers: [] }] : []),
+  ];
+};
