@@ -26,7 +26,9 @@ from symtop_ros.words.templates import read_templates
 
 FOLDER = Path(__file__).parent
 MODULES = FOLDER.resolve() / "js"
-MAIN = MODULES / "start.js"
+# The page, and what its script does in a thread of its own, where there is no document.
+START, WORKER = MODULES / "start.js", MODULES / "fit" / "worker.js"
+LOADER = MODULES / "loader.js"
 IMPORT = re.compile(r'^import \{([^}]*)\} from "(\.[./\w]*)\.js";\n', re.M)
 # What the page takes of a button and of a step of the lesson, and what stands for what is left out.
 ACT = {
@@ -39,9 +41,11 @@ EXPORT = re.compile(r"^export (const|class) (\w+)", re.M)
 # Nothing is loaded from anywhere, and no script or style acts but those of the file, by hash. Data
 # are no script: the hashes stay the same in a page that saves itself with a run. A page of a node
 # has its server.
+# A film is a file that was opened, and a thread runs the page's own script: both are blobs.
 POLICY = (
-    "default-src 'none'; script-src {script} 'wasm-unsafe-eval'; style-src {style}; "
-    "img-src data: blob:; font-src data:; connect-src {server}; base-uri 'none'; form-action 'none'"
+    "default-src 'none'; script-src {scripts} 'wasm-unsafe-eval'; style-src {style}; "
+    "img-src data: blob:; media-src blob:; worker-src blob:; font-src data:; connect-src {server}; "
+    "base-uri 'none'; form-action 'none'"
 )
 RECORD = FOLDER / "record.json"  # a run with measured points, which workshop.lesson.example writes
 LESS = ","  # in place of < in packed data
@@ -66,11 +70,13 @@ def write_file(
     )
     style = re.sub(r"^ *(/\* (?:(?!\*/).)*\*/\n)?", "", style, flags=re.M | re.S)
     style = style.replace("/*SYMBOLS*/", _encode((FOLDER / "symbols.woff2").read_bytes()))
-    script = join_modules()
+    script, loader = join_page(), join_loader()
     parts = {
         "VERSION": __version__,
         "POLICY": POLICY.format(
-            script=_sign(script), style=_sign(style), server="'self'" if node else "'none'"
+            scripts=f"{_sign(loader)} {_sign(script)}",
+            style=_sign(style),
+            server="'self'" if node else "'none'",
         ),
         "STYLE": style,
         "LANGUAGE": f'lang="{language}" data-own' if language else 'lang="en"',
@@ -83,7 +89,8 @@ def write_file(
             }
         ),
         "RUN": _write_data(run),
-        "SCRIPT": script,
+        "PACKED": _pack(script.encode()),
+        "LOADER": loader,
     }
     return PART.sub(lambda found: parts[found[1]], page)
 
@@ -100,7 +107,7 @@ def _write_data(data: Any) -> str:
 
 
 def _pack(data: bytes) -> str:
-    """Return data packed by gzip, in base 85: the kernel and five languages are half as long.
+    """Return data packed by gzip, in base 85: less than half as long.
 
     Five letters hold four bytes, and four of base64 three. The one letter that ends an element of a
     page is replaced by one that base 85 (RFC 1924) has not.
@@ -177,11 +184,30 @@ def _read_values(name: str) -> dict[str, Any]:
     }
 
 
-def join_modules() -> str:
-    """Return all modules as one script, which starts the page."""
+def join_page() -> str:
+    """Return the script of the page, which serves fits where it runs without a document.
+
+    What the page has besides the modules of a fit is left out there, as it asks for the document.
+    """
+    shared = _list_modules(WORKER)
+    own = [each for each in _list_modules(START) if each not in shared]
+    lines = [*map(_write_function, shared), f"if (!self.document) module_{WORKER.stem}.serve();"]
+    return "\n".join(
+        [*lines, "else {", *map(_write_function, own), f"module_{START.stem}.start();", "}"]
+    )
+
+
+def join_loader() -> str:
+    """Return the script that unpacks the one of the page, which has modules of the same names."""
+    modules = map(_write_function, _list_modules(LOADER))
+    return "\n".join(["{", *modules, f"module_{LOADER.stem}.load();", "}"])
+
+
+def _list_modules(main: Path) -> list[Path]:
+    """Return a module after all that it imports."""
     ordered: list[Path] = []
-    _order(MAIN, ordered)
-    return "\n".join([*map(_write_function, ordered), f"module_{MAIN.stem}.start();"])
+    _order(main, ordered)
+    return ordered
 
 
 def _order(path: Path, ordered: list[Path]) -> None:

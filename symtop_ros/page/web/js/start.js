@@ -1,6 +1,7 @@
 // The beginning of the page: the kernel, the top, its scene, and the page around it.
 
 import { LAYERS } from "./scene/colors.js";
+import { Fitting } from "./fit/client.js";
 import { Kernel } from "./physics/kernel.js";
 import { LocalTop } from "./run/local.js";
 import { NodeTop } from "./run/node.js";
@@ -14,8 +15,11 @@ import { Scene } from "./scene/scene.js";
 import { TraceChart } from "./charts/trace_chart.js";
 import { offerSheets } from "./controls/sheets.js";
 import { createShoot } from "./scene/shots.js";
+import { unpack } from "./packed.js";
 import { copyPage, readData } from "./run/files.js";
 import { phrase, setTemplates } from "./words/wording.js";
+
+const USUAL = "cusps"; // the scene of a node
 
 /**
  * What the file holds: languages, the texts of each key in all of them, scenes, the lesson and the
@@ -25,27 +29,6 @@ import { phrase, setTemplates } from "./words/wording.js";
  *   lesson: any[], bodies: {[name: string]: import("./physics/kernel.js").Part[]}, run_fields: import("./run/reader.js").Table, opening?: string, run?: any,
  *   node?: string}} Content
  */
-
-const LETTERS =
-  "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~"; // as join.py
-
-/** Bytes: five letters are four of them, and fewer at the end. @param {string} text base 85 */
-const decode = (text) => {
-  const values = new Map([...LETTERS].map((letter, k) => [letter, k]));
-  const view = new DataView(new ArrayBuffer(4 * Math.ceil(text.length / 5)));
-  for (let k = 0; k < text.length; k += 5) {
-    let sum = 0;
-    for (let j = k; j < k + 5; j += 1) sum = 85 * sum + (values.get(text[j] ?? "~") ?? 0);
-    view.setUint32((4 * k) / 5, sum);
-  }
-  return view.buffer.slice(0, Math.floor((4 * text.length) / 5));
-};
-
-/** What is packed by gzip. @param {string} text base 85 */
-const unpack = (text) => {
-  const packed = new Blob([decode(text)]).stream();
-  return new Response(packed.pipeThrough(new DecompressionStream("gzip")));
-};
 
 /**
  * The texts by languages; a key that a language has not is not there.
@@ -85,6 +68,12 @@ const close = (text) => {
     Object.assign(each, { disabled: true });
 };
 
+/** The top whose moments stand for those that no record shows: as for `top_fit --run`. @param {Content} content */
+const findUsualTop = ({ scenes }) => {
+  const [Ix, Iz, Mgl] = scenes.find(({ name }) => name === USUAL).top;
+  return { Ix, Iz, Mgl };
+};
+
 /** @param {Promise<ArrayBuffer>} code */
 const loadKernel = async (code) => {
   try {
@@ -97,6 +86,8 @@ const loadKernel = async (code) => {
 };
 
 export const start = async () => {
+  const script = document.currentScript;
+  script?.remove(); // a page that is saved holds it packed
   const source = copyPage();
   try {
     const { kernel: code, packed, ...own } = readData("top-content");
@@ -111,8 +102,13 @@ export const start = async () => {
     if (!kernel) return;
     const Top = content.node ? NodeTop : LocalTop;
     const top = new Top(kernel, { ...content, layers: LAYERS });
-    // For scripts of the page: motions of their own, and the run as in run.json.
-    const symtop = { motion: kernel.motion.bind(kernel), run: () => top.json };
+    const fitting = new Fitting(script?.textContent ?? "", await unpacked, findUsualTop(content));
+    // For scripts of the page: motions of their own, the run as in run.json, and fits of points.
+    const symtop = {
+      motion: kernel.motion.bind(kernel),
+      run: () => top.json,
+      fit: fitting.fit.bind(fitting),
+    };
     Object.assign(window, { symtop });
     const scene = openScene(top);
     top.tell = guard("texts", page.receive.bind(page));

@@ -22,7 +22,7 @@ export class Fitting {
    * @param {Given} given @param {(part: number) => void} report is called with the part that is done
    * @returns {Promise<Fitted>}
    */
-  fit(given, report) {
+  fit(given, report = () => {}) {
     this.stop();
     const worker = new Worker(this.url);
     this.worker = worker;
