@@ -53,14 +53,14 @@ const seek = (many, record, report) => {
   const bests = [];
   const agree = () => bests.filter((each) => each <= SAME * Math.min(...bests)).length;
   for (const [number, effort] of EFFORTS.entries()) {
+    const tell = (/** @type {number} */ part) => report((number + part) / (EFFORTS.length + 1));
     const ends = expand(
-      search(record.plain, effort, (part) => starts.list(part)),
+      search(record.plain, effort, (part) => starts.list(part, tell)),
       record,
     );
     rivals = [...rivals, ...ends];
     bests.push(Math.min(...ends.map(({ cost }) => cost)));
     if (!found || bests[number] <= Math.min(...bests)) found = chooseBetter(found, ends, record);
-    report((number + 1) / (EFFORTS.length + 1));
     const check = checkFit(found);
     if (agree() >= SURE + Number(!check.is_white) && check.verdict === "holds") break;
   }

@@ -143,12 +143,19 @@ export class Starts {
     this.shapes = drawShapes(many);
   }
 
-  /** The motions, with their maps, that show a part of a record best. @param {Record} part @returns {Start[]} */
-  list(part) {
+  /**
+   * The motions, with their maps, that show a part of a record best.
+   * @param {Record} part @param {(part: number) => void} report is called with the part that is done
+   * @returns {Start[]}
+   */
+  list(part, report) {
     const pictures = new Pictures(this.many, part);
-    const best = listRates(part)
-      .flatMap((rate) => this.choose(pictures, rate))
-      .map((y) => pictures.improve(y))
+    const rates = listRates(part);
+    const best = rates
+      .flatMap((rate, k) => {
+        report(k / rates.length);
+        return this.choose(pictures, rate).map((y) => pictures.improve(y));
+      })
       .filter(({ cost }) => Number.isFinite(cost))
       .sort((a, b) => a.cost - b.cost);
     return chooseDifferent(best.map(({ x }) => x)).flatMap((y) => {
