@@ -4,7 +4,7 @@ const toNumbers = (rows) => Array.from(rows, Number);
 
 /** Open the modules of the fit, with a kernel. */
 const openFit = async () => {
-  const names = ["answer", "check", "fitting", "linear", "many", "model", "projection", "record"];
+  const names = ["answer", "fitting", "lasting", "linear", "many", "model", "projection", "record"];
   const more = ["refine", "statistics", "twins"];
   const found = await Promise.all([...names, ...more].map((name) => import(`/fit/${name}.js`)));
   const modules = Object.assign({}, ...found);
@@ -60,6 +60,17 @@ window.measureNoise = async ([columns, parameters]) => {
     variance: sumInfluences(columns[0], parameters, independent),
     spread: findSpread(columns[0]),
   };
+};
+
+/** Noise that lasts, by columns. */
+window.findLasting = async ([given, good, follows, parameters]) => {
+  const { findLasting, measureNoise, whitenColumns } = await openFit();
+  const [columns, rows] = [
+    given.map((each) => Float64Array.from(each)),
+    { good, follows, parameters },
+  ];
+  const noise = measureNoise(columns, rows, findLasting(columns, rows));
+  return { ...noise, white: whitenColumns(noise, columns).map(toNumbers) };
 };
 
 /** Points that a motion and its twins show, and those of their cameras. */

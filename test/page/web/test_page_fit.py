@@ -17,11 +17,11 @@ from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.unknown import list_unknown
 from symtop_ros.truth.fit.values import list_values
+from symtop_ros.truth.judge.lasting import find_lasting, measure_noise
 from symtop_ros.truth.judge.noise import Remainder, sum_influences
 from workshop.fit.records import NOISES, draw_sample, see
 
 KINDS = "axis", "pixels"
-WHITE = "white", "outliers", "jitter", "missing", "wrong lines"  # noise that the page allows for
 # Squares of deviations by which the page's minimum may be above or below that of top_fit. Both end
 # when a step changes the sum of squares, which is about the number of values, by 1e-7 of it.
 SAME = 1e-3
@@ -117,6 +117,26 @@ def test_noise_is_measured_as_by_python(fits, slope):
     assert found["variance"] == pytest.approx(variance, rel=1e-9)
 
 
+@pytest.mark.parametrize("slope", [0.0, 0.5, 0.9])
+@pytest.mark.parametrize("has_gaps", [False, True])
+def test_noise_that_lasts_is_found_as_by_python(fits, slope, has_gaps):
+    draw = Numbers(f"lasting {slope} {has_gaps}")
+    rows = draw.normals(200, 2)
+    for k in range(1, len(rows)):
+        rows[k] += slope * rows[k - 1]
+    good, follows = np.ones(200, dtype=bool), np.arange(200) > 0
+    if has_gaps:
+        good[[7, 60, 61, 150]], follows[[40, 90]] = False, False
+    partial = find_lasting(rows, good, follows, 8)
+    own = measure_noise(rows, good, follows, partial, 8)
+    found = fits.evaluate("findLasting", [rows.T.tolist(), good.tolist(), follows.tolist(), 8])
+    # sums of 200 products in another order, and logarithms of two libraries, which choose one order
+    np.testing.assert_allclose(np.array(found["partial"]).T, partial, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(found["sigma"], own.sigma, rtol=1e-11)
+    np.testing.assert_allclose(np.array(found["white"]).T, own.whiten(rows), rtol=0, atol=1e-10)
+    assert len(partial) > 0 or slope == 0  # white noise lasts by chance, seldom
+
+
 def test_twins_show_the_points_of_the_motion(fits):
     draw = Numbers("twins of a fit")
     for _ in range(20):
@@ -209,7 +229,7 @@ def compare_values(fit, found):
         yield f"unknown are {kinds}"
 
 
-@pytest.mark.parametrize("noise", ["white", "outliers"])
+@pytest.mark.parametrize("noise", ["white", "outliers", "AR(1)"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_record_has_the_minimum_and_the_deviations_of_top_fit(fits, kind, noise):
     assert hold(fits, kind, noise, FIRST) == []

@@ -1,6 +1,7 @@
 // What is said of a fit, as data, and the motion with its points as a run.
 
 import { checkFit } from "./check.js";
+import { ORDERS } from "./lasting.js";
 import { listUnknown } from "./unknown.js";
 import { CAMERA } from "./projection.js";
 import { LENGTH } from "./model.js";
@@ -15,7 +16,7 @@ import { listValues } from "./values.js";
  * A fit for people: the numbers, whether the model holds and why not, what cannot be known, what of the
  * record this search does not allow for and `top_fit` does, what is left of all rows, and the run.
  * @typedef {{kind: "axis" | "pixels", rows: number, kept: number, outliers: number[], values: Value[],
- *   verdict: Verdict, reasons: Reason[], unknown: Unknown[], limits: string[], residuals: number[][],
+ *   verdict: Verdict, reasons: Reason[], order: number, is_flicker: boolean, unknown: Unknown[], limits: string[], residuals: number[][],
  *   sigma: number[], times: number[], run: any, assumed: {name: string, value: number, unit: string}[]}} Fitted
  */
 /** Why the model is in doubt or wrong. @typedef {{kind: string, changes?: Change[], count?: number}} Reason */
@@ -37,6 +38,8 @@ export const describeFit = (fit, top) => {
     values,
     verdict: check.verdict,
     reasons: listReasons(check, fit),
+    order: noise.partial[0].length,
+    is_flicker: noise.partial[0].length > ORDERS,
     unknown: listUnknown(fit, values),
     limits: listLimits(check, fit),
     residuals: splitRows(fit.residuals, record.width),
@@ -57,9 +60,8 @@ const listReasons = ({ is_white, is_smooth, changes, stretch, fault }, fit) => [
 ];
 
 /** What top_fit allows for and this search does not. @param {ReturnType<typeof checkFit>} check @param {Fit} fit */
-const listLimits = ({ verdict, is_white, is_smooth }, fit) => [
+const listLimits = ({ verdict, is_smooth }, fit) => [
   ...(verdict === "fails" || is_smooth ? ["friction"] : []),
-  ...(is_white ? [] : ["lasting"]),
   ...(isCoarse(fit) ? ["rounded"] : []),
   ...(fit.model.record.count < fit.model.record.given.times.length ? ["rows"] : []),
 ];

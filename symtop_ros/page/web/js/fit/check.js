@@ -21,7 +21,7 @@ const TINY = 1e-300;
 /** @param {Fit} fit */
 export const checkFit = (fit) => {
   const columns = splitColumns(fit.white, fit.model.record.width);
-  const [is_white, is_smooth] = [isWhite(columns), isSmooth(fit, columns)];
+  const [is_white, is_smooth] = [isWhite(columns), isSmooth(fit)];
   const [changes, stretch, fault] = [listChanges(fit), findStretch(fit), findFault(fit)];
   const isNoise = is_white && !is_smooth && !fault && !stretch;
   /** @type {Verdict} */
@@ -30,8 +30,11 @@ export const checkFit = (fit) => {
   return { verdict, is_white, is_smooth, changes, stretch, fault };
 };
 
-/** Whether residuals change slowly: they may be motion. @param {Fit} fit @param {Float64Array[]} columns */
-const isSmooth = ({ model, noise }, columns) => {
+/** Whether residuals change slowly: they may be motion. @param {Fit} fit */
+const isSmooth = ({ model, noise, residuals }) => {
+  const columns = splitColumns(residuals, model.record.width).map((each, k) =>
+    noise.kept.map((row) => each[row] / noise.sigma[k]),
+  );
   const squares = columns.map((each) => dot(each, each) / each.length);
   const steps = columns.map((each, k) => {
     const sum = each.slice(1).reduce((all, next, row) => all + (next - each[row]) ** 2, 0);

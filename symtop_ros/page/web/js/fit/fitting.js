@@ -38,7 +38,7 @@ export const fitMotion = (many, record, report) => {
     found = chooseBetter(found, ends, record);
   }
   const best = settle(chooseTwin(found), rivals);
-  best.isLone = isLone && !checkFit(best).is_white;
+  best.isLone = isLone && best.lasts; // what is left of a wrong minimum lasts
   return best;
 };
 
@@ -61,8 +61,8 @@ const seek = (many, record, report) => {
     rivals = [...rivals, ...ends];
     bests.push(Math.min(...ends.map(({ cost }) => cost)));
     if (!found || bests[number] <= Math.min(...bests)) found = chooseBetter(found, ends, record);
-    const check = checkFit(found);
-    if (agree() >= SURE + Number(!check.is_white) && check.verdict === "holds") break;
+    // Noise that lasts may be the motion that a wrong minimum leaves: then three have to find it.
+    if (agree() >= SURE + Number(found.lasts) && checkFit(found).verdict === "holds") break;
   }
   return { found: /** @type {Fit} */ (found), rivals, isLone: agree() < SURE };
 };

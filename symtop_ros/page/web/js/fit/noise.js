@@ -1,9 +1,12 @@
-// The noise of what a motion leaves: outliers, and a deviation of each column. It is taken as white.
+// The noise of what a motion leaves: outliers, what lasts from row to row, and a deviation of each column.
+//
+// Twin of find_noise in truth/fit/refine.py.
 
+import { findLasting, measureNoise, whitenColumns } from "./lasting.js";
 import { findSpread } from "./statistics.js";
 
 /** @import { Model } from "./model.js" */
-/** @typedef {ReturnType<typeof findNoise>} Noise */
+/** @import { Noise } from "./lasting.js" */
 
 const OUTLIER = 5; // deviations; a normal number is farther once in two million
 const DOUBLE = 1e-14; // of the values; what exact states leave is rounding, and no smaller
@@ -12,31 +15,30 @@ const DOUBLE = 1e-14; // of the values; what exact states leave is rounding, and
 export const splitColumns = (flat, width) =>
   Array.from({ length: width }, (_, k) => flat.filter((_, place) => place % width === k));
 
-/** @param {Model} model @param {number[]} x */
-export const findNoise = (model, x) => {
+/** @param {Model} model @param {number[]} x @param {boolean} lasts whether noise may last @returns {Noise} */
+export const findNoise = (model, x, lasts) => {
   const { record } = model;
   const columns = splitColumns(model.findResiduals(x), record.width);
   const size = record.flat.reduce((most, each) => Math.max(most, Math.abs(each)), 0);
   const least = record.rounding.map((each) => Math.max(each, DOUBLE * size));
   const floors = columns.map((each, k) => Math.max(findSpread(each), least[k]));
-  let kept = Array.from(columns[0].keys()).flatMap((row) =>
-    columns.every((each, k) => Math.abs(each[row]) < OUTLIER * floors[k]) ? [row] : [],
+  let good = Array.from(columns[0], (_, row) =>
+    columns.every((each, k) => Math.abs(each[row]) < OUTLIER * floors[k]),
   );
-  if (!kept.length) kept = Array.from(columns[0], (_, row) => row);
-  const free = Math.max(kept.length - x.length / record.width, 1);
-  const sigma = columns.map((each, k) => {
-    const squares = kept.reduce((sum, row) => sum + each[row] ** 2, 0);
-    return Math.max(Math.sqrt(squares / free), least[k]);
-  });
-  return { kept, sigma, outliers: columns[0].length - kept.length };
+  if (!good.some(Boolean)) good = good.map(() => true);
+  const rows = { good, follows: record.follows, parameters: x.length };
+  const partial = lasts ? findLasting(columns, rows) : columns.map(() => []);
+  const noise = measureNoise(columns, rows, partial);
+  return { ...noise, sigma: noise.sigma.map((each, k) => Math.max(each, least[k])) };
 };
 
-/** The kept rows of some, in deviations. @param {Noise} noise @param {Float64Array} rows */
-export const whiten = ({ kept, sigma }, rows) => {
-  const width = sigma.length;
-  const found = new Float64Array(kept.length * width);
-  kept.forEach((row, place) => {
-    for (let k = 0; k < width; k += 1) found[place * width + k] = rows[row * width + k] / sigma[k];
+/** What is new in the kept rows of some, in deviations. @param {Noise} noise @param {Float64Array} flat */
+export const whiten = (noise, flat) => {
+  const width = noise.sigma.length;
+  const columns = whitenColumns(noise, splitColumns(flat, width));
+  const found = new Float64Array(noise.kept.length * width);
+  columns.forEach((each, k) => {
+    for (let row = 0; row < each.length; row += 1) found[row * width + k] = each[row];
   });
   return found;
 };

@@ -1,6 +1,6 @@
 // A motion that was fitted, by the noise that it leaves, and the deviations of its numbers.
 //
-// Twin of truth/fit/refine.py, for white noise.
+// Twin of truth/fit/refine.py.
 
 import { apply, dot, findEigen, multiplyPairs, transpose } from "./linear.js";
 import { findNoise, splitColumns, whiten } from "./noise.js";
@@ -8,7 +8,7 @@ import { fitWeighted } from "./search.js";
 import { countIndependent, sumInfluences } from "./statistics.js";
 
 /** @import { Model } from "./model.js" */
-/** @import { Noise } from "./noise.js" */
+/** @import { Noise } from "./lasting.js" */
 /**
  * Derivatives of the rows in deviations, a column for each parameter; weights of what is known; and
  * Fisher's matrix of parameters times sizes, by its eigenvalues and vectors.
@@ -17,7 +17,7 @@ import { countIndependent, sumInfluences } from "./statistics.js";
  */
 
 const ROUNDS = 8; // of weights and least squares
-const SETTLED = 1e-3; // of the deviations of noise
+const SETTLED = 1e-3; // of the deviations and correlations of noise
 const PRECISE = 1e-7; // of the sum of squares: a hundredth of a deviation of a parameter
 const STEPS = 60;
 const LONG = 1e4; // rad, of the fastest phase in a record
@@ -74,6 +74,11 @@ export class Fit {
     );
   }
 
+  /** Whether the noise lasts from row to row. */
+  get lasts() {
+    return this.noise.partial[0].length > 0;
+  }
+
   get independent() {
     this.found.independent ??= countIndependent(splitColumns(this.white, this.model.record.width));
     return this.found.independent;
@@ -112,12 +117,12 @@ const sumRows = (a, b, width) =>
 
 /** The fit, weighted by the noise that it leaves, from a motion that is near it. @param {Model} model @param {number[]} x */
 export const refine = (model, x) => {
-  let noise = findNoise(model, x);
+  let noise = findNoise(model, x, false);
   let found = x;
   for (let round = 0; round < ROUNDS; round += 1) {
     found = fitByNoise(model, found, noise);
     const before = noise;
-    noise = findNoise(model, found);
+    noise = findNoise(model, found, true);
     if (isSettled(before, noise)) break;
   }
   return new Fit(model, found, noise);
@@ -135,4 +140,9 @@ export const fitByNoise = (model, x, noise) => {
 /** @param {Noise} before @param {Noise} noise */
 const isSettled = (before, noise) =>
   String(before.kept) === String(noise.kept) &&
-  before.sigma.every((each, k) => Math.abs(each / noise.sigma[k] - 1) < SETTLED);
+  before.sigma.every((each, k) => Math.abs(each / noise.sigma[k] - 1) < SETTLED) &&
+  before.partial.every(
+    (each, k) =>
+      each.length === noise.partial[k].length &&
+      each.every((one, lag) => Math.abs(one - noise.partial[k][lag]) < SETTLED),
+  );
