@@ -19,7 +19,7 @@ from symtop_ros.truth.fit.unknown import list_unknown
 from symtop_ros.truth.fit.values import list_values
 from symtop_ros.truth.judge.lasting import find_lasting, measure_noise
 from symtop_ros.truth.judge.noise import Remainder, sum_influences
-from workshop.fit.records import NOISES, draw_sample, see
+from workshop.fit.records import draw_sample, see
 
 KINDS = "axis", "pixels"
 # Squares of deviations by which the page's minimum may be above or below that of top_fit. Both end
