@@ -233,3 +233,33 @@ def compare_values(fit, found):
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_record_has_the_minimum_and_the_deviations_of_top_fit(fits, kind, noise):
     assert hold(fits, kind, noise, FIRST) == []
+
+
+def test_the_page_fits_in_a_thread_and_its_motion_runs_meanwhile(fits, opened):
+    record, _, _ = make_case("axis")
+    given = write(record)
+    begin = opened.tab.evaluate("symtop.run().end")
+    asked = "(given) => symtop.fit(given, (part) => window.parts.push(part))"
+    opened.tab.evaluate("window.parts = []")
+    found = opened.tab.evaluate(asked, given)
+    assert found == fits.evaluate("fitRecord", given)
+    assert opened.tab.evaluate("symtop.run().end") > begin
+    parts = opened.tab.evaluate("parts")
+    assert parts == sorted(parts)
+    assert 0 <= parts[0] < parts[-1] < 1
+    text = opened.tab.evaluate(
+        "(given) => symtop.fit({...given, times: [1]}).catch((error) => error.message)", given
+    )
+    assert text == "a record must have at least 12 rows, got 1"
+
+
+def test_a_page_in_a_frame_that_may_not_do_much_fits_as_well(open_page, path, tmp_path):
+    """As learning platforms show pages: sandboxed, and of no origin."""
+    frame = tmp_path / "frame.html"
+    frame.write_text(f'<iframe sandbox="allow-scripts" src="{path.as_uri()}"></iframe>')
+    page = open_page()
+    page.tab.goto(frame.as_uri())
+    inner = page.tab.frames[1]
+    inner.locator("#headline:not(:empty)").wait_for(state="attached")
+    record, _, _ = make_case("axis")
+    assert inner.evaluate("(given) => symtop.fit(given).then((f) => f.verdict)", write(record))

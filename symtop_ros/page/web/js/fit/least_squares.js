@@ -34,55 +34,64 @@ const soften = (left, columns) => {
 };
 
 /**
+ * Parameters, what they leave, and its cost.
+ * @typedef {{x: number[], left: Float64Array, cost: number}} Point
+ */
+
+/** @param {Problem} problem @param {number[]} x @returns {Point} */
+const evaluate = ({ find, isSoft }, x) => {
+  const left = find(x);
+  return { x, left, cost: measure(left, isSoft) };
+};
+
+/**
  * The parameters that leave least, near some, and the cost of what they leave. It ends if a step makes
  * the cost smaller by less than a part `precise`, or after `most` steps.
  * @param {Problem} problem @param {number[]} start @param {number} most @param {number} precise
  */
 export const minimise = (problem, start, most, precise) => {
-  const { find, derive, clip, isSoft } = problem;
-  let x = clip(start);
-  let left = find(x);
-  let cost = measure(left, isSoft);
+  let best = evaluate(problem, problem.clip(start));
   let damping = DAMPING;
   for (let step = 0; step < most; step += 1) {
-    const seen = { left, columns: derive(x) };
-    const { normal, slopes } = write(isSoft ? soften(seen.left, seen.columns) : seen);
-    if (!slopes.every(Number.isFinite)) return { x, cost: step ? cost : Infinity };
-    const before = cost;
-    let ended = false;
-    for (;;) {
-      const moved = move(clip, x, normal, slopes, damping);
-      const next = moved && find(moved);
-      const new_cost = next ? measure(next, isSoft) : Infinity;
-      if (moved && next && new_cost < cost) {
-        [x, left, cost] = [moved, next, new_cost];
-        ended = before - cost < precise * before && damping <= CALM;
-        damping *= LESS;
-        break;
-      }
-      damping *= MORE;
-      if (damping > LOST) return { x, cost };
-    }
-    if (ended) break;
+    const { normal, slopes } = write(problem, best);
+    if (!slopes.every(Number.isFinite)) return { x: best.x, cost: Infinity };
+    const found = descend(problem, best, normal, slopes, damping);
+    if (!found) break;
+    const isLast = best.cost - found.point.cost < precise * best.cost && found.damping <= CALM;
+    best = found.point;
+    damping = found.damping * LESS;
+    if (isLast) break;
   }
-  return { x, cost };
+  return { x: best.x, cost: best.cost };
 };
 
-/** @param {{left: Float64Array, columns: Float64Array[]}} seen */
-const write = ({ left, columns }) => ({
-  normal: multiplyPairs(columns),
-  slopes: columns.map((each) => dot(each, left)),
-});
-
 /**
- * @param {Problem["clip"]} clip @param {number[]} x @param {number[][]} normal
- * @param {number[]} slopes @param {number} damping
+ * A better point, and the damping that led there; null if there is none.
+ * @param {Problem} problem @param {Point} best @param {number[][]} normal @param {number[]} slopes
+ * @param {number} first
  */
-const move = (clip, x, normal, slopes, damping) => {
+const descend = (problem, best, normal, slopes, first) => {
+  for (let damping = first; damping < LOST; damping *= MORE) {
+    const x = move(best.x, normal, slopes, damping);
+    const point = x && evaluate(problem, problem.clip(x));
+    if (point && point.cost < best.cost) return { point, damping };
+  }
+  return null;
+};
+
+/** The products of derivatives with each other, and with what is left. @param {Problem} problem @param {Point} best */
+const write = ({ derive, isSoft }, best) => {
+  const seen = { left: best.left, columns: derive(best.x) };
+  const { left, columns } = isSoft ? soften(seen.left, seen.columns) : seen;
+  return { normal: multiplyPairs(columns), slopes: columns.map((each) => dot(each, left)) };
+};
+
+/** @param {number[]} x @param {number[][]} normal @param {number[]} slopes @param {number} damping */
+const move = (x, normal, slopes, damping) => {
   const sizes = normal.map((row, k) => Math.sqrt(row[k]) + TINY);
   const scaled = normal.map((row, j) =>
     row.map((each, k) => each / sizes[j] / sizes[k] + (j === k ? damping + RIDGE : 0)),
   );
   const step = solve(scaled, [slopes.map((each, k) => each / sizes[k])])?.[0];
-  return step && clip(x.map((each, k) => each - step[k] / sizes[k]));
+  return step && x.map((each, k) => each - step[k] / sizes[k]);
 };

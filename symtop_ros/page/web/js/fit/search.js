@@ -31,9 +31,6 @@ export const EFFORTS = [
 ];
 export const AGAIN = 2; // the effort with which other starts are tried
 
-/** @param {number[]} columns */
-const findScale = (columns) => findMedian(columns);
-
 /** The parameters within their limits. @param {Model} model */
 export const limit = (model) => {
   const { elevation, nearness } = model.place;
@@ -77,7 +74,7 @@ export const fitWeighted = (model, x, weigh, isSoft, most, precise, central = fa
 
 /** The minimum near a start, by a loss in which outliers count little. @param {Start} start @param {number} most @returns {Candidate} */
 const improve = ({ model, x }, most) => {
-  const scale = SOFT * findScale(model.record.spreads) + 1e-12;
+  const scale = SOFT * findMedian(model.record.spreads) + 1e-12;
   const weigh = (/** @type {Float64Array} */ rows) => rows.map((each) => each / scale);
   return { model, ...fitWeighted(model, x, weigh, true, most, NEAR) };
 };
@@ -117,7 +114,7 @@ export const search = (record, effort, list) => {
 
 /** The starts that are nearest to a part of a record. @param {Start[]} starts @param {Record} part @param {number} most */
 const choose = (starts, part, most) => {
-  const wide = BROAD * findScale(part.spreads);
+  const wide = BROAD * findMedian(part.spreads);
   const rated = starts.map(({ model, x }) => {
     const left = model.move(part).findResiduals(x);
     return { model, x, cost: left.reduce((sum, each) => sum + Math.min(Math.abs(each), wide), 0) };
