@@ -16,6 +16,7 @@ from run.simulation.page_runs import change as page_run
 from trials import choose
 from waiting import TIMEOUT
 
+from symtop_ros import __version__
 from symtop_ros.page.panel import main as module
 from symtop_ros.page.panel.server import LOCAL_HOST
 from symtop_ros.page.web.join import write_file
@@ -91,7 +92,7 @@ def test_a_saved_run_of_the_same_name_is_kept():
     assert sorted(path.name for path in Path().iterdir()) == ["top.html", "top_2.html"]
 
 
-@pytest.mark.parametrize("change", [("0.5.0", "0.4.0"), ("<body", "<body data-old")])
+@pytest.mark.parametrize("change", [(__version__, "0.4.0"), ("<body", "<body data-old")])
 def test_a_page_without_a_run_is_renewed_whatever_its_version(change, capsys):
     Path("top.html").write_text(write_file().replace(*change))
     assert module.main(["--no-browser"]) == 0
