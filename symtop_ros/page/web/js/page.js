@@ -10,6 +10,7 @@ import { Layers } from "./controls/layers.js";
 import { Lesson, writePredictions } from "./controls/lesson.js";
 import { splitLink } from "./run/links.js";
 import { FULL, recall } from "./run/memory.js";
+import { Measure } from "./controls/measure.js";
 import { Moments } from "./controls/moments.js";
 import { offerCopy, offerFullScreen, showLink } from "./controls/window.js";
 import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
@@ -74,6 +75,7 @@ export class Page {
     this.timeline = new Timeline((time) => send({ act: "seek", time }));
     this.layers = new Layers(send);
     this.moments = new Moments(send);
+    this.measure = new Measure(send, this.load.bind(this));
     /** @type {Lesson | null} */
     this.lesson = null; // until the top has sent its steps
     /** @type {((name: string) => void) | null} */
@@ -123,10 +125,15 @@ export class Page {
     for (const name of /** @type {const} */ (["pointermove", "pointerdown"])) // also a finger's
       document.addEventListener(name, (event) => top.marks.follow(event), { capture: true });
     offerFiles(top, source);
-    openDropped((run) => {
-      this.question.leave(); // a run of one start is no new act that would end it
-      this.send({ act: "load", run });
-    });
+    const { node } = this.content;
+    find("tab-measure").hidden = Boolean(node); // it has its own motion
+    openDropped(this.load.bind(this), node ? null : (file) => this.measure.open(file));
+  }
+
+  /** Open a run. @param {any} run of run.json */
+  load(run) {
+    this.question.leave(); // a run of one start is no new act that would end it
+    this.send({ act: "load", run });
   }
 
   /** @param {Message} message */
@@ -307,6 +314,7 @@ export class Page {
     say("points", writePoints(points));
     this.timeline.show(time, end);
     this.question.show(time);
+    if (this.top) this.measure.follow(this.top);
     const kind = !this.facts.running ? "paused" : isSlow ? "slow" : null;
     say("pace", kind ? phrase("watched", { kind }) : "");
   }
