@@ -6,7 +6,6 @@ import { addClick, History, listMarks, setBall } from "../film/clicks.js";
 import { find, findAll, say } from "./document.js";
 import { refuse, refuseField, acceptField } from "./notices.js";
 import { Stage } from "./stage.js";
-import { writeNumber } from "../words/numbers.js";
 import { halveLastDigit, parseQuantity } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
@@ -343,14 +342,14 @@ export class Clicking {
     setDisabled("remove-click", !clicks.balls.has(film.place));
     setDisabled("frame-back", !planned.some((each) => each < film.place));
     setDisabled("frame-next", !planned.some((each) => each > film.place));
-    const last_ = film.times.length - 1;
+    const frames = film.times.length;
     const line = find("film-line", HTMLInputElement);
-    Object.assign(line, { max: last_, value: film.place });
-    line.style.setProperty("--part", `${last_ ? (100 * film.place) / last_ : 0}%`);
+    Object.assign(line, { max: frames - 1, value: film.place });
+    line.style.setProperty("--part", `${(100 * film.place) / Math.max(frames - 1, 1)}%`);
     const said = phrase("measure.clock", {
       frame: film.place + 1,
-      frames: last_ + 1,
-      time: writeNumber(film.times[film.place], "3f"),
+      frames,
+      time: film.times[film.place],
     });
     say("film-clock", said);
     line.setAttribute("aria-valuetext", said);

@@ -131,7 +131,8 @@ const readRows = (lines, { time, columns }, file) => {
   const numbers = rows.flatMap(({ line, number }) => {
     const cells = splitCells(line, separator);
     const picked = [time, ...columns].map((place) => cells[place]);
-    if (picked.some((cell) => cell === undefined)) throw refuse("columns", { file, number, got: line });
+    if (picked.some((cell) => cell === undefined))
+      throw refuse("columns", { file, number, got: line });
     isWhole &&= WHOLE.test(picked[0]);
     if (picked.includes("")) return [];
     const row = picked.map((cell) => readNumber(cell, separator));
