@@ -8,12 +8,13 @@ import { readTable } from "../film/table.js";
 import { find, say } from "./document.js";
 import { acceptField, refuse, refuseField } from "./notices.js";
 import { openTab } from "./tabs.js";
-import { project } from "../run/marks.js";
+import { project } from "../fit/projection.js";
 import { save } from "../run/files.js";
 import { NANO } from "../physics/course.js";
 import { parseQuantity } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
+/** @import { Camera } from "../fit/projection.js" */
 /** @import { Table } from "../film/table.js" */
 /** @import { Place } from "../film/clicks.js" */
 /** @import { Given } from "../film/measured.js" */
@@ -347,7 +348,8 @@ const isSame = (points, own) =>
 
 /** Where the motion is in the film. @param {LocalTop} top @param {Points} points @param {Film} film @param {number} time ns @returns {Place} */
 const see = (top, points, film, time) => {
-  const [u, v] = project(top.run.at(time).toWorld([0, 0, 1]), points.camera ?? {});
+  const camera = /** @type {Camera} */ ({ nearness: 0, ...points.camera });
+  const [u, v] = project(top.run.at(time).toWorld([0, 0, 1]), camera, new Float64Array(2));
   return [u, film.height - v];
 };
 

@@ -49,18 +49,6 @@ const countUntil = ({ times }, end) => {
 };
 
 /**
- * Twin of project in truth/fit/camera.py: u and v, upwards, of an axis.
- * @param {Vector} axis @param {{[name: string]: number}} camera @returns {[number, number]}
- */
-export const project = ([x, y, z], camera) => {
-  const [up, out] = [Math.sin(camera.elevation), Math.cos(camera.elevation)];
-  const [high, near] = [y * up + z * out, z * up - y * out];
-  const size = Math.exp(camera.log_scale) / (1 - (camera.nearness ?? 0) * near);
-  const [cos, sin] = [Math.cos(camera.roll), Math.sin(camera.roll)];
-  return [camera.u + size * (cos * x - sin * high), camera.v + size * (sin * x + cos * high)];
-};
-
-/**
  * Twin of unproject in run/simulation/points.py: of the two axes that a camera sees at a point the one
  * that is nearer to that of the motion.
  * @param {number[]} seen u and v @param {{[name: string]: number}} camera @param {Vector} axis
