@@ -3,6 +3,7 @@
 import struct
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,7 @@ def write_film(
     """Write pictures (h, w, 3) of bytes, each with its time in s, as a film; return its path.
 
     The sides of a picture are even. Times grow, and are rounded to the ticks of the file (`TICKS`);
-    the last frame lasts a thirtieth of a second. A film of MP4 may be turned, as a phone
+    the last frame lasts as long as the shortest. A film of MP4 may be turned, as a phone
     writes it that was held upright.
     """
     av = pytest.importorskip("av", reason="no PyAV: pip install -e '.[test]' in the checkout")
@@ -39,7 +40,7 @@ def write_film(
         stream = None
         for picture, time in zip(frames, times, strict=True):
             if stream is None:
-                stream = _add_stream(film, codec, picture.shape, ticks)
+                stream = _add_stream(film, codec, picture.shape, ticks, _find_rate(times, ticks))
             frame = av.VideoFrame.from_ndarray(np.ascontiguousarray(picture), format="rgb24")
             frame.pts = round(time * ticks)
             frame.time_base = Fraction(1, ticks)
@@ -51,9 +52,15 @@ def write_film(
     return path
 
 
-def _add_stream(film: Any, codec: str, shape: Sequence[int], ticks: int) -> Any:
+def _find_rate(times: Sequence[float], ticks: int) -> Fraction:
+    """Return the largest rate, which WebM has in its head: browsers read how long a frame lasts."""
+    steps = [round(ticks * after) - round(ticks * before) for before, after in pairwise(times)]
+    return Fraction(ticks, min(steps, default=ticks // 30))
+
+
+def _add_stream(film: Any, codec: str, shape: Sequence[int], ticks: int, rate: Fraction) -> Any:
     """Return a stream without frames that come before others that are shown earlier."""
-    stream = film.add_stream(CODECS[codec], rate=Fraction(30))
+    stream = film.add_stream(CODECS[codec], rate=rate)
     stream.height, stream.width = shape[:2]
     stream.pix_fmt = "yuv420p"
     stream.bit_rate = QUALITY

@@ -66,8 +66,7 @@ export class Clicking {
     for (const [id, act] of Object.entries(acts)) find(id).addEventListener("click", act);
     for (const id of ["wanted-frames", "length-value", "ball-value"])
       find(id).addEventListener("input", () => this.show());
-    for (const id of ["film", "measure"])
-      find(id).addEventListener("keydown", (event) => this.press(event));
+    document.addEventListener("keydown", (event) => this.press(event));
   }
 
   /** @param {Film | null} film @param {boolean} isSame as before, so that its clicks stay */
@@ -269,7 +268,7 @@ export class Clicking {
   press(event) {
     const { key } = event;
     const isTyped = event.target instanceof HTMLInputElement && event.target.type === "text";
-    if (isTyped) return;
+    if (isTyped || find("measure").hidden) return;
     const isUndo = (event.ctrlKey || event.metaKey) && key.toLowerCase() === "z";
     const step = event.target === this.stage.canvas ? STEPS[key] : undefined;
     if (isUndo) this.undo();

@@ -39,6 +39,17 @@ const findStep = (times) => {
   return steps.sort((a, b) => a - b)[steps.length >> 1];
 };
 
+/** The place of the nearest of some times, which grow. @param {number[]} times @param {number} time */
+const findNearest = (times, time) => {
+  let [low, high] = [0, times.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] > time) high = middle;
+    else low = middle;
+  }
+  return time - times[low] <= times[high] - time ? low : high;
+};
+
 export class Film {
   /** @param {File} file @param {HTMLVideoElement} video @param {number[] | null} begins of the frames, in s */
   constructor(file, video, begins) {
@@ -117,7 +128,7 @@ export class Film {
     const { duration } = this.video;
     if (!this.isReal)
       this.begins = rate
-        ? Array.from({ length: Math.floor(duration * rate) }, (_, k) => k / rate)
+        ? Array.from({ length: Math.round(duration * rate) }, (_, k) => k / rate)
         : null;
     const begins = this.begins ?? [0];
     this.times = rate ? begins.map((_, k) => k / rate) : begins;
@@ -125,14 +136,7 @@ export class Film {
 
   /** The frame nearest to a time in s. @param {number} time */
   find(time) {
-    const { times } = this;
-    let [low, high] = [0, times.length - 1];
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (times[middle] > time) high = middle;
-      else low = middle;
-    }
-    return time - times[low] <= times[high] - time ? low : high;
+    return findNearest(this.times, time);
   }
 
   /** Show a frame; of several that are asked for at once the last one. @param {number} place */
@@ -150,9 +154,17 @@ export class Film {
       place = this.wanted;
       await this.seek(this.findMiddle(place));
       this.picture.drawImage(this.video, 0, 0, this.width, this.height);
-      this.place = place;
-      if (!this.isReal && this.begins && this.seen !== null) this.times[place] = this.seen;
+      this.place = this.confirm(place);
     }
+  }
+
+  /** The frame that is shown, if the browser says when it begins. @param {number} place that was asked for */
+  confirm(place) {
+    const { seen, begins } = this;
+    if (seen === null || !begins) return place;
+    if (this.isReal) return findNearest(begins, seen);
+    this.times[place] = seen;
+    return place;
   }
 
   /** A time of the browser at which a frame is shown, as far from others as can be. @param {number} place */

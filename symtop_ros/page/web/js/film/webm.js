@@ -103,13 +103,14 @@ const walk = async (pieces) => {
 };
 
 /**
- * Times of the frames in s, growing; null if the file is too long or broken, [] without pictures.
+ * Times of the frames in s, growing; null if the file is too long or cut off, [] without pictures.
  * @param {Blob} file @returns {Promise<number[] | null>}
  */
 export const readWebmTimes = async (file) => {
   if (file.size > LARGEST) return null;
   try {
-    const { times, scale } = await walk(new Pieces(file));
+    const { times, scale, track } = await walk(new Pieces(file));
+    if (!track.number) return null;
     return times.sort((a, b) => a - b).map((each) => (each * scale) / 1e9);
   } catch (error) {
     if (error instanceof RangeError) return null; // a head that is cut off
