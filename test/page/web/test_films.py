@@ -1,13 +1,11 @@
 """Films on the page: each frame with its own time, and what is no film or cannot be played."""
 
 import base64
-from pathlib import Path
 
 import numpy as np
 import pytest
 from films import TICKS, draw_balls, write_film
 
-FILES = ("film_acts",)
 PIXEL = 0.3  # px; the codec's noise at the edge of the ball moves its middle less
 STEADY = [k / 30 for k in range(40)]
 FAST = [k / 120 for k in range(60)]
@@ -22,15 +20,6 @@ def place_balls(count):
 
 def encode(path):
     return base64.b64encode(path.read_bytes()).decode()
-
-
-@pytest.fixture(name="films")
-def _films(tab):
-    """The tab with what tests do with films."""
-    tab.evaluate("document.body.replaceChildren()")
-    for name in FILES:
-        tab.add_script_tag(content=Path(__file__).with_name(f"{name}.js").read_text())
-    return tab
 
 
 def read(films, path, frames, rate=None):
@@ -200,3 +189,22 @@ SORT = """async ([data, name]) => {
     const { findSort } = await import("/film/sorts.js");
     return await findSort(makeFile(data, name));
 }"""
+
+
+LOSE = """async ([data, name]) => {
+    const { Film } = await import("/film/film.js");
+    const film = await Film.open(makeFile(data, name), "mp4");
+    film.video.src = "blob:nothing";
+    try {
+        await film.show(5);
+    } catch (error) {
+        return [error.message, film.place];
+    }
+}"""
+
+
+def test_a_film_that_vanishes_is_said_and_the_frame_stays(films, tmp_path):
+    path = write_film(tmp_path / "a.mp4", draw_balls(BALLS), STEADY[:30])
+    said, place = films.evaluate(LOSE, [encode(path), path.name])
+    assert said == "a.mp4 cannot be read any more: open it again, the clicks are kept"
+    assert place == 0

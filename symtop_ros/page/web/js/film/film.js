@@ -107,9 +107,11 @@ export class Film {
     this.video.load();
   }
 
-  /** Frames in a second: most of them. */
+  /** Frames in a second, between the first and the last one. */
   get rate() {
-    return this.times.length > 1 ? 1 / findStep(this.times) : null;
+    const { times } = this;
+    const last = times.length - 1;
+    return last ? last / (times[last] - times[0]) : null;
   }
 
   /** The least and the largest rate of a film whose frames are not even; null if they are. */
