@@ -33,6 +33,7 @@ import { phrase } from "./words/wording.js";
 
 /** @import { Facts, MotionFacts, Now } from "./words/facts.js" */
 /** @import { Hold } from "./physics/kernel.js" */
+/** @import { Fitting } from "./fit/client.js" */
 /** @import { Held, Message } from "./run/acts.js" */
 /** @import { LocalTop } from "./run/local.js" */
 /** @import { Frame, Hello, News } from "./run/telling.js" */
@@ -115,8 +116,11 @@ export class Page {
     find("reason").addEventListener("toggle", () => this.showNamed());
   }
 
-  /** Show a top from now on. @param {LocalTop} top @param {Element} source the page as it was opened */
-  connect(top, source) {
+  /**
+   * Show a top from now on.
+   * @param {LocalTop} top @param {Element} source the page as it was opened @param {Fitting} fitting
+   */
+  connect(top, source, fitting) {
     this.top = top;
     // A node has the time of its machine, and records there.
     find("time").hidden = Boolean(this.content.node);
@@ -125,6 +129,7 @@ export class Page {
     for (const name of /** @type {const} */ (["pointermove", "pointerdown"])) // also a finger's
       document.addEventListener(name, (event) => top.marks.follow(event), { capture: true });
     offerFiles(top, source);
+    this.measure.connect(fitting);
     const { node } = this.content;
     find("tab-measure").hidden = Boolean(node); // it has its own motion
     openDropped(this.load.bind(this), node ? null : (file) => this.measure.open(file));

@@ -15,13 +15,13 @@ import { parseQuantity } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Camera } from "../fit/projection.js" */
+/** @import { Fitting } from "../fit/client.js" */
 /** @import { Table } from "../film/table.js" */
 /** @import { Place } from "../film/clicks.js" */
 /** @import { Given } from "../film/measured.js" */
 /** @import { Points } from "../run/marks.js" */
 /** @import { LocalTop } from "../run/local.js" */
 /** @import { Message } from "../run/acts.js" */
-/** What searches for the motion of a record. @typedef {{fit: (given: Given, report: (part: number) => void) => Promise<any>, stop: () => void}} Fitter */
 
 const NAME = "measured.csv";
 const POINTS = 800; // of the path of the motion over the film
@@ -42,8 +42,8 @@ export class Measure {
     this.table = null;
     /** A film or a table that waits for an answer: the clicks would be lost. @type {(() => Promise<void>) | null} */
     this.waiting = null;
-    /** @type {Fitter | null} */
-    this.fitter = null; // while the kernel is loaded
+    /** @type {Fitting | null} */
+    this.fitting = null; // while the kernel is loaded
     /** @type {((fitted: any, command: string) => void) | null} */
     this.showFitted = null;
     this.isFitting = false;
@@ -51,6 +51,12 @@ export class Measure {
     this.linked = null;
     this.isShown = false; // the motion of now is the one that was fitted
     this.listen();
+    this.show();
+  }
+
+  /** Fit from now on. @param {Fitting} fitting */
+  connect(fitting) {
+    this.fitting = fitting;
     this.show();
   }
 
@@ -224,14 +230,14 @@ export class Measure {
   }
 
   async fit() {
-    const { given, command, fitter, film } = this;
-    if (!given || !fitter) return;
+    const { given, command, fitting, film } = this;
+    if (!given || !fitting) return;
     refuse("");
     this.isFitting = true;
     this.report(0);
     this.show();
     try {
-      const fitted = await fitter.fit(given, (part) => this.report(part));
+      const fitted = await fitting.fit(given, (part) => this.report(part));
       this.link(fitted.run, film ? given.times[0] : null);
       this.showFitted?.(fitted, command);
     } catch (error) {
@@ -243,7 +249,7 @@ export class Measure {
   }
 
   stop() {
-    this.fitter?.stop();
+    this.fitting?.stop();
     this.isFitting = false;
     this.show();
   }
@@ -309,7 +315,7 @@ export class Measure {
     const isFlat = Boolean(film) || table?.table.kind === "pixels";
     find("near").hidden = !isFlat;
     say("measured-name", this.describe());
-    const canFit = given !== null && this.fitter !== null;
+    const canFit = given !== null && this.fitting !== null;
     Object.assign(find("fit-record"), { disabled: !canFit || isFitting });
     Object.assign(find("stop-fit"), { disabled: !isFitting });
     Object.assign(find("save-measured"), { disabled: given === null || table !== null });
