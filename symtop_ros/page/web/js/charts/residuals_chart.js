@@ -37,7 +37,7 @@ const drawColumn = ({ kind, times, residuals, sigma, outliers }, place) => {
   const farthest = Math.max(...points.map(([, left]) => Math.abs(left)));
   const edge = Math.max(LEAST * size, Math.min(1.1 * farthest, MOST * size));
   const [begin, end] = [times[0], times[times.length - 1]];
-  const frame = new Frame(HEIGHT, [begin, end], [-edge, edge], 3);
+  const frame = new Frame(HEIGHT, [begin, end], [-edge, edge], 5);
   /** @type {Pair[]} */
   const band = [
     [begin, -size],

@@ -11,7 +11,6 @@ import {
   writeShown,
   writeVerdict,
 } from "../words/fit.js";
-import { typeset } from "../words/typeset.js";
 import { phrase } from "../words/wording.js";
 import { find, make, write } from "./document.js";
 
@@ -20,7 +19,7 @@ import { find, make, write } from "./document.js";
 /** The fit that is shown. @type {{fitted: Fitted, command: string} | null} */
 let shown = null;
 
-/** @param {"p" | "h2" | "li"} name @param {string} text @param {{[name: string]: string}} properties */
+/** @param {"p" | "h2" | "li" | "th" | "td"} name @param {string} text @param {{[name: string]: string}} properties */
 const createText = (name, text, properties = {}) => {
   const element = make(name, properties);
   write(element, text);
@@ -30,15 +29,10 @@ const createText = (name, text, properties = {}) => {
 /** @param {Fitted} fitted */
 const createTable = (fitted) => {
   const heads = ["fitted.number", "fitted.value"].map((key) =>
-    make("th", { scope: "col" }, phrase(key)),
+    createText("th", phrase(key), { scope: "col" }),
   );
   const rows = listNumbers(fitted).map(([name, text]) =>
-    make(
-      "tr",
-      {},
-      make("th", { scope: "row" }, ...typeset(name)),
-      make("td", {}, ...typeset(text)),
-    ),
+    make("tr", {}, createText("th", name, { scope: "row" }), createText("td", text)),
   );
   const head = make("thead", {}, make("tr", {}, ...heads));
   return make("table", { id: "fitted-numbers" }, head, make("tbody", {}, ...rows));

@@ -1,7 +1,7 @@
 // What is said of a fit: what the record shows and whether the model holds in two sentences, the numbers with
 // their deviations, and what cannot be known.
 
-import { writeMeasured } from "./measured.js";
+import { writeMeasured } from "./deviations.js";
 import { nameUnit, toUnit } from "./quantities.js";
 import { isKnown, phrase } from "./wording.js";
 
