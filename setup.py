@@ -90,6 +90,7 @@ TEST = [
     "mujoco>=4",  # reads the MJCF of the top
     "ahrs>=0.4",  # filters that are fed with its sensor
     "docutils>=0.22",  # reads the changelog
+    "av>=14",  # writes films of the tests
     "zxing-cpp>=2.2",  # reads the code of a link, as a camera does
 ]
 # The HTML site of `make docs`.

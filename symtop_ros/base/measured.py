@@ -59,6 +59,7 @@ def _find_exponent(value: float) -> int:
 
 def _round(value: float, last: int, power: int, places: int) -> str:
     """Return a number, in a power of ten, rounded to 10^last."""
+    # z: a number that is rounded to zero has no sign, as in all texts
     if places >= 0:
-        return f"{value / 10.0**power if power else value:.{places}f}"
-    return f"{round(value, -last):.0f}"
+        return f"{value / 10.0**power if power else value:z.{places}f}"
+    return f"{round(value, -last):z.0f}"

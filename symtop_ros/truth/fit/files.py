@@ -37,7 +37,7 @@ from symtop_ros.truth.judge.columns import (
 )
 
 HEAD = 10  # lines within which the names of columns are looked for
-SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9, "": 1.0}
+SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 ANGULAR = ("angles", "theta", "rates", "inertial")  # kinds with angles or their rates
 G = ("g",)
 REPORT_EVERY = 100_000  # lines

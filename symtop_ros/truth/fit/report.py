@@ -16,6 +16,7 @@ from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import Value, convert, list_values
 from symtop_ros.words import write
+from symtop_ros.words.templates import TEMPLATES
 
 LABELS = {
     "spin": "spin (omega_z)",
@@ -150,7 +151,9 @@ def write_unknown(unknown: Unknown) -> str:
     if unknown.kind in {"weak", "together"}:  # the last two are a value with its deviation
         value, deviation = unknown.numbers[-2:]
         record["value"] = format_measured(value, deviation)
-    return write(f"unknown.{unknown.kind}", {**record, "names": unknown.names})
+    text = write(f"unknown.{unknown.kind}", {**record, "names": unknown.names})
+    remedy = f"remedy.{unknown.kind}"  # an option of the program, where the page has its own
+    return text + (write(remedy, {}) if remedy in TEMPLATES else "")
 
 
 def describe_unknown(unknown: Unknown) -> dict[str, Any]:

@@ -1,5 +1,7 @@
 """A browser for all tests of the page, and the page in it."""
 
+from pathlib import Path
+
 import pytest
 from page.web.modules import load_kernel, open_tab
 from page.web.opened import KNOWN, USUAL, Opened
@@ -15,6 +17,13 @@ def tab(browser):
     load_kernel(tab)
     yield tab
     tab.close()
+
+
+@pytest.fixture(scope="module")
+def films(tab):
+    """The tab with what tests do with films."""
+    tab.add_script_tag(content=Path(__file__).with_name("film_acts.js").read_text())
+    return tab
 
 
 @pytest.fixture(scope="session")

@@ -5,6 +5,7 @@ import io
 
 import numpy as np
 import pytest
+from films import draw_balls, write_film
 from other_browsers import running_firefox, running_webkit, until
 from page.web.opened import find_time, read_motion
 from page.web.page_words import write_as_page
@@ -176,3 +177,71 @@ def test_each_button_of_the_lesson_does_its_act(driver, path):
     until(driver, "document.querySelector('#headline')?.textContent")
     found = driver.run(STEPS)
     assert found == [""] * sum(len(step.acts) for step in read_lesson())
+
+
+RATE = 30
+TIMES = [k / RATE for k in range(40)]
+BALLS = [(40 + 5 * k, 60 + 3 * k) for k in range(40)]
+# A film is dropped; each frame that is asked for is shown, and its ball is the middle of what is red.
+STEP = """
+const [data, name, frames] = given;
+const wait = async (holds) => {
+  for (let k = 0; k < 400 && !holds(); k += 1) await new Promise((done) => setTimeout(done, 25));
+};
+const say = (id) => document.getElementById(id).textContent;
+const bytes = Uint8Array.from(atob(data), (each) => each.charCodeAt(0));
+const dataTransfer = new DataTransfer();
+dataTransfer.items.add(new File([bytes], name));
+document.dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
+await wait(() => say("measured-name").includes(name + ":") || say("refusal"));
+if (say("refusal")) return say("refusal");
+const [line, picture] = ["film-line", "film-picture"].map((id) => document.getElementById(id));
+const found = [];
+for (const frame of frames) {
+  line.value = frame;
+  line.dispatchEvent(new Event("input"));
+  await wait(() => say("film-clock").startsWith(`frame ${frame + 1} of`));
+  const { width, height } = picture;
+  const { data: pixels } = picture.getContext("2d").getImageData(0, 0, width, height);
+  let [count, x, y] = [0, 0, 0];
+  for (let k = 0; k < pixels.length; k += 4)
+    if (pixels[k] > 180 && pixels[k + 1] < 130) {
+      count += 1;
+      x += ((k / 4) % width) + 0.5;
+      y += Math.floor(k / 4 / width) + 0.5;
+    }
+  const scale = Math.min(width / 320, height / 240);
+  found.push([
+    say("film-clock"),
+    160 + (x / count - width / 2) / scale,
+    120 + (y / count - height / 2) / scale,
+  ]);
+}
+return [say("measured-name"), found];
+"""
+
+
+def open_page(driver, path):
+    driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow&lang=en")
+    until(driver, "document.querySelector('#headline')?.textContent")
+
+
+def test_each_frame_of_a_film_is_shown_with_its_time(driver, path, tmp_path):
+    film = write_film(tmp_path / "a.webm", draw_balls(BALLS), TIMES)
+    open_page(driver, path)
+    frames = [0, 1, 2, 3, 20, 39, 38, 11, 12, 0]
+    said, found = driver.run(STEP, to_text(film.read_bytes()), film.name, frames)
+    assert said.endswith("320 x 240 pixels, 40 frames, 30.00 in a second")
+    for frame, (clock, *ball) in zip(frames, found, strict=True):
+        assert clock == f"frame {frame + 1} of 40, {TIMES[frame]:.3f} s"  # as WebM has it
+        assert ball == pytest.approx(BALLS[frame], abs=0.5)  # px of the film
+
+
+def test_a_film_that_cannot_be_played_is_refused_in_a_line(driver, path, tmp_path):
+    film = write_film(tmp_path / "a.mp4", draw_balls(BALLS), TIMES, "hevc")
+    open_page(driver, path)
+    answer = driver.run(STEP, to_text(film.read_bytes()), film.name, [0])
+    assert (
+        answer
+        == "this browser cannot play a.mp4: save it as MP4 (H.264) or WebM, and open it again"
+    )

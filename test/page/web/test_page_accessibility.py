@@ -7,7 +7,7 @@ import pytest
 from colours import perceive
 
 CONTRAST = {"runOnly": ["color-contrast"]}
-TABS = ("push", "history", "view", "save", "lesson")  # the first one is open
+TABS = ("push", "history", "view", "measure", "save", "lesson")  # the first one is open
 
 
 def check(axe, page, options=None, parts=None):

@@ -64,6 +64,12 @@ def test_degrees_and_other_units_of_time_are_read(tmp_path):
     assert rows.times == pytest.approx(SOME, abs=1e-9)
 
 
+@pytest.mark.parametrize(("head", "unit"), [("t_ms", 1e-3), ("time_us", 1e-6), ("t [ms]", 1e-3)])
+def test_the_name_of_the_time_may_say_its_unit(head, unit, tmp_path):
+    rows = read_rows(write_table(tmp_path / "a.csv", TWO, SOME / unit, f"{head},u,v"), None)
+    assert rows.times == pytest.approx(SOME, abs=1e-9)
+
+
 def test_whole_stamps_are_ns_and_count_from_the_first(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("stamp,theta\n" + "".join(f"{10**18 + k * 10**7},{k}\n" for k in range(20)))

@@ -4,12 +4,14 @@ import { Charts } from "./charts/charts.js";
 import { choose, followLooks, keepChoice, read } from "./controls/choices.js";
 import { find, findAll, make, say, write, writeTexts } from "./controls/document.js";
 import { Fields } from "./controls/fields.js";
+import { showFitted, showFittedUnit } from "./controls/fitted.js";
 import { offerFiles, openDropped, save } from "./run/files.js";
 import { actWhileHeld, listenToKeys } from "./controls/keys.js";
 import { Layers } from "./controls/layers.js";
 import { Lesson, writePredictions } from "./controls/lesson.js";
 import { splitLink } from "./run/links.js";
 import { FULL, recall } from "./run/memory.js";
+import { Measure } from "./controls/measure.js";
 import { Moments } from "./controls/moments.js";
 import { offerCopy, offerFullScreen, showLink } from "./controls/window.js";
 import { dismissRefusals, guard, refuse, showLoss } from "./controls/notices.js";
@@ -32,6 +34,7 @@ import { phrase } from "./words/wording.js";
 
 /** @import { Facts, MotionFacts, Now } from "./words/facts.js" */
 /** @import { Hold } from "./physics/kernel.js" */
+/** @import { Fitting } from "./fit/client.js" */
 /** @import { Held, Message } from "./run/acts.js" */
 /** @import { LocalTop } from "./run/local.js" */
 /** @import { Frame, Hello, News } from "./run/telling.js" */
@@ -74,6 +77,8 @@ export class Page {
     this.timeline = new Timeline((time) => send({ act: "seek", time }));
     this.layers = new Layers(send);
     this.moments = new Moments(send);
+    this.measure = new Measure(send, this.load.bind(this));
+    this.measure.showFitted = showFitted;
     /** @type {Lesson | null} */
     this.lesson = null; // until the top has sent its steps
     /** @type {((name: string) => void) | null} */
@@ -113,8 +118,11 @@ export class Page {
     find("reason").addEventListener("toggle", () => this.showNamed());
   }
 
-  /** Show a top from now on. @param {LocalTop} top @param {Element} source the page as it was opened */
-  connect(top, source) {
+  /**
+   * Show a top from now on.
+   * @param {LocalTop} top @param {Element} source the page as it was opened @param {Fitting} fitting
+   */
+  connect(top, source, fitting) {
     this.top = top;
     // A node has the time of its machine, and records there.
     find("time").hidden = Boolean(this.content.node);
@@ -123,10 +131,16 @@ export class Page {
     for (const name of /** @type {const} */ (["pointermove", "pointerdown"])) // also a finger's
       document.addEventListener(name, (event) => top.marks.follow(event), { capture: true });
     offerFiles(top, source);
-    openDropped((run) => {
-      this.question.leave(); // a run of one start is no new act that would end it
-      this.send({ act: "load", run });
-    });
+    this.measure.connect(fitting);
+    const { node } = this.content;
+    find("tab-measure").hidden = Boolean(node); // it has its own motion
+    openDropped(this.load.bind(this), node ? null : (file) => this.measure.open(file));
+  }
+
+  /** Open a run. @param {any} run of run.json */
+  load(run) {
+    this.question.leave(); // a run of one start is no new act that would end it
+    this.send({ act: "load", run });
   }
 
   /** @param {Message} message */
@@ -307,6 +321,7 @@ export class Page {
     say("points", writePoints(points));
     this.timeline.show(time, end);
     this.question.show(time);
+    if (this.top) this.measure.follow(this.top);
     const kind = !this.facts.running ? "paused" : isSlow ? "slow" : null;
     say("pace", kind ? phrase("watched", { kind }) : "");
   }
@@ -315,6 +330,7 @@ export class Page {
     this.fields.showUnit();
     this.seen.showUnit();
     this.lesson?.showUnit();
+    showFittedUnit();
     if (this.facts) this.showFacts(this.facts);
   }
 }

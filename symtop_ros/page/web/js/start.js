@@ -115,7 +115,7 @@ export const start = async () => {
     top.draw = guard("scene", scene.draw.bind(scene));
     top.begin = guard("scene", scene.begin.bind(scene));
     top.advance = guard("motion", top.advance.bind(top));
-    page.connect(top, source);
+    page.connect(top, source, fitting);
     offerSheets(content.lesson, createShoot(scene, kernel, { ...content, layers: LAYERS }));
     top.open();
   } catch (error) {

@@ -32,7 +32,7 @@ const ENDS = ["pointerup", "pointercancel", "lostpointercapture", "blur", "keyup
 const findTarget = (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey) return null;
   const target = event.target instanceof Element ? event.target : document.body;
-  return target.closest("input[type=text], select, textarea") ? null : target;
+  return target.closest("input[type=text], select, textarea, #film-picture") ? null : target;
 };
 
 /**

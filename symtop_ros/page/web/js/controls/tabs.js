@@ -20,6 +20,9 @@ const choose = (chosen) => {
   document.body.classList.toggle("in-lesson", chosen?.id === "tab-lesson");
 };
 
+/** Open the panel of a tab. @param {string} name */
+export const openTab = (name) => choose(find(`tab-${name}`));
+
 export const offerTabs = () => {
   const tabs = findAll("[role=tab]");
   tabs.forEach((tab, k) => {

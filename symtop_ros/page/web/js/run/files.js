@@ -2,6 +2,7 @@
 
 import { find, make } from "../controls/document.js";
 import { refuse } from "../controls/notices.js";
+import { findSort } from "../film/sorts.js";
 import { NANO } from "../physics/course.js";
 import { drawPicture } from "../scene/picture.js";
 import { chooseWindow } from "../words/facts.js";
@@ -96,6 +97,12 @@ export const offerFiles = (top, source) => {
   for (const [id, way] of Object.entries(ways)) find(id).addEventListener("click", way);
 };
 
+/** @param {File} file @param {(run: any) => void} load @param {((file: File) => void) | null} measure */
+const openOne = async (file, load, measure) => {
+  if (!measure || (await findSort(file)) === "run") open(file, load);
+  else measure(file);
+};
+
 /** @param {File} file a run.json or a saved page @param {(run: any) => void} load */
 const open = async (file, load) => {
   const text = await file.text();
@@ -109,12 +116,15 @@ const open = async (file, load) => {
   load(run);
 };
 
-/** @param {(run: any) => void} load */
-export const openDropped = (load) => {
+/**
+ * Open what is dropped: a run here, a film or a table of points as a measurement.
+ * @param {(run: any) => void} load @param {((file: File) => void) | null} measure null: nothing else
+ */
+export const openDropped = (load, measure) => {
   document.addEventListener("dragover", (event) => event.preventDefault());
   document.addEventListener("drop", (event) => {
     event.preventDefault();
     const file = event.dataTransfer?.files[0];
-    if (file) open(file, load);
+    if (file) openOne(file, load, measure);
   });
 };

@@ -48,6 +48,10 @@ const countUntil = ({ times }, end) => {
   return low;
 };
 
+/** The time in ns until which a point is the last one: that of the next, or as long as the step before. @param {Points} points @param {number} place */
+const endPoint = ({ times }, place) =>
+  Math.round(NANO * (times[place + 1] ?? 2 * times[place] - (times[place - 1] ?? times[place])));
+
 /**
  * Twin of unproject in run/simulation/points.py: of the two axes that a camera sees at a point the one
  * that is nearer to that of the motion.
@@ -121,6 +125,21 @@ export class Marks {
     for (let place = Math.ceil(first / step) * step; place < last; place += step)
       marks.push(this.find(points, place));
     return marks.filter((each) => each !== null);
+  }
+
+  /**
+   * The top as it was measured last: with the axis of the last point, and the spin of the motion, which no
+   * point of the axis shows. Null before the first point, after the last one, and after an act.
+   */
+  findGhost() {
+    const { points, run, time, kernel, course } = this.top;
+    const place = points ? countUntil(points, time) - 1 : -1;
+    if (!points || place < 0 || time > endPoint(points, place)) return null;
+    const mark = this.find(points, place);
+    if (!mark?.shows.includes("phi") || mark.course !== course) return null;
+    if (mark.shows.includes("psi")) return mark.state;
+    const { theta, phi } = mark.state.angles;
+    return State.fromEuler(kernel, { theta, phi, psi: run.at(time).angles.psi });
   }
 
   /** @param {Points} points @param {number} place */

@@ -165,7 +165,7 @@ export class Scene {
     this.drawLines(state, states);
     if (!grip.preview) this.drawVectors(state);
     if (this.top.layers.push) this.drawPush(state, states);
-    if (this.top.layers.ghost) this.drawGhost(this.top.run.findGhost(this.top.time));
+    if (this.top.layers.ghost) this.drawGhost();
     if (this.top.layers.points) this.drawPoints();
     this.labels.end();
   }
@@ -213,16 +213,19 @@ export class Scene {
     }
   }
 
-  /** @param {State | null} ghost the top that was not pushed, or not clamped */
-  drawGhost(ghost) {
+  /** The top that was not pushed, or not clamped; without such an act the one that was measured. */
+  drawGhost() {
+    const { painter, models, top } = this;
+    const spared = top.run.findGhost(top.time);
+    const ghost = spared ?? top.marks.findGhost();
     if (!ghost) return;
-    const { painter, models } = this;
     painter.drawMesh(models.body, createPose(ghost.orientation), GHOST_OPACITY);
     const axis = ghost.toWorld([0, 0, 1]);
     const size = 0.8 * BALL;
     painter.drawMesh(models.ghost, createPose([1, 0, 0, 0], [size, size, size], axis), 0.8);
-    const isFree = this.top.run.findSpared(this.top.time) === "clamp";
-    const name = phrase(isFree ? "scene.ghost_free" : "scene.ghost");
+    const isFree = top.run.findSpared(top.time) === "clamp";
+    const key = isFree ? "scene.ghost_free" : "scene.ghost";
+    const name = phrase(spared ? key : "fitted.ghost");
     this.labels.put("ghost", COLORS.sphere, axis, null, name, LEAD);
   }
 

@@ -1,0 +1,285 @@
+"""Measure on the page: a film is dropped and clicked, and its clicks are a table of top_fit."""
+
+import base64
+import json
+import math
+
+import numpy as np
+import pytest
+from films import draw_balls, write_film
+from run.simulation.page_points import make_measured
+
+from symtop_ros.truth.fit.files import read_rows
+
+WIDTH, HEIGHT = 320, 240
+PIVOT = (160.0, 200.0)
+RATE = 30
+COUNT = 40
+# A hand is right to a pixel of the screen, which is less than one of the film here.
+CLICK, FOUND = 0.6, 0.3  # px of the film
+
+
+def swing(time):
+    """Where the ball is: a precession with a nutation on it."""
+    x = 160 + 90 * math.cos(2 * time) + 9 * math.cos(14 * time)
+    return x, 90 + 30 * math.sin(2 * time) + 9 * math.sin(14 * time)
+
+
+TIMES = [k / RATE for k in range(COUNT)]
+BALLS = [swing(time) for time in TIMES]
+
+
+@pytest.fixture(scope="session", name="film")
+def _film(tmp_path_factory):
+    return write_film(tmp_path_factory.mktemp("films") / "swing.mp4", draw_balls(BALLS), TIMES)
+
+
+@pytest.fixture
+def measuring(opened, film):
+    """The page with a film."""
+    open_file(opened, film)
+    return opened
+
+
+def open_file(page, path):
+    page.open_tab("measure")
+    page.tab.set_input_files("#measured-file", str(path))
+    page.until(lambda: path.name in page.say("measured-name") and not is_opening(page))
+
+
+def is_opening(page):
+    return "is being opened" in page.say("measured-name")
+
+
+def drop(page, name, content, kind=""):
+    """Drop a file of these bytes."""
+    page.tab.evaluate(
+        """([name, data, type]) => {
+            const bytes = Uint8Array.from(atob(data), (each) => each.charCodeAt(0));
+            const dataTransfer = new DataTransfer();
+            dataTransfer.items.add(new File([bytes], name, { type }));
+            document.dispatchEvent(new DragEvent("drop", { dataTransfer, cancelable: true }));
+        }""",
+        [name, base64.b64encode(content).decode(), kind],
+    )
+
+
+def place(page, point, size=(WIDTH, HEIGHT)):
+    """Return where a pixel of the film is on the screen, if the whole film is shown."""
+    box = page.tab.locator("#film-picture").bounding_box()
+    scale = min(box["width"] / size[0], box["height"] / size[1])
+    middle = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    return [m + (p - s / 2) * scale for m, p, s in zip(middle, point, size, strict=True)]
+
+
+def click(page, point):
+    page.tab.mouse.click(*place(page, point))
+
+
+def read_frame(page):
+    return int(page.tab.input_value("#film-line"))
+
+
+def click_balls(page, frames):
+    """Click the ball in some of the frames that follow each other."""
+    for frame in frames:
+        page.until(lambda frame=frame: read_frame(page) == frame)
+        click(page, BALLS[frame])
+
+
+def save(page, folder):
+    """Return the table that the page saves, as Python reads it."""
+    with page.tab.expect_download() as download:
+        page.tab.click("#save-measured")
+    path = folder / download.value.suggested_filename
+    download.value.save_as(path)
+    return read_rows(path, None)
+
+
+def expect_rows(frames):
+    """What the rows of some frames are: u to the right and v upwards."""
+    return [(BALLS[k][0], HEIGHT - BALLS[k][1]) for k in frames]
+
+
+def test_a_film_is_clicked_and_saved_as_a_table_of_top_fit(measuring, tmp_path):
+    assert measuring.say("measured-name") == (
+        "swing.mp4: 320 x 240 pixels, 40 frames, 30.00 in a second"
+    )
+    click(measuring, PIVOT)
+    assert "Click the middle of the ball" in measuring.say("click-next")
+    click_balls(measuring, range(5))
+    rows = save(measuring, tmp_path)
+    assert rows.kind == "pixels"
+    assert rows.times == pytest.approx(TIMES[:5], abs=1e-7)
+    assert rows.values == pytest.approx(np.array(expect_rows(range(5))), abs=CLICK)
+    command = measuring.tab.input_value("#fit-command")
+    words = command.split()
+    assert words[:4] == ["top_fit", "measured.csv", "--kind", "pixels"]
+    u, v = map(float, words[words.index("--pivot") + 1 :][:2])
+    assert (u, v) == pytest.approx((PIVOT[0], HEIGHT - PIVOT[1]), abs=CLICK)
+
+
+def test_the_ring_is_where_the_ball_is_and_is_taken_when_it_is_asked_for(measuring, tmp_path):
+    click(measuring, PIVOT)
+    click_balls(measuring, range(3))
+    measuring.until(lambda: "dashed ring" in measuring.say("ball-found"))
+    assert "3 of 40 frames" in measuring.say("plan")  # a suggestion is no click
+    measuring.tab.click("#take-ball")
+    measuring.until(lambda: "4 of 40 frames" in measuring.say("plan"))
+    measuring.tab.click("#follow-ball")
+    measuring.until(lambda: f"{COUNT} of 40 frames" in measuring.say("plan"))
+    rows = save(measuring, tmp_path)
+    assert rows.times == pytest.approx(TIMES, abs=1e-7)
+    assert rows.values[3:] == pytest.approx(np.array(expect_rows(range(3, COUNT))), abs=FOUND)
+
+
+def test_a_click_is_moved_and_undone(measuring, tmp_path):
+    click(measuring, PIVOT)
+    click_balls(measuring, range(2))
+    measuring.until(lambda: read_frame(measuring) == 2)
+    measuring.tab.click("#frame-back")
+    measuring.until(lambda: read_frame(measuring) == 1)
+    x, y = place(measuring, BALLS[1])
+    a, b = place(measuring, (BALLS[1][0] + 20, BALLS[1][1] + 10))
+    measuring.drag(x, y, a - x, b - y)
+    measuring.tab.mouse.up()
+    moved = save(measuring, tmp_path).values[1]
+    u, v = expect_rows([1])[0]
+    assert moved == pytest.approx([u + 20, v - 10], abs=CLICK)
+    measuring.tab.focus("#film-picture")
+    measuring.tab.keyboard.press("ArrowRight")
+    measuring.tab.keyboard.press("ArrowUp")
+    assert save(measuring, tmp_path).values[1] == pytest.approx(moved + 1, abs=1e-9)
+    for _ in range(3):
+        measuring.tab.keyboard.press("Control+z")
+    assert save(measuring, tmp_path).values[1] == pytest.approx([u, v], abs=CLICK)
+    measuring.tab.click("#undo-click")
+    assert len(save(measuring, tmp_path).times) == 1
+    assert "--pivot" in measuring.tab.input_value("#fit-command")
+    for _ in range(2):
+        measuring.tab.click("#undo-click")
+    assert measuring.tab.is_hidden("#fit-parts")
+    assert measuring.tab.is_disabled("#undo-click")
+
+
+def test_a_film_is_clicked_with_the_keyboard_alone(measuring, tmp_path):
+    measuring.tab.focus("#film-picture")
+    measuring.tab.keyboard.press("ArrowDown")  # the pivot begins in the middle of the picture
+    command = measuring.tab.input_value("#fit-command")
+    assert command == ""  # without a ball there is no record
+    measuring.tab.click("[data-aim=ball]")
+    measuring.tab.focus("#film-picture")
+    for _ in range(2):
+        measuring.tab.keyboard.press("ArrowLeft")
+    measuring.tab.keyboard.press("PageDown")
+    measuring.until(lambda: read_frame(measuring) == 1)
+    measuring.tab.keyboard.press("ArrowUp")
+    rows = save(measuring, tmp_path)
+    assert rows.values.tolist() == [[158, 120], [158, 121]]
+    assert "--pivot 160 119" in measuring.tab.input_value("#fit-command")
+    measuring.tab.focus("#film-picture")
+    measuring.tab.keyboard.press("Delete")
+    assert len(save(measuring, tmp_path).times) == 1
+    assert len(measuring.read_events()) == 1  # no key has pushed the top
+
+
+def test_a_length_gives_the_scale(measuring):
+    measuring.tab.click("[data-aim=length]")
+    click(measuring, (100, 50))
+    assert "other end" in measuring.say("click-next")
+    click(measuring, (180, 110))  # 100 px
+    click_balls(measuring, [0])
+    assert "--scale" not in measuring.tab.input_value("#fit-command")
+    measuring.tab.fill("#length-value", "0.25")
+    measuring.tab.fill("#ball-value", "0,5")
+    command = measuring.tab.input_value("#fit-command").split()
+    # two ends, each a pixel of the screen from where they were meant
+    assert float(command[command.index("--scale") + 1]) == pytest.approx(200, abs=2 * CLICK * 2)
+
+
+def test_a_click_outside_of_the_picture_is_refused_and_nothing_is_lost(measuring):
+    click(measuring, PIVOT)
+    click_balls(measuring, range(2))
+    click(measuring, (-3, HEIGHT / 2))
+    assert measuring.say("refusal") == "a click must be inside the picture"
+    assert "2 of 40 frames" in measuring.say("plan")
+
+
+def test_every_second_frame_is_proposed_if_half_of_them_are_wanted(measuring):
+    measuring.tab.fill("#wanted-frames", "20")
+    assert "0 of 20 frames are clicked, from 0.00 s to 1.27 s in steps of 2" in measuring.say(
+        "plan"
+    )
+    measuring.tab.evaluate("acts.change", ["film-line", 10])
+    measuring.until(lambda: "frame 11 of 40" in measuring.tab.text_content("#film-clock"))
+    measuring.tab.click("#begin-here")
+    assert "from 0.33 s" in measuring.say("plan")
+    measuring.tab.fill("#wanted-frames", "5")
+    assert measuring.say("refusal") == "frames to click must be 20 to 200, got 5"
+
+
+@pytest.mark.parametrize("answer", ["keep", "replace"])
+def test_another_film_asks_before_clicks_are_lost(measuring, film, answer, tmp_path):
+    click(measuring, PIVOT)
+    click_balls(measuring, range(2))
+    other = write_film(tmp_path / "other.webm", draw_balls(BALLS[:10]), TIMES[:10])
+    measuring.tab.set_input_files("#measured-file", str(other))
+    measuring.tab.wait_for_selector("#replace:not([hidden])")
+    assert "other.webm" in measuring.say("replace-text")
+    measuring.tab.click(f"#{answer}-film")
+    assert measuring.tab.is_hidden("#replace")
+    if answer == "keep":
+        assert "2 of 40 frames" in measuring.say("plan")
+        assert "swing.mp4" in measuring.say("measured-name")
+        open_file(measuring, film)  # the same file takes nothing away
+        assert "2 of 40 frames" in measuring.say("plan")
+    else:
+        measuring.until(lambda: "other.webm: 320 x 240" in measuring.say("measured-name"))
+        assert "0 of 10 frames" in measuring.say("plan")
+
+
+def test_a_table_is_dropped_and_its_command_is_that_of_its_kind(opened):
+    rows = "\n".join(f"{k / 10},{math.cos(k / 10)},{math.sin(k / 10)},1" for k in range(20))
+    drop(opened, "my points.txt", f"t,x,y,z\n{rows}\n2,,1,1\n".encode())
+    opened.until(lambda: "my points.txt" in opened.say("measured-name"))
+    assert opened.say("measured-name") == (
+        "my points.txt: 20 rows, points of the axis (1 with an empty cell left out)"
+    )
+    assert opened.tab.input_value("#fit-command") == "top_fit 'my points.txt' --kind axis"
+    assert opened.tab.is_visible("#measure")
+
+
+def test_a_run_is_still_opened_by_dropping_it_and_a_film_by_its_bytes(opened, film):
+    opened.drop(json.loads(json.dumps(make_measured())))
+    opened.until(lambda: "points" in opened.read_run())
+    drop(opened, "notes.txt", film.read_bytes(), "text/plain")
+    opened.until(lambda: "notes.txt: 320 x 240" in opened.say("measured-name"))
+    assert "points" in opened.read_run()
+
+
+REFUSED = {
+    "photo.png": (
+        b"\x89PNG\r\n\x1a\n" + bytes(50),
+        "photo.png must be a film or a table, got a si",
+    ),
+    "empty.mp4": (b"", "empty.mp4 must be a film or a table, got an empty file"),
+    "data.bin": (bytes(range(256)), "data.bin must be a film or a table, got other data"),
+    "film.mp4": (b"a text\n", "film.mp4 must have the columns t,x,y,z or t,u,v, got a text"),
+    "rates.csv": (
+        b"t,wx,wy,wz\n0,1,2,3\n",
+        "the page fits points of the axis only; for this table type: top_fit rates.csv",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_another_file_is_refused_in_a_line_and_the_clicks_stay(measuring, name):
+    click(measuring, PIVOT)
+    click_balls(measuring, range(2))
+    content, refusal = REFUSED[name]
+    drop(measuring, name, content)
+    measuring.until(lambda: measuring.say("refusal"))
+    assert measuring.say("refusal").startswith(refusal)
+    assert "2 of 40 frames" in measuring.say("plan")
+    assert "swing.mp4" in measuring.say("measured-name")
+    assert measuring.tab.is_visible("#film")
