@@ -263,3 +263,20 @@ def test_a_page_in_a_frame_that_may_not_do_much_fits_as_well(open_page, path, tm
     inner.locator("#headline:not(:empty)").wait_for(state="attached")
     record, _, _ = make_case("axis")
     assert inner.evaluate("(given) => symtop.fit(given).then((f) => f.verdict)", write(record))
+
+
+def test_of_a_long_table_the_first_rows_are_taken_and_it_is_said(fits):
+    count = 2100
+    values = see(
+        Motion(Top(1.0, 1.0, 300.0), State.from_euler(theta=0.5, psi_dot=50.0)),
+        "axis",
+        np.arange(count) / 512,
+        {},
+    )
+    given = {"kind": "axis", "times": [k / 512 for k in range(count)], "values": values.tolist()}
+    reference = State.from_euler(theta=0.5).orientation.tolist()
+    found = fits.evaluate("refineFit", [given, reference, {"Mgl/Ix": 300.0, "p_psi/Ix": 50.0}])
+    assert found["rows"] == len(found["times"]) == 2000
+    assert "rows" in found["limits"]
+    assert found["run"]["points"]["rows"] == count
+    assert found["run"]["end"] == 1999 / 512

@@ -13,11 +13,13 @@ import { listValues } from "./values.js";
 /** @import { Unknown } from "./unknown.js" */
 /** @import { Value } from "./values.js" */
 /**
- * A fit for people: the numbers, whether the model holds and why not, what cannot be known, what of the
- * record this search does not allow for and `top_fit` does, what is left of all rows, and the run.
+ * A fit for people: rows that were taken and kept, the numbers, whether the model holds and why not, the
+ * order of an autoregression of noise, what cannot be known, what of the record this search does not
+ * allow for and `top_fit` does, what is left of all rows, and the run with the numbers that are assumed.
  * @typedef {{kind: "axis" | "pixels", rows: number, kept: number, outliers: number[], values: Value[],
- *   verdict: Verdict, reasons: Reason[], order: number, is_flicker: boolean, unknown: Unknown[], limits: string[], residuals: number[][],
- *   sigma: number[], times: number[], run: any, assumed: {name: string, value: number, unit: string}[]}} Fitted
+ *   verdict: Verdict, reasons: Reason[], order: number, is_flicker: boolean, unknown: Unknown[],
+ *   limits: string[], residuals: number[][], sigma: number[], times: number[], run: any,
+ *   assumed: {name: string, value: number, unit: string}[]}} Fitted
  */
 /** Why the model is in doubt or wrong. @typedef {{kind: string, changes?: Change[], count?: number}} Reason */
 
@@ -32,8 +34,8 @@ export const describeFit = (fit, top) => {
   const kept = new Set(noise.kept);
   return {
     kind: record.kind,
-    rows: record.given.times.length,
-    kept: record.count - noise.outliers,
+    rows: record.count,
+    kept: noise.kept.length,
     outliers: Array.from(record.times, (_, row) => row).filter((row) => !kept.has(row)),
     values,
     verdict: check.verdict,

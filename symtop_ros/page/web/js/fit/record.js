@@ -10,7 +10,7 @@ import { findMedian, findQuantile, findSpread } from "./statistics.js";
  */
 
 export const FEWEST = 12; // rows
-export const MOST = 2000; // rows; of more every second, third ... is taken
+export const MOST = 2000; // rows; of more the first are taken
 const GAP = 1.5; // medians of the steps; a longer step ends a run of noise
 const STILL = 1e-9; // of the size of the numbers; what changes less does not move
 const [LENGTH, USUAL] = [0.1, 0.75]; // relative differences of lengths, in most rows
@@ -116,10 +116,7 @@ const divideBoth = (a, b) => (b ? divideBoth(b, a % b) : a);
 /** The record of what was given; a RangeError says what is odd about it. @param {Given} given */
 export const makeRecord = (given) => {
   refuseOdd(given);
-  const step = Math.ceil(given.times.length / MOST);
-  const [times, rows] = [given.times, given.values].map((each) =>
-    /** @type {any[]} */ (each).filter((_, k) => k % step === 0),
-  );
+  const [times, rows] = [given.times.slice(0, MOST), given.values.slice(0, MOST)];
   const { values, length } = given.kind === "axis" ? normalize(rows) : { values: rows, length: 1 };
   refuseStill(values);
   const passed = Float64Array.from(times, (each) => each - times[0]);
