@@ -36,6 +36,7 @@ EXAMPLE = "example.csv"
 PATIENCE = 2.0  # s, after which progress is written
 NOT_GIVEN = (None, False)
 CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance"
+CLICKED = {"pivot": "U and V", "scale": "the length"}  # numbers that may have a deviation
 RATIOS = ("Iz/Ix", "Ix", "Mgl")
 
 
@@ -84,6 +85,13 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--pivot", type=decimal, nargs=2, metavar=("U", "V"), help="known pivot")
     parser.add_argument("--scale", type=positive, metavar="PIXELS", help="known length of the axis")
+    for name, of in CLICKED.items():
+        parser.add_argument(
+            f"--{name}-deviation",
+            type=positive,
+            metavar="PIXELS",
+            help=f"standard deviation of {of}, as of a click; without it --{name} is exact",
+        )
     parser.add_argument(
         "--elevation", type=decimal, metavar="DEGREES", help="known elevation of the camera"
     )
@@ -202,6 +210,9 @@ def _refuse_options(kind: str, options: argparse.Namespace) -> None:
     of_cameras = [f"--{name}" for name in CAMERA_OPTIONS if getattr(options, name) not in NOT_GIVEN]
     if kind != "pixels" and of_cameras:
         raise RefusedError(f"{of_cameras[0]} must have a record of pixels, got {kind}")
+    for name in CLICKED:
+        if getattr(options, f"{name}_deviation") and not getattr(options, name):
+            raise RefusedError(f"--{name}-deviation must have a --{name}, got none")
     if options.perspective and options.distance:
         raise RefusedError("--perspective looks for --distance: one of them must be given")
     if options.distance and options.distance <= 1 / NEAREST:
@@ -209,11 +220,11 @@ def _refuse_options(kind: str, options: argparse.Namespace) -> None:
 
 
 def find_camera(options: argparse.Namespace) -> dict[str, float]:
-    """Return what is known of a camera; one whose pivot is known is upright."""
+    """Return what is exactly known of a camera."""
     found: dict[str, float] = {}
-    if options.pivot:
+    if options.pivot and not options.pivot_deviation:
         found |= dict(zip("uv", options.pivot, strict=True))
-    if options.scale:
+    if options.scale and not options.scale_deviation:
         found["log_scale"] = float(np.log(options.scale))
     if options.distance:
         found["nearness"] = 1 / options.distance
@@ -229,8 +240,8 @@ def find_given(options: argparse.Namespace) -> dict[str, Known | None]:
 
 
 def find_known(kind: str, options: argparse.Namespace) -> dict[str, Known]:
-    """Return known parameters of the fit: ratios of what is known, and a bias of zero."""
-    given, known = find_given(options), {}
+    """Return known parameters of the fit: ratios, a bias of zero, and what was clicked."""
+    given, known = find_given(options), find_clicked(options)
     ratio, size, weight = (given[name] for name in RATIOS)
     if ratio and KINDS[kind].shows_spin:
         known["Iz/Ix"] = ratio
@@ -239,6 +250,19 @@ def find_known(kind: str, options: argparse.Namespace) -> dict[str, Known]:
         known["Mgl/Ix"] = value, value * float(np.hypot(weight[1] / weight[0], size[1] / size[0]))
     if options.mount is not None:
         known["bias_z"] = 0.0, options.mount
+    return known
+
+
+def find_clicked(options: argparse.Namespace) -> dict[str, Known]:
+    """Return what is known of a camera with a deviation: a pivot and a length as clicked."""
+    known: dict[str, Known] = {}
+    if options.pivot_deviation:
+        known |= {
+            n: (at, options.pivot_deviation) for n, at in zip("uv", options.pivot, strict=True)
+        }
+    if options.scale_deviation:
+        relative = options.scale_deviation / options.scale
+        known["log_scale"] = float(np.log(options.scale)), relative
     return known
 
 

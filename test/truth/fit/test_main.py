@@ -12,6 +12,7 @@ from symtop_ros import __version__
 from symtop_ros.physics import Motion, apply_impulse, specific_force
 from symtop_ros.truth.fit.main import Progress, main
 from symtop_ros.truth.imu.main import main as imu_main
+from workshop.fit.records import see
 
 
 @pytest.fixture(scope="module")
@@ -153,3 +154,31 @@ def test_progress_is_written_after_two_seconds_on_a_terminal(capsys, monkeypatch
     progress.report_part(0.5)
     progress.end()
     assert capsys.readouterr().err == "\rtop_fit: fitting, 50%, at most 4 s more \n"
+
+
+def test_what_was_clicked_is_known_to_its_deviation(tmp_path, capsys):
+    """A pivot off by a pixel is not taken exactly: it makes the pivot better known than before."""
+    camera = {"u": 300.0, "v": 200.0, "log_scale": 5.5, "elevation": 0.5, "roll": 0.0}
+    exact = see(CUSPS, "pixels", TIMES[:60], camera)
+    seen = exact + Numbers("clicks").normals(*exact.shape)
+    path = tmp_path / "measured.csv"
+    rows = np.column_stack([TIMES[:60], seen]).tolist()
+    path.write_text("t,u,v\n" + "".join(f"{t!r},{u!r},{v!r}\n" for t, u, v in rows))
+
+    def fit(*options):
+        assert main([str(path), "--json", *options]) == 0
+        return json.loads(capsys.readouterr().out)["values"]
+
+    free = fit()
+    pivot = [str(round(free[n]["value"] + free[n]["deviation"])) for n in "uv"]
+    known = fit("--pivot", *pivot, "--pivot-deviation", "1")
+    for name, clicked in zip("uv", map(float, pivot), strict=True):
+        mean, size = free[name]["value"], free[name]["deviation"]
+        both = (mean / size**2 + clicked) / (1 / size**2 + 1)  # two measurements of one number
+        # the fit weighs by noise that it finds again, and other numbers are not quite linear
+        assert known[name]["value"] == pytest.approx(both, abs=0.2 * size)
+        assert known[name]["deviation"] == pytest.approx((1 / size**2 + 1) ** -0.5, rel=0.15)
+    wide = fit("--scale", "245", "--scale-deviation", "1e6")
+    assert wide["scale"]["value"] == pytest.approx(free["scale"]["value"], rel=1e-3)
+    assert main([str(path), "--scale-deviation", "1"]) == 1
+    assert "--scale-deviation must have a --scale, got none" in capsys.readouterr().err
