@@ -114,6 +114,7 @@ window.acts = {
     add("style", { textContent: "p { color: red }" });
     add("iframe", { src: "data:text/html,x" });
     add("img", { src: "http://elsewhere.test/x.png" });
+    add("video", { src: "http://elsewhere.test/x.mp4" });
     setTimeout("window.pwned = 1");
     for (const address of ["http://elsewhere.test/", own]) {
       try {
@@ -121,7 +122,7 @@ window.acts = {
         done.push(address);
       } catch {}
     }
-    for (let k = 0; k < 100 && forbidden.size < 8; k += 1)
+    for (let k = 0; k < 100 && forbidden.size < 9; k += 1)
       await new Promise((wait) => setTimeout(wait, 50));
     if (window.pwned) done.push("script");
     return { done, forbidden: [...forbidden].sort() };

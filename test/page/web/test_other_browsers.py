@@ -182,7 +182,7 @@ def test_each_button_of_the_lesson_does_its_act(driver, path):
 RATE = 30
 TIMES = [k / RATE for k in range(40)]
 BALLS = [(40 + 5 * k, 60 + 3 * k) for k in range(40)]
-# A film is dropped; each frame that is asked for is shown, and its ball is the middle of what is red.
+# A film is dropped, and frames are asked for: the ball of each is the middle of what is red.
 STEP = """
 const [data, name, frames] = given;
 const wait = async (holds) => {

@@ -7,8 +7,10 @@ import math
 import numpy as np
 import pytest
 from films import draw_balls, write_film
-from run.simulation.page_points import make_measured
+from page.web.opened import WINDOW
+from run.simulation.page_points import look, make_measured
 
+from symtop_ros.physics import Motion, State, Top
 from symtop_ros.truth.fit.files import read_rows
 
 WIDTH, HEIGHT = 320, 240
@@ -283,3 +285,134 @@ def test_another_file_is_refused_in_a_line_and_the_clicks_stay(measuring, name):
     assert "2 of 40 frames" in measuring.say("plan")
     assert "swing.mp4" in measuring.say("measured-name")
     assert measuring.tab.is_visible("#film")
+
+
+CAMERA = {
+    "u": 160.0,
+    "v": 90.0,
+    "log_scale": math.log(90.0),
+    "elevation": 0.5,
+    "roll": 0.03125,
+    "nearness": 0.125,
+}
+NUTATIONS = [k / 120 for k in range(72)]
+
+
+def see_ball(times):
+    """Where the ball of a top is in the picture of a camera: x, y from the upper left corner."""
+    start = State.from_euler(theta=0.5, phi=0.75, phi_dot=2.0, psi_dot=150.0)
+    axes = Motion(Top(0.000228, 5.72e-05, 0.068), start).at(np.array(times))
+    seen = look(axes.to_world([0.0, 0.0, 1.0]), CAMERA)
+    return np.stack([seen[:, 0], HEIGHT - seen[:, 1]], axis=1)
+
+
+@pytest.fixture(scope="module", name="fitted")
+def _fitted(_shared, path, tmp_path_factory):
+    """The page after the fit of a film, and where the ball was in its frames."""
+    balls = see_ball(NUTATIONS)
+    film = write_film(tmp_path_factory.mktemp("fit") / "top.mp4", draw_balls(balls), NUTATIONS)
+    page = _shared.open(path)
+    open_file(page, film)
+    page.tab.fill("#wanted-frames", "72")
+    click(page, (CAMERA["u"], HEIGHT - CAMERA["v"]))
+    for frame in range(3):
+        page.until(lambda frame=frame: read_frame(page) == frame)
+        click(page, balls[frame])
+    page.tab.click("#follow-ball")
+    page.until(lambda: "72 of 72" in page.say("plan"))
+    page.tab.check("#near-camera")
+    page.tab.click("#fit-record")
+    page.until(lambda: is_beside(page))
+    return page, balls
+
+
+def is_beside(page):
+    assert page.say("refusal") == ""
+    return page.tab.evaluate("document.body.dataset.film") == "beside"
+
+
+def test_the_run_of_a_fit_leaves_what_a_codec_leaves(fitted):
+    page, balls = fitted
+    points = page.read_run()["points"]
+    assert points["kind"] == "pixels"
+    assert len(points["times"]) == len(balls)
+    assert np.abs(np.array(points["residuals"])[3:]).max() < FOUND
+    seen = np.array([(x, HEIGHT - y) for x, y in balls])
+    assert np.array(points["values"])[3:] == pytest.approx(seen[3:], abs=FOUND)
+
+
+def test_the_film_goes_with_the_clock_of_the_run_and_the_run_with_the_slider_of_the_film(fitted):
+    page, _ = fitted
+    page.seek(0.25)
+    page.until(lambda: read_frame(page) == 30)
+    page.tab.evaluate("acts.change", ["film-line", 45])
+    page.until(lambda: float(page.tab.input_value("#timeline")) == pytest.approx(0.375, abs=1e-6))
+    assert read_frame(page) == 45
+    page.tab.click("#pause")
+    page.until(lambda: read_frame(page) > 46)
+    page.tab.click("#pause")
+
+
+BLUE = """() => {
+    const canvas = document.getElementById("film-picture");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    const found = [];
+    for (let k = 0; k < data.length; k += 4)
+        if (data[k] < 170 && data[k + 2] > 230 && data[k + 2] - data[k] > 80)
+            found.push([(k / 4) % canvas.width, Math.floor(k / 4 / canvas.width)]);
+    return [found, canvas.width, canvas.height];
+}"""
+
+
+def test_the_path_of_the_fitted_axis_goes_through_the_balls_of_the_film(fitted):
+    page, balls = fitted
+    page.tab.set_viewport_size({"width": 2600, "height": 1800})  # dots do not cover the path
+    page.tab.click("#tab-measure")
+    page.seek(0)
+    page.until(lambda: read_frame(page) == 0)
+    page.wait_for_frames()
+    blue, width, height = page.tab.evaluate(BLUE)
+    scale = min(width / WIDTH, height / HEIGHT)
+    places = (np.array(blue) + 0.5 - [width / 2, height / 2]) / scale + [WIDTH / 2, HEIGHT / 2]
+    page.tab.set_viewport_size(WINDOW)
+    # A piece of it is seen between two clicks that are farther apart than their dots are wide.
+    middles = see_ball([time + 1 / 240 for time in NUTATIONS[5:-1]])
+    apart = np.linalg.norm(middles[:, None] - balls[None], axis=2).min(axis=1)
+    middles = middles[apart > 4.0 / scale]
+    assert len(middles) > 20
+    far = np.linalg.norm(middles[:, None] - places[None], axis=2)
+    assert far.min(axis=1).max() < 2.0 / scale + FOUND
+    way = see_ball(np.linspace(0, NUTATIONS[-1], 2000))
+    astray = np.linalg.norm(way[:, None] - places[None], axis=2).min(axis=0)
+    assert astray.max() < 8.0 / scale  # the ring of the motion, and nothing blue elsewhere
+
+
+def test_another_run_goes_on_without_the_film(fitted):
+    page, _ = fitted
+    page.start_scene("looping")
+    page.wait_for_texts()
+    frame = read_frame(page)
+    page.wait_for_texts()
+    assert read_frame(page) == frame
+    page.tab.click("#close-film")
+    assert page.tab.is_hidden("#film")
+    page.open_tab("measure")
+    page.tab.click("#open-film")
+    assert page.tab.is_visible("#film")
+    assert "72 of 72" in page.say("plan")
+
+
+def test_a_fit_is_stopped_and_a_record_of_too_few_rows_is_refused(measuring):
+    click(measuring, PIVOT)
+    click_balls(measuring, range(3))
+    measuring.tab.click("#fit-record")
+    measuring.until(lambda: measuring.say("refusal"))
+    assert measuring.say("refusal") == "a record must have at least 12 rows, got 3"
+    assert measuring.tab.is_enabled("#fit-record")
+    measuring.tab.click("#follow-ball")
+    measuring.until(lambda: "40 of 40" in measuring.say("plan"))
+    measuring.tab.click("#fit-record")
+    measuring.tab.click("#stop-fit")
+    assert measuring.tab.is_enabled("#fit-record")
+    assert measuring.tab.is_hidden("#fit-progress")
+    assert "40 of 40" in measuring.say("plan")

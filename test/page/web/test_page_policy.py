@@ -16,7 +16,7 @@ HOSTILE = (
     "<!--<script>window.pwned = 1",
     "\\u003c/script\\u003e<img src=x onerror='window.pwned = 1'>",
 )
-FORBIDDEN = ["connect-src", "frame-src", "img-src", "script-src", "script-src-attr"]
+FORBIDDEN = ["connect-src", "frame-src", "img-src", "media-src", "script-src", "script-src-attr"]
 FORBIDDEN += ["script-src-elem", "style-src-attr", "style-src-elem"]
 
 

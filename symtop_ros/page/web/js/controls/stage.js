@@ -23,7 +23,8 @@ const NEAR = 12; // css px between the pointer and a mark that it takes
 const ZOOM = 1.25; // of a step
 const MOST = 24; // css px of a pixel of the film
 const SHARP = 3; // from here on pixels are squares
-const RING = 9; // css px
+const ARM = 9; // css px of the cross of the pivot
+const DARK = "rgb(0 0 0 / 0.65)"; // around what is drawn, so that it is seen over any picture
 
 export class Stage {
   /**
@@ -246,7 +247,7 @@ const size = (canvas, width, height) => {
 /** With a dark edge, so that it is seen over any picture. @param {CanvasRenderingContext2D} context @param {Path2D} path @param {string} color @param {number} wide */
 const stroke = (context, path, color, wide) => {
   for (const [style, width] of /** @type {[string, number][]} */ ([
-    ["rgb(0 0 0 / 0.65)", wide + 2],
+    [DARK, wide + 1.5],
     [color, wide],
   ])) {
     Object.assign(context, { strokeStyle: style, lineWidth: width, lineCap: "round" });
@@ -266,24 +267,37 @@ const paintPath = (context, places) => {
   if (places.length) paintLine(context, places, COLORS.path, 1.5);
 };
 
+/** @type {{[aim: string]: number}} css px; others are crosses or dots */
+const RINGS = { ball: 9, suggestion: 9, motion: 4, length: 4 };
+const DOT = 1.5; // css px
+
 /** @param {CanvasRenderingContext2D} context @param {Place} place @param {Shown["aim"]} aim */
 const paintMark = (context, [x, y], aim) => {
   const path = new Path2D();
-  if (aim === "pivot" || aim === "other") {
-    const arm = aim === "pivot" ? RING : 2.5;
+  if (aim === "pivot")
     for (const [a, b] of [
-      [arm, 0],
-      [0, arm],
+      [ARM, 0],
+      [0, ARM],
     ]) {
       path.moveTo(x - a, y - b);
       path.lineTo(x + a, y + b);
     }
-  } else path.arc(x, y, aim === "motion" ? 4 : aim === "length" ? 4 : RING, 0, 2 * Math.PI);
+  else if (aim in RINGS) path.arc(x, y, RINGS[aim], 0, 2 * Math.PI);
   context.setLineDash(aim === "suggestion" ? [4, 4] : []);
-  stroke(context, path, COLORS[aim], aim === "other" ? 1 : 2);
+  stroke(context, path, COLORS[aim], 2);
   context.setLineDash([]);
-  if (aim === "ball") {
-    context.fillStyle = COLORS[aim];
-    context.fillRect(x - 1, y - 1, 2, 2);
+  if (aim === "ball" || aim === "other") paintDot(context, x, y, COLORS[aim]);
+};
+
+/** @param {CanvasRenderingContext2D} context @param {number} x @param {number} y @param {string} color */
+const paintDot = (context, x, y, color) => {
+  for (const [style, radius] of /** @type {[string, number][]} */ ([
+    [DARK, DOT + 0.7],
+    [color, DOT],
+  ])) {
+    context.fillStyle = style;
+    context.beginPath();
+    context.arc(x, y, radius, 0, 2 * Math.PI);
+    context.fill();
   }
 };

@@ -25,11 +25,12 @@ export const openTab = (name) => choose(find(`tab-${name}`));
 
 export const offerTabs = () => {
   const tabs = findAll("[role=tab]");
-  tabs.forEach((tab, k) => {
+  tabs.forEach((tab) => {
     tab.addEventListener("click", () => choose(findPanel(tab).hidden ? tab : null));
     tab.addEventListener("keydown", ({ key }) => {
       if (!STEPS[key]) return;
-      const next = tabs[(k + STEPS[key] + tabs.length) % tabs.length];
+      const shown = tabs.filter(({ hidden }) => !hidden);
+      const next = shown[(shown.indexOf(tab) + STEPS[key] + shown.length) % shown.length];
       choose(next);
       next.focus();
     });
