@@ -4,7 +4,7 @@ import { Charts } from "./charts/charts.js";
 import { choose, followLooks, keepChoice, read } from "./controls/choices.js";
 import { find, findAll, make, say, write, writeTexts } from "./controls/document.js";
 import { Fields } from "./controls/fields.js";
-import { showFitted, showFittedUnit } from "./controls/fitted.js";
+import { showFittedUnit } from "./controls/fitted.js";
 import { offerFiles, openDropped, save } from "./run/files.js";
 import { actWhileHeld, listenToKeys } from "./controls/keys.js";
 import { Layers } from "./controls/layers.js";
@@ -78,7 +78,6 @@ export class Page {
     this.layers = new Layers(send);
     this.moments = new Moments(send);
     this.measure = new Measure(send, this.load.bind(this));
-    this.measure.showFitted = showFitted;
     /** @type {Lesson | null} */
     this.lesson = null; // until the top has sent its steps
     /** @type {((name: string) => void) | null} */

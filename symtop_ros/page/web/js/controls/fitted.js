@@ -82,6 +82,12 @@ export const showFitted = (fitted, command) => {
   drawResiduals(fitted);
 };
 
+/** Another measurement has no result yet. */
+export const hideFitted = () => {
+  shown = null;
+  find("fitted").replaceChildren();
+};
+
 /** Show it in the unit that was chosen. */
 export const showFittedUnit = () => {
   if (shown) showFitted(shown.fitted, shown.command);

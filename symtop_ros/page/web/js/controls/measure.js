@@ -6,6 +6,7 @@ import { makeGiven, writeCommand, writeTable } from "../film/measured.js";
 import { findSort } from "../film/sorts.js";
 import { readTable } from "../film/table.js";
 import { find, say } from "./document.js";
+import { hideFitted, showFitted } from "./fitted.js";
 import { acceptField, refuse, refuseField } from "./notices.js";
 import { openTab } from "./tabs.js";
 import { project } from "../fit/projection.js";
@@ -44,8 +45,6 @@ export class Measure {
     this.waiting = null;
     /** @type {Fitting | null} */
     this.fitting = null; // while the kernel is loaded
-    /** @type {((fitted: any, command: string) => void) | null} */
-    this.showFitted = null;
     this.isFitting = false;
     /** The points of the run that was fitted, and the time of the film at which it begins. @type {{points: Points, begin: number} | null} */
     this.linked = null;
@@ -116,6 +115,7 @@ export class Measure {
       this.setPlace("");
       this.table = { name: file.name, table };
       this.linked = null;
+      hideFitted();
       this.show();
     });
   }
@@ -134,7 +134,10 @@ export class Measure {
       old?.close();
       this.film = film;
       this.table = null;
-      this.linked = isSame ? this.linked : null;
+      if (!isSame) {
+        this.linked = null;
+        hideFitted();
+      }
       this.setRateOf(film, isSame);
       this.clicking.take(film, isSame);
       this.setPlace("whole");
@@ -239,7 +242,7 @@ export class Measure {
     try {
       const fitted = await fitting.fit(given, (part) => this.report(part));
       this.link(fitted.run, film ? given.times[0] : null);
-      this.showFitted?.(fitted, command);
+      showFitted(fitted, command);
     } catch (error) {
       const text = error instanceof Error ? error.message : String(error);
       refuse(error instanceof RangeError ? text : phrase("measure.failed", { text }));
