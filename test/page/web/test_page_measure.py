@@ -3,6 +3,7 @@
 import base64
 import json
 import math
+import struct
 
 import numpy as np
 import pytest
@@ -416,3 +417,56 @@ def test_a_fit_is_stopped_and_a_record_of_too_few_rows_is_refused(measuring):
     assert measuring.tab.is_enabled("#fit-record")
     assert measuring.tab.is_hidden("#fit-progress")
     assert "40 of 40" in measuring.say("plan")
+
+
+HUGE = 4_200_000_000  # bytes, more than 32 bits count
+
+
+def test_a_film_of_four_gigabytes_is_not_read_into_memory(opened, film, tmp_path):
+    path = tmp_path / "huge.mp4"
+    data = film.read_bytes()
+    # What a film does not need may follow it: a free box, of a length that has 64 bits. The disk
+    # holds nothing of it.
+    with path.open("wb") as file:
+        file.write(data + struct.pack(">I4sQ", 1, b"free", HUGE - len(data)))
+        file.truncate(HUGE)
+    before = opened.tab.evaluate("performance.memory.usedJSHeapSize")
+    open_file(opened, path)
+    assert opened.say("measured-name").startswith("huge.mp4: 320 x 240 pixels, 40 frames")
+    click(opened, PIVOT)
+    click_balls(opened, range(4))
+    assert "4 of 40 frames" in opened.say("plan")
+    assert opened.tab.evaluate("performance.memory.usedJSHeapSize") < before + 100_000_000
+
+
+def test_a_film_that_vanishes_leaves_its_clicks_and_is_opened_again(opened, film, tmp_path):
+    path = tmp_path / "swing.mp4"
+    path.write_bytes(film.read_bytes())
+    open_file(opened, path)
+    click(opened, PIVOT)
+    click_balls(opened, range(2))
+    opened.until(lambda: read_frame(opened) == 2)
+    opened.tab.evaluate(VANISH)
+    opened.tab.evaluate("acts.change", ["film-line", 30])
+    opened.until(lambda: "cannot be read any more" in opened.say("refusal"))
+    assert "2 of 40 frames" in opened.say("plan")
+    open_file(opened, path)
+    opened.until(lambda: "frame 1 of 40" in opened.tab.text_content("#film-clock"))
+    assert "2 of 40 frames" in opened.say("plan")
+    opened.tab.evaluate("acts.change", ["film-line", 30])
+    opened.until(lambda: "frame 31 of 40" in opened.tab.text_content("#film-clock"))
+    assert opened.say("refusal") == ""
+    opened.problems.clear()  # the address that is none
+
+
+# A browser may hold a short film as a whole, so that its file cannot be taken away: a seek fails.
+VANISH = """() => {
+    const { set } = Object.getOwnPropertyDescriptor(HTMLMediaElement.prototype, "currentTime");
+    Object.defineProperty(HTMLMediaElement.prototype, "currentTime", {
+        configurable: true,
+        set(time) {
+            Object.defineProperty(HTMLMediaElement.prototype, "currentTime", { set, configurable: true });
+            this.src = "blob:nothing";
+        },
+    });
+}"""

@@ -10,6 +10,7 @@ const PATIENCE = 30_000; // ms until a browser that says nothing of a file is ta
 const DRAWN = 250; // ms; a frame that is the same is not presented again
 const ASKED = 1e-4; // s
 const STEADY = 0.1; // of a step, by which the times of a steady film differ from even ones
+const FAR = 1e7; // s, beyond the end of any film
 const FEWEST = 2; // frames
 
 /** @param {string} kind @param {File} file */
@@ -85,6 +86,7 @@ export class Film {
     const ready = await wait(video, ["loadeddata", "error"]);
     if (ready === "loadeddata" && video.videoWidth) {
       const film = new Film(file, video, begins);
+      if (!Number.isFinite(video.duration)) await film.seek(FAR); // then the browser knows its end
       await film.show(0);
       film.align();
       return film;
