@@ -3,6 +3,7 @@
 import base64
 import json
 import math
+import shlex
 import struct
 
 import numpy as np
@@ -13,6 +14,7 @@ from run.simulation.page_points import look, make_measured
 
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.truth.fit.files import read_rows
+from symtop_ros.truth.fit.main import make_parser
 
 WIDTH, HEIGHT = 320, 240
 PIVOT = (160.0, 200.0)
@@ -90,6 +92,13 @@ def click_balls(page, frames):
         click(page, BALLS[frame])
 
 
+def read_command(page):
+    """Return the command for a terminal as top_fit reads it."""
+    program, *words = shlex.split(page.tab.input_value("#fit-command"))
+    assert program == "top_fit"
+    return make_parser().parse_args(words)
+
+
 def save(page, folder):
     """Return the table that the page saves, as Python reads it."""
     with page.tab.expect_download() as download:
@@ -115,11 +124,11 @@ def test_a_film_is_clicked_and_saved_as_a_table_of_top_fit(measuring, tmp_path):
     assert rows.kind == "pixels"
     assert rows.times == pytest.approx(TIMES[:5], abs=1e-7)
     assert rows.values == pytest.approx(np.array(expect_rows(range(5))), abs=CLICK)
-    command = measuring.tab.input_value("#fit-command")
-    words = command.split()
-    assert words[:4] == ["top_fit", "measured.csv", "--kind", "pixels"]
-    u, v = map(float, words[words.index("--pivot") + 1 :][:2])
-    assert (u, v) == pytest.approx((PIVOT[0], HEIGHT - PIVOT[1]), abs=CLICK)
+    options = read_command(measuring)
+    assert (str(options.record), options.kind) == ("measured.csv", "pixels")
+    assert options.pivot == pytest.approx([PIVOT[0], HEIGHT - PIVOT[1]], abs=CLICK)
+    assert options.pivot_deviation == 1  # px
+    assert not options.perspective
 
 
 def test_the_ring_is_where_the_ball_is_and_is_taken_when_it_is_asked_for(measuring, tmp_path):
@@ -195,9 +204,13 @@ def test_a_length_gives_the_scale(measuring):
     assert "--scale" not in measuring.tab.input_value("#fit-command")
     measuring.tab.fill("#length-value", "0.25")
     measuring.tab.fill("#ball-value", "0,5")
-    command = measuring.tab.input_value("#fit-command").split()
+    options = read_command(measuring)
     # two ends, each a pixel of the screen from where they were meant
-    assert float(command[command.index("--scale") + 1]) == pytest.approx(200, abs=2 * CLICK * 2)
+    assert options.scale == pytest.approx(200, abs=2 * CLICK * 2)
+    # two clicks of a pixel, and the last digits of what was typed: 0.005 and 0.05 at most
+    parts = [math.sqrt(2) / 100, 0.005 / math.sqrt(3) / 0.25, 0.05 / math.sqrt(3) / 0.5]
+    expected = options.scale * math.hypot(*parts)
+    assert options.scale_deviation == pytest.approx(expected, rel=0.05)  # two digits
 
 
 def test_a_click_outside_of_the_picture_is_refused_and_nothing_is_lost(measuring):
@@ -465,7 +478,8 @@ VANISH = """() => {
     Object.defineProperty(HTMLMediaElement.prototype, "currentTime", {
         configurable: true,
         set(time) {
-            Object.defineProperty(HTMLMediaElement.prototype, "currentTime", { set, configurable: true });
+            const own = { set, configurable: true };
+            Object.defineProperty(HTMLMediaElement.prototype, "currentTime", own);
             this.src = "blob:nothing";
         },
     });

@@ -54,12 +54,19 @@ export const writeTable = ({ kind, times, values }) => {
   return `${[kind === "pixels" ? "t,u,v" : "t,x,y,z", ...rows].join("\n")}\n`;
 };
 
+/** @param {[number, number]} size ln of the scale, and its deviation */
+const writeScale = ([logarithm, deviation]) => {
+  const scale = Math.exp(logarithm);
+  const [value, spread] = [scale.toPrecision(4), (scale * deviation).toPrecision(2)].map(Number);
+  return `--scale ${value} --scale-deviation ${spread}`;
+};
+
 /** The command that fits the same record. @param {string} name of the file @param {Given} given */
 export const writeCommand = (name, { kind, known = {}, perspective }) => {
   const { u, v, log_scale: size } = known;
   const options = [
-    u && v ? `--pivot ${u[0]} ${v[0]}` : "",
-    size ? `--scale ${Number(Math.exp(size[0]).toPrecision(4))}` : "",
+    u && v ? `--pivot ${u[0]} ${v[0]} --pivot-deviation ${u[1]}` : "",
+    size ? writeScale(size) : "",
     perspective ? "--perspective" : "",
   ];
   const file = /^[\w.-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`;
