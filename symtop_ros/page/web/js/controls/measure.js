@@ -236,6 +236,7 @@ export class Measure {
     const { given, command, fitting, film } = this;
     if (!given || !fitting) return;
     refuse("");
+    this.clicking.isFollowing = false;
     this.isFitting = true;
     this.report(0);
     this.show();
