@@ -79,6 +79,16 @@ def test_noise_and_light_that_changes_do_not_lead_it_away(films, tmp_path):
     check(follow(films, path), range(3, COUNT), near=1.0)  # px, as a click of a hand
 
 
+def test_a_wooden_disc_is_no_second_ball_though_it_is_half_like_it(films, tmp_path):
+    def add_disc(pictures):
+        for (x, y), picture in zip(BALLS, pictures, strict=True):
+            left, top = round(x) - 40, round(y) + 14
+            picture[top : top + 10, left : left + 80] = 150, 120, 80
+            yield picture
+
+    check(follow(films, write(tmp_path, add_disc(draw_balls(BALLS)))), range(3, COUNT))
+
+
 def end(found):
     """Return the last frame and what is said of it."""
     return found[-1][:2]

@@ -201,17 +201,20 @@ export const findBall = (picture, look, { place, moved }) => {
 };
 
 /**
+ * What is like the ball in its own middle is one; a disc of wood is like a red ball, but nowhere fully.
  * @param {Part} part @param {Look} look @param {Float64Array} covered
  * @param {{pixels: number[], area: number, stretch: number, place: Place}[]} things the largest first
  * @returns {Answer}
  */
-const judge = (part, look, covered, [ball, other]) => {
-  if (!ball || ball.area < 1) return { kind: "none" };
+const judge = (part, look, covered, things) => {
+  const isFull = (/** @type {number[]} */ pixels) =>
+    pixels.some((each) => covered[each] >= SMALLER);
+  const [ball, other] = things.filter(({ pixels }) => isFull(pixels));
+  if (!ball) return { kind: things.some(({ area }) => area >= 1) ? "blurred" : "none" };
   if (other && other.area > SECOND * look.area) return { kind: "second" };
   const edge = new Set(listEdge(part));
   if (ball.pixels.some((each) => edge.has(each))) return { kind: "edge" };
-  const most = ball.pixels.reduce((best, each) => Math.max(best, covered[each]), 0);
-  const isBlurred = most < SMALLER || ball.stretch > STRETCHED * look.stretch;
+  const isBlurred = ball.stretch > STRETCHED * look.stretch;
   if (isBlurred || ball.area < SMALLER * look.area || ball.area > LARGER * look.area)
     return { kind: "blurred" };
   return { kind: "found", place: ball.place };
