@@ -229,7 +229,7 @@ def compare_values(fit, found):
         yield f"unknown are {kinds}"
 
 
-@pytest.mark.parametrize("noise", ["white", "outliers", "AR(1)"])
+@pytest.mark.parametrize("noise", ["white", "outliers", "AR(1)", "rounded"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_record_has_the_minimum_and_the_deviations_of_top_fit(fits, kind, noise):
     assert hold(fits, kind, noise, FIRST) == []

@@ -23,8 +23,6 @@ import { listValues } from "./values.js";
  */
 /** Why the model is in doubt or wrong. @typedef {{kind: string, changes?: Change[], count?: number}} Reason */
 
-const COARSE = 1e-3; // part of the errors of rounding, below which they are noise
-
 /** @param {Fit} fit @param {Top} top whose moments stand for those that no record of an axis shows @returns {Fitted} */
 export const describeFit = (fit, top) => {
   const { model, noise } = fit;
@@ -64,20 +62,8 @@ const listReasons = ({ is_white, is_smooth, changes, stretch, fault }, fit) => [
 /** What top_fit allows for and this search does not. @param {ReturnType<typeof checkFit>} check @param {Fit} fit */
 const listLimits = ({ verdict, is_smooth }, fit) => [
   ...(verdict === "fails" || is_smooth ? ["friction"] : []),
-  ...(isCoarse(fit) ? ["rounded"] : []),
   ...(fit.model.record.count < fit.model.record.given.times.length ? ["rows"] : []),
 ];
-
-/**
- * Whether the rounding of values follows the motion: noise makes its errors noise, by the factor
- * exp(-2 (pi sigma/step)^2) at least (Widrow and Kollar, Quantization Noise, 2008).
- * @param {Fit} fit
- */
-const isCoarse = ({ model, noise }) =>
-  model.record.rounding.some((rounding, k) => {
-    const square = Math.max(noise.sigma[k] ** 2 - rounding ** 2, 0);
-    return rounding > 0 && Math.exp((-2 * Math.PI ** 2 * square) / (12 * rounding ** 2)) > COARSE;
-  });
 
 /** @param {Float64Array} flat @param {number} width */
 const splitRows = (flat, width) =>

@@ -27,9 +27,16 @@ export const findNoise = (model, x, lasts) => {
   );
   if (!good.some(Boolean)) good = good.map(() => true);
   const rows = { good, follows: record.follows, parameters: x.length };
-  const partial = lasts ? findLasting(columns, rows) : columns.map(() => []);
+  const { fixed } = record;
+  const partial = (lasts ? findLasting(columns, rows) : columns.map(() => [])).map((each, k) =>
+    fixed[k] ? each.map(() => 0) : each,
+  );
   const noise = measureNoise(columns, rows, partial);
-  return { ...noise, sigma: noise.sigma.map((each, k) => Math.max(each, least[k])) };
+  const count = noise.kept.length; // rows that have one error count as one
+  const sigma = noise.sigma.map(
+    (each, k) => Math.max(each, least[k]) * (fixed[k] ? Math.sqrt(count) : 1),
+  );
+  return { ...noise, sigma };
 };
 
 /** What is new in the kept rows of some, in deviations. @param {Noise} noise @param {Float64Array} flat */

@@ -18,6 +18,7 @@ const [USUAL_SPIKE, SPIKE] = [0.9, 4]; // part of the differences from medians, 
 const MULTIPLES = 6; // the smallest difference of rounded values is a step, or 2 or 3, and seldom more
 const MANY = 1e12;
 const EVEN = 0.1;
+const FIXED = 12; // deviations of rounding, of which a step has 3.5
 const WIDTHS = { axis: 3, pixels: 2 };
 
 /** Columns of rows. @param {number[][]} rows */
@@ -78,6 +79,15 @@ export class Record {
   /** The deviation of the rounding of each column; 0 if none is seen. */
   get rounding() {
     return listColumns(this.values).map((each) => findStep(each) / Math.sqrt(12));
+  }
+
+  /** Whether a column stays within a few steps of rounding: all its rows have one error. */
+  get fixed() {
+    const { rounding } = this;
+    return listColumns(this.values).map((each, k) => {
+      const [least, most] = [Math.min, Math.max].map((of) => each.reduce((a, b) => of(a, b)));
+      return most - least < FIXED * rounding[k];
+    });
   }
 
   /** With medians of their neighbours in place of single wrong rows. */

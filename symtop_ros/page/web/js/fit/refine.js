@@ -4,6 +4,7 @@
 
 import { apply, dot, findEigen, multiplyPairs, transpose } from "./linear.js";
 import { findNoise, splitColumns, whiten } from "./noise.js";
+import { findShifts, sumShifts } from "./rounding.js";
 import { fitWeighted } from "./search.js";
 import { countIndependent, sumInfluences } from "./statistics.js";
 
@@ -36,7 +37,7 @@ export class Fit {
     this.residuals = model.findResiduals(x);
     /** Residuals of the kept rows in deviations. */
     this.white = whiten(noise, this.residuals);
-    /** What was asked for. @type {{slopes?: Slopes, independent?: number, influences?: number[][]}} */
+    /** What was asked for. @type {{slopes?: Slopes, independent?: number, influences?: number[][], shifts?: number[][]}} */
     this.found = {};
   }
 
@@ -97,13 +98,16 @@ export class Fit {
     return transpose(scores).map((row) => apply(covariance, row));
   }
 
-  /** The deviation of a combination of the parameters, also for noise that is correlated. @param {number[]} slope */
+  /** The deviation of a combination of the parameters, also for noise that is correlated, and rounding. @param {number[]} slope */
   findDeviation(slope) {
     const values = this.influences.map((row) => dot(row, slope));
     const robust = sumInfluences(values, this.x.length, this.independent);
     const own = apply(this.covariance, slope);
     const known = own.reduce((sum, each, k) => sum + each ** 2 * this.slopes.priors[k], 0);
-    return Math.sqrt(Math.max(robust + known, dot(slope, own)));
+    this.found.shifts ??= findShifts(this);
+    return Math.sqrt(
+      Math.max(robust + known, dot(slope, own), sumShifts(this.found.shifts, slope)),
+    );
   }
 }
 

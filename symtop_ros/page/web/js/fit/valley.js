@@ -29,7 +29,9 @@ export class Valley {
     );
     this.own = this.sumSquares(fit.x);
     const left = this.steps.map((step) => {
-      const isGiven = step.reduce((sum, each, k) => sum + each ** 2 * priors[k], 0) > GIVEN;
+      const isGiven =
+        step.reduce((sum, each, k) => sum + each ** 2 * priors[k], 0) + this.measureFixed(step) >
+        GIVEN;
       const grown = SIDES.map((side) => this.measureGrowth(this.move(step, side)));
       return !isGiven && !isNear((grown[0] + grown[1]) / 2);
     });
@@ -40,6 +42,17 @@ export class Valley {
     this.isCurved = this.floors.map(
       (ends) => ends !== null && !ends.every((each) => isNear(this.measureGrowth(each) / FAR ** 2)),
     );
+  }
+
+  /** The information on a step by columns whose rows have one error. @param {number[]} step */
+  measureFixed(step) {
+    const { model, white, slopes } = this.fit;
+    const { fixed, width } = model.record;
+    let sum = 0;
+    for (let k = 0; fixed.some(Boolean) && k < white.length; k += 1)
+      if (fixed[k % width])
+        sum += slopes.columns.reduce((all, each, j) => all + each[k] * step[j], 0) ** 2;
+    return sum;
   }
 
   /** Whether the deviation of a number holds. @param {number[]} slope @param {(x: number[]) => number} of */
