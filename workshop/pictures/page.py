@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple
 
 import yaml
 from PIL import Image
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Page, sync_playwright
 
 from symtop_ros.page.web.join import read_record, write_file
 from symtop_ros.physics import ExactTimes, Motion
@@ -22,7 +22,9 @@ from symtop_ros.run.simulation.settings import Settings
 from workshop.browser import launch
 from workshop.pictures.pack import pack_shaded
 
-DOCS = Path(__file__).parents[2] / "docs"
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+EXAMPLE = ROOT / "symtop_ros/truth/fit/example.csv"
 TIMEOUT = 60_000  # ms
 # The canvas is drawn twice as large and shrunk: its edges are smooth, as with a graphics card.
 SMOOTH = "Object.defineProperty(window, 'devicePixelRatio', {value: 2})"
@@ -41,6 +43,7 @@ class Picture(NamedTuple):
     step: int = 0
     prediction: str = ""
     record: bool = False
+    fitted: bool = False
 
 
 TABLE = Path(__file__).with_suffix(".yaml").read_text(encoding="utf-8")
@@ -61,28 +64,38 @@ def draw(browser: Browser, picture: Picture, folder: Path) -> Path:
     path = folder / f"{picture.name}.png"
     width, height = picture.window
     with tempfile.TemporaryDirectory() as place:
-        page = Path(place, "top.html")
+        file = Path(place, "top.html")
         is_played = picture.record or any(picture.nutations)
         run = play(picture) if is_played else None  # without one it asks its question
-        page.write_text(write_file(run=run), encoding="utf-8")
+        file.write_text(write_file(run=run), encoding="utf-8")
         tab = browser.new_page(
             viewport={"width": width, "height": height},
             color_scheme=picture.scheme,
             reduced_motion="reduce",  # it begins at rest
         )
         tab.add_init_script(SMOOTH)
-        tab.goto(page.as_uri() + (f"#lesson={picture.step}" if picture.step else ""))
+        tab.goto(file.as_uri() + (f"#lesson={picture.step}" if picture.step else ""))
         tab.wait_for_selector("#headline:not(:empty)", state="attached", timeout=TIMEOUT)
         if picture.prediction:
             tab.get_by_label("Your prediction").fill(picture.prediction)
         elif picture.tab:
             tab.get_by_role("tab", name=picture.tab).click()
+        if picture.fitted:
+            fit(tab)
         tab.mouse.move(width / 2, 5)
         tab.wait_for_timeout(3000)  # the browser may be some frames behind
         with Image.open(io.BytesIO(tab.screenshot())) as shot:
             path.write_bytes(pack_shaded(shot))
         tab.close()
     return path
+
+
+def fit(tab: Page) -> None:
+    """Fit the example of `top_fit` on the page."""
+    tab.set_input_files("#measured-file", EXAMPLE)
+    tab.get_by_role("button", name="Fit", exact=True).click()
+    tab.wait_for_selector("#fitted:not(:empty)", timeout=TIMEOUT)
+    tab.evaluate("document.querySelector('#fitted').scrollIntoView()")
 
 
 def play(picture: Picture) -> dict[str, Any]:
