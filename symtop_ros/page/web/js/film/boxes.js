@@ -46,7 +46,7 @@ export const findBox = (view, box, path) => {
  * The boxes of a file, one after another.
  * @param {Blob} file @returns {AsyncGenerator<Box>}
  */
-export async function* walkBoxes(file) {
+export const walkBoxes = async function* (file) {
   for (let place = 0; place + 8 <= file.size; ) {
     const head = new DataView(await file.slice(place, place + HEADER).arrayBuffer());
     if (head.byteLength < HEADER) return;
@@ -54,7 +54,7 @@ export async function* walkBoxes(file) {
     yield box;
     place = box.end;
   }
-}
+};
 
 /** The contents of a box; null if they are too long for an index. @param {Blob} file @param {Box} box */
 export const readContents = async (file, { begin, end }) =>
