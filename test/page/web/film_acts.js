@@ -18,11 +18,11 @@ const findRed = ({ canvas, picture }) => {
 };
 
 /** Open a film, at a rate if one is given; its size and times, and what is red in some of its frames. */
-window.readFilm = async ([data, name, frames, rate]) => {
+window.readFilm = async ([data, name, frames, rate, sort]) => {
   const { Film } = await import("/film/film.js");
   const { findSort } = await import("/film/sorts.js");
   const file = makeFile(data, name);
-  const film = await Film.open(file, await findSort(file));
+  const film = await Film.open(file, sort ?? (await findSort(file)));
   if (rate) film.setRate(rate);
   const found = [];
   for (const frame of frames) {

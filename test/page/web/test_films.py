@@ -89,12 +89,25 @@ def write_pieces(path, source):
     return path
 
 
+@pytest.mark.parametrize("times", [STEADY, UNEVEN], ids=["30", "uneven"])
+def test_a_film_in_pieces_has_its_own_times(films, times, tmp_path):
+    balls = place_balls(len(times))
+    source = write_film(tmp_path / "a.mp4", draw_balls(balls), times)
+    film = read(films, write_pieces(tmp_path / "b.mp4", source), [7, 3, len(times) - 1])
+    assert film["isReal"]
+    assert film["times"] == pytest.approx(times, abs=1e-5)
+    for place, seen, *found in film["found"]:
+        assert found == pytest.approx(balls[place], abs=PIXEL)
+        assert seen == pytest.approx(times[place], abs=1e-5)
+
+
 def test_a_film_whose_times_cannot_be_read_has_those_of_the_rate_that_is_typed(films, tmp_path):
     balls = place_balls(40)
-    source = write_film(tmp_path / "a.mp4", draw_balls(balls), STEADY)
-    path = write_pieces(tmp_path / "b.mp4", source)
-    assert read(films, path, [])["times"] == [0]
-    film = read(films, path, [30, 7, 39], 30)
+    path = write_film(tmp_path / "a.mp4", draw_balls(balls), STEADY)
+    # as of a file of another kind, whose index the page does not know
+    data, sort = encode(path), "film"
+    assert films.evaluate("readFilm", [data, "a.ogv", [], None, sort])["times"] == [0]
+    film = films.evaluate("readFilm", [data, "a.ogv", [30, 7, 39], 30, sort])
     assert not film["isReal"]
     assert film["times"] == pytest.approx(STEADY, abs=1e-6)
     for (_, _, *found), k in zip(film["found"], (30, 7, 39), strict=True):

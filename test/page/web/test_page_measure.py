@@ -9,7 +9,7 @@ import struct
 import numpy as np
 import pytest
 from films import draw_balls, write_film
-from page.web.opened import WINDOW
+from page.web.opened import WINDOW, Opened
 from run.simulation.page_points import look, make_measured
 
 from symtop_ros.physics import Motion, State, Top
@@ -484,3 +484,25 @@ VANISH = """() => {
         },
     });
 }"""
+
+
+def test_a_finger_clicks_where_it_is_let_go(browser, path, film):
+    page = Opened(browser, locale="en-US")
+    page.open(path)
+    open_file(page, film)
+    session = page.context.new_cdp_session(page.tab)
+
+    def touch(kind, *points):
+        places = [dict(zip("xy", place(page, point), strict=True)) for point in points]
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
+
+    touch("touchStart", (100, 100))
+    touch("touchMove", (150, 180))
+    assert page.tab.is_visible("#film-loupe")  # a finger hides what is under it
+    touch("touchMove", PIVOT)
+    touch("touchEnd")
+    page.until(lambda: "middle of the ball" in page.say("click-next"))
+    click_balls(page, [0])
+    pivot = read_command(page).pivot
+    assert pivot == pytest.approx([PIVOT[0], HEIGHT - PIVOT[1]], abs=CLICK)
+    page.close()

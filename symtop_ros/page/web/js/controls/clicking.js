@@ -3,7 +3,8 @@
 
 import { findBall, findLook, joinLooks, predict } from "../film/ball.js";
 import { addClick, History, listMarks, setBall } from "../film/clicks.js";
-import { find, findAll, say } from "./document.js";
+import { writeClicking } from "./click_texts.js";
+import { find, findAll } from "./document.js";
 import { refuse, refuseField, acceptField } from "./notices.js";
 import { Stage } from "./stage.js";
 import { halveLastDigit, parseQuantity } from "../words/quantities.js";
@@ -314,48 +315,6 @@ export class Clicking {
     this.stage.draw();
     for (const button of findAll("[data-aim]"))
       button.setAttribute("aria-pressed", String(button.dataset.aim === aim));
-    if (film) this.write(film);
-  }
-
-  /** @param {Film} film */
-  write(film) {
-    const { clicks, answer, aim, planned, step } = this;
-    const half = aim === "length" && clicks.length.length === 1 ? "length_end" : aim;
-    say(
-      "click-next",
-      phrase("measure.next", { kind: this.isReady || aim !== "ball" ? half : "rate" }),
-    );
-    find("length-fields").hidden = aim !== "length" && !clicks.length.length;
-    const [first, last] = [planned[0], planned[planned.length - 1]];
-    const times = { from: film.times[first], to: film.times[last] };
-    say(
-      "plan",
-      phrase("measure.plan", { count: planned.length, step, done: clicks.balls.size, ...times }),
-    );
-    say("ball-found", answer ? phrase("measure.found", { kind: answer.kind }) : "");
-    const isFound = answer?.kind === "found";
-    setDisabled("take-ball", !isFound);
-    setDisabled("follow-ball", !isFound && !this.isFollowing);
-    say("follow-ball", phrase(this.isFollowing ? "measure.follow_end" : "measure.follow"));
-    setDisabled("undo-click", !this.history.past.length);
-    setDisabled("remove-click", !clicks.balls.has(film.place));
-    setDisabled("frame-back", !planned.some((each) => each < film.place));
-    setDisabled("frame-next", !planned.some((each) => each > film.place));
-    const frames = film.times.length;
-    const line = find("film-line", HTMLInputElement);
-    Object.assign(line, { max: frames - 1, value: film.place });
-    line.style.setProperty("--part", `${(100 * film.place) / Math.max(frames - 1, 1)}%`);
-    const said = phrase("measure.clock", {
-      frame: film.place + 1,
-      frames,
-      time: film.times[film.place],
-    });
-    say("film-clock", said);
-    line.setAttribute("aria-valuetext", said);
+    if (film) writeClicking(this, film);
   }
 }
-
-/** @param {string} id @param {boolean} disabled */
-const setDisabled = (id, disabled) => {
-  Object.assign(find(id), { disabled });
-};

@@ -3,29 +3,26 @@
 import { Clicking } from "./clicking.js";
 import { Film } from "../film/film.js";
 import { makeGiven, writeCommand, writeTable } from "../film/measured.js";
+import { isSame, see, tracePath } from "../film/motion.js";
 import { findSort } from "../film/sorts.js";
 import { readTable } from "../film/table.js";
 import { find, say } from "./document.js";
 import { hideFitted, showFitted } from "./fitted.js";
 import { acceptField, refuse, refuseField } from "./notices.js";
 import { openTab } from "./tabs.js";
-import { project } from "../fit/projection.js";
 import { save } from "../run/files.js";
 import { NANO } from "../physics/course.js";
 import { parseQuantity } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 
-/** @import { Camera } from "../fit/projection.js" */
 /** @import { Fitting } from "../fit/client.js" */
 /** @import { Table } from "../film/table.js" */
-/** @import { Place } from "../film/clicks.js" */
 /** @import { Given } from "../film/measured.js" */
 /** @import { Points } from "../run/marks.js" */
 /** @import { LocalTop } from "../run/local.js" */
 /** @import { Message } from "../run/acts.js" */
 
 const NAME = "measured.csv";
-const POINTS = 800; // of the path of the motion over the film
 const [SLOWEST, FASTEST] = [1, 10_000]; // frames in a second
 
 export class Measure {
@@ -43,6 +40,8 @@ export class Measure {
     this.table = null;
     /** A film or a table that waits for an answer: the clicks would be lost. @type {(() => Promise<void>) | null} */
     this.waiting = null;
+    /** The film that is being opened, or was last. @type {File | null} */
+    this.opening = null;
     /** @type {Fitting | null} */
     this.fitting = null; // while the kernel is loaded
     this.isFitting = false;
@@ -123,7 +122,12 @@ export class Measure {
   /** @param {File} file @param {import("../film/sorts.js").Sort} sort */
   async offerFilm(file, sort) {
     say("measured-name", phrase("measure.opening", { name: file.name }));
+    this.opening = file;
     const film = await Film.open(file, sort).finally(() => this.show());
+    if (this.opening !== file) {
+      film.close(); // another one was opened meanwhile
+      return;
+    }
     const { film: old } = this;
     const isSame =
       old !== null &&
@@ -349,25 +353,3 @@ export class Measure {
     return phrase("measure.film_read", { kind, ...frames, ...rates });
   }
 }
-
-/** Whether points are those of a fit, all or up to an event. @param {Points | null} points @param {Points} own */
-const isSame = (points, own) =>
-  points !== null &&
-  points.camera?.log_scale === own.camera?.log_scale &&
-  points.values[0].every((each, k) => each === own.values[0][k]);
-
-/** Where the motion is in the film. @param {LocalTop} top @param {Points} points @param {Film} film @param {number} time ns @returns {Place} */
-const see = (top, points, film, time) => {
-  const camera = /** @type {Camera} */ ({ nearness: 0, ...points.camera });
-  const [u, v] = project(top.run.at(time).toWorld([0, 0, 1]), camera, new Float64Array(2));
-  return [u, film.height - v];
-};
-
-/** The path of the motion in the film. @param {LocalTop} top @param {Points} points @param {Film} film */
-const tracePath = (top, points, film) => {
-  const end = Math.round(points.times[points.times.length - 1] * NANO);
-  const last = Math.min(end, top.end);
-  return Array.from({ length: POINTS + 1 }, (_, k) =>
-    see(top, points, film, Math.round((last * k) / POINTS)),
-  );
-};

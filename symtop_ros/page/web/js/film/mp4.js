@@ -1,60 +1,10 @@
 // Times of the frames of an MP4 or QuickTime file, from its index: ISO/IEC 14496-12, 8.6. A browser need
 // not give them.
 
-/** @typedef {{type: string, begin: number, end: number}} Box contents of a box, from a place to another */
+import { findBox, listBoxes, readContents, readType, walkBoxes } from "./boxes.js";
+import { readPiece } from "./pieces.js";
 
-const LARGEST = 64 << 20; // bytes of an index: that of a film of days
-const HEADER = 16; // bytes of the longest header of a box
-
-/** @param {DataView} view @param {number} place */
-const readType = (view, place) =>
-  String.fromCharCode(...[0, 1, 2, 3].map((k) => view.getUint8(place + k)));
-
-/**
- * The box at a place.
- * @param {DataView} view with its header @param {number} place in the view
- * @param {number} offset of the view @param {number} end of what holds the box @returns {Box}
- */
-const readBox = (view, place, offset, end) => {
-  const size = view.getUint32(place);
-  const begin = offset + place;
-  const isLong = size === 1;
-  const length = isLong ? Number(view.getBigUint64(place + 8)) : size || end - begin;
-  const inside = begin + (isLong ? 16 : 8);
-  return { type: readType(view, place + 4), begin: inside, end: begin + Math.max(length, 8) };
-};
-
-/** The boxes in a part of an index. @param {DataView} view @param {number} begin @param {number} end */
-const listBoxes = (view, begin, end) => {
-  const boxes = [];
-  for (let place = begin; place + 8 <= end; ) {
-    const box = readBox(view, place, 0, end);
-    if (box.end > end) break;
-    boxes.push(box);
-    place = box.end;
-  }
-  return boxes;
-};
-
-/** The box at the end of a path. @param {DataView} view @param {Box} box @param {string[]} path @returns {Box | undefined} */
-const findBox = (view, box, path) => {
-  if (!path.length) return box;
-  const next = listBoxes(view, box.begin, box.end).find(({ type }) => type === path[0]);
-  return next && findBox(view, next, path.slice(1));
-};
-
-/** The index of a film; null if there is none. @param {Blob} file */
-const readIndex = async (file) => {
-  for (let place = 0; place + 8 <= file.size; ) {
-    const head = new DataView(await file.slice(place, place + HEADER).arrayBuffer());
-    if (head.byteLength < HEADER) return null;
-    const { type, begin, end } = readBox(head, 0, place, file.size);
-    if (type === "moov" && end - begin <= LARGEST)
-      return new DataView(await file.slice(begin, end).arrayBuffer());
-    place = end;
-  }
-  return null;
-};
+/** @import { Box } from "./boxes.js" */
 
 /** Runs of a table: a count and a number each. @param {DataView} view @param {Box} box @param {boolean} isSigned */
 const readRuns = (view, { begin }, isSigned) =>
@@ -88,18 +38,16 @@ const readEdits = (view, box) => {
   return { late, from: 0 };
 };
 
-/** Times of a track in s. @param {DataView} view @param {Box} track @param {number} filmScale */
-const readTrack = (view, track, filmScale) => {
-  const find = (/** @type {string[]} */ ...path) => findBox(view, track, path);
-  const [header, steps] = [find("mdia", "mdhd"), find("mdia", "minf", "stbl", "stts")];
-  if (!header || !steps) return [];
-  const offsets = find("mdia", "minf", "stbl", "ctts");
+/** Times of a track by its tables, in its units. @param {DataView} view @param {Box} track */
+const readTables = (view, track) => {
+  const tables = findBox(view, track, ["mdia", "minf", "stbl"]);
+  const steps = tables && findBox(view, tables, ["stts"]);
+  if (!steps) return [];
+  const offsets = findBox(view, tables, ["ctts"]);
   const shifts = offsets ? spread(readRuns(view, offsets, true)) : [];
-  const { late, from } = readEdits(view, find("edts", "elst"));
-  const scale = readScale(view, header);
-  let decoded = -from;
+  let decoded = 0;
   return spread(readRuns(view, steps, false)).map((step, k) => {
-    const time = (decoded + (shifts[k] ?? 0)) / scale + late / filmScale;
+    const time = decoded + (shifts[k] ?? 0);
     decoded += step;
     return time;
   });
@@ -111,20 +59,55 @@ const isPicture = (view, track) => {
   return handler !== undefined && readType(view, handler.begin + 8) === "vide";
 };
 
+/** The track of the pictures in an index: its number, its units in a second, and how it is moved. @param {DataView} view */
+const readIndex = (view) => {
+  const boxes = listBoxes(view, 0, view.byteLength);
+  const film = boxes.find(({ type }) => type === "mvhd");
+  const track = boxes.find((box) => box.type === "trak" && isPicture(view, box));
+  const header = track && findBox(view, track, ["mdia", "mdhd"]);
+  const own = track && findBox(view, track, ["tkhd"]);
+  if (!film || !track || !header || !own) return null;
+  const scale = readScale(view, header);
+  const { late, from } = readEdits(view, findBox(view, track, ["edts", "elst"]));
+  return {
+    number: view.getUint32(own.begin + (view.getUint8(own.begin) ? 20 : 12)),
+    step: readUsualStep(view, boxes),
+    place: (/** @type {number} */ time) => (time - from) / scale + late / readScale(view, film),
+    times: readTables(view, track),
+  };
+};
+
+/** Units between two frames of pieces that say nothing else. @param {DataView} view @param {Box[]} boxes */
+const readUsualStep = (view, boxes) => {
+  const all = boxes.find(({ type }) => type === "mvex");
+  const usual = all && findBox(view, all, ["trex"]);
+  return usual ? view.getUint32(usual.begin + 12) : 0;
+};
+
 /**
  * Times of the frames in s, growing; null if the file has no index that can be read, [] without pictures.
  * @param {Blob} file @returns {Promise<number[] | null>}
  */
 export const readMp4Times = async (file) => {
-  const view = await readIndex(file);
-  if (!view) return null;
-  const boxes = listBoxes(view, 0, view.byteLength);
-  const header = boxes.find(({ type }) => type === "mvhd");
-  const track = boxes.find((box) => box.type === "trak" && isPicture(view, box));
-  if (!header || !track) return [];
-  const times = readTrack(view, track, readScale(view, header)).sort((a, b) => a - b);
+  /** @type {ReturnType<typeof readIndex>} */
+  let index = null;
+  let hasIndex = false;
+  /** @type {number[]} */
+  const units = [];
+  for await (const box of walkBoxes(file)) {
+    if (box.type !== "moov" && box.type !== "moof") continue;
+    const view = await readContents(file, box);
+    if (!view) return null;
+    if (box.type === "moov") {
+      hasIndex = true;
+      index = readIndex(view);
+      units.push(...(index?.times ?? []));
+    } else if (index) units.push(...readPiece(view, index.number, index.step));
+  }
+  const { place } = index ?? {};
+  if (!place) return hasIndex ? [] : null;
+  const times = units.map(place).sort((a, b) => a - b);
   // Frames before the beginning are decoded, and not shown.
   const first = times.findIndex((_, k) => k + 1 === times.length || times[k + 1] > 0);
-  if (boxes.some(({ type }) => type === "mvex") && !times.length) return null; // fragments
   return times.slice(Math.max(first, 0)).map((each) => Math.max(each, 0));
 };
