@@ -1,4 +1,4 @@
-"""The result of a fit on the page: read as a person does, and held against top_fit and the truth."""
+"""The result of a fit on the page, read as a person does: of top_fit and of the true motion."""
 
 import json
 import re
@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from drawn import Numbers
 from page.web.modules import load_kernel, open_tab
-from page.web.test_page_charts import read_axis
-from page.web.test_page_points import TENTH, drop
+from page.web.test_page_points import drop
 from run.simulation.page_points import TIMES as POINT_TIMES
 from run.simulation.page_points import look, make_measured, make_points
 from run.simulation.page_runs import START
@@ -16,7 +15,7 @@ from truth.fit.cases import CUSPS, TIMES, make_axis, write_table
 
 from symtop_ros.base.measured import write_measured
 from symtop_ros.page.web.join import LANGUAGES, read_texts
-from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.physics import Friction, Motion, State, Top, regular_precession_rates
 from symtop_ros.truth.fit.main import main
 from symtop_ros.truth.fit.model import find_axis
 from symtop_ros.truth.fit.unknown import EXACT_TWINS
@@ -89,7 +88,7 @@ def read_number(text):
 
 
 def read_sentence(text):
-    """The numbers of the first sentence: rows, seconds, and of each quantity value and deviation."""
+    """The first sentence: rows, seconds, and of each quantity value, deviation and per cent."""
     rows, seconds = re.match(r"(\d+) points in ([\d.]+) s: ", text).groups()
     found = {}
     for name in ("p_psi/Ix", "Mgl/Ix"):
@@ -131,7 +130,7 @@ def test_the_sentence_says_what_the_motion_is(tab, name, kind):
             assert found[quantity] == "not known"
             continue
         value, deviation, part = found[quantity]
-        # 24 normal numbers are within four deviations, but for once in 600 draws; these are one draw
+        # 24 normal numbers are within four deviations, but for once in 600 draws
         assert abs(value - exact) < 4 * deviation + 10.0**-6 * abs(exact)
         assert part == pytest.approx(100 * deviation / abs(value), rel=0.1)  # two digits of each
     assert fitted["verdict"] == "holds"
@@ -207,7 +206,7 @@ def test_without_a_limit_there_is_no_command(tab):
 def test_what_is_not_known_is_said_in_the_table_and_in_the_sentence(tab, tmp_path, capsys):
     """Without nutation one combination is known."""
     top = Top(1.0, 0.25, 300.0)
-    rate = float(Motion(top, State.from_euler(theta=0.5, psi_dot=190.0)).regular_rates[0])
+    rate = float(regular_precession_rates(top, theta=0.5, psi_dot=190.0)[0])
     regular = Motion(top, State.from_euler(theta=0.5, phi_dot=rate, psi_dot=190.0))
     given = make_given(regular, values=make_axis(regular))
     show(tab, given)
