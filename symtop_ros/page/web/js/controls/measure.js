@@ -138,8 +138,8 @@ export class Measure {
         this.linked = null;
         hideFitted();
       }
+      this.clicking.take(film, isSame); // first: the frames of its clicks may not be in this film
       this.setRateOf(film, isSame);
-      this.clicking.take(film, isSame);
       this.setPlace("whole");
       this.show();
     };
