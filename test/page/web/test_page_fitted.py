@@ -182,6 +182,15 @@ def test_the_sentence_on_the_model_has_the_noise(tab):
     assert read_rms(say(tab, "verdict")) == pytest.approx([2.0**-8] * 3, rel=0.16)
 
 
+def test_noise_that_lasts_is_said_to_be_allowed_for(tab):
+    exact = make_axis(CUSPS, sigma=0.0)
+    steps, noise = Numbers(5).normals(*exact.shape) / 256, np.zeros_like(exact)
+    for row, step in enumerate(steps):
+        noise[row] = step + (0.75 * noise[row - 1] if row else 0.0)
+    show(tab, make_given(CUSPS, values=exact + noise))
+    assert re.search(r"noise of .* in z, which lasts from point to point", say(tab, "verdict"))
+
+
 def test_friction_is_said_with_the_command_that_looks_for_it(tab):
     motion = Motion(CUSPS.top, CUSPS.start, Friction(axial=0.125 * CUSPS.top.Iz, transverse=0.25))
     fitted = show(tab, make_given(motion, values=make_axis(motion)))
@@ -222,7 +231,7 @@ def test_what_is_not_known_is_said_in_the_table_and_in_the_sentence(tab):
     own = together["numbers"]
     assert [float(slope), float(deviation)] == pytest.approx([own[0], own[2]], rel=0.06)
     assert float(value) == pytest.approx(own[1], abs=0.06 * own[2])
-    # motions that fit as well lie on a curve, so that the line along it is right to a part of Mgl/Ix
+    # motions that fit as well lie on a curve: the line along it is right to a part of Mgl/Ix
     exact = 300.0 - float(slope) * find_truth(regular)["p_psi/Ix"]
     assert float(value) == pytest.approx(exact, abs=0.01 * 300.0)
 
@@ -260,6 +269,8 @@ def test_residuals_are_measured_minus_computed_with_their_band(tab, column):
     given = make_given(CUSPS, "pixels", values)
     fitted = show(tab, given)
     assert {50, 100} <= {*fitted["outliers"]}
+    told = re.search(r"; (\d+) points were left out as outliers", say(tab, "verdict"))
+    assert int(told[1]) == len(fitted["outliers"])
     chart = tab.locator(f"#residuals-{column}")
     dots = read_places(chart.locator(".residuals").get_attribute("d"))
     kept = np.setdiff1d(np.arange(len(TIMES)), fitted["outliers"])
