@@ -14,6 +14,8 @@ from page.web.page_films import (
 )
 from page.web.test_page_fitted import read_number
 
+pytestmark = pytest.mark.wording
+
 FRAGMENT = "#theta=0.5&psi_dot=200&precession=slow&lang=en"
 FARTHEST = 3.0  # deviations; one of 54 numbers is farther once in 7 draws, and these are one draw
 BROWSERS = {"firefox": running_firefox, "webkit": running_webkit}

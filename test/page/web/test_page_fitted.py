@@ -20,6 +20,8 @@ from symtop_ros.truth.fit.main import main
 from symtop_ros.truth.fit.model import find_axis
 from symtop_ros.truth.fit.unknown import EXACT_TWINS
 
+pytestmark = pytest.mark.wording
+
 FAR = {"u": 320.0, "v": 200.0, "log_scale": 5.25, "elevation": 0.5, "roll": 0.03125}
 KNOWN = {"u": [320.0, 1.0], "v": [200.0, 1.0]}
 COMMAND = "top_fit measured.csv --kind axis"

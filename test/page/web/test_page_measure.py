@@ -128,7 +128,9 @@ def test_a_film_is_clicked_and_saved_as_a_table_of_top_fit(measuring, tmp_path):
     assert (str(options.record), options.kind) == ("measured.csv", "pixels")
     assert options.pivot == pytest.approx([PIVOT[0], HEIGHT - PIVOT[1]], abs=CLICK)
     assert options.pivot_deviation == 1  # px
-    assert not options.perspective
+    assert options.perspective
+    measuring.tab.uncheck("#near-camera")
+    assert not read_command(measuring).perspective
 
 
 def test_the_ring_is_where_the_ball_is_and_is_taken_when_it_is_asked_for(measuring, tmp_path):
@@ -337,7 +339,6 @@ def _fitted(_shared, path, tmp_path_factory):
         click(page, balls[frame])
     page.tab.click("#follow-ball")
     page.until(lambda: "72 of 72" in page.say("plan"))
-    page.tab.check("#near-camera")
     page.tab.click("#fit-record")
     page.until(lambda: is_beside(page))
     return page, balls

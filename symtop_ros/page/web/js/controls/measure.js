@@ -210,7 +210,7 @@ export class Measure {
         kind: table.table.kind,
         times: table.table.times,
         values: table.table.values,
-        perspective: this.isNear,
+        perspective: table.table.kind === "pixels" && this.isNear,
       };
     if (!film || !this.clicking.clicks.balls.size) return null;
     const { clicks, lengths } = this.clicking;
