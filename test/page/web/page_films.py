@@ -194,7 +194,9 @@ for (const [k, frame] of frames.entries()) {{
 return found;
 """
 FIT = f"""{HAND}
-const [isNear] = given;
+const [isNear, size] = given;
+const {{ width, height }} = picture.getBoundingClientRect();
+const scale = Math.min(width / size[0], height / size[1]);
 find("near-camera").checked = isNear;
 find("near-camera").dispatchEvent(new Event("input", {{ bubbles: true }}));
 find("fitted").replaceChildren();
@@ -203,6 +205,7 @@ await wait(() => find("fitted-shown") || say("refusal"), 3600);
 const rows = [...document.querySelectorAll("#fitted-numbers tbody tr")];
 return {{
   refusal: say("refusal"),
+  scale,
   shown: find("fitted-shown")?.dataset.text,
   verdict: find("fitted-verdict")?.dataset.text,
   table: rows.map((row) => [...row.children].map((each) => each.dataset.text)),
@@ -222,7 +225,7 @@ def measure_film(run: Any, film: PageFilm, seed: int, is_near: bool = True) -> M
     for begin in range(0, len(clicks["frames"]), CHUNK):
         part = slice(begin, begin + CHUNK)
         seen += run(CLICK, *(clicks[name][part] for name in ("frames", "balls", "true")), size)
-    return {"said": said, "seen": seen, "clicks": clicks, **run(FIT, is_near)}
+    return {"said": said, "seen": seen, "clicks": clicks, **run(FIT, is_near, size)}
 
 
 def make_label(name: str) -> str:

@@ -53,8 +53,9 @@ def check_told(film, told):
     points, times = told["points"], film.times[frames]
     assert points["times"] == pytest.approx((times - times[0]).tolist(), abs=1e-6)
     clicked = np.array(told["clicks"]["balls"]) * [1, -1] + [0, 480]
-    # some browsers give a pointer whole pixels of the screen
-    assert np.abs(np.array(points["values"]) - clicked).max() < 1.0
+    # WebKit cuts the place of a pointer to whole pixels of the screen; a click has hundredths
+    missed = np.array(points["values"]) - clicked
+    assert np.abs(missed).max() < 1.01 / told["scale"] + 0.01
     assert told["verdict"].startswith("A top without friction explains the points")
 
 
