@@ -1,4 +1,4 @@
-"""The result of a fit on the page: read as a person does, and held against top_fit and the truth."""
+"""The result of a fit on the page, read as a person does: of top_fit and of the true motion."""
 
 import json
 import re
@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from drawn import Numbers
 from page.web.modules import load_kernel, open_tab
-from page.web.test_page_charts import read_axis
-from page.web.test_page_points import TENTH, drop
+from page.web.test_page_points import drop
 from run.simulation.page_points import TIMES as POINT_TIMES
 from run.simulation.page_points import look, make_measured, make_points
 from run.simulation.page_runs import START
@@ -16,10 +15,12 @@ from truth.fit.cases import CUSPS, TIMES, make_axis, write_table
 
 from symtop_ros.base.measured import write_measured
 from symtop_ros.page.web.join import LANGUAGES, read_texts
-from symtop_ros.physics import Friction, Motion, State, Top
+from symtop_ros.physics import Friction, Motion, State, Top, regular_precession_rates
 from symtop_ros.truth.fit.main import main
 from symtop_ros.truth.fit.model import find_axis
 from symtop_ros.truth.fit.unknown import EXACT_TWINS
+
+pytestmark = pytest.mark.wording
 
 FAR = {"u": 320.0, "v": 200.0, "log_scale": 5.25, "elevation": 0.5, "roll": 0.03125}
 KNOWN = {"u": [320.0, 1.0], "v": [200.0, 1.0]}
@@ -89,7 +90,7 @@ def read_number(text):
 
 
 def read_sentence(text):
-    """The numbers of the first sentence: rows, seconds, and of each quantity value and deviation."""
+    """The first sentence: rows, seconds, and of each quantity value, deviation and per cent."""
     rows, seconds = re.match(r"(\d+) points in ([\d.]+) s: ", text).groups()
     found = {}
     for name in ("p_psi/Ix", "Mgl/Ix"):
@@ -131,7 +132,7 @@ def test_the_sentence_says_what_the_motion_is(tab, name, kind):
             assert found[quantity] == "not known"
             continue
         value, deviation, part = found[quantity]
-        # 24 normal numbers are within four deviations, but for once in 600 draws; these are one draw
+        # 24 normal numbers are within four deviations, but for once in 600 draws
         assert abs(value - exact) < 4 * deviation + 10.0**-6 * abs(exact)
         assert part == pytest.approx(100 * deviation / abs(value), rel=0.1)  # two digits of each
     assert fitted["verdict"] == "holds"
@@ -183,8 +184,17 @@ def test_the_sentence_on_the_model_has_the_noise(tab):
     assert read_rms(say(tab, "verdict")) == pytest.approx([2.0**-8] * 3, rel=0.16)
 
 
+def test_noise_that_lasts_is_said_to_be_allowed_for(tab):
+    exact = make_axis(CUSPS, sigma=0.0)
+    steps, noise = Numbers(5).normals(*exact.shape) / 256, np.zeros_like(exact)
+    for row, step in enumerate(steps):
+        noise[row] = step + (0.75 * noise[row - 1] if row else 0.0)
+    show(tab, make_given(CUSPS, values=exact + noise))
+    assert re.search(r"noise of .* in z, which lasts from point to point", say(tab, "verdict"))
+
+
 def test_friction_is_said_with_the_command_that_looks_for_it(tab):
-    motion = Motion(CUSPS.top, CUSPS.start, Friction(axial=0.125, transverse=0.0625))
+    motion = Motion(CUSPS.top, CUSPS.start, Friction(axial=0.125 * CUSPS.top.Iz, transverse=0.25))
     fitted = show(tab, make_given(motion, values=make_axis(motion)))
     text = say(tab, "verdict")
     assert fitted["verdict"] == "fails"
@@ -192,8 +202,8 @@ def test_friction_is_said_with_the_command_that_looks_for_it(tab):
     first, second = map(
         float, re.search(r"p_psi/Ix is ([\d.]+) in .* and ([\d.]+) in", text).groups()
     )
-    # the spin falls, by exp(-0.5) in all: the halves differ by about a fifth
-    assert 0.7 < second / first < 0.95
+    # the spin falls by exp(-0.125 * 1.87 / 2) = 0.89 from one half to the other
+    assert 0.8 < second / first < 0.95
     assert "friction" in say(tab, "limits")
     assert tab.locator("#fitted code").text_content() == f"{COMMAND} --friction"
 
@@ -204,27 +214,28 @@ def test_without_a_limit_there_is_no_command(tab):
     assert say(tab, "limits") == ""
 
 
-def test_what_is_not_known_is_said_in_the_table_and_in_the_sentence(tab, tmp_path, capsys):
+def test_what_is_not_known_is_said_in_the_table_and_in_the_sentence(tab):
     """Without nutation one combination is known."""
     top = Top(1.0, 0.25, 300.0)
-    rate = float(Motion(top, State.from_euler(theta=0.5, psi_dot=190.0)).regular_rates[0])
+    rate = float(regular_precession_rates(top, theta=0.5, psi_dot=190.0)[0])
     regular = Motion(top, State.from_euler(theta=0.5, phi_dot=rate, psi_dot=190.0))
     given = make_given(regular, values=make_axis(regular))
-    show(tab, given)
+    fitted = show(tab, given)
     assert read_sentence(say(tab, "shown"))[2] == {"p_psi/Ix": "not known", "Mgl/Ix": "not known"}
     table = read_table(tab)
     assert table["Mgl/Ix"] is table["p_psi/Ix"] is None
-    facts, _ = fit_in_python(given, tmp_path, capsys)
-    (together,) = [each for each in facts["unknown"] if each["kind"] == "together"]
+    (together,) = [each for each in fitted["unknown"] if each["kind"] == "together"]
     texts = tab.locator("#fitted-unknown li").evaluate_all("all => all.map(e => e.dataset.text)")
     (text,) = [each for each in texts if "with so little nutation" in each]
     slope, value, deviation = re.search(
         r"Mgl/Ix - (-?[\d.]+) p_psi/Ix = (-?[\d.]+) ± ([\d.]+) is known", text
     ).groups()
-    exact = 300.0 - float(slope) * 0.25 * (190.0 + rate * np.cos(0.5))
-    assert abs(float(value) - exact) < 4 * float(deviation)
-    assert float(slope) == pytest.approx(together["numbers"][0], rel=0.01)
-    assert float(deviation) == pytest.approx(together["numbers"][2], rel=0.1)
+    own = together["numbers"]
+    assert [float(slope), float(deviation)] == pytest.approx([own[0], own[2]], rel=0.06)
+    assert float(value) == pytest.approx(own[1], abs=0.06 * own[2])
+    # motions that fit as well lie on a curve: the line along it is right to a part of Mgl/Ix
+    exact = 300.0 - float(slope) * find_truth(regular)["p_psi/Ix"]
+    assert float(value) == pytest.approx(exact, abs=0.01 * 300.0)
 
 
 def test_what_cannot_be_known_is_what_top_fit_says(tab, tmp_path, capsys):
@@ -260,6 +271,8 @@ def test_residuals_are_measured_minus_computed_with_their_band(tab, column):
     given = make_given(CUSPS, "pixels", values)
     fitted = show(tab, given)
     assert {50, 100} <= {*fitted["outliers"]}
+    told = re.search(r"; (\d+) points were left out as outliers", say(tab, "verdict"))
+    assert int(told[1]) == len(fitted["outliers"])
     chart = tab.locator(f"#residuals-{column}")
     dots = read_places(chart.locator(".residuals").get_attribute("d"))
     kept = np.setdiff1d(np.arange(len(TIMES)), fitted["outliers"])
@@ -289,7 +302,7 @@ def test_residuals_are_measured_minus_computed_with_their_band(tab, column):
 def test_each_language_says_all(browser, language):
     tab = open_tab(browser)
     load_kernel(tab, language)
-    motion = Motion(CUSPS.top, CUSPS.start, Friction(axial=0.125, transverse=0.0625))
+    motion = Motion(CUSPS.top, CUSPS.start, Friction(axial=0.125 * CUSPS.top.Iz, transverse=0.25))
     show(tab, make_given(motion, "pixels"))
     texts = read_texts(language)
     shown = tab.locator("#fitted").text_content()
@@ -388,3 +401,61 @@ def test_the_axis_of_the_ghost_is_that_of_the_last_point(tab, kind):
         if kind != "attitude":
             assert spin == pytest.approx(1.0)
     assert found[2] is None
+
+
+# The middle of the ball in every third frame of a film of the page's own pictures (640 x 480, 30 a
+# second, from eight lengths away), read once by eye from enlarged frames, in px to the right and
+# down; the motion was drawn by chance, and looked at afterwards.
+HAND = (
+    *((405.1, 109.9), (403.7, 105.9), (382.9, 98.6), (334.2, 90.2), (294.2, 87.4), (278.8, 88.1)),
+    *(
+        (257.6, 95.6),
+        (221.7, 115.4),
+        (210.0, 139.1),
+        (232.1, 146.2),
+        (250.9, 146.2),
+        (261.0, 161.4),
+    ),
+    *(
+        (299.6, 184.1),
+        (359.7, 181.4),
+        (390.6, 156.4),
+        (397.0, 141.3),
+        (414.3, 140.5),
+        (429.3, 130.9),
+    ),
+    *((407.9, 109.4), (370.0, 91.9), (349.3, 86.0), (331.2, 86.0), (289.0, 92.2), (243.7, 103.3)),
+    *(
+        (230.1, 111.6),
+        (231.4, 115.3),
+        (221.0, 130.2),
+        (222.2, 159.7),
+        (262.8, 177.4),
+        (310.2, 168.7),
+    ),
+    *(
+        (331.9, 159.7),
+        (357.1, 167.1),
+        (402.6, 169.7),
+        (427.6, 146.5),
+        (415.3, 118.8),
+        (402.2, 106.7),
+    ),
+    *((399.0, 103.0), (373.5, 96.3), (322.8, 89.9), (285.8, 88.4)),
+)
+HAND_PIVOT = 320.8, 239.8
+HAND_TRUTH = {"p_psi/Ix": 18.059523573128203, "Mgl/Ix": 55.443563297559315}
+
+
+def test_the_clicks_of_a_hand_give_the_top_back(tab):
+    times = np.array([round(1000 * 3 * k / 30) / 1000 for k in range(len(HAND))])
+    given = make_given(CUSPS, "pixels", np.array(HAND) * [1, -1] + [0, 480], times)
+    given["known"] = {"u": [HAND_PIVOT[0], 1.0], "v": [480 - HAND_PIVOT[1], 1.0]}
+    fitted = show(tab, {**given, "perspective": True})
+    assert fitted["verdict"] == "holds"
+    _, _, found = read_sentence(say(tab, "shown"))
+    for name, exact in HAND_TRUTH.items():
+        value, deviation, _ = found[name]
+        assert abs(value - exact) < 3 * deviation
+        assert deviation < 0.01 * exact
+    assert max(read_rms(say(tab, "verdict"))) < 1.0  # a hand is better than a pixel

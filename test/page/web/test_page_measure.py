@@ -128,7 +128,9 @@ def test_a_film_is_clicked_and_saved_as_a_table_of_top_fit(measuring, tmp_path):
     assert (str(options.record), options.kind) == ("measured.csv", "pixels")
     assert options.pivot == pytest.approx([PIVOT[0], HEIGHT - PIVOT[1]], abs=CLICK)
     assert options.pivot_deviation == 1  # px
-    assert not options.perspective
+    assert options.perspective
+    measuring.tab.uncheck("#near-camera")
+    assert not read_command(measuring).perspective
 
 
 def test_the_ring_is_where_the_ball_is_and_is_taken_when_it_is_asked_for(measuring, tmp_path):
@@ -238,6 +240,9 @@ def test_every_second_frame_is_proposed_if_half_of_them_are_wanted(measuring):
 def test_another_film_asks_before_clicks_are_lost(measuring, film, answer, tmp_path):
     click(measuring, PIVOT)
     click_balls(measuring, range(2))
+    measuring.tab.evaluate("acts.change", ["film-line", "30"])  # the other film has no such frame
+    measuring.until(lambda: "frame 31 of" in measuring.say("film-clock"))
+    click(measuring, BALLS[30])
     other = write_film(tmp_path / "other.webm", draw_balls(BALLS[:10]), TIMES[:10])
     measuring.tab.set_input_files("#measured-file", str(other))
     measuring.tab.wait_for_selector("#replace:not([hidden])")
@@ -245,10 +250,10 @@ def test_another_film_asks_before_clicks_are_lost(measuring, film, answer, tmp_p
     measuring.tab.click(f"#{answer}-film")
     assert measuring.tab.is_hidden("#replace")
     if answer == "keep":
-        assert "2 of 40 frames" in measuring.say("plan")
+        assert "3 of 40 frames" in measuring.say("plan")
         assert "swing.mp4" in measuring.say("measured-name")
         open_file(measuring, film)  # the same file takes nothing away
-        assert "2 of 40 frames" in measuring.say("plan")
+        assert "3 of 40 frames" in measuring.say("plan")
     else:
         measuring.until(lambda: "other.webm: 320 x 240" in measuring.say("measured-name"))
         assert "0 of 10 frames" in measuring.say("plan")
@@ -334,7 +339,6 @@ def _fitted(_shared, path, tmp_path_factory):
         click(page, balls[frame])
     page.tab.click("#follow-ball")
     page.until(lambda: "72 of 72" in page.say("plan"))
-    page.tab.check("#near-camera")
     page.tab.click("#fit-record")
     page.until(lambda: is_beside(page))
     return page, balls

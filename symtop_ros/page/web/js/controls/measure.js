@@ -142,8 +142,8 @@ export class Measure {
         this.linked = null;
         hideFitted();
       }
+      this.clicking.take(film, isSame); // first: the frames of its clicks may not be in this film
       this.setRateOf(film, isSame);
-      this.clicking.take(film, isSame);
       this.setPlace("whole");
       this.show();
     };
@@ -214,7 +214,7 @@ export class Measure {
         kind: table.table.kind,
         times: table.table.times,
         values: table.table.values,
-        perspective: this.isNear,
+        perspective: table.table.kind === "pixels" && this.isNear,
       };
     if (!film || !this.clicking.clicks.balls.size) return null;
     const { clicks, lengths } = this.clicking;

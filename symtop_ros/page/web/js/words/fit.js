@@ -59,15 +59,17 @@ export const writeShown = ({ rows, times, values }) => {
 };
 
 /** Whether the model holds, and why not, in a sentence. @param {Fitted} fitted */
-export const writeVerdict = ({ kind, verdict, reasons, sigma, outliers }) => {
+export const writeVerdict = ({ kind, verdict, reasons, sigma, outliers, order, is_flicker }) => {
   const left = sigma.map((size, k) => ({
     size,
     unit: nameResidual(kind),
     column: COLUMNS[kind][k],
   }));
+  const lasting = is_flicker ? "flicker" : "lasting";
   return phrase("fitted_verdict", {
     kind: verdict,
     left,
+    noise: order ? lasting : "white",
     reasons,
     out: outliers.length || null,
   });
