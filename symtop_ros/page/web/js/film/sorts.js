@@ -14,8 +14,8 @@ const SIGNS = [
   ["mp4", /^0.{7}(66747970|6d6f6f76|6d646174|77696465|66726565|736b6970)/], // ftyp, moov, mdat, wide, free, skip
   ["film", /^(4f676753|52494646.{8}41564920|464c5601|000001b|3026b275|47.{374}47)/], // Ogg, AVI, FLV, MPEG, ASF
 ];
-// A run.json or a saved page; what is left is a table.
-const RUN = /^\ufeff?\s*[<{["]/;
+// A run.json or a saved page, or a single value of JSON, which is none; what is left is a table.
+const RUN = /^\ufeff?\s*([<{["]|(null|true|false|[-+.\de]+)\s*$)/i;
 
 /** @typedef {"webm" | "mp4" | "film" | "picture" | "sound" | "empty" | "bytes" | "run" | "table"} Sort */
 
