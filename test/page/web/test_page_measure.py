@@ -8,6 +8,7 @@ import struct
 
 import numpy as np
 import pytest
+from drawn import Numbers
 from films import draw_balls, write_film
 from page.web.opened import WINDOW, Opened
 from run.simulation.page_points import look, make_measured
@@ -510,3 +511,54 @@ def test_a_finger_clicks_where_it_is_let_go(browser, path, film):
     pivot = read_command(page).pivot
     assert pivot == pytest.approx([PIVOT[0], HEIGHT - PIVOT[1]], abs=CLICK)
     page.close()
+
+
+def test_the_wheel_zooms_around_the_pointer_so_that_clicks_are_finer(measuring, tmp_path):
+    click(measuring, PIVOT)
+    x, y = map(round, place(measuring, BALLS[0]))
+    measuring.tab.mouse.click(x, y)
+    whole = save(measuring, tmp_path).values[0]
+    measuring.tab.click("#undo-click")
+    measuring.tab.click("#frame-back")
+    measuring.until(lambda: read_frame(measuring) == 0)
+    measuring.tab.mouse.move(x, y)
+    for _ in range(10):
+        measuring.tab.mouse.wheel(0, -100)
+    measuring.wait_for_frames()
+    measuring.tab.mouse.click(x, y)
+    near = save(measuring, tmp_path).values[0]
+    assert near == pytest.approx(whole, abs=0.02)  # two roundings to hundredths of a pixel
+    measuring.tab.click("#undo-click")
+    measuring.tab.click("#frame-back")
+    measuring.until(lambda: read_frame(measuring) == 0)
+    measuring.tab.mouse.click(x + 1, y)
+    right = save(measuring, tmp_path).values[0] - near
+    assert 0.02 < right[0] < 0.3  # px of the film, of one of the screen
+    assert right[1] == 0
+    for _ in range(11):
+        measuring.tab.click("#film-farther")
+    measuring.until(lambda: read_frame(measuring) == 1)
+    click(measuring, BALLS[1])
+    assert save(measuring, tmp_path).values[1] == pytest.approx(expect_rows([1])[0], abs=CLICK)
+
+
+def test_a_table_of_the_axis_is_fitted_without_a_film(opened):
+    start = State.from_euler(theta=0.5, phi=0.75, phi_dot=2.0, psi_dot=150.0)
+    motion = Motion(Top(0.000228, 5.72e-05, 0.068), start)
+    axes = motion.at(np.array(NUTATIONS)).to_world([0.0, 0.0, 1.0])
+    errors = 2.0**-9 * Numbers(3).normals(*axes.shape)
+    lines = [
+        f"{time:.9f};{x:.6f};{y:.6f};{z:.6f}".replace(".", ",")
+        for time, (x, y, z) in zip(NUTATIONS, axes + errors, strict=True)
+    ]
+    drop(opened, "axis.csv", "\n".join(["t;x;y;z", *lines]).encode())
+    opened.until(lambda: "72 rows" in opened.say("measured-name"))
+    assert opened.tab.is_hidden("#near")
+    opened.tab.click("#fit-record")
+    opened.until(lambda: "points" in opened.read_run() or opened.say("refusal"))
+    points = opened.read_run()["points"]
+    assert points["kind"] == "axis"
+    left = np.array(points["residuals"])
+    assert np.sqrt(np.mean(left**2)) == pytest.approx(2.0**-9, rel=0.2)  # 216 numbers: 5 %
+    assert opened.tab.is_hidden("#film")
+    opened.until(lambda: opened.tab.inner_text("#fitted"))
