@@ -167,7 +167,7 @@ const look = (place, [width, height]) => {
 };
 """
 OPEN = f"""{HAND}
-const [data, name, pivot, size] = given;
+const [data, name, pivot, count, size] = given;
 const bytes = Uint8Array.from(atob(data), (each) => each.charCodeAt(0));
 const dataTransfer = new DataTransfer();
 dataTransfer.items.add(new File([bytes], name));
@@ -177,6 +177,8 @@ await wait(() => isRead() || !find("replace").hidden);
 if (!isRead()) find("replace-film").click(); // the clicks in the film before
 await wait(isRead);
 await wait(() => say("film-clock").startsWith("frame 1 of"));
+find("wanted-frames").value = count; // the next frame follows a click
+find("wanted-frames").dispatchEvent(new Event("input", {{ bubbles: true }}));
 press(pivot, size);
 return say("measured-name");
 """
@@ -220,7 +222,7 @@ def measure_film(run: Any, film: PageFilm, seed: int, is_near: bool = True) -> M
     """Open a film on a page that runs scripts, click in it, fit; return what the page says."""
     clicks, size = film.click(seed), list(SIZE)
     data = base64.b64encode(film.path.read_bytes()).decode()
-    said = run(OPEN, data, film.path.name, clicks["pivot"], size)
+    said = run(OPEN, data, film.path.name, clicks["pivot"], len(clicks["frames"]), size)
     seen = []
     for begin in range(0, len(clicks["frames"]), CHUNK):
         part = slice(begin, begin + CHUNK)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from drawn import Numbers
 from page.web.modules import load_kernel, open_tab
+from page.web.test_page_accessibility import check
 from page.web.test_page_points import drop
 from run.simulation.page_points import TIMES as POINT_TIMES
 from run.simulation.page_points import look, make_measured, make_points
@@ -344,6 +345,30 @@ def test_measured_numbers_are_written_as_by_python(tab):
     pairs = draw_measured()
     found = tab.evaluate(MEASURED, [pairs])
     assert found == [[*write_measured(*pair)] for pair in pairs]
+
+
+def test_the_result_stands_in_the_panel_and_follows_the_unit_of_the_page(opened, tmp_path):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
+    table = write_table(tmp_path / "measured.csv", make_axis(CUSPS).tolist())
+    opened.open_tab("measure")
+    opened.tab.set_input_files("#measured-file", str(table))
+    opened.until(lambda: "240 rows" in opened.say("measured-name"))
+    opened.tab.click("#fit-record")
+    opened.until(lambda: opened.tab.locator("#fitted-shown").count() or opened.say("refusal"))
+    check(axe, opened, parts={"include": [["#measure"]]})
+    tilt = read_table(opened.tab)["theta at the first point"]
+    assert tilt[2] == "rad"
+    assert abs(tilt[0] - 0.5) < 4 * tilt[1]
+    opened.choose_unit("deg")
+    turned = read_table(opened.tab)["theta at the first point"]
+    assert turned[0] == pytest.approx(np.degrees(tilt[0]), abs=np.degrees(tilt[1]))
+    assert turned[2] == "°"
+    # the run that is shown is the motion of the fit
+    (start,) = opened.read_events()
+    assert start["top"][2] / start["top"][0] == pytest.approx(
+        read_table(opened.tab)["Mgl/Ix"][0], abs=0.01
+    )
+    opened.choose_unit("rad")
 
 
 def find_label(page):

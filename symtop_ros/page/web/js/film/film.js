@@ -9,6 +9,7 @@ import { phrase } from "../words/wording.js";
 const PATIENCE = 30_000; // ms until a browser that says nothing of a file is taken to have no codec
 const DRAWN = 250; // ms; a frame that is the same is not presented again
 const ASKED = 1e-4; // s
+const TRIES = 3; // searches more for a frame
 const STEADY = 0.1; // of a step, by which the times of a steady film differ from even ones
 const FAR = 1e7; // s, beyond the end of any film
 const FEWEST = 2; // frames
@@ -153,8 +154,10 @@ export class Film {
   }
 
   async draw() {
-    let place = -1;
-    while (place !== this.wanted) {
+    let [place, again] = [-1, 0];
+    // What is presented may still be the frame of the search before: then the same is searched again.
+    while (place !== this.wanted || (this.place !== place && again < TRIES)) {
+      again = place === this.wanted ? again + 1 : 0;
       place = this.wanted;
       await this.seek(this.findMiddle(place));
       this.picture.drawImage(this.video, 0, 0, this.width, this.height);
