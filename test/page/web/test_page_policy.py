@@ -7,7 +7,7 @@ from page.web.opened import FUNCTIONS, KNOWN, USUAL
 from run.simulation.page_runs import change
 from serving import serving
 
-from symtop_ros.page.web.join import write_file
+from symtop_ros.page.web.join import EXPORT, MODULES, write_file
 
 SITE = "http://top.test/"
 HOSTILE = (
@@ -56,6 +56,13 @@ def check(frame):
 
 def test_the_page_is_small_enough_to_be_sent_by_mail():
     assert len(write_file().encode()) < 600_000
+
+
+def test_what_modules_export_is_what_the_joined_script_takes():
+    """Constants and classes, and no functions by other words: those would break the whole page."""
+    for path in MODULES.rglob("*.js"):
+        lines = [each for each in path.read_text().split("\n") if each.startswith("export")]
+        assert all(map(EXPORT.match, lines)), path
 
 
 def test_a_hostile_text_is_only_a_text_in_a_saved_page_of_a_saved_page(open_page, tmp_path):
