@@ -151,6 +151,8 @@ def write_unknown(unknown: Unknown) -> str:
     if unknown.kind in {"weak", "together"}:  # the last two are a value with its deviation
         value, deviation = unknown.numbers[-2:]
         record["value"] = format_measured(value, deviation)
+    if unknown.kind == "together":
+        record["factor"] = format_measured(unknown.numbers[0], unknown.numbers[1])
     text = write(f"unknown.{unknown.kind}", {**record, "names": unknown.names})
     remedy = f"remedy.{unknown.kind}"  # an option of the program, where the page has its own
     return text + (write(remedy, {}) if remedy in TEMPLATES else "")

@@ -12,7 +12,7 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
 from symtop_ros.truth.fit.aliases import count_rows
 from symtop_ros.truth.fit.camera import CAMERA, project
-from symtop_ros.truth.fit.model import find_axis
+from symtop_ros.truth.fit.model import find_axis, find_momentum
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.twins import (
@@ -27,7 +27,7 @@ from symtop_ros.truth.fit.twins import (
     turn_camera,
     turn_over,
 )
-from symtop_ros.truth.fit.values import ALIASED, Value, is_level, is_sparse
+from symtop_ros.truth.fit.values import ALIASED, Value, find_slope, is_level, is_sparse
 
 EXACT = 1e-9  # of the size of a record; twins agree to rounding, which grows with time
 ROWS = 50  # at which twins are compared
@@ -210,20 +210,31 @@ def _project(fit: Fit, motion: Motion, camera: dict[str, float]) -> Real:
 
 def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
     """Yield pairs of numbers that are not known, but for a combination of both."""
-    doubtful = [v for v in values if not v.is_known and v.name in fit.model.place]
-    names = [v.name for v in doubtful]
-    if {"Mgl/Ix", "p_psi/Ix"} <= {*names}:
+    doubtful = {v.name for v in values if not v.is_known and v.name in fit.model.place}
+    turning = next((v for v in values if v.name == "mean_precession_rate" and v.is_known), None)
+    if {"Mgl/Ix", "p_psi/Ix"} <= doubtful and turning is not None:
         a, p = fit.model.place["Mgl/Ix"], fit.model.place["p_psi/Ix"]
         covariance = fit.covariance
         ratio = float(covariance[a, p] / np.sqrt(covariance[a, a] * covariance[p, p]))
         if abs(ratio) > STRONG:
-            slope = float(covariance[a, p] / covariance[p, p])
-            row = np.zeros(len(fit.x))
-            row[a], row[p] = 1.0, -slope
-            numbers = slope, float(row @ fit.x), fit.find_deviation(row)
+            numbers = turning.value, turning.deviation, *find_rest(fit)
             yield Unknown("together", "Mgl/Ix and p_psi/Ix", numbers)
     if "scale" in {v.name for v in values if not v.is_known} and "log_scale" in fit.model.place:
         yield Unknown("tilt", "scale and theta")
+
+
+def find_rest(fit: Fit) -> tuple[float, float]:
+    """Return what Mgl is more than the mean precession times p_psi, in Ix, and its deviation.
+
+    A regular precession has Mgl = p_psi Omega - Ix Omega^2 cos(theta), of any p_psi. So the rate is
+    the factor: that of the covariance holds next to the p_psi that was found, which may be far off.
+    """
+
+    def find(x: Real) -> float:
+        turning = float(fit.model.find_motion(x).mean_precession_rate)
+        return float(x[fit.model.place["Mgl/Ix"]]) - turning * find_momentum(fit.model, x)
+
+    return find(fit.x), fit.find_deviation(find_slope(fit, find))
 
 
 def _list_motions(others: Sequence[Fit]) -> Iterator[Unknown]:

@@ -37,20 +37,21 @@ MOTIONS = {
     ),
     "left": Motion(CUSPS.top, State.from_euler(theta=0.5, phi_dot=-1.0, psi_dot=-190.0)),
 }
-SHOW = """async ([given, top, command, unit]) => {
+FIT = """async ([given, top]) => {
+  const load = (name) => import(`/fit/${name}.js`);
+  const [{ Many }, { makeRecord }, { fitMotion }, { describeFit }] = await Promise.all(
+    ["many", "record", "fitting", "answer"].map(load),
+  );
+  return describeFit(fitMotion(new Many(kernel), makeRecord(given), () => {}), top);
+}"""
+SHOW = """async ([fitted, command, unit]) => {
   document.body.innerHTML = `<select id="unit"><option>rad</option><option>deg</option></select>
     <div id="fitted"></div>`;
   document.getElementById("unit").value = unit;
-  const load = (name) => import(`/${name}.js`);
-  const [{ Many }, { makeRecord }, { fitMotion }, { describeFit }, { showFitted }] =
-    await Promise.all(
-      ["fit/many", "fit/record", "fit/fitting", "fit/answer", "controls/fitted"].map(load),
-    );
-  const fit = fitMotion(new Many(kernel), makeRecord(given), () => {});
-  const fitted = describeFit(fit, top);
+  const { showFitted } = await import("/controls/fitted.js");
   showFitted(fitted, command);
-  return JSON.parse(JSON.stringify(fitted));
 }"""
+FITTED = {}  # what was fitted, by the record: tests of other words show it again
 
 
 def find_pixels(motion, camera=FAR, sigma=1.0, times=TIMES):
@@ -68,7 +69,11 @@ def make_given(motion, kind="axis", values=None, times=TIMES):
 
 def show(tab, given, unit="rad", command=COMMAND):
     """Fit a record on the page and show it; return what the fit gives to the page."""
-    return tab.evaluate(SHOW, [given, TOP, command, unit])
+    key = json.dumps(given)
+    if key not in FITTED:
+        FITTED[key] = tab.evaluate(FIT, [given, TOP])
+    tab.evaluate(SHOW, [FITTED[key], command, unit])
+    return FITTED[key]
 
 
 def say(tab, name):
@@ -228,15 +233,13 @@ def test_what_is_not_known_is_said_in_the_table_and_in_the_sentence(tab):
     (together,) = [each for each in fitted["unknown"] if each["kind"] == "together"]
     texts = tab.locator("#fitted-unknown li").evaluate_all("all => all.map(e => e.dataset.text)")
     (text,) = [each for each in texts if "with so little nutation" in each]
-    slope, value, deviation = re.search(
-        r"Mgl/Ix - (-?[\d.]+) p_psi/Ix = (-?[\d.]+) ± ([\d.]+) is known", text
-    ).groups()
-    own = together["numbers"]
-    assert [float(slope), float(deviation)] == pytest.approx([own[0], own[2]], rel=0.06)
-    assert float(value) == pytest.approx(own[1], abs=0.06 * own[2])
-    # motions that fit as well lie on a curve: the line along it is right to a part of Mgl/Ix
-    exact = 300.0 - float(slope) * find_truth(regular)["p_psi/Ix"]
-    assert float(value) == pytest.approx(exact, abs=0.01 * 300.0)
+    measured = r"(-?[\d.]+) ± ([\d.]+)"
+    said = re.search(rf"Mgl/Ix - \({measured}\) p_psi/Ix = {measured} is known", text).groups()
+    factor, uncertain, rest, deviation = map(float, said)
+    exact = 300.0 - rate * find_truth(regular)["p_psi/Ix"]
+    assert abs(factor - rate) < 4 * uncertain  # once in 16 000 draws, and this is one
+    assert abs(rest - exact) < 4 * deviation
+    assert together["numbers"] == pytest.approx([factor, uncertain, rest, deviation], rel=0.06)
 
 
 def test_what_cannot_be_known_is_what_top_fit_says(tab, tmp_path, capsys):

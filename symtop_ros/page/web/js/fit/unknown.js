@@ -4,7 +4,7 @@
 
 import { project } from "./projection.js";
 import { mirrorView, seeFromAbove, turnCamera } from "./twins.js";
-import { ALIASED, SPARSE, countRows, isLevel } from "./values.js";
+import { ALIASED, SPARSE, countRows, findSlope, isLevel } from "./values.js";
 
 /** @import { Camera } from "./projection.js" */
 /** @import { Thrown } from "./many.js" */
@@ -98,23 +98,31 @@ const isAbove = (fit) => {
 const listTogether = (fit, values) => {
   const { place } = fit.model;
   const doubtful = values.filter(({ is_known }) => !is_known).map(({ name }) => name);
+  const turning = values.find(({ name }) => name === "mean_precession_rate");
   /** @type {Unknown[]} */
   const found = [];
   const names = ["Mgl/Ix", "p_psi/Ix"];
-  if (names.every((each) => doubtful.includes(each))) {
+  if (names.every((each) => doubtful.includes(each)) && turning?.is_known) {
     const [a, p] = names.map((each) => place[each]);
     const { covariance } = fit;
     const ratio = covariance[a][p] / Math.sqrt(covariance[a][a] * covariance[p][p]);
-    const slope = covariance[a][p] / covariance[p][p];
-    const row = fit.x.map((_, k) => (k === a ? 1 : k === p ? -slope : 0));
-    const value = fit.x[a] - slope * fit.x[p];
-    const numbers = [slope, value, fit.findDeviation(row)];
+    const numbers = [turning.value, turning.deviation, ...findRest(fit)];
     if (Math.abs(ratio) > STRONG)
       found.push({ kind: "together", names: names.join(" and "), numbers });
   }
   if (doubtful.includes("scale"))
     found.push({ kind: "tilt", names: "scale and theta", numbers: [] });
   return found;
+};
+
+/** What Mgl is more than the mean precession times p_psi, in Ix, and its deviation: any p_psi has it. @param {Fit} fit */
+const findRest = (fit) => {
+  const { many, place } = fit.model;
+  const find = (/** @type {number[]} */ x) => {
+    const { mean_precession_rate: turning } = many.findRates(fit.model.read(x));
+    return x[place["Mgl/Ix"]] - turning * x[place["p_psi/Ix"]];
+  };
+  return [find(fit.x), fit.findDeviation(findSlope(fit, find))];
 };
 
 /** Nutations with few rows, and level cameras. @param {Fit} fit @param {Value[]} values @returns {Unknown[]} */

@@ -124,7 +124,7 @@ const findValue = (valley, name, of) => {
 };
 
 /** The derivatives of a number. @param {Fit} fit @param {Of} of */
-const findSlope = ({ model, x }, of) =>
+export const findSlope = ({ model, x }, of) =>
   model.findScales(x).map((scale, k) => {
     const [high, low] = [1, -1].map((side) =>
       of(x.map((each, j) => (j === k ? each + side * STEP * scale : each))),

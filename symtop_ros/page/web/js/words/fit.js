@@ -94,6 +94,7 @@ const writeUnknown = ({ kind, names, numbers }, values) => {
       .map(writeName)
       .join(", "),
     value: numbers.length > 1 ? measured : null,
+    factor: kind === "together" ? writeMeasured(numbers[0], numbers[1]) : null,
   };
   const more = `fitted.remedy.${kind}`;
   return phrase(`unknown.${kind}`, record) + (isKnown(more) ? phrase(more) : "");
