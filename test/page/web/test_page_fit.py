@@ -241,10 +241,11 @@ def test_a_record_has_the_minimum_and_the_deviations_of_top_fit(fits, kind, nois
 @pytest.mark.parametrize("noise", NOISES)
 @pytest.mark.parametrize("kind", KINDS)
 def test_records_of_the_trial_have_the_minimum_and_the_deviations_of_top_fit(fits, kind, noise):
-    """15 seeds each, but for those with friction: 224 records.
+    """Of 15 seeds each those without friction: 224 records.
 
     The searches begin at other motions, so that one may find a motion that fits as well and the
-    other not; that is said by the one that found it.
+    other not; that is said by the one that found it. In a curved valley, which is said as well,
+    least squares end where steps become small.
     """
     for seed in range(FIRST, FIRST + 15):
         if draw_sample(kind, noise, seed).record.has_friction:
@@ -254,12 +255,12 @@ def test_records_of_the_trial_have_the_minimum_and_the_deviations_of_top_fit(fit
 
 
 def has_others(fits, kind, noise, seed):
-    """Return True if either fit says that other motions fit as well, or that it may be wrong."""
+    """Return True if either fit says that others fit as well, or that it may be wrong."""
     record = draw_sample(kind, noise, seed).record
     fit, found = fit_motion(record), fits.evaluate("fitRecord", write(record))
     said = {each.kind for each in list_unknown(fit, list_values(fit), {})}
     said |= {each["kind"] for each in [*found["unknown"], *found["reasons"]]}
-    return bool(said & {"other", "sparse", "lone"}) or fit.is_lone
+    return bool(said & {"other", "sparse", "lone", "curved"}) or fit.is_lone
 
 
 def test_the_page_fits_in_a_thread_and_its_motion_runs_meanwhile(fits, opened):
