@@ -34,7 +34,7 @@ panel:  ## the page, top.html, opened in the browser; needs no ROS and no compil
 	$(SET_UP) panel
 	@$(BIN)/python -c 'from symtop_ros.programs import top_panel; raise SystemExit(top_panel())'
 
-test:  ## style, types and all tests (about 11 minutes on two free cores; 2 GB, once)
+test:  ## style, types and all tests (about 14 minutes on two free cores; 2 GB, once)
 	$(SET_UP) test
 	@$(BIN)/python test/groups.py
 

@@ -106,6 +106,18 @@ def test_shared_memory_of_a_running_program_is_not_left_behind(monkeypatch):
     assert left == []
 
 
+def test_an_empty_file_of_the_browser_is_no_trace_and_one_with_content_is():
+    found = traces.Traces()
+    empty, full = (found.folder / f".org.chromium.Chromium.{name}" for name in ("a", "b"))
+    empty.touch()
+    full.write_text("left")
+    left = [path for path in found.find() if path.parent == found.folder]
+    full.unlink()
+    found.close()
+    assert left == [full]
+    assert not found.folder.exists()
+
+
 def test_make_test_runs_every_test_of_real_time():
     paths = [path for path in ROOT.glob("test/**/test_*.py") if path.name != "test_groups.py"]
     marked = [p.relative_to(ROOT) for p in paths if "pytest.mark.realtime" in p.read_text()]

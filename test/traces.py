@@ -13,7 +13,8 @@ SHARED = Path("/dev/shm")
 # What fetches packages writes its cache into the home, and tracing of ROS, if it is installed,
 # keeps a lock in shared memory.
 ALLOWED = ("pip", ".npm", ".cache", "lttng-ust-wait")
-# Empty folders that viewer and browser make and do not remove; they go with the temporary folder.
+# Empty folders that viewer and browser make and do not remove, and an empty file, which a process
+# of a browser leaves if it ends while it makes shared memory; all go with the temporary folder.
 OF_OTHERS = ("rerun-data-", "org.chromium.")
 
 
@@ -35,6 +36,12 @@ def list_mapped() -> set[Path]:
             continue
         found |= {Path(line.split(maxsplit=5)[5]) for line in lines if f" {SHARED}/" in line}
     return found
+
+
+def is_of_others(path: Path) -> bool:
+    """Return True for what viewer and browser leave: a folder, or an empty file."""
+    is_named = path.name.lstrip(".").startswith(OF_OTHERS)
+    return is_named and (path.is_dir() or path.stat().st_size == 0)
 
 
 class Traces:
@@ -62,7 +69,7 @@ class Traces:
 
     def _list_temporary(self) -> list[Path]:
         found = sorted(self.folder.iterdir())
-        return [path for path in found if not path.name.startswith(OF_OTHERS)]
+        return [path for path in found if not is_of_others(path)]
 
     def close(self) -> None:
         """Remove the temporary folder, unless something is in it to look at."""

@@ -124,8 +124,16 @@ def find_truth(motion):
     return {"p_psi/Ix": float(momentum), "Mgl/Ix": motion.top.Mgl / motion.top.Ix}
 
 
-@pytest.mark.parametrize("kind", ["axis", "pixels"])
-@pytest.mark.parametrize("name", MOTIONS)
+KINDS = "axis", "pixels"
+# Each motion in one kind; `make test-long` tries the other.
+TRIED = [
+    pytest.param(name, kind, marks=() if (k + n) % 2 else pytest.mark.long)
+    for n, name in enumerate(MOTIONS)
+    for k, kind in enumerate(KINDS)
+]
+
+
+@pytest.mark.parametrize(("name", "kind"), TRIED)
 def test_the_sentence_says_what_the_motion_is(tab, name, kind):
     motion = MOTIONS[name]
     fitted = show(tab, make_given(motion, kind))

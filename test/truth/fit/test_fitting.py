@@ -121,7 +121,7 @@ def test_friction_is_found_if_it_is_looked_for_and_else_the_model_fails():
     assert Check(fit_motion(make_record(times, seen, "axis"))).verdict == FAILS
 
 
-@pytest.mark.parametrize("theta", [0.5, 0.75, 1.25])
+@pytest.mark.parametrize("theta", [0.5, 1.25])
 def test_without_nutation_one_combination_is_known(theta):
     """And it is right, though the motion that is found may have any p_psi."""
     top = Top(1.0, 0.25, 300.0)
