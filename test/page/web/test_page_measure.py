@@ -437,6 +437,19 @@ def test_a_fit_is_stopped_and_a_record_of_too_few_rows_is_refused(measuring):
     assert "40 of 40" in measuring.say("plan")
 
 
+def test_a_fit_of_what_is_measured_no_more_is_stopped(opened):
+    """Its result would be that of another record than the one that is named."""
+    rows = "".join(f"{k / 32},{k % 7},{k % 5}\n" for k in range(40))
+    drop(opened, "first.csv", b"t,u,v\n" + rows.encode())
+    opened.until(lambda: "first.csv" in opened.say("measured-name"))
+    opened.tab.click("#fit-record")
+    assert opened.tab.is_visible("#fit-progress")
+    drop(opened, "second.csv", b"t,u,v\n" + rows.encode())
+    opened.until(lambda: "second.csv" in opened.say("measured-name"))
+    assert opened.tab.is_hidden("#fit-progress")
+    assert opened.tab.is_enabled("#fit-record")
+
+
 HUGE = 4_200_000_000  # bytes, more than 32 bits count
 
 

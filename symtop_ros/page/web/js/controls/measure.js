@@ -108,6 +108,7 @@ export class Measure {
   async offerTable(file) {
     const table = await readTable(file);
     this.ask(file.name, async () => {
+      this.stop(); // its result would be shown with this table
       this.film?.close();
       this.film = null;
       this.clicking.take(null);
@@ -135,6 +136,7 @@ export class Measure {
       old.file.size === file.size &&
       old.width === film.width;
     const take = async () => {
+      if (!isSame) this.stop(); // its result would be shown with this film
       old?.close();
       this.film = film;
       this.table = null;

@@ -8,7 +8,7 @@
 /** What is clicked. @typedef {"pivot" | "length" | "ball"} Aim */
 
 /** @type {Clicks} */
-export const NONE = { pivot: null, length: [], balls: new Map() };
+const NONE = { pivot: null, length: [], balls: new Map() };
 
 /** @param {Clicks} clicks @param {number} frame @param {Place | null} place */
 export const setBall = (clicks, frame, place) => {

@@ -15,7 +15,7 @@ const write = (value, decimals) => String(Number(value.toFixed(decimals)));
 const round = (value, decimals) => Number(value.toFixed(decimals));
 
 /** u to the right and v upwards. @param {Place} place @param {number} height of the film @returns {[number, number]} */
-export const turnUp = ([x, y], height) => [round(x, PIXEL), round(height - y, PIXEL)];
+const turnUp = ([x, y], height) => [round(x, PIXEL), round(height - y, PIXEL)];
 
 /** Pixels from the pivot to the ball, and the deviation of their logarithm. @param {Clicks} clicks @param {Lengths} lengths */
 const findScale = ({ length: [from, to] }, { length, ball }) => {

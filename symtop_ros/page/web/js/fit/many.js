@@ -9,7 +9,7 @@ import { NO_FRICTION, room } from "../physics/kernel.js";
  */
 
 /** @param {Thrown} thrown the numbers of symtop_start */
-export const packThrown = ({ weight, q, omega }) => [
+const packThrown = ({ weight, q, omega }) => [
   ...[1, 1, weight, ...q, ...omega],
   ...NO_FRICTION,
   ...[0, 0, 0],

@@ -1,5 +1,6 @@
 // A record: points of the axis at some times. Twin of truth/fit/record.py, for two kinds.
 
+import { transpose } from "./linear.js";
 import { findMedian, findQuantile, findSpread } from "./statistics.js";
 
 /**
@@ -20,9 +21,6 @@ const MANY = 1e12;
 const EVEN = 0.1;
 const FIXED = 12; // deviations of rounding, of which a step has 3.5
 const WIDTHS = { axis: 3, pixels: 2 };
-
-/** Columns of rows. @param {number[][]} rows */
-export const listColumns = (rows) => rows[0].map((_, k) => rows.map((row) => row[k]));
 
 export class Record {
   /**
@@ -73,18 +71,18 @@ export class Record {
 
   /** The deviation of the values of each column. */
   get spreads() {
-    return listColumns(this.values).map(findSpread);
+    return transpose(this.values).map(findSpread);
   }
 
   /** The deviation of the rounding of each column; 0 if none is seen. */
   get rounding() {
-    return listColumns(this.values).map((each) => findStep(each) / Math.sqrt(12));
+    return transpose(this.values).map((each) => findStep(each) / Math.sqrt(12));
   }
 
   /** Whether a column stays within a few steps of rounding: all its rows have one error. */
   get fixed() {
     const { rounding } = this;
-    return listColumns(this.values).map((each, k) => {
+    return transpose(this.values).map((each, k) => {
       const [least, most] = [Math.min, Math.max].map((of) => each.reduce((a, b) => of(a, b)));
       return most - least < FIXED * rounding[k];
     });
@@ -92,7 +90,7 @@ export class Record {
 
   /** With medians of their neighbours in place of single wrong rows. */
   get smooth() {
-    const columns = listColumns(this.values).map(findFar);
+    const columns = transpose(this.values).map(findFar);
     const values = this.values.map((row, k) =>
       columns.some(({ isWrong }) => isWrong[k]) ? columns.map(({ middle }) => middle[k]) : row,
     );
@@ -149,7 +147,7 @@ const refuseOdd = ({ times, values }) => {
 
 /** @param {number[][]} values */
 const refuseStill = (values) => {
-  const columns = listColumns(values);
+  const columns = transpose(values);
   const most = (/** @type {number[]} */ each) => each.reduce((a, b) => Math.max(a, b));
   const moved = columns.map((each) => most(each) + most(each.map((one) => -one)));
   const size = most(columns.map((each) => most(each.map(Math.abs))));
@@ -175,7 +173,7 @@ const normalize = (rows) => {
     ) >= LENGTH
   )
     return { values: divide((k) => norms[k]), length: 1 };
-  const steps = listColumns(rows).map(findStep);
+  const steps = transpose(rows).map(findStep);
   const errors = Math.max(findSpread(norms), ...steps, STILL);
   const length = Math.abs(usual - 1) <= errors ? 1 : usual;
   return { values: divide(() => length), length };

@@ -32,7 +32,7 @@ export const EFFORTS = [
 export const AGAIN = 2; // the effort with which other starts are tried
 
 /** The parameters within their limits. @param {Model} model */
-export const limit = (model) => {
+const limit = (model) => {
   const { elevation, nearness } = model.place;
   return (/** @type {number[]} */ x) => {
     const clipped = [...x];

@@ -7,11 +7,10 @@
 // truth/fit/camera_starts.py motions of many shapes are scaled to the frequencies of the record, and the
 // best of them are improved.
 
-import { dot, multiplyPairs, solve } from "./linear.js";
+import { dot, multiplyPairs, solve, transpose } from "./linear.js";
 import { minimise } from "./least_squares.js";
 import { compose, point } from "./many.js";
 import { Model } from "./model.js";
-import { listColumns } from "./record.js";
 
 /** @import { Many } from "./many.js" */
 /** @import { Record } from "./record.js" */
@@ -84,7 +83,7 @@ class Pictures {
     const places = rows.filter((each) => each < part.count);
     this.many = many;
     this.times = Float64Array.from(places, (k) => part.times[k]);
-    this.points = listColumns(places.map((k) => part.values[k]));
+    this.points = transpose(places.map((k) => part.values[k]));
     this.hasPivot = part.kind === "axis"; // at zero
   }
 
@@ -264,7 +263,7 @@ const listRates = (part) => {
 const findPeaks = (part) => {
   const count = Math.max(Math.ceil(part.seconds / part.step), 2);
   const even = Array.from({ length: count }, (_, k) => k * part.step);
-  const waves = listColumns(part.values).map((each) => prepare(part.times, each, even));
+  const waves = transpose(part.values).map((each) => prepare(part.times, each, even));
   const power = Array.from({ length: (PAD * count) / 2 + 1 }, (_, k) =>
     waves.reduce((sum, each) => sum + transform(each, (2 * Math.PI * k) / (PAD * count)), 0),
   );

@@ -33,7 +33,7 @@ export const findSpread = (numbers) => {
 };
 
 /** The autocovariances at all lags, summed over columns. @param {Numbers[]} columns */
-export const findCovariances = (columns) => {
+const findCovariances = (columns) => {
   const count = columns[0].length;
   const found = new Float64Array(count);
   for (const each of columns)

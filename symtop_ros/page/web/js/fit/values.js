@@ -35,7 +35,7 @@ const WHOLE = ["phi", "roll"]; // known but for whole turns
 const dropTurns = (angle) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
 /** The numbers of a fit as functions of the parameters, by name. @param {Fit} fit @returns {[string, Of][]} */
-export const listQuantities = ({ model, x }) => {
+const listQuantities = ({ model, x }) => {
   const { many, place } = model;
   const find =
     (/** @type {"phi" | "theta" | "phi_dot" | "theta_dot"} */ name) =>
