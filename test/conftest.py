@@ -8,6 +8,11 @@ from pathlib import Path
 import pytest
 from coverage import Coverage
 
+pytest_plugins = ("tiers", "cpu_times")
+
+# Small matrices gain nothing by threads, which take a quarter of the time of two processors.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 with contextlib.suppress(ModuleNotFoundError):  # the matrix has no Hypothesis
     from hypothesis import HealthCheck, settings
 

@@ -55,6 +55,7 @@ def other_than_delays(errors):
     return [line for line in errors.splitlines() if "no samples for" not in line]
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_two_demonstrations_hurry_the_top_log_it_print_the_same_and_leave_nothing_running(tmp_path):
     with running_demo(tmp_path) as (one, line), running_demo(tmp_path) as (other, second):

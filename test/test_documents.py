@@ -126,6 +126,7 @@ def test_a_program_of_the_page_compiles_and_prints_what_it_shows(language, compi
     assert same(done.stdout, output)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("language", "name", "program"), [("cpp", "top.cpp", "g++"), ("js", "top.mjs", "node")]
 )

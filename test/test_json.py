@@ -63,6 +63,7 @@ def table(tmp_path):
 MODES = {"judge": (), "judge of a model": ("--aligned", "world+delay")}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mode", MODES)
 def test_a_judgement_says_what_it_is(mode, table, tmp_path, capsys):
     options = ["--scene", "cusps", "--estimates", str(table), "-o", str(tmp_path), *MODES[mode]]
@@ -147,6 +148,7 @@ def test_a_plan_says_what_it_is(capsys):
     assert {key for key in list_keys(record) if f"`{key}`" not in TEXT} == set()
 
 
+@pytest.mark.slow
 def test_a_fit_says_what_it_is(tmp_path, capsys):
     path = write_table(tmp_path / "axis.csv", make_axis())
     assert fit([str(path), "--json"]) == 0

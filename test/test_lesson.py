@@ -98,6 +98,7 @@ def test_the_commands_of_a_step_lead_to_the_motion_of_its_picture(step, tops):
     assert state["kind"] == motion.kind
 
 
+@pytest.mark.slow
 def test_the_commands_of_the_record_lead_to_the_motion_of_its_picture(
     tmp_path, monkeypatch, capsys
 ):

@@ -122,6 +122,7 @@ def is_anew(printed, reason):
     ]
 
 
+@pytest.mark.slow
 def test_nothing_is_run_where_all_is_there(checkout):
     for path in checkout.rglob("*"):
         if not path.is_symlink():
@@ -272,6 +273,7 @@ def test_every_variable_of_the_makefile_has_a_value():
     assert [line for line in ours if not re.search("'(ROS_LOG_DIR|MPLCONFIGDIR)'", line)] == []
 
 
+@pytest.mark.slow
 def test_the_page_needs_no_compiler_and_no_compiled_kernel(checkout):
     """As in a fresh checkout on a machine without a compiler, once NumPy and PyYAML are there."""
     compiled = shutil.ignore_patterns("libsymtop.*", "symtop.dll", "__pycache__")

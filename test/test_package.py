@@ -116,6 +116,7 @@ def test_a_build_without_a_compiler_ends_with_a_line_that_names_one(workspace, b
     assert "Traceback" not in printed
 
 
+@pytest.mark.slow
 def test_colcon_build_installs_what_ros2_run_looks_for(workspace):
     compiler = workspace / "compiler"  # which has compiled the kernel already, as the set-up did
     compiler.write_text(f'#!/bin/sh\nfor target; do :; done\ncp "{ROOT / LIBRARY}" "$target"\n')
@@ -163,6 +164,7 @@ def test_every_file_of_the_package_is_installed(sources, tmp_path):
     assert needed - found == {"page/web/kernel.sha256"}
 
 
+@pytest.mark.slow
 def test_an_sdist_has_the_whole_project(tmp_path):
     """So that the README, which speaks of make and of tests, is true of it."""
     project = {*lint.list_files()}

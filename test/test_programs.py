@@ -66,6 +66,7 @@ for name in {PROGRAMS}:
 """
 
 
+@pytest.mark.slow
 def test_help_and_version_need_neither_ros_nor_rerun_nor_mcap(tmp_path):
     done = run_python(ASK, cwd=tmp_path)
     answers = done.stdout.split("status 0\n")

@@ -21,11 +21,13 @@ QUOTED = {
 DOMAIN = claim_domain()
 
 
+@pytest.mark.slow
 def test_a_client_without_a_node_prints_what_the_page_quotes():
     done = execute(command("top_ctl", "hurry"), env=environment(DOMAIN))
     assert done.stderr.rstrip() in QUOTED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "running_before"),
     [((), True), (("-p", "use_sim_time:=true"), False)],
@@ -54,6 +56,7 @@ def test_a_python_without_the_package_prints_what_the_page_quotes(tmp_path):
     assert done.stderr.splitlines()[-1] in QUOTED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("program", "words"), [("top_replay", ["run.mcap"]), ("top_live", [])])
 def test_a_viewer_without_a_screen_prints_what_the_page_quotes(
     program, words, tmp_path, monkeypatch

@@ -1,4 +1,4 @@
-"""Values of families of tests: some for each run of the tests, the others for the long trials."""
+"""Values of families of tests: some for each run of the tests, the others for a longer one."""
 
 from collections.abc import Container, Iterable
 from typing import Any
@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 
 
-def choose(values: Iterable[Any], kept: Container[Any]) -> list[Any]:
-    """Return values, of which those that are not kept are for the long trials."""
-    marks = [pytest.mark.long]
+def choose(values: Iterable[Any], kept: Container[Any], tier: str = "long") -> list[Any]:
+    """Return values, of which those that are not kept are of a longer tier: `long` or `slow`."""
+    marks = [getattr(pytest.mark, tier)]
     return [pytest.param(each, marks=marks * (each not in kept), id=str(each)) for each in values]
 
 

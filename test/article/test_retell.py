@@ -25,6 +25,7 @@ def folder(tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_every_claim_holds_and_figures_are_written(folder):
     assert (folder / "claims.md").read_text().endswith("78 of 78 claims hold.\n")
     assert [*folder.glob("*.png")] == [folder / f"{FEW[0]}.png"]

@@ -63,6 +63,7 @@ with running_node(int(sys.argv[1])) as node:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(SETPRIV is None, reason="setpriv (util-linux) is not installed")
 def test_a_node_ends_with_the_test_run_that_is_killed():
     path = os.pathsep.join([str(ROOT / "test"), os.environ.get("PYTHONPATH", "")])

@@ -8,8 +8,6 @@ from workshop.load import calls, soak, stress
 from workshop.load.processes import script
 from workshop.load.stress import HEAD, Outcome
 
-pytestmark = pytest.mark.realtime
-
 
 @pytest.mark.long
 def test_under_load_nothing_is_lost_and_every_request_is_answered(capsys, monkeypatch):
@@ -63,6 +61,7 @@ def test_at_full_rate_nothing_is_lost_and_every_log_is_what_its_events_say():
     assert balance < BALANCE
 
 
+@pytest.mark.realtime
 def test_a_line_comes_in_time_and_a_log_is_checked_as_soon_as_it_is_finished(monkeypatch, capsys):
     for name, value in {"LOG_DURATION": 1.5, "LINE_INTERVAL": 1.0}.items():
         monkeypatch.setattr(soak, name, value)
@@ -75,6 +74,7 @@ def test_a_line_comes_in_time_and_a_log_is_checked_as_soon_as_it_is_finished(mon
     assert logs == sorted(logs)
 
 
+@pytest.mark.realtime
 def test_every_call_is_answered(capsys):
     assert calls.main(["--seconds", "2"]) in (0, 1)  # 1: one has taken a second
     _, row = capsys.readouterr().out.splitlines()

@@ -156,6 +156,7 @@ def test_pushes_that_are_nutations_apart_are_as_exact(top):
         assert np.dot(motion.at(ExactTimes(stamp)).orientation, [float(each) for each in q]) > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("Mgl", "rate"), [(-0.0625, 0.125), (0.0, 0.03125)])
 def test_pushes_that_are_a_hundred_nutations_apart_are_as_exact(Mgl, rate):
     """A start that is rounded would be off by half an eps a radian: some 700 rad a piece, or more.

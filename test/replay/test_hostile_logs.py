@@ -163,6 +163,7 @@ def grown(call):
     return (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
 
 
+@pytest.mark.slow
 def test_millions_of_messages_in_a_chunk_of_a_few_bytes_are_not_held_at_once(tmp_path):
     path = file_of(tmp_path, repeated(write_record(Message(1, 5, b"", 5, 0)), 300_000))
     file = McapFile(path)
@@ -207,6 +208,7 @@ def test_a_chunk_that_lies_about_its_size_costs_no_memory(size, tmp_path):
     assert any(DAMAGED in problem for problem in file.problems)
 
 
+@pytest.mark.slow
 def test_ten_thousand_problems_are_told_in_some_lines(tmp_path, capsys):
     path = file_of(tmp_path, chunk(b"?", 1, 1) * 10_000)
     status, lines = asked(capsys, path, "--repair", tmp_path / "whole.mcap")
@@ -232,6 +234,7 @@ def test_joints_that_are_not_three_are_not_those_of_a_top(tmp_path, capsys):
     assert asked(capsys, path, "--save", tmp_path / "run.rrd")[0] == 0
 
 
+@pytest.mark.slow
 def test_a_frame_of_its_own_for_every_message_is_read_up_to_a_number_and_soon(tmp_path, capsys):
     data = [messages.QUATERNION.layout(f"w{k:05}").encode(k, [0.0, 0, 0, 1]) for k in range(10_000)]
     path = write(tmp_path / "log.mcap", messages.QUATERNION.type, "/top/orientation", data)

@@ -64,6 +64,7 @@ def replay(python, *arguments):
     return execute(words, env={"PATH": "/usr/bin:/bin"}, timeout=120)
 
 
+@pytest.mark.slow
 @pytest.mark.wording  # of the log, which another program computes again
 def test_without_ros_a_log_becomes_a_recording_and_is_checked(laptop, log, tmp_path):
     none = execute([laptop, "-c", "import rclpy"], env={})
@@ -81,6 +82,7 @@ def test_without_ros_a_log_becomes_a_recording_and_is_checked(laptop, log, tmp_p
     assert repaired.stdout == f"wrote {len(RUN.messages)} messages to {tmp_path / 'again.mcap'}\n"
 
 
+@pytest.mark.slow
 def test_without_a_screen_the_message_names_the_options(laptop, log):
     result = replay(laptop, log)
     assert result.returncode == 1
@@ -142,6 +144,7 @@ def _run_file(tmp_path):
     return path
 
 
+@pytest.mark.slow
 def test_a_run_of_the_page_is_checked_saved_and_becomes_a_log(run_file, capsys):
     log, page, again = (run_file.with_name(name) for name in ("run.mcap", "run.html", "again.html"))
     assert module.main([str(run_file), "--check"]) == 0

@@ -22,6 +22,7 @@ SCENES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", choose(SCENES, ("hurried",)))
 def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
     target = tmp_path / f"{name}.rrd"

@@ -67,6 +67,7 @@ def test_the_policy_allows_top_node_what_it_uses():
     assert seen == allowed()["/top/top_node"]
 
 
+@pytest.mark.slow
 def test_the_policy_allows_top_ctl_what_its_commands_use():
     words = [
         command("top_ctl", "--timeout", "30", *each, "--ros-args", "-r", f"__node:=ctl_{name}")
@@ -76,6 +77,7 @@ def test_the_policy_allows_top_ctl_what_its_commands_use():
         assert_allowed("top_ctl", *(f"ctl_{name}" for name in COMMANDS))
 
 
+@pytest.mark.slow
 def test_the_policy_allows_top_live_what_it_uses():
     with socket.create_server((viewer.HOST, 0)) as taken_for_a_viewer:
         port = taken_for_a_viewer.getsockname()[1]
@@ -83,6 +85,7 @@ def test_the_policy_allows_top_live_what_it_uses():
             assert_allowed("top_live")
 
 
+@pytest.mark.slow
 def test_the_policy_allows_top_judge_what_it_uses():
     words = command("top_judge", "--live", "--topic", "/top/imu")
     with running_node(DOMAIN, "imu.enabled:=true"), processes(words):
@@ -95,6 +98,7 @@ def open_page(url):
         return urllib.request.urlopen(url, timeout=TIMEOUT)
 
 
+@pytest.mark.slow
 def test_the_policy_allows_top_panel_what_it_uses():
     """It takes samples while a page is open only."""
     port = viewer.free_port()

@@ -42,6 +42,7 @@ def test_told_to_be_secure_a_program_does_not_run_without(case, tmp_path, monkey
     assert f"of this program in domain {DOMAIN}, see SECURITY.md" in last
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("program", ["top_replay", "top_live"])
 def test_a_viewer_in_the_browser_is_served_to_this_machine_only(program, tmp_path):
     log = Run(seconds=0.5).write(tmp_path)

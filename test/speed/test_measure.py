@@ -48,6 +48,7 @@ def facts(report):
     return report["results"]
 
 
+@pytest.mark.slow
 def test_our_errors_are_rounding_at_all_times_and_in_all_hard_cases(facts):
     # As angles, twice the distances, as promised.
     (growth,) = [each for each in facts["growth"] if each["peer"] == CLOSED_FORM]

@@ -52,6 +52,7 @@ def ended_at_random(chance, *words):
     return process.returncode, told
 
 
+@pytest.mark.slow
 def test_top_node_ends_in_silence_and_its_log_is_whole_or_absent(tmp_path):
     chance = random.Random(1)
     statuses = set()
@@ -71,6 +72,7 @@ def test_top_node_ends_in_silence_and_its_log_is_whole_or_absent(tmp_path):
     assert statuses <= {0, *SILENT}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", [("watch",), ("hurry",)], ids=lambda words: words[0])
 def test_top_ctl_says_at_most_that_there_was_no_answer(words):
     chance = random.Random(2)
@@ -82,6 +84,7 @@ def test_top_ctl_says_at_most_that_there_was_no_answer(words):
             assert (status, told) == (1, "top_ctl: interrupted before the answer arrived\n")
 
 
+@pytest.mark.slow
 def test_top_live_leaves_no_viewer_behind():
     chance = random.Random(3)
     for _ in range(ATTEMPTS):
@@ -98,6 +101,7 @@ def _words(process):
     return []
 
 
+@pytest.mark.slow
 def test_top_replay_ends_in_silence_and_never_says_that_a_log_is_good(tmp_path):
     chance = random.Random(4)
     log = Run(seconds=8.0, rate=1000.0).write(tmp_path)

@@ -45,6 +45,7 @@ def load(url):
         return answer.read().decode()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", choose((signal.SIGINT, signal.SIGTERM), (signal.SIGINT,)))
 def test_a_signal_ends_the_server_silently(number):
     with running_panel() as (process, url):
@@ -64,6 +65,7 @@ def test_a_port_that_is_taken_is_one_message_and_status_1(capsys):
     assert f"got 127.0.0.1 port {port} (address already in use); use --port" in line
 
 
+@pytest.mark.slow
 def test_other_machines_are_told_an_address_and_nothing_is_to_be_guarded():
     with running_panel("--host", "0.0.0.0") as (process, url):
         process.terminate()
@@ -74,6 +76,7 @@ def test_other_machines_are_told_an_address_and_nothing_is_to_be_guarded():
     assert (process.returncode, errors) == (0, "")  # each page has its own top
 
 
+@pytest.mark.slow
 def test_without_options_the_file_is_written_here_and_opened(monkeypatch, capsys):
     opened = []
     monkeypatch.setattr(module.webbrowser, "open", lambda url: opened.append(url) or True)
@@ -92,6 +95,7 @@ def test_a_saved_run_of_the_same_name_is_kept():
     assert sorted(path.name for path in Path().iterdir()) == ["top.html", "top_2.html"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", [(__version__, "0.4.0"), ("<body", "<body data-old")])
 def test_a_page_without_a_run_is_renewed_whatever_its_version(change, capsys):
     Path("top.html").write_text(write_file().replace(*change))
@@ -101,6 +105,7 @@ def test_a_page_without_a_run_is_renewed_whatever_its_version(change, capsys):
     assert len([*Path().iterdir()]) == 1
 
 
+@pytest.mark.slow
 def test_a_page_with_a_run_is_kept_and_named(capsys):
     saved = write_file(run=page_run(1))
     Path("top.html").write_text(saved)

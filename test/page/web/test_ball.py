@@ -49,12 +49,14 @@ LOOKS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("look", LOOKS)
 def test_the_ball_is_found_to_a_third_of_a_pixel(films, look, tmp_path):
     path = write(tmp_path, draw_balls(BALLS, **LOOKS[look]))
     check(follow(films, path), range(3, COUNT))
 
 
+@pytest.mark.slow
 def test_clicks_beside_the_middle_do_not_move_the_suggestion(films, tmp_path):
     path = write(tmp_path, draw_balls(BALLS))
     check(follow(films, path, off=(3.0, -2.0)), range(3, COUNT))
@@ -65,6 +67,7 @@ def test_frames_may_be_left_out(films, tmp_path):
     check(follow(films, path, step=3), range(9, COUNT, 3))
 
 
+@pytest.mark.slow
 def test_noise_and_light_that_changes_do_not_lead_it_away(films, tmp_path):
     numbers = Numbers(5)
     noise = np.array([numbers.randint(-14, 14) for _ in range(320 * 240)]).reshape(240, 320, 1)
@@ -79,6 +82,7 @@ def test_noise_and_light_that_changes_do_not_lead_it_away(films, tmp_path):
     check(follow(films, path), range(3, COUNT), near=1.0)  # px, as a click of a hand
 
 
+@pytest.mark.slow
 def test_a_wooden_disc_is_no_second_ball_though_it_is_half_like_it(films, tmp_path):
     def add_disc(pictures):
         for (x, y), picture in zip(BALLS, pictures, strict=True):

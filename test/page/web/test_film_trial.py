@@ -74,6 +74,7 @@ def films(tab, tmp_path_factory):
     return get
 
 
+@pytest.mark.slow
 def test_a_film_of_the_page_gives_its_top_back(open_page, films):
     film = films("slow", 30, 2.5)
     page = open_page(FRAGMENT)

@@ -31,6 +31,7 @@ def list_walks(count):
     return [*range(count), *range(count - 1, -1, -3), *[(17 * k) % count for k in range(30)]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times", [STEADY, FAST, UNEVEN], ids=["30", "120", "uneven"])
 @pytest.mark.parametrize(("suffix", "codec"), [("webm", "vp8"), ("webm", "vp9"), ("mp4", "h264")])
 def test_each_frame_is_the_one_with_its_time(films, suffix, codec, times, tmp_path):

@@ -155,6 +155,7 @@ def test_a_state_without_norm_1_is_refused(tab):
         tab.evaluate("takeStates", [((0.9, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", trials(100, 400))
 def test_kicks_records_and_sentences_are_those_of_python(tab, count):
     cases = list(list_cases(count))

@@ -18,6 +18,7 @@ def check(axe, page, options=None, parts=None):
 
 
 # The dark page has the elements of the light one, in other colours.
+@pytest.mark.slow
 @pytest.mark.parametrize(("scheme", "options"), [("light", None), ("dark", CONTRAST)])
 def test_there_is_no_finding_of_axe(open_page, scheme, options):
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
@@ -32,6 +33,7 @@ def test_there_is_no_finding_of_axe(open_page, scheme, options):
         check(axe, page, options, {"include": [["#tabs"], [f"#{name}"]]})
 
 
+@pytest.mark.slow
 def test_there_is_no_finding_of_axe_in_the_first_minute(open_page):
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
     page = open_page(known="")
@@ -92,6 +94,7 @@ def read_marks(page):
     return {name: colors for name, colors in found if colors}
 
 
+@pytest.mark.slow
 def test_arrows_come_one_by_one_by_their_words(opened):
     opened.press("Space")
     label = opened.tab.locator(".label:visible", has_text="torque")

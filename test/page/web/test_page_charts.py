@@ -39,6 +39,7 @@ def read_chart(page, name):
     return first + scale * (heights - lowest), abs(scale) * HEIGHT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("root", choose(("slow", "fast"), ("slow",)))
 def test_in_regular_precession_every_chart_spans_a_part_of_its_quantity(open_page, root):
     page = open_page(f"#theta=0.5&psi_dot=200&precession={root}")
@@ -76,6 +77,7 @@ def test_the_energy_of_a_kick_is_that_of_the_article(opened):
     assert bars[:8] == ["0", "+1.06", "0", "+1.06", "+1.93", "\u22120.871", "0", "+1.06"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("act", ["hurry", "delay"])
 def test_the_highest_point_of_the_energies_is_that_of_the_weight(open_page, act):
     """If Mgl < 0 the weight is lowest where the axis is highest, and it has lost energy there."""
@@ -98,6 +100,7 @@ def read_constants(page):
     return dict(rows)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "start",
     ["psi_dot=200", "psi_dot=-150&theta_dot=2", "psi_dot=0&theta_dot=3"],
@@ -113,6 +116,7 @@ def test_a_constant_that_is_nearly_zero_is_constant(open_page, start):
         assert rows["energy E"].endswith(" J, constant")
 
 
+@pytest.mark.slow
 def test_rates_without_friction_are_told_as_such(open_page):
     page = open_page("#scene=friction")
     page.wait_for_time(0.3)
@@ -133,6 +137,7 @@ def test_what_is_of_gravity_alone_is_said_to_be_or_is_not_shown(open_page):
     assert page.say("rule-apart") == ""
 
 
+@pytest.mark.slow
 def test_the_time_at_which_rounding_decides_is_one_of_the_run(open_page):
     page = open_page("#scene=separatrix")
     run = page.read_run()
@@ -187,6 +192,7 @@ def test_kinds_are_decided_as_in_the_article(tab):
         assert boundaries["upper"] == pytest.approx(expected["through the vertical"][0][0])
 
 
+@pytest.mark.slow
 def test_a_chart_shows_the_quantities_that_are_chosen_and_a_run_kept_for_comparison(opened):
     opened.open_charts("free")
     opened.tab.select_option("#free-x", "time")
@@ -226,6 +232,7 @@ def test_a_chart_shows_the_quantities_that_are_chosen_and_a_run_kept_for_compari
     assert opened.tab.input_value("#free-y") == "theta_ddot"  # the choice is kept
 
 
+@pytest.mark.slow
 def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_pushed(open_page):
     opened = open_page(script=FEW_FRAMES)  # drawn: the ball is found by its colour
     opened.open_tab("view")
@@ -255,6 +262,7 @@ def test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_push
     assert kick["made_by"] == {"kind": "pull"}
 
 
+@pytest.mark.slow
 def test_the_impulses_of_one_fall_are_those_of_the_article(open_page):
     page = open_page("#theta=0.5&psi_dot=200&phi_dot=0")
     page.open_charts("impulses")
@@ -321,6 +329,7 @@ def read_well(page):
     return [*heights, curve]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", choose(("friction", "vertical_torque"), ("friction",)))
 def test_circles_and_energy_are_those_of_a_driven_state_after_waiting_and_a_seek(open_page, scene):
     page = open_page(f"#scene={scene}", script=USUAL + "patches.keepCircles();")

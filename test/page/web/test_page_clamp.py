@@ -20,6 +20,7 @@ def list_kinds(opened):
     return [(event["kind"], event.get("clamped", False)) for event in opened.read_events()]
 
 
+@pytest.mark.slow
 def test_a_key_holds_the_precession_and_lets_it_go_with_the_bits_of_python(open_page):
     opened = open_page(LINK)
     opened.wait_for_time(0.02)
@@ -67,6 +68,7 @@ def test_a_button_holds_it_as_long_as_it_is_held(open_page):
     assert len(opened.read_events()) == 4
 
 
+@pytest.mark.slow
 def test_a_scene_a_link_and_a_reset_begin_held(open_page):
     opened = open_page("#scene=perry_clamped")
     assert list_kinds(opened)[-1] == ("start", True)

@@ -37,6 +37,7 @@ def test_the_list_shows_the_disc_that_moves_as_the_top_does(opened):
     assert article.moments == pytest.approx((0.000228, 0.0000572, 0.068), rel=1e-5)  # six digits
 
 
+@pytest.mark.slow
 def test_a_body_of_parts_is_that_of_python(opened):
     opened.open_tab("start")
     fill_part(opened, 0, "disc", "170 g", "5.5cm", "0,105")
@@ -65,6 +66,7 @@ def test_a_list_that_is_typed_is_not_said_to_move_as_the_top_does_until_it_is_us
     opened.until(lambda: opened.say("parts-text").startswith("This top is a body of parts"))
 
 
+@pytest.mark.slow
 def test_a_run_of_a_body_that_was_weighed_names_its_mass_and_has_its_force(opened):
     opened.open_tab("start")
     opened.tab.select_option("#bodies", "balanced_gyroscope")
@@ -195,6 +197,7 @@ def test_where_the_last_digits_decide_whether_there_is_a_start_the_page_says_so(
     assert said == [""] * len(shared.list_solutions())
 
 
+@pytest.mark.slow
 def test_what_no_motion_has_is_refused_in_words(shared):
     shared.open_tab("start")
     events = shared.read_events()
@@ -246,6 +249,7 @@ def read_start(opened):
     return [start.orientation.tolist(), start.angular_velocity.tolist()]
 
 
+@pytest.mark.slow
 def test_a_moment_is_kept_by_its_name_and_starts_with_its_doubles(opened):
     opened.open_tab("history")
     opened.wait_for_time(0.03)

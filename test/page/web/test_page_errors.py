@@ -9,6 +9,7 @@ from trials import trials
 from symtop_ros.physics import Motion, State, Top
 
 
+@pytest.mark.slow
 def test_frames_with_old_stamps_do_not_run_the_time_backwards(open_page):
     opened = open_page(script="patches.ageStamps();" + UNDRAWN)
     opened.tab.click("#hurry")
@@ -18,6 +19,7 @@ def test_frames_with_old_stamps_do_not_run_the_time_backwards(open_page):
     assert kick["time"] >= 0
 
 
+@pytest.mark.slow
 def test_an_error_in_a_part_is_shown_once_and_costs_only_this_part(open_page):
     broken = "WebGL2RenderingContext.prototype.drawArrays = () => { throw new Error('no card'); };"
     opened = open_page(script=FEW_FRAMES + broken)
@@ -32,6 +34,7 @@ def test_an_error_in_a_part_is_shown_once_and_costs_only_this_part(open_page):
     opened.problems.clear()
 
 
+@pytest.mark.slow
 def test_a_stored_choice_of_another_version_is_dropped(open_page):
     store = "localStorage.setItem"
     stored = f"{store}('symtop.free-x', 'speed'); {store}('symtop.unit', '');"
@@ -41,6 +44,7 @@ def test_a_stored_choice_of_another_version_is_dropped(open_page):
     opened.wait_for_time(0.02)
 
 
+@pytest.mark.slow
 def test_a_spin_beyond_what_can_be_computed_waits_and_says_so(opened):
     for rate in ("1e20", "-1e99"):
         opened.enter("psi_dot", rate)
@@ -56,6 +60,7 @@ def test_a_spin_beyond_what_can_be_computed_waits_and_says_so(opened):
 HALF_HOUR = 1800.0  # s
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("most", trials(4, 10**9))
 def test_no_act_stops_the_page_and_python_reads_its_run(browser, most):
     acts = random_acts.run(browser, 49, HALF_HOUR, most)
@@ -63,6 +68,7 @@ def test_no_act_stops_the_page_and_python_reads_its_run(browser, most):
     assert acts.total() >= min(most, 1000)
 
 
+@pytest.mark.slow
 def test_a_frame_of_another_site_shows_the_top_and_says_that_it_may_not_save(browser, path):
     tab = browser.new_context(offline=True).new_page()
     tab.add_init_script(USUAL)
@@ -79,6 +85,7 @@ def test_a_frame_of_another_site_shows_the_top_and_says_that_it_may_not_save(bro
     tab.context.close()
 
 
+@pytest.mark.slow
 def test_a_page_that_does_not_start_is_a_failure_that_says_why_and_not_a_wait(browser, path):
     opened = Opened(browser, "WebAssembly.instantiate = () => { throw new Error('forbidden'); };")
     with pytest.raises(AssertionError, match=r"the page does not start: .*forbidden"):

@@ -8,6 +8,7 @@ import pytest
 from symtop_ros.page.web.join import LANGUAGES
 
 
+@pytest.mark.slow
 def test_an_angle_is_understood_with_its_unit(shared):
     angles = {"pi/4": math.pi / 4, "π/3": math.pi / 3, "2*pi/5": 2 * math.pi / 5, "pi": math.pi}
     angles |= {"30°": math.pi / 6, "45 deg": math.pi / 4, "0.6 rad": 0.6, "0,7": 0.7, "1e-3": 1e-3}
@@ -17,6 +18,7 @@ def test_an_angle_is_understood_with_its_unit(shared):
         assert shared.read_last().euler_angles.theta == pytest.approx(theta, rel=1e-15)
 
 
+@pytest.mark.slow
 def test_in_degrees_numbers_and_refusals_are_in_degrees(opened):
     opened.open_tab("view")
     opened.tab.select_option("#unit", "deg")
@@ -54,6 +56,7 @@ def test_the_slider_reaches_the_lower_vertical(opened):
     assert opened.read_last().euler_angles.theta == math.pi
 
 
+@pytest.mark.slow
 def test_keys_that_move_through_the_list_of_scenes_start_none_but_a_pointer_does(opened):
     events = opened.read_events()
     opened.open_tab("start")
@@ -75,6 +78,7 @@ def test_keys_that_move_through_the_list_of_scenes_start_none_but_a_pointer_does
     assert not opened.tab.is_visible("#start-scene")
 
 
+@pytest.mark.slow
 def test_keys_drags_and_the_wheel_turn_and_move_the_view_and_do_not_touch_the_top(opened):
     opened.press("Space")
     opened.show_arrows("torque")
@@ -113,6 +117,7 @@ def test_a_rate_is_understood_with_its_unit(shared, typed, rate):
     assert shared.read_last().euler_rates.psi == pytest.approx(rate, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_moment_is_understood_with_the_unit_of_its_field_and_no_other(opened):
     for text in ("3e-4 kg m^2", "0.0003 kg m²", "3e-4"):
         opened.enter("top.Ix", text)
@@ -125,6 +130,7 @@ def test_a_moment_is_understood_with_the_unit_of_its_field_and_no_other(opened):
         assert opened.say("refusal").endswith(f"must be a number, got {text}")
 
 
+@pytest.mark.slow
 def test_a_separator_of_thousands_is_refused_with_both_readings(opened):
     events = opened.read_events()
     for text, whole, part in (("1,000", "1000", "1.000"), ("12,000 rpm", "12000", "12.000")):

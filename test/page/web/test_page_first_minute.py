@@ -30,6 +30,7 @@ def read_kick(page):
     return Motion(motion.top, before), motion, kick["time"]
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_a_push_is_predicted_seen_and_compared(new):
     assert new.tab.is_visible("text=Will it rise or fall?")
@@ -49,6 +50,7 @@ def test_a_push_is_predicted_seen_and_compared(new):
     assert not new.tab.is_visible("#compared")
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_the_same_is_asked_at_the_fast_precession_and_the_same_push_lowers_it(new):
     new.tab.click("text=It will rise")
@@ -76,6 +78,7 @@ def test_the_same_is_asked_at_the_fast_precession_and_the_same_push_lowers_it(ne
     assert not new.tab.is_visible("#between")
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_the_second_answer_does_not_replace_the_first_one(new):
     new.tab.click("text=It will rise")
@@ -86,6 +89,7 @@ def test_the_second_answer_does_not_replace_the_first_one(new):
     assert new.tab.evaluate("Object.values(localStorage).includes('rises')")
 
 
+@pytest.mark.slow
 def test_who_comes_again_is_not_asked(new):
     new.tab.click("text=It will rise")
     other = new.context.new_page()
@@ -94,6 +98,7 @@ def test_who_comes_again_is_not_asked(new):
     assert not other.is_visible("#question")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fragment", choose(LINKS, LINKS[:1]))
 def test_who_follows_a_link_is_not_asked(open_page, fragment):
     page = open_page(fragment, known="")
@@ -109,6 +114,7 @@ def test_a_language_in_the_address_starts_nothing_so_that_the_question_is_asked(
 SMALL = [(360, 640), (683, 384)]  # the second one: a laptop at a zoom of 200 %
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", choose(SMALL, SMALL[:1]))
 @pytest.mark.parametrize("language", choose(LANGUAGES, ["fr"]))
 def test_both_answers_have_one_size_and_the_second_question_is_seen(open_page, language, size):
@@ -134,6 +140,7 @@ def test_another_act_ends_the_question(new):
     assert "lower than without the push" in new.say("headline")
 
 
+@pytest.mark.slow
 def test_a_page_that_prefers_no_motion_moves_when_it_is_answered(open_page):
     page = open_page(known="", reduced_motion="reduce")
     page.tab.click("text=It will rise")
@@ -150,6 +157,7 @@ def test_question_scene_buttons_and_chart_are_on_the_first_screen_of_a_phone(ope
     assert boxes[1]["height"] > 0.35 * height
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_higher(opened):
     opened.tab.select_option("#speed", "1")
@@ -171,6 +179,7 @@ def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_highe
     opened.until(lambda: bracket.text_content() == "rises 0.062 rad higher")
 
 
+@pytest.mark.slow
 def test_a_kick_is_a_step_in_the_chart_of_the_rate_and_a_mark_at_the_slider_of_the_time(opened):
     opened.open_charts("phi_dot")
     opened.wait_for_time(0.02)
@@ -193,6 +202,7 @@ def test_a_kick_is_a_step_in_the_chart_of_the_rate_and_a_mark_at_the_slider_of_t
     assert opened.tab.text_content("#clock") == f"{end:.2f} s"
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_numbers_are_in_degrees_at_first_and_in_rad_in_the_lesson(new):
     new.tab.click("text=It will rise")

@@ -240,6 +240,7 @@ def compare_values(fit, found):
 TRIED = [("axis", "rounded"), ("pixels", "AR(1)")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "noise"), TRIED)
 def test_a_record_has_the_minimum_and_the_deviations_of_top_fit(fits, kind, noise):
     assert hold(fits, kind, noise, FIRST) == []
@@ -271,6 +272,7 @@ def has_others(fits, kind, noise, seed):
     return bool(said & {"other", "sparse", "lone", "curved"}) or fit.is_lone
 
 
+@pytest.mark.slow
 def test_the_page_fits_in_a_thread_and_its_motion_runs_meanwhile(fits, opened):
     record, _, _ = make_case("axis")
     given = write(record)
@@ -289,6 +291,7 @@ def test_the_page_fits_in_a_thread_and_its_motion_runs_meanwhile(fits, opened):
     assert text == "a record must have at least 12 rows, got 1"
 
 
+@pytest.mark.slow
 def test_a_page_in_a_frame_that_may_not_do_much_fits_as_well(open_page, path, tmp_path):
     """As learning platforms show pages: sandboxed, and of no origin."""
     frame = tmp_path / "frame.html"
@@ -301,6 +304,7 @@ def test_a_page_in_a_frame_that_may_not_do_much_fits_as_well(open_page, path, tm
     assert inner.evaluate("(given) => symtop.fit(given).then((f) => f.verdict)", write(record))
 
 
+@pytest.mark.slow
 def test_of_a_long_table_the_first_rows_are_taken_and_it_is_said(fits):
     count = 2100
     values = see(

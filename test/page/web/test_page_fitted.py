@@ -133,6 +133,7 @@ TRIED = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "kind"), TRIED)
 def test_the_sentence_says_what_the_motion_is(tab, name, kind):
     motion = MOTIONS[name]
@@ -153,6 +154,7 @@ def test_the_sentence_says_what_the_motion_is(tab, name, kind):
     assert say(tab, "verdict").startswith("A top without friction explains the points: ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["axis", "pixels"])
 def test_the_table_has_the_numbers_of_top_fit(tab, kind, tmp_path, capsys):
     given = make_given(CUSPS, kind)
@@ -198,6 +200,7 @@ def test_the_sentence_on_the_model_has_the_noise(tab):
     assert read_rms(say(tab, "verdict")) == pytest.approx([2.0**-8] * 3, rel=0.16)
 
 
+@pytest.mark.slow
 def test_noise_that_lasts_is_said_to_be_allowed_for(tab):
     exact = make_axis(CUSPS, sigma=0.0)
     steps, noise = Numbers(5).normals(*exact.shape) / 256, np.zeros_like(exact)
@@ -207,6 +210,7 @@ def test_noise_that_lasts_is_said_to_be_allowed_for(tab):
     assert re.search(r"noise of .* in z, which lasts from point to point", say(tab, "verdict"))
 
 
+@pytest.mark.slow
 def test_friction_is_said_with_the_command_that_looks_for_it(tab):
     motion = Motion(CUSPS.top, CUSPS.start, Friction(axial=0.125 * CUSPS.top.Iz, transverse=0.25))
     fitted = show(tab, make_given(motion, values=make_axis(motion)))
@@ -228,6 +232,7 @@ def test_without_a_limit_there_is_no_command(tab):
     assert say(tab, "limits") == ""
 
 
+@pytest.mark.slow
 def test_what_is_not_known_is_said_in_the_table_and_in_the_sentence(tab):
     """Without nutation one combination is known."""
     top = Top(1.0, 0.25, 300.0)
@@ -250,6 +255,7 @@ def test_what_is_not_known_is_said_in_the_table_and_in_the_sentence(tab):
     assert together["numbers"] == pytest.approx([factor, uncertain, rest, deviation], rel=0.06)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_known_is_what_top_fit_says(tab, tmp_path, capsys):
     given = make_given(CUSPS, "pixels")
     show(tab, given)
@@ -352,12 +358,14 @@ def draw_measured():
     return [*pairs, (0.0, 0.5), (1.5, 0.0), (-0.001, 0.25), (1e9, 3e7), (12345678.9, 1200.0)]
 
 
+@pytest.mark.slow
 def test_measured_numbers_are_written_as_by_python(tab):
     pairs = draw_measured()
     found = tab.evaluate(MEASURED, [pairs])
     assert found == [[*write_measured(*pair)] for pair in pairs]
 
 
+@pytest.mark.slow
 def test_the_result_stands_in_the_panel_and_follows_the_unit_of_the_page(opened, tmp_path):
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
     table = write_table(tmp_path / "measured.csv", make_axis(CUSPS).tolist())
@@ -386,6 +394,7 @@ def find_label(page):
     return page.tab.locator("#labels .label[data-text=measured]")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["axis", "pixels"])
 def test_the_ghost_is_the_top_as_it_was_measured(opened, kind):
     """Its label stands at the axis of the last point, and moves with it."""
@@ -397,6 +406,7 @@ def test_the_ghost_is_the_top_as_it_was_measured(opened, kind):
         assert find_label(opened).is_visible()
 
 
+@pytest.mark.slow
 def test_an_act_ends_the_measured_ghost(opened):
     drop(opened, make_measured())
     opened.until(lambda: find_label(opened).is_visible())
@@ -483,6 +493,7 @@ HAND_PIVOT = 320.8, 239.8
 HAND_TRUTH = {"p_psi/Ix": 18.059523573128203, "Mgl/Ix": 55.443563297559315}
 
 
+@pytest.mark.slow
 def test_the_clicks_of_a_hand_give_the_top_back(tab):
     times = np.array([round(1000 * 3 * k / 30) / 1000 for k in range(len(HAND))])
     given = make_given(CUSPS, "pixels", np.array(HAND) * [1, -1] + [0, 480], times)

@@ -26,6 +26,7 @@ def read_history(opened):
     return entries.evaluate_all("all => all.map(e => e.dataset.text)")
 
 
+@pytest.mark.slow
 def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
     opened.enter("theta", "0.6")
     opened.tab.click("#hurry")
@@ -45,6 +46,7 @@ def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
     assert opened.read_last().euler_angles.theta == pytest.approx(0.6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", choose([*LANGUAGES], ("de",)))
 def test_a_run_of_one_language_is_read_in_the_words_of_another(opened, open_page, language):
     opened.start_scene("cusps")
@@ -85,6 +87,7 @@ def test_words_that_a_run_of_before_has_are_shown_as_they_are_and_make_no_button
     assert opened.read_events() == run["events"]
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_a_kick_names_the_point_that_it_has_moved_and_one_that_is_no_longer_reached(opened):
     opened.tab.click("text=Pause")
@@ -155,6 +158,7 @@ def test_what_a_button_that_is_held_would_do_is_computed(open_page, fragment):
         assert rates in said, said
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_each_push_is_named_by_its_way_in_the_history(opened):
     words = {
@@ -171,6 +175,7 @@ def test_each_push_is_named_by_its_way_in_the_history(opened):
     assert said[::-1] == [*words.values()]  # the latest one stands first
 
 
+@pytest.mark.slow
 def test_the_reason_is_one_sentence_and_shows_its_arrows_for_a_moment(opened):
     opened.tab.click("#hurry")
     assert not opened.tab.is_visible("#because")
@@ -196,6 +201,7 @@ def test_the_reason_stands_beside_the_picture(opened):
     assert reason["y"] + reason["height"] <= scene["y"] + 1  # px
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_an_instant_is_explained_while_it_can_be_read(opened):
     opened.follow("theta=0.5&psi_dot=200")  # in cusps

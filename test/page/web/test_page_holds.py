@@ -50,6 +50,7 @@ def check_end(page, hold):
         assert last["act"]["number"] <= 1 + 20 * passed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("milliseconds", choose([100, 350, 500], [350]))
 @pytest.mark.parametrize("hold", choose(ACTS, ["press"]))
 def test_a_hold_is_one_act_on_a_page_that_draws_slowly(open_page, hold, milliseconds):
@@ -85,6 +86,7 @@ ENDS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("end", ENDS)
 def test_a_hold_ends_when_nobody_can_hold_the_button_any_more(opened, end):
     opened.follow(LINK[1:])
@@ -97,6 +99,7 @@ def test_a_hold_ends_when_nobody_can_hold_the_button_any_more(opened, end):
     assert list_kinds(opened) == ["start", *ACTS["grasp"]]
 
 
+@pytest.mark.slow
 def test_a_start_during_a_hold_is_not_touched_by_its_end(opened):
     opened.open_tab("push")
     press(opened, "grasp")
@@ -108,6 +111,7 @@ def test_a_start_during_a_hold_is_not_touched_by_its_end(opened):
     assert opened.read_events()[-1]["clamped"]
 
 
+@pytest.mark.slow
 def test_enter_holds_a_button_until_it_is_released(opened):
     opened.follow(LINK[1:])
     opened.open_tab("push")

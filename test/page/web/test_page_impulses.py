@@ -70,6 +70,7 @@ def integrate(top, start):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", trials(30, 2000))
 def test_impulses_are_integrals_of_thirty_digits(tab, count):
     rng = Numbers("impulses")

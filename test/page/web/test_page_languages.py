@@ -38,6 +38,7 @@ def test_a_fault_of_a_translation_is_found(english, text, fault):
 
 
 # The narrowest window, and German, a third longer than English; the others in the long run.
+@pytest.mark.slow
 @pytest.mark.parametrize("language", choose(LANGUAGES, ("de",)))
 @pytest.mark.parametrize("size", choose((PHONE, (1366, 768), (1920, 1080)), [PHONE]))
 def test_nothing_is_cut_in_any_window(open_page, language, size):
@@ -65,6 +66,7 @@ def is_in(page, language):
     return found == (language, texts["page.title"], texts["page.hurry"])
 
 
+@pytest.mark.slow
 def test_the_language_is_that_of_the_address_or_the_choice_or_the_browser(open_page):
     assert is_in(open_page(locale="de-AT"), "de")
     assert is_in(open_page(locale="ja-JP"), "en")
@@ -75,6 +77,7 @@ def test_the_language_is_that_of_the_address_or_the_choice_or_the_browser(open_p
     page.until(lambda: is_in(page, "en"))
 
 
+@pytest.mark.slow
 def test_a_chosen_language_stays_and_keeps_the_run(open_page, tmp_path):
     page = open_page()
     page.tab.click("#hurry")
@@ -101,6 +104,7 @@ def test_a_chosen_language_stays_and_keeps_the_run(open_page, tmp_path):
     assert is_in(other, "en")
 
 
+@pytest.mark.slow
 def test_numbers_have_a_decimal_comma_where_the_language_has_one(open_page):
     page = open_page("#lang=de")
     page.press("Space")  # else the field shows another tilt at once
@@ -116,6 +120,7 @@ def test_numbers_have_a_decimal_comma_where_the_language_has_one(open_page):
     assert "," in page.tab.inner_text("#clock")
 
 
+@pytest.mark.slow
 def test_the_program_writes_the_page_in_a_language_of_its_own(open_page, tmp_path, capsys):
     path = tmp_path / "seite.html"
     assert main(["--language", "de", "--write", str(path)]) == 0

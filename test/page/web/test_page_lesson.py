@@ -58,6 +58,7 @@ def press(page, act, turning):
         assert button.is_disabled()
 
 
+@pytest.mark.slow
 def test_a_class_presses_through_all_steps(open_page):
     page = open_page("#lesson=1")
     for number, (step, expected) in enumerate(zip(STEPS, ANGLES, strict=True), start=1):
@@ -104,6 +105,7 @@ def test_a_keyboard_does_a_step_on_a_phone(open_page):
     assert page.tab.evaluate("document.documentElement.scrollWidth") <= 390
 
 
+@pytest.mark.slow
 def test_predictions_are_kept_for_the_browser(open_page):
     page = open_page("#lesson=2")
     page.tab.fill("#prediction", "it falls")
@@ -119,6 +121,7 @@ def test_predictions_are_kept_for_the_browser(open_page):
     assert another.input_value("#prediction") == ""
 
 
+@pytest.mark.slow
 def test_after_a_reset_or_a_reload_the_hurry_of_the_step_works_again(open_page):
     page = open_page("#lesson=8")
     start, hurry = page.tab.locator("#lesson-acts button").all()[:2]
@@ -135,6 +138,7 @@ def test_after_a_reset_or_a_reload_the_hurry_of_the_step_works_again(open_page):
     assert hurry.is_disabled()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("number", "near", "far"), [(3, "0.664", "0.66"), (13, ".392", "0.376")])
 def test_a_number_that_is_asked_for_is_checked(open_page, number, near, far):
     page, ask = open_page(f"#lesson={number}"), STEPS[number - 1].ask
@@ -154,6 +158,7 @@ def test_a_number_that_is_asked_for_is_checked(open_page, number, near, far):
     assert page.say("lesson-checked") == ""
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_a_number_is_asked_for_in_the_unit_of_the_page_and_may_have_a_comma(open_page):
     page = open_page("#lesson=13&lang=de")
@@ -177,6 +182,7 @@ def test_the_table_of_a_step_is_behind_its_explanation(open_page):
     assert page.tab.locator("#lesson-table tr").count() == 0
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_back_is_the_step_before_and_predictions_are_saved_as_a_text(open_page, tmp_path):
     page = open_page("#lesson=2")
@@ -201,6 +207,7 @@ def read_sheets(page):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", choose(LANGUAGES, ("de",)))
 def test_the_sheets_are_those_of_the_page_and_only_the_teacher_has_answers(open_page, language):
     page = open_page(f"#lang={language}", script=NO_PRINTER + FEW_FRAMES)

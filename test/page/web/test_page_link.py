@@ -2,6 +2,7 @@
 
 import io
 
+import pytest
 import zxingcpp
 from page.web.opened import FUNCTIONS, KNOWN, USUAL
 from PIL import Image
@@ -10,6 +11,7 @@ from serving import serving
 from symtop_ros.page.web.join import write_file
 
 
+@pytest.mark.slow
 def test_the_link_of_a_start_is_copied(opened):
     opened.tab.evaluate("""() => {
         navigator.clipboard.writeText = async (text) => { window.copied = text; };
@@ -27,6 +29,7 @@ def test_a_page_of_a_file_has_no_code_which_no_other_machine_could_open(opened):
     assert not opened.tab.is_visible("#code")
 
 
+@pytest.mark.slow
 def test_a_camera_reads_the_link_of_a_page_that_is_served(browser):
     context = browser.new_context(color_scheme="dark")
     context.add_init_script(FUNCTIONS + KNOWN + USUAL)

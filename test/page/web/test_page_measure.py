@@ -114,6 +114,7 @@ def expect_rows(frames):
     return [(BALLS[k][0], HEIGHT - BALLS[k][1]) for k in frames]
 
 
+@pytest.mark.slow
 def test_a_film_is_clicked_and_saved_as_a_table_of_top_fit(measuring, tmp_path):
     assert measuring.say("measured-name") == (
         "swing.mp4: 320 x 240 pixels, 40 frames, 30.00 in a second"
@@ -134,6 +135,7 @@ def test_a_film_is_clicked_and_saved_as_a_table_of_top_fit(measuring, tmp_path):
     assert not read_command(measuring).perspective
 
 
+@pytest.mark.slow
 def test_the_ring_is_where_the_ball_is_and_is_taken_when_it_is_asked_for(measuring, tmp_path):
     click(measuring, PIVOT)
     click_balls(measuring, range(3))
@@ -148,6 +150,7 @@ def test_the_ring_is_where_the_ball_is_and_is_taken_when_it_is_asked_for(measuri
     assert rows.values[3:] == pytest.approx(np.array(expect_rows(range(3, COUNT))), abs=FOUND)
 
 
+@pytest.mark.slow
 def test_a_click_is_moved_and_undone(measuring, tmp_path):
     click(measuring, PIVOT)
     click_balls(measuring, range(2))
@@ -177,6 +180,7 @@ def test_a_click_is_moved_and_undone(measuring, tmp_path):
     assert measuring.tab.is_disabled("#undo-click")
 
 
+@pytest.mark.slow
 def test_a_film_is_clicked_with_the_keyboard_alone(measuring, tmp_path):
     measuring.tab.focus("#film-picture")
     measuring.tab.keyboard.press("ArrowDown")  # the pivot begins in the middle of the picture
@@ -198,6 +202,7 @@ def test_a_film_is_clicked_with_the_keyboard_alone(measuring, tmp_path):
     assert len(measuring.read_events()) == 1  # no key has pushed the top
 
 
+@pytest.mark.slow
 def test_a_length_gives_the_scale(measuring):
     measuring.tab.click("[data-aim=length]")
     click(measuring, (100, 50))
@@ -216,6 +221,7 @@ def test_a_length_gives_the_scale(measuring):
     assert options.scale_deviation == pytest.approx(expected, rel=0.05)  # two digits
 
 
+@pytest.mark.slow
 def test_a_click_outside_of_the_picture_is_refused_and_nothing_is_lost(measuring):
     click(measuring, PIVOT)
     click_balls(measuring, range(2))
@@ -224,6 +230,7 @@ def test_a_click_outside_of_the_picture_is_refused_and_nothing_is_lost(measuring
     assert "2 of 40 frames" in measuring.say("plan")
 
 
+@pytest.mark.slow
 def test_every_second_frame_is_proposed_if_half_of_them_are_wanted(measuring):
     measuring.tab.fill("#wanted-frames", "20")
     assert "0 of 20 frames are clicked, from 0.00 s to 1.27 s in steps of 2" in measuring.say(
@@ -237,6 +244,7 @@ def test_every_second_frame_is_proposed_if_half_of_them_are_wanted(measuring):
     assert measuring.say("refusal") == "frames to click must be 20 to 200, got 5"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("answer", ["keep", "replace"])
 def test_another_film_asks_before_clicks_are_lost(measuring, film, answer, tmp_path):
     click(measuring, PIVOT)
@@ -350,6 +358,7 @@ def is_beside(page):
     return page.tab.evaluate("document.body.dataset.film") == "beside"
 
 
+@pytest.mark.slow
 def test_the_run_of_a_fit_leaves_what_a_codec_leaves(fitted):
     page, balls = fitted
     points = page.read_run()["points"]
@@ -406,6 +415,7 @@ def test_the_path_of_the_fitted_axis_goes_through_the_balls_of_the_film(fitted):
     assert astray.max() < 8.0 / scale  # the ring of the motion, and nothing blue elsewhere
 
 
+@pytest.mark.slow
 def test_another_run_goes_on_without_the_film(fitted):
     page, _ = fitted
     page.start_scene("looping")
@@ -421,6 +431,7 @@ def test_another_run_goes_on_without_the_film(fitted):
     assert "72 of 72" in page.say("plan")
 
 
+@pytest.mark.slow
 def test_a_fit_is_stopped_and_a_record_of_too_few_rows_is_refused(measuring):
     click(measuring, PIVOT)
     click_balls(measuring, range(3))
@@ -437,6 +448,7 @@ def test_a_fit_is_stopped_and_a_record_of_too_few_rows_is_refused(measuring):
     assert "40 of 40" in measuring.say("plan")
 
 
+@pytest.mark.slow
 def test_a_fit_of_what_is_measured_no_more_is_stopped(opened):
     """Its result would be that of another record than the one that is named."""
     rows = "".join(f"{k / 32},{k % 7},{k % 5}\n" for k in range(40))
@@ -453,6 +465,7 @@ def test_a_fit_of_what_is_measured_no_more_is_stopped(opened):
 HUGE = 4_200_000_000  # bytes, more than 32 bits count
 
 
+@pytest.mark.slow
 def test_a_film_of_four_gigabytes_is_not_read_into_memory(opened, film, tmp_path):
     path = tmp_path / "huge.mp4"
     data = film.read_bytes()
@@ -470,6 +483,7 @@ def test_a_film_of_four_gigabytes_is_not_read_into_memory(opened, film, tmp_path
     assert opened.tab.evaluate("performance.memory.usedJSHeapSize") < before + 100_000_000
 
 
+@pytest.mark.slow
 def test_a_film_that_vanishes_leaves_its_clicks_and_is_opened_again(opened, film, tmp_path):
     path = tmp_path / "swing.mp4"
     path.write_bytes(film.read_bytes())
@@ -504,6 +518,7 @@ VANISH = """() => {
 }"""
 
 
+@pytest.mark.slow
 def test_a_finger_clicks_where_it_is_let_go(browser, path, film):
     page = Opened(browser, locale="en-US")
     page.open(path)
@@ -526,6 +541,7 @@ def test_a_finger_clicks_where_it_is_let_go(browser, path, film):
     page.close()
 
 
+@pytest.mark.slow
 def test_the_wheel_zooms_around_the_pointer_so_that_clicks_are_finer(measuring, tmp_path):
     click(measuring, PIVOT)
     x, y = map(round, place(measuring, BALLS[0]))
@@ -555,6 +571,7 @@ def test_the_wheel_zooms_around_the_pointer_so_that_clicks_are_finer(measuring, 
     assert save(measuring, tmp_path).values[1] == pytest.approx(expect_rows([1])[0], abs=CLICK)
 
 
+@pytest.mark.slow
 def test_a_table_of_the_axis_is_fitted_without_a_film(opened):
     start = State.from_euler(theta=0.5, phi=0.75, phi_dot=2.0, psi_dot=150.0)
     motion = Motion(Top(0.000228, 5.72e-05, 0.068), start)

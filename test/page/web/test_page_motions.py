@@ -23,6 +23,7 @@ SAID = {
 }
 
 
+@pytest.mark.slow
 def test_every_scene_starts_with_the_doubles_of_a_node_and_says_what_acts(opened):
     said = set()
     for name in scene_names():
@@ -43,6 +44,7 @@ def test_every_scene_starts_with_the_doubles_of_a_node_and_says_what_acts(opened
     assert said >= {(True, False), (False, True)}
 
 
+@pytest.mark.slow
 def test_somebody_goes_on_from_an_earlier_moment(opened):
     opened.wait_for_time(0.03)
     opened.tab.click("#hurry")
@@ -57,6 +59,7 @@ def test_somebody_goes_on_from_an_earlier_moment(opened):
     assert events[1]["time"] == pytest.approx(kick["time"] / 2, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_series_are_those_of_the_motion(opened, tmp_path):
     opened.wait_for_time(0.03)
     opened.tab.click("text=Pause")
@@ -72,6 +75,7 @@ def test_the_series_are_those_of_the_motion(opened, tmp_path):
     assert table[:, 6] == pytest.approx(states.euler_rates.psi, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
     opened.open_tab("push")
     button = opened.tab.locator("[data-sign='1']")
@@ -84,6 +88,7 @@ def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
     assert torques == [[0, 0, pytest.approx(0.0075 * 0.068)], [0, 0, 0]] * (len(torques) // 2)
 
 
+@pytest.mark.slow
 def test_an_event_keeps_its_nanosecond_and_what_was_asked(opened, tmp_path):
     opened.wait_for_time(0.01)
     opened.tab.click("#hurry")
@@ -114,6 +119,7 @@ def read_pushed(event):
     return Motion(Top(*event["top"]), read_state(event), pushes=pushes)
 
 
+@pytest.mark.slow
 def test_a_held_button_pushes_as_python_does_to_the_last_bit_and_letter(opened):
     opened.wait_for_time(0.02)
     opened.open_tab("push")
@@ -170,6 +176,7 @@ def test_pushes_are_counted_in_words(opened, number, words):
     assert opened.say("why") == write("push", Pushed.of(pushed, pushed.pushes, start.start))
 
 
+@pytest.mark.slow
 def test_an_act_while_a_button_pushes_ends_those_pushes_and_the_hold_makes_no_others(opened):
     opened.open_tab("push")
     button = opened.tab.locator("[data-hold=press]")
@@ -193,6 +200,7 @@ PUSHES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", ["theta=0.5&psi_dot=200&precession=slow", "scene=perry_fails"])
 def test_a_push_has_no_torque_about_the_axle_and_the_article_s_comparison_has(opened, scene):
     opened.follow(scene)
@@ -214,6 +222,7 @@ def test_a_push_has_no_torque_about_the_axle_and_the_article_s_comparison_has(op
         )
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_the_sizes_at_push_and_twist_are_those_of_the_change_of_angular_momentum(opened):
     opened.tab.click("#pause")

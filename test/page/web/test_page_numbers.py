@@ -67,6 +67,7 @@ class Shown:
             assert is_rounded(tilts[2] or tilts[1], high), (headline, high)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seed", "rounds"), [(1, 1), *(pytest.param(n, 70, marks=pytest.mark.long) for n in (2, 3))]
 )
@@ -100,6 +101,7 @@ def test_the_digits_that_are_shown_start_the_motion_that_is_shown(opened):
     assert "with its tilt between" in opened.say("headline")
 
 
+@pytest.mark.slow
 def test_fields_show_the_start_while_they_are_edited(opened):
     opened.press("Space")
     opened.enter("phi_dot", "0")

@@ -3,6 +3,7 @@
 import base64
 import re
 
+import pytest
 from page.web.opened import FEW_FRAMES, UNDRAWN, read_motion
 
 # When the last two pictures were begun, in ms.
@@ -14,6 +15,7 @@ WebGL2RenderingContext.prototype.clear = () => {
 """
 
 
+@pytest.mark.slow
 def test_a_page_in_a_pause_that_is_left_alone_is_drawn_now_and_then_until_somebody_comes(open_page):
     opened = open_page(script=UNDRAWN + TIMED)
     opened.press("Space")
@@ -22,6 +24,7 @@ def test_a_page_in_a_pause_that_is_left_alone_is_drawn_now_and_then_until_somebo
     opened.until(lambda: opened.tab.evaluate("drawn[1] - drawn[0]") < 200)
 
 
+@pytest.mark.slow
 def test_a_lost_picture_is_said_and_comes_back(open_page):
     opened = open_page(script=FEW_FRAMES)
     opened.show_arrows("torque", "L")
@@ -52,6 +55,7 @@ def test_texts_out_of_sight_are_those_of_now_and_a_printer_gets_the_charts_of_no
     assert "0.9" in opened.tab.evaluate("document.querySelector('#free svg').textContent")
 
 
+@pytest.mark.slow
 def test_a_page_with_its_open_charts_is_one_sheet_of_paper(opened):
     opened.tab.click("#hurry")
     opened.open_charts("theta", "phi_dot", "rule", "well", "ledger", "kinds")
@@ -65,6 +69,7 @@ def test_a_page_with_its_open_charts_is_one_sheet_of_paper(opened):
         assert not opened.tab.is_visible(name)
 
 
+@pytest.mark.slow
 def test_a_saved_picture_has_the_sentence_and_the_labels(opened, tmp_path):
     opened.press("Space")
     texts = []
@@ -85,6 +90,7 @@ def test_a_saved_picture_has_the_sentence_and_the_labels(opened, tmp_path):
     assert after > 50
 
 
+@pytest.mark.slow
 def test_a_key_makes_text_large_and_it_stays(opened):
     def read():
         name = "getComputedStyle(document.getElementById('headline')).fontSize"

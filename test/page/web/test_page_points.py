@@ -64,6 +64,7 @@ def read_heights(page, name, dots):
     return first + scale * (dots[:, 1] - lowest), abs(scale)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["axis", "theta", "pixels", "attitude", "angles"])
 def test_the_chart_of_the_tilt_has_each_point_where_it_was_seen(opened, kind):
     drop(opened, make_measured(kind))
@@ -84,6 +85,7 @@ def test_the_chart_of_the_tilt_has_each_point_where_it_was_seen(opened, kind):
     assert np.abs(read_times(opened, "theta", dots) - TIMES).max() < 0.01
 
 
+@pytest.mark.slow
 def test_rates_that_were_seen_are_in_the_charts_of_rates(opened):
     drop(opened, make_measured("rates"))
     assert opened.tab.locator("#theta path.seen").count() == 0
@@ -112,6 +114,7 @@ def point_at(page, name, dot):
     page.until(lambda: page.tab.locator(f"#{name} {RING}").count())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", [5, 23, 40])
 def test_the_pointer_tells_the_time_and_the_residual(measured, place):
     point_at(measured, "theta", read_dots(measured, "theta")[place])
@@ -127,6 +130,7 @@ def test_the_pointer_tells_the_time_and_the_residual(measured, place):
     assert read_residuals(measured.say("points"))[0] == pytest.approx(TIMES[-1], abs=5e-5)
 
 
+@pytest.mark.slow
 def test_without_a_pointer_the_slider_of_the_run_tells_each_point(measured):
     measured.tab.evaluate("acts.change", ["timeline", str(TIMES[10] + 0.001)])
     measured.until(lambda: f"At {TIMES[10]:.4f} s" in measured.say("points"))
@@ -134,6 +138,7 @@ def test_without_a_pointer_the_slider_of_the_run_tells_each_point(measured):
     measured.until(lambda: len(read_dots(measured, "theta")) == 11)
 
 
+@pytest.mark.slow
 def test_an_angle_that_is_left_is_in_the_unit_of_the_page(opened):
     drop(opened, make_measured("theta"))
     last = make_points("theta").residuals[-1, 0]
@@ -144,11 +149,13 @@ def test_an_angle_that_is_left_is_in_the_unit_of_the_page(opened):
         assert left == pytest.approx(last * size, rel=0.051)
 
 
+@pytest.mark.slow
 def test_points_that_were_thinned_are_said_to_be(opened):
     drop(opened, make_measured("theta", rows=100_000))
     assert opened.say("points").startswith("48 measured points of 100000 rows: tilts. ")
 
 
+@pytest.mark.slow
 def test_an_act_ends_what_was_seen_of_the_motion_and_a_refusal_does_not(measured):
     content = measured.read_run()
     measured.drop({**content, "points": {**content["points"], "kind": "none"}})
@@ -171,6 +178,7 @@ def test_an_act_ends_what_was_seen_of_the_motion_and_a_refusal_does_not(measured
     assert measured.read_run()["points"]["times"] == [0.0]
 
 
+@pytest.mark.slow
 def test_a_run_without_points_has_the_format_of_before(measured):
     content = measured.read_run()
     del content["points"]
@@ -181,6 +189,7 @@ def test_a_run_without_points_has_the_format_of_before(measured):
     measured.until(lambda: not measured.tab.locator("#theta path.seen").count())
 
 
+@pytest.mark.slow
 def test_a_reload_and_a_saved_page_keep_the_points(open_page, tmp_path):
     page = open_page()
     drop(page, make_kicked())
@@ -192,6 +201,7 @@ def test_a_reload_and_a_saved_page_keep_the_points(open_page, tmp_path):
     assert len(run["events"]) == 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("step", [4, pytest.param(1, marks=pytest.mark.long)])
 def test_damaged_points_are_refused_as_by_python(opened, step):
     runs = [content for _, content in list_hostile_points()[::step]]
@@ -238,6 +248,7 @@ def test_marks_are_the_axes_and_rates_of_python(tab, kind):
         assert np.abs(np.array([mark[5] for mark in marks]) - psi_dot).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_a_point_beside_the_sphere_is_not_drawn(opened):
     content = json.loads(json.dumps(make_measured("pixels")))
     content["points"]["values"][5] = [CAMERA["u"] + 10_000.0, CAMERA["v"]]
@@ -245,6 +256,7 @@ def test_a_point_beside_the_sphere_is_not_drawn(opened):
     opened.until(lambda: len(read_dots(opened, "theta")) == len(TIMES) - 1)
 
 
+@pytest.mark.slow
 def test_the_scene_tells_the_point_that_is_pointed_at(measured):
     """That of the chart has its label at its cross, and the pointer there tells the same."""
     label = measured.tab.locator("#labels .label[data-text^='At ']")
@@ -280,6 +292,7 @@ def test_without_a_picture_the_points_are_around_the_way_of_the_axle(open_page):
     assert np.abs([place[1] for place in places] - np.arctan2(y, x)).max() < 0.01
 
 
+@pytest.mark.slow
 def test_a_run_that_is_dropped_ends_the_question_of_a_first_visit(open_page):
     page = open_page(known="")
     asked = page.tab.locator("body[data-asked]")
@@ -289,6 +302,7 @@ def test_a_run_that_is_dropped_ends_the_question_of_a_first_visit(open_page):
     assert page.tab.is_visible("#hurry")
 
 
+@pytest.mark.slow
 def test_more_points_than_a_picture_shows_are_drawn_in_part(opened):
     times = np.arange(2000) / 4096
     drop(opened, make_measured("theta", times=times))

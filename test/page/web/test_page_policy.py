@@ -65,6 +65,7 @@ def test_what_modules_export_is_what_the_joined_script_takes():
         assert all(map(EXPORT.match, lines)), path
 
 
+@pytest.mark.slow
 def test_a_hostile_text_is_only_a_text_in_a_saved_page_of_a_saved_page(open_page, tmp_path):
     run = change(1)
     file = tmp_path / "run.html"
@@ -85,6 +86,7 @@ def zip_texts(events):
     return zip([*events, events[-1]], HOSTILE, strict=True)
 
 
+@pytest.mark.slow
 def test_a_saved_page_that_is_dropped_onto_a_page_is_opened(opened, tmp_path):
     opened.tab.click("#hurry")
     events = opened.read_events()
@@ -95,12 +97,14 @@ def test_a_saved_page_that_is_dropped_onto_a_page_is_opened(opened, tmp_path):
     opened.until(lambda: opened.read_events() == events)
 
 
+@pytest.mark.slow
 def test_the_policy_holds_in_a_page_that_is_served(tab):
     with serving(write_file()) as server:
         tab.goto(server.url)
         check(tab.main_frame)
 
 
+@pytest.mark.slow
 def test_the_policy_of_a_node_allows_its_server_only(tab):
     with serving(write_file(node="/top"), Node()) as server:
         tab.goto(server.url)
@@ -109,6 +113,7 @@ def test_the_policy_of_a_node_allows_its_server_only(tab):
         assert attack(tab.main_frame, f"{server.url}news") == [f"{server.url}news"]
 
 
+@pytest.mark.slow
 def test_the_policy_holds_in_a_frame_of_the_site(tab):
     pages = {
         "docs/library.html": "<!doctype html><iframe src='../top.html#theta=0.6&psi_dot=200' "

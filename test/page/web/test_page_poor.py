@@ -36,6 +36,7 @@ def read_place(x, y, scale):
     return math.hypot(right, up) * scale, math.atan2(up, right)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("script", [NO_PICTURE, NO_PROGRAMS], ids=["no WebGL", "no programs"])
 def test_without_a_picture_the_way_of_the_axle_is_drawn_and_all_else_works(open_page, script):
     page = open_page("#theta=0.5&psi_dot=200&phi_dot=-3", script=script, known=KNOWN)
@@ -70,6 +71,7 @@ def test_without_a_picture_the_way_of_the_axle_is_drawn_and_all_else_works(open_
     page.until(lambda: page.tab.locator("#theta path").count() > 1)
 
 
+@pytest.mark.slow
 def test_without_a_picture_the_teachers_sheet_has_the_ways_of_the_axle(open_page):
     page = open_page(script=NO_PICTURE, known=KNOWN)
     page.tab.evaluate("window.print = () => dispatchEvent(new Event('beforeprint'))")

@@ -53,6 +53,7 @@ def refuse(opened, runs):
 
 
 # Of the hostile runs every fifth in each run of the tests: some of each field.
+@pytest.mark.slow
 @pytest.mark.parametrize("step", [5, pytest.param(1, marks=pytest.mark.long)])
 def test_hostile_runs_are_refused_as_by_python_and_the_present_run_stays(opened, step):
     known = [*HOSTILE[::step], *BROKEN]
@@ -96,6 +97,7 @@ Storage.prototype.setItem = fail;
 FORBID = "() => { history.replaceState = () => { throw new DOMException('', 'SecurityError'); }; }"
 
 
+@pytest.mark.slow
 def test_a_browser_without_room_is_said_once(open_page):
     opened = open_page(script=NO_ROOM + USUAL)
     opened.open_tab("view")
@@ -117,6 +119,7 @@ def test_a_refusal_of_the_kept_run_stays_where_the_address_starts_another(open_p
     assert " must " in opened.say("refusal")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", seeds(1, len(UNREADABLE)))
 def test_a_run_that_cannot_be_read_ends_no_page_that_has_it(open_page, tmp_path, number):
     run = UNREADABLE[number]
@@ -164,6 +167,7 @@ def has_read(opened, content):
     return run["events"] == content["events"] and run["end"] >= content["end"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", seeds(1, 25))
 def test_the_page_reads_the_runs_of_sessions_as_python_wrote_them(opened, tmp_path, first):
     for seed in range(12 * first, 12 * (first + 1)):
@@ -176,6 +180,7 @@ def test_the_page_reads_the_runs_of_sessions_as_python_wrote_them(opened, tmp_pa
         opened.until(partial(has_read, opened, content))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fragment", choose(("", LINK), (LINK,)))
 def test_a_reload_loses_nothing(open_page, fragment):
     page = open_page(fragment)
@@ -198,6 +203,7 @@ def test_a_reload_loses_nothing(open_page, fragment):
     assert page.read_events() == run["events"]
 
 
+@pytest.mark.slow
 def test_a_sleep_of_the_computer_loses_nothing(open_page):
     page = open_page()
     page.tab.click("#hurry")

@@ -43,6 +43,7 @@ def find_tips(motion, time, start_of_run):
     return tips | {"ball": state.to_world((0.0, 0.0, 1.0))}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "fragment",
     ["#theta=0.9&psi_dot=150&phi_dot=12", "#theta=0.6&psi_dot=250&phi_dot=-3&Mgl=0.05&phi=-0.7"],

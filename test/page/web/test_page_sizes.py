@@ -78,6 +78,7 @@ def test_in_any_window_hurry_is_in_reach_and_a_refusal_in_sight(open_page, size)
     page.tab.locator("#refusal").wait_for(state="hidden")
 
 
+@pytest.mark.slow
 def test_labels_do_not_cover_each_other(open_page):
     page = open_page("#lesson=10")
     page.tab.locator("#lesson-acts button").first.click()

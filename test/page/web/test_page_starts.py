@@ -21,6 +21,7 @@ def read_work(session):
     return next(each["value"] for each in metrics if each["name"] == "TaskDuration")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", trials(12, 500))
 def test_starts_over_300_decades_open_in_a_second_each(open_page, count):
     opened = open_page(script=UNDRAWN)
@@ -60,6 +61,7 @@ HOSTILE += ["#theta=1&theta=2&theta=x", "#scene=looping&scene=x", "#" + "theta=1
 
 
 # Every third of them in each run of the tests: some of each name and of each value.
+@pytest.mark.slow
 @pytest.mark.parametrize("step", [3, pytest.param(1, marks=pytest.mark.long)])
 def test_hostile_addresses_end_nothing_and_a_key_is_answered_after_each(opened, step):
     answers = opened.tab.evaluate("acts.follow", HOSTILE[::step])
@@ -77,6 +79,7 @@ def get_motion(event):
 
 
 # Scenes in which the last digits decide, and a torque; all in the long tests.
+@pytest.mark.slow
 @pytest.mark.parametrize("count", trials(2, 99))
 def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, count):
     names = dict.fromkeys(["hurry_slow", "vertical_torque", *scene_names()])
@@ -94,6 +97,7 @@ def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, count
         assert read_link(other) == link
 
 
+@pytest.mark.slow
 def test_a_link_is_the_whole_start_whatever_was_there_before(opened):
     """Friction, a torque and another body of the motion before are not those of a link."""
     opened.follow("theta=0.75&psi_dot=150")
@@ -107,6 +111,7 @@ def test_a_link_is_the_whole_start_whatever_was_there_before(opened):
         assert not event.get("clamped", False)
 
 
+@pytest.mark.slow
 def test_a_reset_of_a_loaded_run_keeps_its_torque(opened):
     run = change(0, torque=[0.0, 0.0, 5e-4])
     run["events"] = run["events"][:1]
@@ -132,6 +137,7 @@ REFUSED = [
 ]
 
 
+@pytest.mark.slow
 def test_a_link_that_cannot_be_followed_is_refused(opened):
     events = opened.read_events()
     for fragment, refusal in REFUSED:
@@ -140,6 +146,7 @@ def test_a_link_that_cannot_be_followed_is_refused(opened):
         assert opened.read_events() == events
 
 
+@pytest.mark.slow
 def test_a_refused_link_names_its_fields_as_they_are_typed_and_makes_no_button(opened):
     opened.follow("[phi|theta]=1")
     refused = opened.tab.locator("#refusal")

@@ -59,6 +59,7 @@ def to_case(motion, end):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", trials(80, 2000))
 def test_the_exchange_of_a_stretch_is_that_of_the_library(tab, count):
     """Under friction and a torque the library integrates, and the page takes what is left."""
@@ -99,6 +100,7 @@ def test_the_last_two_turning_points_are_those_of_the_library(tab, count):
         assert found[1] - found[0] == pytest.approx(half * 1e9)
 
 
+@pytest.mark.slow
 def test_the_words_are_those_of_the_moment_that_is_shown(open_page):
     page = open_page("#theta=0.5&psi_dot=200&phi_dot=0")
     page.wait_for_time(0.17)
@@ -116,6 +118,7 @@ def test_the_words_are_those_of_the_moment_that_is_shown(open_page):
     page.until(lambda: page.say("stretch-turns") == half)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("forces", choose(("axial=1e-6", "torque=0,0,1e-4"), ("axial=1e-6",)))
 def test_of_turning_points_that_are_not_looked_for_nothing_is_said(open_page, forces):
     """Under friction and a torque theta turns as well: only the condition is stated."""
@@ -124,6 +127,7 @@ def test_of_turning_points_that_are_not_looked_for_nothing_is_said(open_page, fo
     page.until(lambda: page.say("stretch-turns") == UNSAID)
 
 
+@pytest.mark.slow
 def test_a_series_of_pushes_is_told_with_its_first_one(open_page):
     page = open_page("#lesson=13")
     page.tab.click("#lesson-acts button:nth-child(1)")
@@ -146,6 +150,7 @@ def test_a_series_of_pushes_is_told_with_its_first_one(open_page):
     page.until(lambda: f"the pushes gave {given:.3g} N m s to p_phi." in page.say("stretch-act"))
 
 
+@pytest.mark.slow
 def test_a_clamp_takes_p_phi_and_no_energy(open_page):
     page = open_page("#theta=0.5&psi_dot=200&phi_dot=0")
     page.press("Space")

@@ -209,6 +209,7 @@ def test_run_json_and_its_replay_have_every_motion_and_every_kick(told, run, tmp
         assert is_near(found.motion.start, given.motion.start)
 
 
+@pytest.mark.slow
 def test_the_page_and_its_links_have_every_motion_and_every_kick(run, opened, open_page):
     events, _ = run
     other = open_page()

@@ -45,6 +45,7 @@ def _cupy(library, monkeypatch):
     forget()
 
 
+@pytest.mark.slow
 def test_no_bit_of_any_family_differs_from_the_kernel_of_the_processor(cupy):
     starts, times = draw_mixed(COUNT, 11)
     functions = toolchain.open_functions()

@@ -52,6 +52,7 @@ def compare(command, samples, expected):
     assert normalize(np.frombuffer(done.stdout)) == expected
 
 
+@pytest.mark.slow
 def test_a_program_in_c_has_the_bits_of_python_and_needs_none(tmp_path):
     program = build("print_motions.c", tmp_path, LIBRARY)
     compare([program], *list_many())
@@ -73,6 +74,7 @@ def run_hostile(program, seeds):
     return digest, int(calls)
 
 
+@pytest.mark.slow
 def test_whatever_is_passed_is_refused_or_answered(tmp_path):
     assert run_hostile(build("hostile.c", tmp_path, LIBRARY), 500)[1] > 10_000
 
@@ -105,6 +107,7 @@ def test_a_compiler_without_integers_of_128_bits_is_refused_in_words(tmp_path, o
     assert "symtop must be compiled by GCC or Clang, 64 bits" in failure.value.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("asked", choose((QUICK, *product(UNSOUND, ("-O2",))), (QUICK,)))
 def test_a_build_that_may_change_sums_answers_nothing(tmp_path, asked):
     name, level = asked
@@ -149,6 +152,7 @@ def run_sound(program, state):
 PROCESSORS = "x86-64-v4", "skylake-avx512", "native"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("level", choose(("-fsyntax-only", "-O0"), ("-fsyntax-only",)))
 @pytest.mark.parametrize("processor", choose(PROCESSORS, PROCESSORS[:1]))
 def test_the_kernel_compiles_for_one_kind_of_processor(tmp_path, processor, level):

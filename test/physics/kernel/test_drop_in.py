@@ -121,6 +121,7 @@ def test_the_example_compiles_without_a_warning_and_says_what_is_refused(drop_in
     assert done.stderr == "angular_velocity must be finite, at most 1e100 rad/s in size\n"
 
 
+@pytest.mark.slow
 @needs_compiler
 @pytest.mark.parametrize("level", choose(("-O0", "-O2"), ("-O0",)))
 def test_the_first_commands_of_its_readme_print_what_it_shows(drop_in, tmp_path, level):

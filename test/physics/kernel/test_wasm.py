@@ -61,6 +61,7 @@ def test_the_module_has_every_function_of_the_header():
     assert header.count("\nSYMTOP_API ") == len(FUNCTIONS)
 
 
+@pytest.mark.slow
 def test_two_thousand_motions_have_the_bits_of_python(page):
     compare(page, *list_many())
 

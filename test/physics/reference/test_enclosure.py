@@ -47,6 +47,7 @@ def test_balls_agree_with_a_series_of_more_digits(name: str, drive: str, t: floa
         assert all(ball.overlaps(other + doubt) for ball, other in pairs)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", choose(("tilted", "hung", "through the top", "released"), ("hung",))
 )

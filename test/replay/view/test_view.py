@@ -114,6 +114,7 @@ def test_a_gap_in_the_log_is_not_drawn_across(tmp_path):
     assert steps.max() < 0.05  # a sample's worth; the gap is some tenths
 
 
+@pytest.mark.slow
 def test_samples_that_come_one_by_one_make_the_same_recording_as_all_at_once(tmp_path):
     run = Run(seconds=0.5)
     reader = BatchReader()

@@ -44,6 +44,7 @@ def node():
         yield
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_hurry_prints_the_verdict(ctl):
     assert ctl("start").returncode == 0
@@ -53,6 +54,7 @@ def test_hurry_prints_the_verdict(ctl):
     assert result.stderr == ""
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_start_kick_and_state_work_together(ctl):
     assert ctl("start", "theta=1.0", "psi_dot=150", "precession=slow").returncode == 0
@@ -64,6 +66,7 @@ def test_start_kick_and_state_work_together(ctl):
     assert ctl("resume").returncode == 0
 
 
+@pytest.mark.slow
 def test_a_factor_may_follow_hurry_and_delay(ctl):
     for word, factor in (("hurry", 1.25), ("delay", 1 / 1.25)):
         assert ctl("start").returncode == 0
@@ -85,6 +88,7 @@ def test_a_name_of_no_start_is_refused_before_a_node_is_looked_for(ctl):
     assert result.stderr.endswith("(the nearest is theta), got 'thetta'\n")
 
 
+@pytest.mark.slow
 def test_a_hand_holds_the_precession_and_lets_it_go(ctl):
     assert ctl("start", "theta=0.5", "psi_dot=200").returncode == 0
     assert ctl("clamp", "on").stdout.startswith("Clamped, the axle falls as if ")
@@ -97,6 +101,7 @@ def test_a_hand_holds_the_precession_and_lets_it_go(ctl):
     assert ctl("clamp", "off").stdout.startswith("Let go (")
 
 
+@pytest.mark.slow
 def test_two_nodes_of_one_name_are_named_next_to_the_answer(ctl):
     with Listener(DOMAIN) as listener:
         names = listener.node.get_fully_qualified_node_names
@@ -116,6 +121,7 @@ def test_a_refusal_is_one_line_and_status_1(ctl):
     assert result.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_watch_shows_the_motion(ctl):
     result = ctl("watch", "--seconds", "1")
     assert result.returncode == 0
@@ -124,6 +130,7 @@ def test_watch_shows_the_motion(ctl):
     assert all("theta" in line and "phi'" in line for line in lines)
 
 
+@pytest.mark.slow
 def test_the_others_know_at_once_that_it_is_gone():
     """Else they would send to it until its lease ends, 20 s later."""
     words = command("top_ctl", "watch")
@@ -180,6 +187,7 @@ class Terminal:
         return status
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_each_key_sends_its_request(ctl):
     assert ctl("start").returncode == 0

@@ -59,6 +59,7 @@ def test_a_class_asks_for_the_time_of_a_turn(ctl, body, start, turn):
     assert read(ctl)["precession_period"] == pytest.approx(turn, rel=3e-3)
 
 
+@pytest.mark.slow
 def test_a_class_asks_for_the_spin(ctl):
     answer = ctl("body point:165g,4cm Ix=4e-4 Iz=1.2e-4 gravity=9.80")
     assert "weight 1.617 N\n" in answer.stdout
@@ -85,6 +86,7 @@ def test_an_answer_says_how_far_the_start_moves_for_the_last_digits_that_were_ty
     assert max(corners) <= high <= max(corners) + width / 10
 
 
+@pytest.mark.slow
 def test_what_has_no_last_digit_is_not_said_to_move(ctl):
     assert "last digits" not in ctl("start theta=0.5 psi_dot=200").stdout  # no question
     assert ctl("body point:165g,4cm Ix=4e-4 Iz=1.2e-4").returncode == 0
@@ -104,6 +106,7 @@ def test_the_mass_and_the_gravity_of_a_body_are_kept(ctl):
     assert found["pivot_force"][2] == pytest.approx(2.6 * 9.80, rel=0.1)
 
 
+@pytest.mark.slow
 def test_all_solutions_are_listed_and_one_is_started(ctl):
     answer = ctl("start theta=90deg dip=0.1rad phi=1 solution=2")
     assert "Solution 2 of 2 for Ix = 0.0" in answer.stdout

@@ -36,6 +36,7 @@ def picture_now(client):
         return set()
 
 
+@pytest.mark.slow
 def test_the_scene_follows_a_node_and_finds_it_again():
     port = viewer.free_port()
     words = command("top_live", "--port", port)
@@ -47,6 +48,7 @@ def test_the_scene_follows_a_node_and_finds_it_again():
                 assert not any(each.reports for each in views(client, 13).values())
 
 
+@pytest.mark.slow
 def test_a_program_on_the_port_that_does_not_answer_does_not_keep_it_from_ending():
     with socket.create_server((viewer.HOST, 0)) as mute:
         words = command("top_live", "--port", mute.getsockname()[1])

@@ -3,6 +3,7 @@
 import sys
 from itertools import pairwise
 
+import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from exact_log import assert_exact, stamps_of
 from geometry_msgs.msg import QuaternionStamped
@@ -65,6 +66,7 @@ class Recording:
         assert not any((b - a) % (2 * MS) for a, b in pairwise(stamps_of(path)))
 
 
+@pytest.mark.slow
 def test_what_is_no_folder_is_refused_until_it_is_one(start_top, tmp_path):
     folder = tmp_path / "logs"
     folder.touch()
@@ -76,6 +78,7 @@ def test_what_is_no_folder_is_refused_until_it_is_one(start_top, tmp_path):
     assert recording.errors == []
 
 
+@pytest.mark.slow
 def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_path):
     recording = Recording(start_top, tmp_path)
     diagnostics = recording.run.collect(DiagnosticArray, "/diagnostics")
@@ -91,6 +94,7 @@ def test_a_log_that_is_deleted_while_it_is_written_is_one_error(start_top, tmp_p
     assert recording.errors == [f"{path}: the file was removed"]
 
 
+@pytest.mark.slow
 def test_a_log_that_fails_at_the_very_end_is_one_line(tmp_path):
     options = set_parameters(f"record.directory:={tmp_path}", "record.enabled:=true")
     words = bound([sys.executable, "-c", LATE, *options])
@@ -162,6 +166,7 @@ sys.exit(top_node())
 """
 
 
+@pytest.mark.slow
 def test_one_in_a_tick_ends_the_node_with_a_line_and_a_complete_log(tmp_path):
     words = ("publish_rate:=500", "record.enabled:=true", f"record.directory:={tmp_path}")
     options = [*set_parameters(*words)[:-1], "error"]

@@ -123,6 +123,7 @@ def act(run, name, argument):
                 assert_one_sentence(reason)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("examples", trials(20, 300))
 def test_any_acts_are_answered_and_leave_the_samples_and_the_log_exact(run, examples):
     assert run.switch("record", True)[0]

@@ -134,6 +134,7 @@ def test_it_is_paused_played_and_stopped_and_tells_so(client):
     assert client.state() == PLAYING
 
 
+@pytest.mark.slow
 def test_steps_are_periods_to_the_nanosecond(start_top):
     run = start_top(realtime=True, publish_clock=True, publish_rate=30.0)
     client = Client(run)
@@ -176,6 +177,7 @@ def test_a_reset_goes_back_to_the_parameters_and_says_that_the_time_does_not(cli
         assert refused.error_message == f"scope must be {condition}, got {scope}"
 
 
+@pytest.mark.slow
 def test_a_node_that_owns_the_clock_sets_it_back_and_its_log_is_exact(start_top, tmp_path):
     run = start_top(realtime=True, publish_clock=True, record=tmp_path)
     client = Client(run)
@@ -239,6 +241,7 @@ def test_a_filter_that_no_backtracking_ends_is_answered(client):
         assert "pattern too large" in client.entities(filter=large).result.error_message
 
 
+@pytest.mark.slow
 def test_messages_without_flags_set_pose_and_twist():
     """Those before 2.1, which Humble, Jazzy and Kilted have; in a separate process."""
     find_messages(WITHOUT_FLAGS)

@@ -99,6 +99,7 @@ ACTS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [0.25, 1.0])
 def test_no_difference_crosses_an_event_a_push_or_a_pause(factor, tmp_path):
     laws = try_laws(record("cusps", tmp_path, ACTS, real_time_factor=factor, publish_rate=500.0))
@@ -244,6 +245,7 @@ def test_pushes_at_any_rate_are_not_crossed(seed, tmp_path):
     assert [each.wrong for each in laws.values()] == [0, 0, 0, 0]
 
 
+@pytest.mark.slow
 def test_after_the_last_push_nothing_is_left_out(tmp_path):
     impulse = {"axle_impulse": 2.0**-17}
     samples = []

@@ -79,6 +79,7 @@ def test_events_of_every_kind_are_those_that_follow(events):
     assert all(map(is_of_this_version, events))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", seeds(1, 20))
 def test_an_altered_digit_or_letter_of_a_value_is_found(events, seed):
     rng = random.Random(seed)

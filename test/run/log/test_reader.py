@@ -241,6 +241,7 @@ def test_messages_that_cannot_be_decoded_are_reported_and_the_others_used(cut, t
     assert "are not a geometry_msgs/msg/WrenchStamped" in problem
 
 
+@pytest.mark.slow
 def test_samples_of_one_stamp_are_never_parted(tmp_path):
     run = Run(seconds=6.0, rate=1000.0)
     log = run.open(tmp_path)

@@ -97,6 +97,7 @@ def test_what_a_file_is_said_to_have_lost_is_lost_and_nothing_else(way, seed, go
         assert told or set(found) == set(whole)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", seeds(1, 20))
 def test_a_flipped_bit_in_the_head_of_a_record_loses_what_is_said_and_nothing_else(
     part, good, tmp_path

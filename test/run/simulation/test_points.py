@@ -112,6 +112,7 @@ def test_numbers_that_are_none_are_refused_by_their_place(name, number, tmp_path
         read_run(path)
 
 
+@pytest.mark.slow
 def test_a_million_points_are_refused_by_their_number(tmp_path):
     content = make_measured("theta")
     count = 10 * MOST

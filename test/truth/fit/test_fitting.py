@@ -32,6 +32,7 @@ def fit():
     return fit_motion(make_record(TIMES, make_axis(), "axis"))
 
 
+@pytest.mark.slow
 def test_the_axis_shows_the_motion_and_the_noise(fit):
     values = read_values(fit)
     for name, truth in {
@@ -48,6 +49,7 @@ def test_the_axis_shows_the_motion_and_the_noise(fit):
     assert Check(fit).verdict == HOLDS
 
 
+@pytest.mark.slow
 def test_the_distance_of_points_other_than_one_is_looked_for(fit):
     exact = find_axis(CUSPS.at(TIMES).orientation)
     assert not fit.model.record.has_length
@@ -61,6 +63,7 @@ def test_the_distance_of_points_other_than_one_is_looked_for(fit):
     assert values["theta"].deviation > known["theta"].deviation
 
 
+@pytest.mark.slow
 def test_angles_show_the_same_across_the_period_of_phi(fit):
     angles = CUSPS.at(TIMES).euler_angles
     seen = np.stack([angles.theta, angles.phi], axis=1)
@@ -78,12 +81,14 @@ def test_rates_show_the_body_and_a_positive_weight(Mgl):
     assert "phi" not in values
 
 
+@pytest.mark.slow
 def test_attitudes_show_all_but_a_moment():
     values = read_values(fit_motion(make_noisy("attitude", CUSPS.at(TIMES).orientation, SIGMA)))
     assert_near(values["Iz/Ix"], 0.25)
     assert_near(values["spin"], CUSPS.start.angular_velocity[2])
 
 
+@pytest.mark.slow
 def test_pixels_show_the_motion_and_the_camera():
     camera = {"u": 600.0, "v": 400.0, "log_scale": 5.5, "elevation": 0.5, "roll": 0.0625}
     axis = find_axis(CUSPS.at(TIMES).orientation)
@@ -94,6 +99,7 @@ def test_pixels_show_the_motion_and_the_camera():
     assert_near(values["scale"], float(np.exp(5.5)))
 
 
+@pytest.mark.slow
 def test_theta_alone_names_both_momenta():
     seen = CUSPS.at(TIMES).euler_angles.theta[:, None]
     found = fit_motion(make_noisy("theta", seen, 2.0**-12))
@@ -104,6 +110,7 @@ def test_theta_alone_names_both_momenta():
     assert {"reverse", "azimuth", "moments", "spin"} <= set(kinds)
 
 
+@pytest.mark.slow
 def test_friction_is_found_if_it_is_looked_for_and_else_the_model_fails():
     top = CUSPS.top
     motion = Motion(top, CUSPS.start, Friction(axial=0.125 * top.Iz, transverse=0.25))
@@ -121,6 +128,7 @@ def test_friction_is_found_if_it_is_looked_for_and_else_the_model_fails():
     assert Check(fit_motion(make_record(times, seen, "axis"))).verdict == FAILS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("theta", [0.5, 1.25])
 def test_without_nutation_one_combination_is_known(theta):
     """And it is right, though the motion that is found may have any p_psi."""
@@ -136,6 +144,7 @@ def test_without_nutation_one_combination_is_known(theta):
     assert not {"Mgl/Ix", "p_psi/Ix"} & {each.name for each in report.values if each.is_known}
 
 
+@pytest.mark.slow
 def test_few_rows_in_a_nutation_leave_the_momentum_open():
     step = CUSPS.nutation_period / 2.5
     times = np.arange(160) * step
@@ -157,6 +166,7 @@ def test_known_values_turn_ratios_into_moments(fit):
     assert not {"moments", "spin"} & kinds
 
 
+@pytest.mark.slow
 def test_a_bias_about_the_axis_widens_what_rates_show():
     rates = CUSPS.at(TIMES).angular_velocity
     narrow, wide = (
@@ -178,6 +188,7 @@ def test_a_column_within_its_last_decimal_has_the_deviation_of_rounding():
     assert spin.deviation > step / np.sqrt(12) / 10
 
 
+@pytest.mark.slow
 def test_with_small_tilts_the_scale_of_a_picture_and_the_tilt_are_one():
     start = State.from_euler(theta=0.03125, phi_dot=1.0, psi_dot=190.0)
     axis = find_axis(Motion(CUSPS.top, start).at(TIMES).orientation)
@@ -191,6 +202,7 @@ def test_with_small_tilts_the_scale_of_a_picture_and_the_tilt_are_one():
     assert_near(values["theta"], 0.03125)
 
 
+@pytest.mark.slow
 def test_fast_attitudes_have_the_fewest_turns_from_row_to_row_that_a_body_allows():
     times = np.arange(200) / 32
     spin = float(CUSPS.start.angular_velocity[2])
@@ -203,6 +215,7 @@ def test_fast_attitudes_have_the_fewest_turns_from_row_to_row_that_a_body_allows
     assert_near(values["Iz/Ix"], 0.25)
 
 
+@pytest.mark.slow
 def test_deviations_of_a_record_that_is_too_short_for_its_camera_are_not_said():
     # one nutation and a fifth of a precession: the camera and the motion make up for each other
     found = fit_motion(draw_sample("pixels", "outliers", 402).record)
@@ -212,6 +225,7 @@ def test_deviations_of_a_record_that_is_too_short_for_its_camera_are_not_said():
     assert not {"u", "v", "scale", "Mgl/Ix"} & {v.name for v in report.values if v.is_known}
 
 
+@pytest.mark.slow
 def test_a_hanging_top_that_hardly_spins_is_found_by_few_rows_in_a_nutation():
     # p_psi/Ix is a fifth of the precession; a nutation of 0.85 rows leaves almost as little
     sample = draw_sample("angles", "outliers", 409)
@@ -220,6 +234,7 @@ def test_a_hanging_top_that_hardly_spins_is_found_by_few_rows_in_a_nutation():
         assert_near(values[name], sample.truth[name])
 
 
+@pytest.mark.slow
 def test_flicker_is_allowed_for_and_said():
     found = fit_motion(draw_sample("axis", "flicker", 0).record)
     assert found.noise.is_flicker

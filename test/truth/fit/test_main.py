@@ -20,6 +20,7 @@ def table(tmp_path_factory):
     return write_table(tmp_path_factory.mktemp("fit") / "axis.csv", make_axis())
 
 
+@pytest.mark.slow
 def test_the_text_has_each_number_of_the_json(table, capsys):
     assert main([str(table)]) == 0
     text = capsys.readouterr().out
@@ -41,6 +42,7 @@ def test_the_text_has_each_number_of_the_json(table, capsys):
     assert all(each["text"] in text for each in facts["unknown"])
 
 
+@pytest.mark.slow
 def test_the_example_comes_along_and_is_not_overwritten(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["--example", "--json"]) == 0
@@ -63,6 +65,7 @@ def test_a_record_of_top_imu_gives_its_top_back(tmp_path, capsys):
         assert values[name]["deviation"] < 1e-4 * truth
 
 
+@pytest.mark.slow
 def test_friction_that_was_not_looked_for_is_hinted_at(tmp_path, capsys):
     path = str(tmp_path / "imu.csv")
     assert (
@@ -75,6 +78,7 @@ def test_friction_that_was_not_looked_for_is_hinted_at(tmp_path, capsys):
     assert "--friction" not in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_a_kick_is_named_with_its_place(tmp_path, capsys):
     state = CUSPS.at(1.0)
     kicked = Motion(CUSPS.top, apply_impulse(CUSPS.top, state, (3.0, 0.0, 0.0)))
@@ -88,6 +92,7 @@ def test_a_kick_is_named_with_its_place(tmp_path, capsys):
     assert abs(float(place[1]) - 1.0) < 8 / 128  # rows that it takes to leave the noise
 
 
+@pytest.mark.slow
 def test_a_kick_of_a_body_with_an_accelerometer_is_named(tmp_path, capsys):
     kicked = Motion(CUSPS.top, apply_impulse(CUSPS.top, CUSPS.at(1.0), (3.0, 0.0, 0.0)))
     position = (0.0625, 0.0, 0.125)
@@ -139,6 +144,7 @@ def test_misuse_has_status_2(arguments):
     assert end.value.code == 2
 
 
+@pytest.mark.slow
 def test_a_plot_is_written(table, tmp_path):
     pytest.importorskip("matplotlib")
     assert main([str(table), "--plot", str(tmp_path / "fit.png")]) == 0
@@ -156,6 +162,7 @@ def test_progress_is_written_after_two_seconds_on_a_terminal(capsys, monkeypatch
     assert capsys.readouterr().err == "\rtop_fit: fitting, 50%, at most 4 s more \n"
 
 
+@pytest.mark.slow
 def test_what_was_clicked_is_known_to_its_deviation(tmp_path, capsys):
     """A pivot off by a pixel is not taken exactly: it makes the pivot better known than before."""
     camera = {"u": 300.0, "v": 200.0, "log_scale": 5.5, "elevation": 0.5, "roll": 0.0}

@@ -34,6 +34,7 @@ def run(words, capsys):
     return capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_fits_scatter_as_planned():
     rows = hold(CAMERA, 40)
     assert {"Mgl/Ix", "p_psi/Ix", "nutation_period"} <= {each.name for each in rows}
@@ -100,6 +101,7 @@ def test_the_text_has_the_numbers_of_the_json(capsys):
     assert all(each["text"] in text for each in facts["unknown"])
 
 
+@pytest.mark.slow
 def test_a_plan_names_twins_and_where_deviations_do_not_hold(capsys):
     plain = run("cusps --kind pixels --noise 1", capsys)
     assert "p_psi/Ix = -50.18 rad/s; a camera above the pivot is assumed" in plain
@@ -112,6 +114,7 @@ def test_a_plan_names_twins_and_where_deviations_do_not_hold(capsys):
     assert float(spin[2]) == pytest.approx(0.04 * float(spin[1]), rel=0.06)
 
 
+@pytest.mark.slow
 def test_a_scene_with_friction_says_when_the_spin_is_half(capsys):
     plan = read_plan("friction --kind attitude --friction --seconds 4")
     half = read_values(plan)["spin_half_time"]

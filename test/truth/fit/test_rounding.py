@@ -60,6 +60,7 @@ def test_a_column_that_does_not_change_has_the_step_of_the_others():
     assert record.rounding * np.sqrt(12) == pytest.approx([0.25] * 3, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_deviations_hold_wherever_the_steps_of_a_slow_motion_are():
     exact = find_axis(SLOW.at(OFTEN).orientation)
     fits = [fit_axis(round_to(exact, place)) for place in (np.arange(16) + 0.25) / 16]

@@ -33,6 +33,7 @@ def _table(tmp_path):
     return write_table(tmp_path / "axis.csv", make_axis())
 
 
+@pytest.mark.slow
 def test_the_run_has_each_row_and_what_an_exact_motion_leaves_of_it(table, tmp_path, capsys):
     path = tmp_path / "run.json"
     assert main([str(table), "--run", str(path)]) == 0
@@ -54,6 +55,7 @@ def test_the_run_has_each_row_and_what_an_exact_motion_leaves_of_it(table, tmp_p
     assert numbers == {"Ix": top.Ix, "Iz/Ix": pytest.approx(top.Iz / top.Ix, abs=5e-5)}
 
 
+@pytest.mark.slow
 def test_what_is_known_is_in_the_run_and_json_stays_json(table, tmp_path, capsys):
     path = tmp_path / "run.json"
     known = ["--Iz-Ix", "0.5", "0.01", "--Ix", "0.001", "1e-6"]
@@ -186,6 +188,7 @@ def test_rows_that_were_left_out_are_counted(tmp_path):
     assert ": 240 measured points of 1000 rows; " in run.describe(path)
 
 
+@pytest.mark.slow
 def test_a_run_is_refused_by_its_name_and_place_before_and_after_the_fit(table, tmp_path, capsys):
     assert main([str(table), "--run", "run.txt"]) == 1
     error = "top_fit: --run must be a name that ends in .json, got 'run.txt'\n"

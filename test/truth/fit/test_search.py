@@ -69,6 +69,7 @@ def test_a_picture_shows_a_nutation_that_is_a_hundredth_of_the_precession():
     assert found.nutation_period == pytest.approx(motion.nutation_period, rel=0.016)
 
 
+@pytest.mark.slow
 def test_a_motion_that_one_search_alone_found_is_in_doubt():
     fit = fit_motion(make_record(TIMES, make_axis(), "axis"))
     assert not fit.is_lone

@@ -36,6 +36,7 @@ def assert_near(value, truth):
     assert abs(value.value - truth) < FAR * value.deviation
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("Mgl", [200.0, -200.0])
 def test_an_accelerometer_shows_the_sign_of_the_weight_and_gravity(Mgl):
     motion = Motion(Top(1.0, 0.25, Mgl), State.from_euler(theta=0.75, phi_dot=1.0, psi_dot=100.0))
@@ -48,6 +49,7 @@ def test_an_accelerometer_shows_the_sign_of_the_weight_and_gravity(Mgl):
     assert {each.kind for each in report.unknown} == {"moments", "azimuth"}
 
 
+@pytest.mark.slow
 def test_an_accelerometer_shows_the_bias_of_the_gyroscope():
     more = [*BIASES.values(), *FORCE_BIASES.values()]
     values = read_known(measure(CUSPS, more, has_mount=True, known={"bias_z": (0.0, 8.0)}))
@@ -63,6 +65,7 @@ def see(nearness):
     return project(find_axis(CUSPS.at(TIMES).orientation)[None], camera)[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("more", [{"has_perspective": True}, {"camera": {"nearness": 0.25}}])
 def test_a_near_camera_shows_its_distance_and_the_sign_of_p_psi(more):
     fit = fit_motion(make_noisy("pixels", see(0.25), 0.5, **more))

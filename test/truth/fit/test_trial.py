@@ -18,6 +18,7 @@ def assert_honest(rows, low, high):
     assert low < measure_pulls(rows) < high
 
 
+@pytest.mark.slow
 def test_a_hundredth_of_the_trial_has_honest_deviations():
     rows = [try_record(kind, noise, 300) for noise, kind in CASES[::5]]  # each kind once
     # The numbers of one record are correlated: 6 records have some 24 independent pulls, whose

@@ -1,6 +1,7 @@
 """Deviations along a valley: of long records they hold, of short ones they may not."""
 
 import numpy as np
+import pytest
 from drawn import Numbers
 
 from symtop_ros.physics import Motion, State, Top
@@ -24,6 +25,7 @@ def fit_from_truth(times, seed):
     return refine(model, fill(model, name_parameters(MOTION)))
 
 
+@pytest.mark.slow
 def test_a_long_record_shows_its_period_although_straight_steps_leave_the_valley():
     fit = fit_from_truth(np.arange(8192) / 32, 1)
     valley = Valley(fit)
@@ -41,6 +43,7 @@ def test_a_long_record_shows_its_period_although_straight_steps_leave_the_valley
         assert abs(values[name].value - truth) < 5 * values[name].deviation
 
 
+@pytest.mark.slow
 def test_the_floor_of_a_valley_is_where_the_squares_grow_as_they_should():
     valley = Valley(fit_from_truth(np.arange(8192) / 32, 2))
     own = valley.fit.white

@@ -60,6 +60,7 @@ def test_the_record_agrees_with_differences_of_50_digits(sample):
 RATES = [(1000.0, 9), pytest.param(30.0, 22, marks=pytest.mark.long)]  # 1e-18 of the integrals
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("rate", "points"), RATES)
 def test_means_are_the_integrals_over_the_interval(rate, points):
     record = record_imu(MOTION, replace(SENSOR, rate=rate), 1.0, average=True)
@@ -101,6 +102,7 @@ def test_the_mean_of_a_long_interval_is_that_of_its_parts(name):
         assert np.abs(long.means[1:, part] - means[:, part]).max() < 32 * EPS * size
 
 
+@pytest.mark.slow
 def test_a_sensor_slower_than_the_top_has_its_mean_force():
     record = record_imu(SLOW_AT_STAMPS, Imu(PLACE, rate=0.114), 20.0, average=True)
     assert record.means[0, 5] == pytest.approx(3.50202489, abs=1e-8)

@@ -26,6 +26,7 @@ TRUTH = scene_truth("cusps")
 STAMPS = np.arange(SECOND, 6 * SECOND, SECOND // 100)
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_a_delay_is_known_up_to_periods_of_the_nutation():
     judgement = judge(Made(delay=0.08).make(TRUTH, STAMPS[::5]), TRUTH, "x")
@@ -34,6 +35,7 @@ def test_a_delay_is_known_up_to_periods_of_the_nutation():
     assert "or plus n x 0.1595 s; for n = 1 with a rotation of the world by " in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", choose(range(40), (20,)))
 def test_noise_of_a_short_run_is_no_delay_that_leaves_the_loudest_estimates_out(seed):
     end = 22 * SECOND // 10
@@ -44,6 +46,7 @@ def test_noise_of_a_short_run_is_no_delay_that_leaves_the_loudest_estimates_out(
     assert (found.explained, found.best.kind) == (True, ("", "none", ()))
 
 
+@pytest.mark.slow
 def test_in_a_sleeping_top_a_delay_is_called_a_heading_whatever_is_lost_of_the_log():
     truth = scene_truth("sleeping")
     event = start_event(start_motion(Settings.from_scene("sleeping")))
@@ -57,6 +60,7 @@ def test_in_a_sleeping_top_a_delay_is_called_a_heading_whatever_is_lost_of_the_l
         assert "delay" in found.hidden
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", seeds(1, 2))
 def test_a_microsecond_shows_in_noise_of_a_milliradian_with_its_deviation(seed):
     stamps = np.arange(SECOND, 11 * SECOND, SECOND // 200)

@@ -96,6 +96,7 @@ STEADY = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scene", "delay", "rate"), STEADY)
 def test_a_steady_motion_hides_the_delay_but_not_the_drift(scene, delay, rate):
     truth = scene_truth(scene)
@@ -119,6 +120,7 @@ CUSPS_EVENT = start_event(start_motion(Settings.from_scene("cusps")))
 INSTANTS = np.arange(0, SECOND, SECOND // 50)
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 def test_the_mount_of_the_sensor_is_applied_to_its_messages():
     mounted = Imu(position=(0.0, 0.0, 0.02), orientation=(0.5, -0.5, 0.5, 0.5))
@@ -155,6 +157,7 @@ def test_a_refusal_has_both_spans_of_time():
 DOMAIN = claim_domain()
 
 
+@pytest.mark.slow
 def test_the_nodes_own_attitude_is_exact_while_it_runs():
     with running_node(DOMAIN, "scene:=looping"):
         arguments = ("--live", "--topic", "/top/orientation", "--max-error", "1e-15")

@@ -159,6 +159,7 @@ def test_what_is_odd_is_named_in_a_line(tmp_path, rows, note):
     assert re.search(note, found)
 
 
+@pytest.mark.slow
 def test_estimates_of_a_clock_that_stands_still_are_judged(tmp_path):
     path = tmp_path / "estimates.csv"
     path.write_text("stamp,w,x,y,z\n" + "0,1,0,0,0\n" * 12)

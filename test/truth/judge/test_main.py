@@ -46,6 +46,7 @@ def test_exact_estimates_are_told_so(log, capsys):
     assert "\nnothing is left to explain: " in out
 
 
+@pytest.mark.slow
 def test_the_delay_and_the_offset_are_found_written_and_can_be_removed(log, capsys, tmp_path):
     arguments = [str(log), "--topic", "/filter", "--max-error", "1e-3"]
     assert main([*arguments, "--aligned", "none"]) == 1
@@ -70,6 +71,7 @@ def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
     assert main([str(log), "--estimates", str(log), "--topic", "/imu/data"]) == 0
 
 
+@pytest.mark.slow
 def test_an_output_that_is_no_longer_read_is_no_failure(log):
     command = "import sys; from symtop_ros.programs import top_judge; sys.exit(top_judge())"
     options = ["--topic", "/filter", "--aligned", "none", "--json"]
@@ -118,6 +120,7 @@ def test_what_cannot_be_judged_is_one_line(log, arguments, reason, capsys):
     assert err.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_the_option_for_the_test_set_says_what_to_type_and_does_it(tmp_path, capsys):
     path = tmp_path / "mine.csv"
     path.write_text(write(make_table("cusps")))

@@ -80,6 +80,7 @@ def test_the_pulls_of_deviations_are_about_one(name):
     assert given >= 200 * ROWS[name][-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", choose(ROWS, OFTEN))
 def test_no_deviation_is_wrong_by_a_factor(name):
     found, _ = measure(ROWS[name], range(8))
@@ -122,12 +123,14 @@ def test_the_pulls_of_drift_scale_and_clock_of_nutating_tops_are_about_one(name,
     assert given == 200
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parameter", choose(MADE, ("drift",)))
 def test_whitened_noise_gives_no_deviation_that_is_wrong_by_a_factor(parameter):
     found, _ = measure_made(ROWS["50 ms"], parameter, range(8))
     assert 0.25 < found < 1.9  # as above
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", seeds(1, 16))
 def test_noise_of_a_filter_gets_no_invented_cause(seed):
     estimates = make_noisy(1000, 5, 0.02, EVEN, False, seed)
@@ -137,6 +140,7 @@ def test_noise_of_a_filter_gets_no_invented_cause(seed):
     assert found.best.independent < len(estimates) / 10
 
 
+@pytest.mark.slow
 @pytest.mark.wording
 @pytest.mark.parametrize("time", choose((0.005, 0.05), (0.05,)))
 def test_a_cause_in_the_noise_of_a_filter_is_a_candidate_with_its_size(time):
@@ -199,6 +203,7 @@ COUNTS = 1999, 2000
 PUBLISHERS = [f"{mixed}, {count}" for mixed in MIXED for count in COUNTS]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("publishers", choose(PUBLISHERS, PUBLISHERS[::10]))  # each of all
 def test_two_publishers_on_one_topic_are_not_explained(publishers):
     kind, which, count = publishers.split(", ")
@@ -210,6 +215,7 @@ def test_two_publishers_on_one_topic_are_not_explained(publishers):
     assert found.best.residual > 0.1  # that of all estimates
 
 
+@pytest.mark.slow
 def test_what_is_said_is_said_of_all_estimates(monkeypatch):
     """Some are exact; those that are not looked at in detail are asked as well."""
     monkeypatch.setattr(search, "MOST_SAMPLES", 500)

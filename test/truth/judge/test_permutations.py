@@ -76,6 +76,7 @@ def assert_named(places, signs, made):
 SOME = [7, 308]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", choose(range(len(EVERY)), SOME))
 def test_mixed_columns_are_named_so_that_they_can_be_undone(number):
     places, signs = EVERY[number]

@@ -151,6 +151,7 @@ def assert_honest(pulls, low, high):
     assert ((low < found) & (found < high)).all(), found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", choose(PARTS, ("delay", "clock", "both")))
 def test_a_cause_that_is_found_is_printed_as_it_is(kind):
     # A normal number is beyond 4.5 once in 150 000 times.

@@ -85,6 +85,7 @@ def test_a_lag_needs_a_unit(text, capsys):
     assert f"--rpe: must be a time such as 1s or 50ms, got {text}" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_lag_that_is_longer_than_the_run_is_refused(tmp_path, capsys):
     write_files(0, tmp_path)
     options = ["--scene", "cusps", "--estimates", str(tmp_path / "wrong.tum"), "--rpe", "5s"]

@@ -334,6 +334,7 @@ def test_no_cause_is_named_that_is_not_there(number):
     assert not found.explained or (found.best.residual > 1e-4 and file.name in NOISE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", choose(OWN, OFTEN))
 def test_a_cause_of_its_own_is_named_with_its_size(number):
     assert find_fault(number) == ""

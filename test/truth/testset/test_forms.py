@@ -11,6 +11,7 @@ from symtop_ros.truth.testset import forms, score
 README = (ROOT / "symtop_ros/truth/testset/README.md").read_text()
 
 
+@pytest.mark.slow
 def test_each_form_has_a_file_and_a_name_for_the_scorer(folder):
     assert {name for name, _ in forms.FORMS} == {*score.FORMS}
     for name, form in forms.FORMS:

@@ -17,11 +17,13 @@ FALLS = [each for each in MOTIONS if each.store == "table, gravity alone"]
 DRIVEN = [each for each in MOTIONS if each.store == "table, driven"]
 
 
+@pytest.mark.slow
 def test_every_number_of_the_test_set_is_in_its_ball() -> None:
     counts = sum(map(prove, PROBLEMS), Counter())
     assert counts == {"nearest": 9100, "zero": 700}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("step", trials(10, 1))
 def test_states_under_gravity_that_the_tests_compare_with_are_proved(step: int) -> None:
     counts = sum(map(prove, FALLS[::step]), Counter())

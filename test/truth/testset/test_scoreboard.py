@@ -49,6 +49,7 @@ def test_the_step_of_an_entry_is_the_number_at_its_end(name, step):
     assert Entry(name, Mock()).step == step
 
 
+@pytest.mark.slow
 def test_the_same_is_given_as_json(tmp_path, capsys):
     for problem in PROBLEMS:
         for step in ("0.1", "0.01", "1e-3"):

@@ -137,6 +137,7 @@ def test_the_scorer_needs_numpy_only(folder, tmp_path):
     assert "angular velocity" in done.stdout
 
 
+@pytest.mark.slow
 def test_the_example_of_the_readme_is_scored_as_it_says(folder, tmp_path, monkeypatch, capsys):
     pytest.importorskip("mujoco")
     text = (folder / "README.md").read_text()
