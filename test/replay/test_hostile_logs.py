@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from log_files import LAYOUTS, Run, write_mcap
 from mcap.data_stream import RecordBuilder
 from mcap.records import Channel, Chunk, Message, Schema
-from odd_values import CONTROL, assert_one_sentence, deterministic
+from odd_values import CONTROL, assert_one_sentence, examples_of
 from trials import trials
 
 from symtop_ros.physics import Friction
@@ -98,7 +98,7 @@ def test_an_event_of_absurd_numbers_is_told_in_one_sentence(change, tmp_path, ca
 def test_any_numbers_in_an_event_are_checked_or_refused(examples, tmp_path_factory):
     values = st.lists(NUMBERS, max_size=4).map(" ".join)
 
-    @deterministic(examples)
+    @examples_of(examples)
     @given(changes=st.dictionaries(st.sampled_from(ALL_KEYS), values, max_size=3))
     def check(changes):
         log = TopLog(McapFile(with_event(tmp_path_factory.mktemp("odd"), changes)))
