@@ -36,7 +36,8 @@ def write_film(
     av = pytest.importorskip("av", reason="no PyAV: pip install -e '.[test]' in the checkout")
     ticks = TICKS[path.suffix]
     codec = codec or SUFFIXES[path.suffix]
-    with av.open(str(path), "w") as film:
+    # a file of WebM has random numbers by default
+    with av.open(str(path), "w", options={"fflags": "+bitexact"}) as film:
         stream = None
         for picture, time in zip(frames, times, strict=True):
             if stream is None:
@@ -68,7 +69,8 @@ def _add_stream(film: Any, codec: str, shape: Sequence[int], ticks: int, rate: F
     stream.codec_context.gop_size = KEYS
     stream.codec_context.thread_count = 1  # the same file everywhere
     if codec.startswith("vp"):
-        stream.options = {"deadline": "realtime", "cpu-used": "4", "auto-alt-ref": "0"}
+        # VP8 with a positive speed encodes worse when the machine is busy; a negative one is fixed
+        stream.options = {"deadline": "realtime", "cpu-used": "-4", "auto-alt-ref": "0"}
     else:
         stream.options = {
             "preset": "veryfast",

@@ -40,10 +40,9 @@ LISTS |= st.lists(st.text(max_size=3), max_size=4) | st.just([math.nan] * 100_00
 VALUES = SCALARS | LISTS | st.none()
 
 
-def deterministic(examples):
-    """Settings with the same examples in each run."""
-    checks = list(HealthCheck)
-    return settings(max_examples=examples, derandomize=True, suppress_health_check=checks)
+def examples_of(count):
+    """Settings for so many examples, each of which may be large or take long."""
+    return settings(max_examples=count, suppress_health_check=list(HealthCheck))
 
 
 def assert_one_sentence(text, longest=700):

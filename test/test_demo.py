@@ -101,6 +101,7 @@ def assert_commands(lines, log):
     execute(check, cwd=log.parents[1], check=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", choose((signal.SIGINT, signal.SIGTERM), (signal.SIGINT,)))
 def test_a_signal_ends_it_and_its_node_without_a_traceback(tmp_path, number):
     with running_demo(tmp_path) as (process, line):

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from drawn import Numbers, cos, sin
 from mpmath import mp, mpf
+from waiting import TIMEOUT
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 from symtop_ros.physics.reference import Inputs
@@ -162,15 +163,15 @@ def cross(a, b):
 
 
 @contextmanager
-def within(seconds: float, error: type[BaseException] = AssertionError) -> Iterator[None]:
-    """Raise an error if the block takes longer."""
+def ending() -> Iterator[None]:
+    """Raise an error if the block hangs, between two calls of the kernel."""
 
     def end(*_):
-        raise error(f"longer than {seconds} s")
+        raise AssertionError(f"no end within {TIMEOUT} s")
 
     usual = signal.signal(signal.SIGALRM, end)
     # again and again: Python ignores what is raised while it collects garbage
-    signal.setitimer(signal.ITIMER_REAL, seconds, seconds)
+    signal.setitimer(signal.ITIMER_REAL, TIMEOUT, TIMEOUT)
     try:
         yield
     finally:

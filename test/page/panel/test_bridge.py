@@ -203,6 +203,7 @@ def start_of(running):
     return running.top.simulation.timeline.start.euler_angles
 
 
+@pytest.mark.slow
 def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node, browser):
     running, bridge = node
     page = write_file(node=bridge.name)
@@ -242,6 +243,7 @@ def test_the_page_in_a_browser_kicks_the_node_and_survives_its_server(node, brow
     assert problems == []
 
 
+@pytest.mark.slow
 def test_a_held_button_pushes_the_node_until_it_is_released(node, browser):
     running, bridge = node
     with serving(write_file(node=bridge.name), bridge) as server:

@@ -31,4 +31,31 @@ window.patches = {
       load.call(this, target, numbers, ...rest);
     };
   },
+
+  /** Count the calls of the kernel, and the steps of its integrations in hundreds. */
+  countWork() {
+    const HUNDRED = 100;
+    const MORE_STEPS = 11;
+    const instantiate = WebAssembly.instantiate;
+    window.work = { calls: 0, hundreds: 0 };
+    const count = (call) => (...given) => {
+      window.work.calls += 1;
+      return call(...given);
+    };
+    const reachBySteps = (reach) => (handle, t, steps, place) => {
+      for (let left = steps; ; left -= HUNDRED) {
+        const status = reach(handle, t, Math.min(left, HUNDRED), place);
+        if (status !== MORE_STEPS || left <= HUNDRED) return status;
+        window.work.hundreds += 1;
+      }
+    };
+    WebAssembly.instantiate = async (...given) => {
+      const { instance } = await instantiate.apply(WebAssembly, given);
+      const { symtop_reach, ...others } = instance.exports;
+      const exports = { ...others, symtop_reach: reachBySteps(symtop_reach) };
+      for (const [name, each] of Object.entries(exports))
+        if (name.startsWith("symtop_")) exports[name] = count(each);
+      return { instance: { exports } };
+    };
+  },
 };

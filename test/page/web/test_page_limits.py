@@ -79,6 +79,7 @@ def test_the_largest_tilt_of_a_field_is_in_its_unit(shared, unit):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [3, 13])
 def test_a_question_of_the_lesson_is_asked_and_checked_in_the_unit_of_the_page(open_page, number):
     page = open_page(f"#lesson={number}")

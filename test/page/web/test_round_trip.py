@@ -225,6 +225,7 @@ def test_the_page_and_its_links_have_every_motion_and_every_kick(run, opened, op
         assert {name: started[name] for name in sizes} == {name: given[name] for name in sizes}
 
 
+@pytest.mark.slow
 def test_a_field_of_the_page_sets_its_own_coefficient(opened):
     for name, value in COEFFICIENTS.items():
         assert opened.tab.locator(f"[id='field-friction.{name}']").count() == 1

@@ -1,12 +1,29 @@
 """Arrows: torques in the precessing frame turn the axis, inertial ones add up to the torque."""
 
 import numpy as np
+import pytest
 from log_files import ARTICLE, CUSPS, Run
 from replay.view.rows import FLOAT, arrows, record, rows
 
-from symtop_ros.physics import Motion, State
+from symtop_ros.physics import Motion, State, Top
 from symtop_ros.replay.view import entities
 from symtop_ros.replay.view.torques import ARROWS, DEPTHS, LENGTH, LONGEST, Torques, find_scale
+
+UNIT = 0.068  # N m, of the article's top that is let go at rest: Mgl is the largest torque
+
+
+SCALES = [
+    (ARTICLE, CUSPS, UNIT),
+    # Iz psi' phi' sin(theta) = 123.45 N m, to two digits
+    (Top(1.0, 1.0, 3.0), State.from_euler(theta=np.pi / 6, phi_dot=1.0, psi_dot=246.9), 120.0),
+    (Top(1.0, 1.0, 3.0), State.from_euler(theta=np.pi / 6, phi_dot=-1.0, psi_dot=246.9), 120.0),
+    (Top(1.0, 1.0, 0.0), State.from_euler(theta=0.5, psi_dot=9.0), 1.0),  # no torque at all
+]
+
+
+@pytest.mark.parametrize(("top", "start", "unit"), SCALES)
+def test_a_unit_of_the_scene_is_the_largest_torque_at_the_start(top, start, unit):
+    assert find_scale(top, start) == unit
 
 
 def drawn(start, folder):
@@ -29,7 +46,7 @@ def test_on_cusps_the_fourth_arrow_is_the_angular_acceleration(tmp_path):
     step = 1e-5
     seconds = (times - begin) * 1e-9
     before, after = (motion.at(seconds + h).euler_rates.theta for h in (-step, step))
-    expected = ARTICLE.Ix * (after - before) / (2 * step) / find_scale(ARTICLE, CUSPS)
+    expected = ARTICLE.Ix * (after - before) / (2 * step) / UNIT
     phi = motion.at(seconds).euler_angles.phi
     nodes = np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=1)
     # a central difference: (40 rad/s step)^2/6 of a length below 1 are 3e-8

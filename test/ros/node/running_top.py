@@ -3,11 +3,15 @@
 Time is simulated unless a test is about real time: it advances while the test spins.
 """
 
+import contextlib
+import itertools
 import json
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -22,6 +26,8 @@ from waiting import TIMEOUT
 
 from symtop_ros.ros.client.connection import Connection
 from symtop_ros.ros.node.top_node import TopNode
+from symtop_ros.run.simulation import simulation
+from symtop_ros.run.simulation.budget import ComputeBudget
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
 from workshop.load.domains import claim_domain, release_domain
@@ -31,12 +37,20 @@ TURN = 0.002  # s of real time between two advances of the simulated clock, at l
 STEP = 5_000_000  # ns; an advance of the simulated clock
 
 
+@contextlib.contextmanager
+def _steady_machine() -> Iterator[None]:
+    """Let a node that is made meanwhile integrate 100 steps in 1 ms of its budget, always."""
+    clock = itertools.count(step=1e-3).__next__
+    with patch.object(simulation, "ComputeBudget", partial(ComputeBudget, clock)):
+        yield
+
+
 class RunningTop(Listener):
     """A TopNode and a client node, spun together until a condition holds.
 
     With `realtime` the node follows the clock of the system, else a simulated clock that begins
-    at 0 and advances by 5 ms at most every 2 ms while the test spins. With `record` it records
-    into this folder.
+    at 0 and advances by 5 ms at most every 2 ms while the test spins; its budget of work is then
+    counted in steps. With `record` it records into this folder.
     """
 
     def __init__(
@@ -58,7 +72,8 @@ class RunningTop(Listener):
         overrides = [Parameter(k.replace("__", "."), value=v) for k, v in parameters.items()]
         try:
             named = {"cli_args": arguments, "parameter_overrides": overrides}
-            self.top = TopNode(context=self.context, **named)
+            with contextlib.nullcontext() if realtime else _steady_machine():
+                self.top = TopNode(context=self.context, **named)
         except Exception:
             rclpy.try_shutdown(context=self.context)
             release_domain(self.domain)

@@ -10,7 +10,7 @@ from exact_log import assert_no_deviation, compare_samples
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from hypothesis import given
 from hypothesis import strategies as st
-from odd_values import CONTROL, NUMBERS, SIZES, TEXTS, assert_one_sentence, deterministic
+from odd_values import CONTROL, NUMBERS, SIZES, TEXTS, assert_one_sentence, examples_of
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from ros.node.running_top import RunningTop, stamp_of, torque_of
 from trials import trials
@@ -128,7 +128,7 @@ def act(run, name, argument):
 def test_any_acts_are_answered_and_leave_the_samples_and_the_log_exact(run, examples):
     assert run.switch("record", True)[0]
 
-    @deterministic(examples)
+    @examples_of(examples)
     @given(acts=st.lists(ACTS, min_size=1, max_size=3))
     def check(acts):
         for each in acts:

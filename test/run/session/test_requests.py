@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from odd_values import SIZES, VALUES, assert_one_sentence, deterministic
+from odd_values import SIZES, VALUES, assert_one_sentence, examples_of
 from run.simulation.runs import Run
 from trials import trials
 
@@ -59,7 +59,7 @@ TORQUES = st.fixed_dictionaries({}, optional={**FRICTION, "steady_torque": VECTO
 
 @pytest.mark.parametrize("examples", trials(100, 400))
 def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
-    @deterministic(examples)
+    @examples_of(examples)
     @given(TOPS, TORQUES, STARTS, KICKS, st.sampled_from([0.0, 1e-3, 1.0, 1e9]))
     def check(top, torques, asked, kicked, t):
         try:

@@ -1,7 +1,6 @@
 """A run in its own time: its stamps are the elapsed time, and rates are derivatives by them."""
 
 import itertools
-import time
 
 import numpy as np
 import pytest
@@ -128,12 +127,14 @@ def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered
     # ten million steps for each second
     sphere = {"top__Ix": 1e-4, "top__Iz": 1e-4, "friction__transverse": 1e-6}
     run = start(**sphere, initial__psi_dot=5e6, real_time_factor=10.0)
-    begin = time.monotonic()
-    # hundreds of ticks until it has tried for long enough
-    while run.simulation.factor >= 0.1 and time.monotonic() - begin < 4.0:
+    # A clock by which each call of the kernel, of 100 steps, takes 1 ms.
+    count = itertools.count()
+    run.simulation.budget = ComputeBudget(lambda: next(count) * 1e-3)
+    for _ in range(22):  # one call in each tick, until it has tried for more than 20 ms
         run.clock.now += 5 * MS
         run.simulation.tick()
     assert run.simulation.factor < 0.1
+    before = next(count)
     slowed = next(event for event in run.sink.events if event.name == "pace")
     assert slowed.outcome().kind == "slowed"
     assert run.sink.warnings[0] == slowed.verdict
@@ -143,7 +144,8 @@ def test_a_motion_that_is_too_fast_slows_the_time_down_and_requests_are_answered
         run.simulation.speed_up()
     assert run.simulation.factor == 10.0
     assert run.ask("set_initial_conditions", {"psi_dot": 1.0})[0]
-    assert time.monotonic() - begin < 5.0
+    # three requests, each of 20 calls at most, for which the clock is read twice
+    assert next(count) - before <= 3 * 20 * 2
     assert min(np.diff(run.stamps)) > 0
     assert min(np.diff([each.stamp for each in run.sink.events])) >= 0
     run.assert_recomputed()
@@ -186,10 +188,8 @@ def test_a_motion_that_becomes_too_fast_for_doubles_is_paused_there(publish_cloc
     end = paused.outcome().time
     # half the spin angle is then 1e15 rad: t^2 = 4e15 Iz/0.398 N m
     assert end == pytest.approx(1.0023e-3, rel=1e-4)
-    *slower, last = run.sink.warnings
-    assert last.endswith(paused.verdict)
-    # a busy machine integrates less in real time, and slows the motion down first
-    assert slower == [event.verdict for event in run.sink.events if event.name == "pace"]
+    (warning,) = run.sink.warnings
+    assert warning.endswith(paused.verdict)
     assert paused.state_before() == paused.segment().motion.at(end)
     assert run.ask("reset")[0]
     assert run.simulation.state == run.simulation.timeline.start
