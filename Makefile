@@ -1,8 +1,7 @@
-# Everything is installed into .venv, by `make test` what only some groups need when they start
-# (test/groups.py). The rest of the machine is unchanged, but for pip's cache.
+# Everything is installed into .venv, by each target what it needs. The rest of the machine is
+# unchanged, but for pip's cache.
 PYTHON ?= python3
 BIN := .venv/bin
-GROUPS := page nodes rest judge plain physics old-processor without-ros examples lint realtime
 HOUSE := $(CURDIR)
 include workshop/environment.mk
 
@@ -18,12 +17,17 @@ SET_UP = @python='$(PYTHON)'; \
     { echo "make: PYTHON must be Python 3.11 or later, got $$python: $$version; name one: make PYTHON=python3.12"; exit 1; }; \
   "$$python" -IS workshop/set_up.py $(ASKED)
 
+# Of three processes one waits for nodes and pages while two compute. A file stays in one, which
+# keeps what its tests share.
+PYTEST := $(BIN)/python -m pytest -q
+TOGETHER := -n 3 --dist loadfile
+UNTIMED := not realtime and not long
+
 .NOTPARALLEL:  # two runs of pip would meet in one environment
-.PHONY: help demo panel test $(addprefix test-,$(GROUPS)) test-long test-keys test-elsewhere test-newcomer test-ubuntu test-kilted test-cyclone lint style types docs wheels kernel-wasm clean
+.PHONY: help demo panel test test-all test-rest test-slow test-old-processor test-without-ros test-realtime test-long test-keys test-elsewhere test-newcomer test-ubuntu test-kilted test-cyclone lint style types docs wheels kernel-wasm clean
 
 help:  ## show this list
 	@grep -E '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 20
-	@echo "make test-GROUP runs one of: $(GROUPS)"
 	@echo "make -C workshop help lists what measures, draws and counts"
 
 demo:  ## a top on cusps, hurried by its service, and the replay
@@ -34,23 +38,44 @@ panel:  ## the page, top.html, opened in the browser; needs no ROS and no compil
 	$(SET_UP) panel
 	@$(BIN)/python -c 'from symtop_ros.programs import top_panel; raise SystemExit(top_panel())'
 
-test:  ## style, types and all tests (about 14 minutes on two free cores; 2 GB, once)
-	$(SET_UP) test
-	@$(BIN)/python test/groups.py
+test:  ## quick tests (5 minutes on two free cores; 1.5 GB, once)
+	$(SET_UP) quick chromium
+	@HEADLESS_SHELL=1 $(PYTEST) $(TOGETHER) --durations=10 --cpu 1 test
 
-# Each group fetches what only it needs.
-$(addprefix test-,$(GROUPS)):
+test-all: test test-rest  ## the quick tests, and all that `make test-rest` has (20 minutes; 2 GB, once)
+
+# Each runs, whatever came of those before it.
+test-rest:  ## slow tests, tests as on other machines and in real time, style and types
+	@$(MAKE) --no-print-directory --keep-going \
+	  test-slow test-old-processor test-without-ros style types test-realtime
+
+test-slow:
+	$(SET_UP) test chromium messages vulkan
+	@$(PYTEST) $(TOGETHER) -m slow test
+
+# On an old processor BLAS, NumPy and the C library round otherwise.
+test-old-processor:
 	$(SET_UP) test
-	@$(BIN)/python test/groups.py $(@:test-%=%)
+	@$(BIN)/python test/processors.py Nehalem $(PYTEST) $(TOGETHER) -m "numbers and $(UNTIMED)" test/physics test/run
+
+# As on a laptop without ROS and Rerun.
+test-without-ros:
+	$(SET_UP) test chromium
+	@$(PYTEST) $(TOGETHER) -p without_ros -m "$(UNTIMED)" test/run/simulation test/run/session test/run/log test/page/panel
+
+# One after the other: they measure the time.
+test-realtime:
+	$(SET_UP) test chromium
+	@$(PYTEST) -m realtime test
 
 test-long: test-keys test-elsewhere test-newcomer test-ubuntu test-kilted  ## trials that take longer (two hours), coverage, and the matrix
 	$(SET_UP) peers docs aarch64 wine zig gpu
 	@$(MAKE) --no-print-directory -C workshop coverage matrix
-	@$(BIN)/python -m pytest -m long test
+	@$(PYTEST) -m long test
 
 test-keys:  ## tests of all but wording, every template replaced by its key
 	$(SET_UP) test
-	@$(BIN)/python test/groups.py --keys
+	@PYTHONPATH=test/keys $(PYTEST) $(TOGETHER) -m "$(UNTIMED) and not wording" test
 
 test-elsewhere:  ## tests of numbers and logs as on other processors, in other countries, for a stranger (20 minutes)
 	$(SET_UP) test
@@ -62,13 +87,13 @@ test-newcomer:  ## the README and all documents typed by a new user; Pythons, pu
 
 test-ubuntu:  ## tests of node and client with NumPy 1.26 and pytest 7.4, as on Ubuntu 24.04
 	$(SET_UP) ubuntu
-	@.venv/ubuntu/bin/python -m pytest -q -m "not realtime and not long" \
+	@.venv/ubuntu/bin/python -m pytest -q -m "$(UNTIMED)" \
 	  test/ros/client test/ros/node/test_topics.py test/ros/node/test_recording.py
 
 test-kilted:  ## tests of node, client and log on ROS 2 Kilted
 	$(SET_UP) kilted
 	@.venv/kilted/bin/python workshop/messages.py
-	@.venv/kilted/bin/python -m pytest -q -m "not realtime and not long" --ignore=test/run/log/test_definitions.py \
+	@.venv/kilted/bin/python -m pytest -q -m "$(UNTIMED)" --ignore=test/run/log/test_definitions.py \
 	  test/ros/node test/ros/client test/run/log test/run/simulation/test_simulation.py
 
 test-cyclone:  ## tests of the node on CycloneDDS; CYCLONE=FOLDER: its libraries, as docs/ros.md says

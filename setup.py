@@ -79,6 +79,7 @@ PEERS = [
 ]
 TEST = [
     "pytest>=8",
+    "pytest-xdist>=3.6",  # several tests at a time
     "coverage>=7.10",  # 7.10 can measure programs that tests start
     "hypothesis>=6.100",  # random tops and requests
     "rosbags>=0.11",  # an independent reader of logs

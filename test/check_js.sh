@@ -4,8 +4,8 @@ set -u
 folder=$1
 modules=$folder/node_modules
 if ! [ -d "$modules" ]; then
-  echo "the page's modules are not checked: $folder has no TypeScript and Biome"
-  exit 0
+  echo "the page's modules cannot be checked: $folder has no TypeScript and Biome (make set-up-js)"
+  exit 1
 fi
 case $2 in
   types) "$modules"/@typescript/*/lib/tsc --project tsconfig.json ;;

@@ -15,17 +15,19 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).parents[1]))
-import groups
 from processors import list_processors
 
-ROOT = groups.ROOT
-ROOMS = tuple(
-    f"test/{room}"
-    for room in ("physics", "run/simulation", "run/session", "run/log", "run/check", "truth/judge")
+ROOT = Path(__file__).parents[1]
+FOLDERS = tuple(
+    f"test/{folder}"
+    for folder in ("physics", "run/simulation", "run/session", "run/log", "run/check", "truth/judge")
 )
+# A read-only checkout has no place for the cache.
+PYTEST = (sys.executable, "-m", "pytest", "-q", "-n", "3", "--dist", "loadfile")
+OPTIONS = ("-p", "no:cacheprovider", "-m", "not realtime and not long")
 # Decimal commas, a dotless i, and times at which it is another day.
 COUNTRIES = {"tr_TR": "Pacific/Kiritimati", "de_DE": "Pacific/Pago_Pago"}
 NOT_COPIED = (".git", ".venv", ".hypothesis", "__pycache__", "report", "site", "build")
@@ -35,16 +37,24 @@ RUSTUP = "#!/bin/sh\necho 'error: rustup could not choose a version of rustc to 
 NOBODY = "65534"
 
 
+@dataclass(frozen=True)
+class Command:
+    """A run of the tests, and the checkout in which it runs."""
+
+    words: tuple[str, ...]
+    folder: Path = ROOT
+
+
 def make_command(
     variables: Mapping[str, str], *before: str, folder: Path = ROOT, plugins: tuple[str, ...] = ()
-) -> groups.Command:
-    """Return the command that runs the rooms under some variables."""
+) -> Command:
+    """Return the command that runs the tests of the folders under some variables."""
     environment = ("env", *(f"{name}={value}" for name, value in variables.items()), *before)
     options = tuple(word for plugin in plugins for word in ("-p", plugin))
-    return groups.pytest(*ROOMS, options=options, before=environment, folder=folder)
+    return Command((*environment, *PYTEST, *OPTIONS, *options, *FOLDERS), folder)
 
 
-def make_country(locale: str, zone: str, folder: Path) -> groups.Command:
+def make_country(locale: str, zone: str, folder: Path) -> Command:
     """Return the command for a country: its locale, its time, a random hash and a umask of 077."""
     place = folder / "locales" / f"{locale}.UTF-8"
     place.parent.mkdir(exist_ok=True)
@@ -81,7 +91,7 @@ def copy_path(folder: Path) -> str:
     return str(programs)
 
 
-def make_stranger(folder: Path) -> groups.Command:
+def make_stranger(folder: Path) -> Command:
     """Return the command for a user who is not root, and has next to nothing."""
     copy = copy_checkout(folder)
     home = folder / "home"
@@ -101,7 +111,7 @@ def give_up_rights(python: Path = Path(sys.executable)) -> tuple[str, ...]:
 
 
 @contextlib.contextmanager
-def machines() -> Iterator[dict[str, list[groups.Command]]]:
+def machines() -> Iterator[dict[str, Command]]:
     """Provide the commands of each machine, by its name."""
     with tempfile.TemporaryDirectory(prefix="elsewhere-") as name:
         folder = Path(name)
@@ -110,9 +120,15 @@ def machines() -> Iterator[dict[str, list[groups.Command]]]:
         found |= {name: make_country(name, zone, folder) for name, zone in COUNTRIES.items()}
         found["stranger"] = make_stranger(folder)
         try:
-            yield {name: [command] for name, command in found.items()}
+            yield found
         finally:
             subprocess.run(["chmod", "-R", "u+w", name], check=False)
+
+
+def run(name: str, command: Command) -> bool:
+    """Run the tests as on a machine; return True if none failed."""
+    print(f"\nAs on {name}", flush=True)
+    return not subprocess.run(command.words, cwd=command.folder, check=False).returncode
 
 
 def main() -> int:
@@ -123,7 +139,9 @@ def main() -> int:
     with machines() as found:
         if unknown := [name for name in chosen if name not in found]:
             parser.error(f"MACHINE must be one of {', '.join(found)}, got {unknown[0]}")
-        return groups.run_and_print({name: found[name] for name in chosen or found})
+        failed = [name for name in chosen or found if not run(name, found[name])]
+    print(f"failed on: {', '.join(failed)}" if failed else "passed on all")
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

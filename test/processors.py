@@ -1,9 +1,13 @@
 """Variables under which libraries compute as on another processor.
 
+python test/processors.py PROCESSOR COMMAND... runs a command under them.
+
 What NumPy, OpenBLAS and the C library compute in the last bits depends on the instructions that
 they find. An instruction that is missing cannot be added: each variable takes some away.
 """
 
+import os
+import sys
 from pathlib import Path
 
 try:
@@ -40,3 +44,7 @@ def list_processors() -> dict[str, dict[str, str]]:
     if "avx512f" in flags:
         processors["SkylakeX"] = {"OPENBLAS_CORETYPE": "SkylakeX"}
     return processors
+
+
+if __name__ == "__main__":
+    os.execvpe(sys.argv[2], sys.argv[2:], {**os.environ, **list_processors()[sys.argv[1]]})

@@ -6,7 +6,6 @@ import re
 import shutil
 import sysconfig
 
-import groups
 import pytest
 from documents import ROOT
 from programs import execute
@@ -54,8 +53,9 @@ def make(folder, *words, **variables):
     return execute(words, cwd=folder, env=environment, timeout=300)
 
 
-PARTS = {"style", "types"}  # of `make lint`
-GROUPS = {f"test-{name}" for name in groups.list_groups(trace=False)}
+# Of `make lint` and of `make test-rest`.
+PARTS = {"style", "types"}
+PARTS |= {f"test-{name}" for name in ("slow", "old-processor", "without-ros", "realtime")}
 
 
 def list_phony():
@@ -66,9 +66,9 @@ def list_phony():
 
 def test_help_lists_every_target_of_a_user_and_of_a_change():
     listed = make(ROOT, "help").stdout
-    assert list_phony() > GROUPS | PARTS
+    assert list_phony() > PARTS
     named = set(re.findall(r"^(\S+)  ", listed, re.MULTILINE))
-    assert named == list_phony() - GROUPS - PARTS
+    assert named == list_phony() - PARTS
 
 
 @pytest.fixture(name="fresh")
@@ -147,7 +147,7 @@ def test_one_extra_more_has_those_before(checkout):
     assert (status, printed[0].partition(":")[0]) == (0, "Setting up .venv")
     assert asked[-1].endswith("--editable .[ros,playback,report,test,lint]")
     (checkout / "asked").unlink()
-    assert set_up(checkout, "ros", "report", "panel") == (0, [], [])
+    assert set_up(checkout, "ros", "report", "quick", "panel") == (0, [], [])
 
 
 REASONS = {
@@ -259,7 +259,7 @@ def test_the_set_up_of_the_readme_is_typed_line_by_line_without_the_variables_of
     variables = {**os.environ, **variables, "PATH": path}
     printed = execute([ROOT / ".ci/run"], env=variables, check=True).stdout
     block = re.search(r"## Set-up\n.*?```sh\n.*?\ncd \S+\n(.*?)```", README.read_text(), re.S)[1]
-    assert re.findall(r"^\$ (.*)$", printed, re.M) == block.splitlines()
+    assert re.findall(r"^\$ (.*)$", printed, re.M) == [*block.splitlines(), "make test-rest"]
     assert block.splitlines()[-1] == "make test"
     names = {line.partition("=")[0] for line in printed.splitlines()}
     assert {"HOME", "PATH", "PIP_NO_INPUT"} <= names

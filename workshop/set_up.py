@@ -81,8 +81,12 @@ SET_UPS = {
         "plots, and the programs to compare with (about 2 GB, once)",
         extras=("ros", "playback", "report", "peers"),
     ),
+    "quick": SetUp(
+        "ROS 2, NumPy, SciPy, Rerun, plots and tools of the quick tests (about 1.4 GB, once)",
+        extras=("ros", "playback", "report", "test"),
+    ),
     "test": SetUp(
-        "ROS 2, NumPy, SciPy, Rerun, plots and test tools (about 1.5 GB, once)",
+        "tools for style, types and workspaces (about 0.1 GB, once)",
         extras=("ros", "playback", "report", "test", "lint"),
     ),
     "docs": SetUp("Sphinx (once)", extras=("ros", "playback", "docs")),

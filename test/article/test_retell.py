@@ -53,6 +53,7 @@ for scene, list_exhibits in SCENES.items():
         PATHS[scene].append(f"/{each.group}/{each.name}")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PATHS)
 def test_a_recording_has_what_it_shows_at_each_sample(folder, name):
     rows = dict.fromkeys(PATHS[name], 0)

@@ -8,6 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
 
+pytestmark = pytest.mark.numbers
+
 # The axis of the published top is y. Here it is z: our x, y, z are its z, x, y.
 AXES = Rotation.from_matrix([[0, 1, 0], [0, 0, 1], [1, 0, 0]])
 WXYZ = [3, 0, 1, 2]

@@ -35,6 +35,8 @@ from symtop_ros.physics import (
     set_precession_rate,
 )
 
+pytestmark = pytest.mark.numbers
+
 TOPS = [ARTICLE, DISC, Top(2.0**-13, 3 * 2.0**-14, 0.0)]
 
 

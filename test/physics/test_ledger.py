@@ -22,6 +22,8 @@ from symtop_ros.physics import (
     push_axle,
 )
 
+pytestmark = pytest.mark.numbers
+
 FALL = Motion(ARTICLE, CUSPS)
 DAMPED = Motion(ARTICLE, CUSPS, Friction(1e-6))
 # A state has the attitude to 20 eps and omega_xy to 10 eps of its largest size, by the promise of

@@ -13,6 +13,8 @@ from physics.tops import ARTICLE, CUSPS, EPS
 from symtop_ros.physics import EffectivePotential, Friction, Motion, State, Top, balance
 from symtop_ros.physics.dynamics import NODES
 
+pytestmark = pytest.mark.numbers
+
 
 @pytest.mark.parametrize("friction", [Friction(), Friction(2e-6, 1e-5)])
 @pytest.mark.parametrize("shape", [(), (0,), (1,), (7,), (2, 3)])

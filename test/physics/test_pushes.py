@@ -27,6 +27,8 @@ from symtop_ros.physics import (
 from symtop_ros.physics.reference import Inputs
 from workshop.digits import Series
 
+pytestmark = pytest.mark.numbers
+
 EPS = 2.0**-52
 START = push_axle(ARTICLE, CUSPS, 2.0**-15)
 PUSHES = Pushes(2.0**-15, 30.0, 7)  # a third of a second is no whole number of ns

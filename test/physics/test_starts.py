@@ -19,6 +19,8 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import Motion, Motions, State, Top, solve_start
 from symtop_ros.physics.starts import ROWS
 
+pytestmark = pytest.mark.numbers
+
 FEW = 200  # of each question, in a run of all tests
 MANY = 5000
 LONGEST_AT = 2.179660431678698  # r of the longest nutation period: derivation.md, section 12

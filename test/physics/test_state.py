@@ -37,6 +37,8 @@ from symtop_ros.physics import (
     set_precession_rate,
 )
 
+pytestmark = pytest.mark.numbers
+
 
 def test_an_orientation_is_normalised_once_and_then_stays_bit_for_bit():
     once = State((1.0005, 0.0, 1e-3, 0.0), (1.0, 2.0, 3.0))

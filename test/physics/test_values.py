@@ -28,6 +28,8 @@ from symtop_ros.physics import (
 )
 from symtop_ros.physics.values import validate_array, validate_number
 
+pytestmark = pytest.mark.numbers
+
 TWO = 2, 2.0, np.float32(2), np.int8(2), np.array(2.0), np.array(2), Fraction(4, 2)
 MASKED = np.ma.array([1.0, 2.0, 3.0], mask=[0, 1, 0])
 NO_NUMBERS = [1, 2, "3"], [1j, 2, 3], [True, False, True], [1, None, 3], [[1], [2, 3]]

@@ -58,6 +58,7 @@ def test_our_errors_are_rounding_at_all_times_and_in_all_hard_cases(facts):
     assert max(case["error"] for case in facts["hard"]) <= benchmarks.LARGEST_ERROR
 
 
+@pytest.mark.slow
 def test_the_taylor_series_are_as_good_as_promised(facts):
     (curve,) = [each for each in facts["curves"] if each["peer"] == TAYLOR]
     # the largest of a second, as an angle

@@ -177,6 +177,7 @@ def test_the_table_has_the_numbers_of_top_fit(tab, kind, tmp_path, capsys):
     assert all(value is None or label.startswith("pivot") for label, value in others.items())
 
 
+@pytest.mark.slow
 def test_angles_of_the_table_are_in_the_unit_of_the_page(tab):
     given = make_given(CUSPS)
     show(tab, given)
@@ -281,6 +282,7 @@ def read_places(path):
     return np.array([(float(x), float(y)) for x, y in re.findall(r"M([-\d.]+) ([-\d.]+)h0", path)])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("column", ["u", "v"])
 def test_residuals_are_measured_minus_computed_with_their_band(tab, column):
     values = find_pixels(CUSPS)
@@ -316,6 +318,7 @@ def test_residuals_are_measured_minus_computed_with_their_band(tab, column):
     assert chart.locator(".left-out[fill='var(--red)']").count() == 1  # beyond the edge
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_each_language_says_all(browser, language):
     tab = open_tab(browser)

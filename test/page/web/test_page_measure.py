@@ -369,6 +369,7 @@ def test_the_run_of_a_fit_leaves_what_a_codec_leaves(fitted):
     assert np.array(points["values"])[3:] == pytest.approx(seen[3:], abs=FOUND)
 
 
+@pytest.mark.slow
 def test_the_film_goes_with_the_clock_of_the_run_and_the_run_with_the_slider_of_the_film(fitted):
     page, _ = fitted
     page.seek(0.25)

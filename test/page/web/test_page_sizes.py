@@ -49,6 +49,7 @@ def is_in_sight(box, size):
     return box is not None and box["y"] < size[1] and box["width"] > 150
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", choose(WINDOWS, OFTEN))
 def test_in_any_window_hurry_is_in_reach_and_a_refusal_in_sight(open_page, size):
     width, height = size

@@ -17,6 +17,9 @@ from ros.node.listener import fill
 from ros.node.running_top import stamp_of, vector
 from rosgraph_msgs.msg import Clock
 
+# The messages have to be built, as PyPI does not have them.
+pytestmark = pytest.mark.slow
+
 MS = 1_000_000
 PERIOD = 5 * MS  # ns, at the 200 Hz of the scenes
 UNSUPPORTED, OK, NOT_FOUND, FAILED = 0, 1, 2, 4
@@ -106,14 +109,12 @@ def times(client):
     return client.run.top.simulation.segment.elapsed_at(client.run.top.simulation.stamp)
 
 
-@pytest.mark.slow
 def test_the_features_are_those_that_the_services_have(client):
     found = client.features()
     assert sorted(found.features) == [10, 11, 20, 22, 24, 25, 26, 31, 32, 33]
     assert found.custom_info.startswith("symtop_ros ")
 
 
-@pytest.mark.slow
 def test_it_is_paused_played_and_stopped_and_tells_so(client):
     run = client.run
     assert client.state() == PLAYING
@@ -136,7 +137,6 @@ def test_it_is_paused_played_and_stopped_and_tells_so(client):
     assert client.state() == PLAYING
 
 
-@pytest.mark.slow
 def test_steps_are_periods_to_the_nanosecond(start_top):
     run = start_top(realtime=True, publish_clock=True, publish_rate=30.0)
     client = Client(run)
@@ -158,7 +158,6 @@ def test_steps_are_periods_to_the_nanosecond(start_top):
     assert refused.error_message.startswith("duration must be ")
 
 
-@pytest.mark.slow
 def test_a_reset_goes_back_to_the_parameters_and_says_that_the_time_does_not(client):
     run = client.run
     start = run.top.simulation.segment.motion.start
@@ -180,7 +179,6 @@ def test_a_reset_goes_back_to_the_parameters_and_says_that_the_time_does_not(cli
         assert refused.error_message == f"scope must be {condition}, got {scope}"
 
 
-@pytest.mark.slow
 def test_a_node_that_owns_the_clock_sets_it_back_and_its_log_is_exact(start_top, tmp_path):
     run = start_top(realtime=True, publish_clock=True, record=tmp_path)
     client = Client(run)
@@ -223,7 +221,6 @@ def nanoseconds(time):
     return time.sec * 10**9 + time.nanosec
 
 
-@pytest.mark.slow
 def test_entities_are_filtered_by_name(client):
     assert client.entities().entities == ["top"]
     assert client.entities(filter="^t.p$").entities == ["top"]
@@ -236,7 +233,6 @@ def test_entities_are_filtered_by_name(client):
     assert client.entities(bounds={"type": 3}).result.result == UNSUPPORTED
 
 
-@pytest.mark.slow
 def test_a_filter_that_no_backtracking_ends_is_answered(client):
     answer = client.entities(filter=".?" * 60 + "z")
     assert (answer.result.result, answer.entities) == (OK, [])
@@ -246,7 +242,6 @@ def test_a_filter_that_no_backtracking_ends_is_answered(client):
         assert "pattern too large" in client.entities(filter=large).result.error_message
 
 
-@pytest.mark.slow
 def test_messages_without_flags_set_pose_and_twist():
     """Those before 2.1, which Humble, Jazzy and Kilted have; in a separate process."""
     find_messages(WITHOUT_FLAGS)
@@ -257,7 +252,6 @@ def test_messages_without_flags_set_pose_and_twist():
     assert " skipped" not in done.stdout
 
 
-@pytest.mark.slow
 def test_the_state_of_the_top_is_that_of_the_topics(client):
     run = client.run
     messages = run.collect(QuaternionStamped, "/top/orientation")
@@ -285,7 +279,6 @@ def test_the_state_of_the_top_is_that_of_the_topics(client):
     assert missing.error_message == "entity must be 'top', got 'robot'"
 
 
-@pytest.mark.slow
 def test_the_state_of_the_top_is_set_in_the_world(client):
     client.set_state(PAUSED)
     before = client.entity().state
@@ -326,7 +319,6 @@ def test_what_no_top_can_do_is_refused_and_changes_nothing(client, fields, code,
     assert client.run.top.simulation.segment is before
 
 
-@pytest.mark.slow
 def test_the_action_steps_with_feedback_and_leaves_the_node_free(client):
     run = client.run
     feedback = []
@@ -343,7 +335,6 @@ def test_the_action_steps_with_feedback_and_leaves_the_node_free(client):
     assert client.state() == PAUSED
 
 
-@pytest.mark.slow
 def test_the_action_is_cancelled_and_refused(client):
     run = client.run
     refused = client.simulate(3).get_result_async()  # it runs
@@ -359,7 +350,6 @@ def test_the_action_is_cancelled_and_refused(client):
     assert none.result().result.result.error_message == "steps must be at least 1, got 0"
 
 
-@pytest.mark.slow
 def test_goals_that_come_together_are_carried_out_one_after_the_other(client):
     run = client.run
     ends = []
@@ -378,7 +368,6 @@ def test_goals_that_come_together_are_carried_out_one_after_the_other(client):
     assert 20 < float(ends[2][1] - ends[1][1]) / PERIOD < 60
 
 
-@pytest.mark.slow
 def test_a_goal_that_waits_is_cancelled_at_once_and_makes_no_step(client):
     run = client.run
     client.set_state(STOPPED)
@@ -395,7 +384,6 @@ def test_a_goal_that_waits_is_cancelled_at_once_and_makes_no_step(client):
     assert round(float(times(client)) / PERIOD) == steps > 0
 
 
-@pytest.mark.slow
 def test_the_goal_of_a_client_that_leaves_goes_on_and_can_be_cancelled_by_others(client):
     run = client.run
     client.set_state(STOPPED)
@@ -413,7 +401,6 @@ def test_the_goal_of_a_client_that_leaves_goes_on_and_can_be_cancelled_by_others
     assert again.result().result.result.result == OK
 
 
-@pytest.mark.slow
 def test_a_stop_and_a_play_are_events_from_which_the_log_is_computed(start_top, tmp_path):
     run = start_top(scene="cusps", record=tmp_path)
     client = Client(run)
@@ -424,7 +411,6 @@ def test_a_stop_and_a_play_are_events_from_which_the_log_is_computed(start_top, 
     importlib.import_module("exact_log").assert_exact(run.end_log())
 
 
-@pytest.mark.slow
 def test_the_commands_and_the_table_of_the_page_on_ros_are_those_of_the_node(client):
     page = Path(__file__).parents[3] / "docs" / "ros.md"
     called = [words for words, _ in commands(page) if "simulation_interfaces/" in " ".join(words)]

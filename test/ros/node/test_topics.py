@@ -105,8 +105,9 @@ def test_without_their_package_markers_are_only_logged(start_top, monkeypatch, c
     assert capfd.readouterr().err.count(line) == 1
 
 
+@pytest.mark.slow  # it needs tf2_msgs, which PyPI does not have
 def test_tf_has_the_quaternion_of_the_topic_and_the_type_of_the_log(start_top):
-    with importing("tf2_msgs"):  # which PyPI does not have
+    with importing("tf2_msgs"):
         run = start_top(arguments=["--ros-args", "-r", "__ns:=/a"])
         heard = run.collect(importlib.import_module("tf2_msgs.msg").TFMessage, "/tf")
         samples = run.collect(QuaternionStamped, "/a/top/orientation")

@@ -15,6 +15,8 @@ from symtop_ros.run.log.top_log import TopLog
 from symtop_ros.run.wire.diagnostics import decode_statuses
 from symtop_ros.run.wire.layout import Reader
 
+pytestmark = pytest.mark.numbers
+
 # Not said elsewhere in a log: the scene's name, the paths of logs, the frame of /tf, whether
 # another version wrote it, and why a torque changed. `GIVEN` is of the first event.
 GIVEN = (

@@ -22,6 +22,8 @@ from symtop_ros.run.simulation.events import MAX_STAMP, Event, start_event
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS, Samples
 
+pytestmark = pytest.mark.numbers
+
 EPS = np.finfo(float).eps
 
 

@@ -17,6 +17,8 @@ from symtop_ros.run.log.top_log import TopLog
 from symtop_ros.run.simulation.topics import APPLIED_TORQUE, MARKERS, POINTS, SAMPLE_TOPICS
 from symtop_ros.run.wire.messages import WRENCH
 
+pytestmark = pytest.mark.numbers
+
 ON = ("imu__enabled", "magnetic_field__enabled", "odometry__enabled")
 OPTIONS = {**dict.fromkeys(ON, True), "publish_markers": True, "publish_clock": True}
 OPTIONS["points"] = json.dumps(make_points("theta").to_json())

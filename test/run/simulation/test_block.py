@@ -23,6 +23,8 @@ from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.sensor.imu import Imu, Magnetometer, Rig
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
 
+pytestmark = pytest.mark.numbers
+
 STAMPS = [BEGIN + 1_000_003 * k for k in range(16)]
 MOTION = Motion(ARTICLE, CUSPS)
 NOISES = 2e-3, 3e-4, 0.02, 0.005

@@ -18,7 +18,7 @@ from symtop_ros.physics.reference import Inputs
 from symtop_ros.run.simulation.topics import STATE_TOPICS
 from workshop.digits import ClosedForm
 
-pytestmark = pytest.mark.untraced
+pytestmark = [pytest.mark.numbers, pytest.mark.untraced]
 
 # In eps; 5 is what is promised. The worst of these samples has 2.8, the rest is for other libraries
 # of sines and exponentials.

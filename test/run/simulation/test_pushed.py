@@ -12,6 +12,8 @@ from symtop_ros.physics import ExactTimes, Friction, Motion, Pushes, State, Top,
 from symtop_ros.run.simulation.changes.outcomes import Pushed
 from symtop_ros.words import write
 
+pytestmark = pytest.mark.numbers
+
 
 def push(before, pushes, *forces):
     """The motion that a state is pushed to."""

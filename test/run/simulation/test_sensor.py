@@ -27,6 +27,8 @@ from symtop_ros.run.simulation.sensor.imu import (
 from symtop_ros.run.simulation.sensor.noise import random_walks
 from symtop_ros.run.simulation.topics import SENSOR_TOPICS, STATE_TOPICS, Samples
 
+pytestmark = pytest.mark.numbers
+
 MOTION = Motion(ARTICLE, CUSPS)
 MOUNT = Rotation.from_euler("xyz", (0.3, -1.1, 2.0))
 PLACE = (0.01, -0.02, 0.05)

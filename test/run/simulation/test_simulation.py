@@ -14,6 +14,8 @@ from symtop_ros.run.simulation.budget import SHARE
 from symtop_ros.run.simulation.changes.outcomes import Failure
 from symtop_ros.run.simulation.topics import STATE_TOPICS
 
+pytestmark = pytest.mark.numbers
+
 MS = SECOND // 1000
 
 

@@ -3,6 +3,7 @@
 from itertools import product
 
 import pytest
+from trials import choose
 
 from symtop_ros.truth.fit.check import HOLDS
 from symtop_ros.truth.fit.kinds import KINDS
@@ -26,7 +27,7 @@ def test_a_hundredth_of_the_trial_has_honest_deviations():
     assert_honest(rows, 0.5, 1.75)
 
 
-@pytest.mark.parametrize("kind", ["rates", "inertial"])
+@pytest.mark.parametrize("kind", choose(("rates", "inertial"), ("rates",), "slow"))
 def test_a_constant_rate_that_is_rounded_is_no_motion_that_the_model_lacks(kind):
     """All of its rows have one error, which does not change from row to row."""
     assert try_record(kind, "rounded", FIRST)["verdict"] == HOLDS

@@ -107,8 +107,11 @@ def spoil(made, count, seed=1):
     return Estimates.of(STAMPS, q), set(places)
 
 
+SEARCHED = pytest.param(50, None, marks=pytest.mark.slow)
+
+
 @pytest.mark.parametrize(
-    ("count", "model"), [(0, "none+delay"), (1, "none+delay"), (50, "none+delay"), (50, None)]
+    ("count", "model"), [(0, "none+delay"), (1, "none+delay"), (50, "none+delay"), SEARCHED]
 )
 def test_outliers_are_counted_and_may_be_left_out(count, model):
     estimates, _ = spoil(Made(delay=12.3457e-3, noise=1e-3), count)
