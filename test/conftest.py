@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from coverage import Coverage
 
-pytest_plugins = ("tiers", "cpu_times")
+pytest_plugins = ("tiers", "cpu_times", "left_behind")
 
 # Small matrices gain nothing by threads, which take a quarter of the time of two processors.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

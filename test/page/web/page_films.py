@@ -137,7 +137,7 @@ def draw_film(tab: Any, path: Path, motion: Motion, rate: int, seconds: float) -
 
 # What a hand does on the page, by the events of a pointer. `given` are the arguments.
 HAND = """
-const wait = async (holds, most = 1200) => {
+const wait = async (holds, most = 2400) => {
   for (let k = 0; k < most && !holds(); k += 1) await new Promise((done) => setTimeout(done, 25));
   if (!holds()) throw new Error(`${holds} does not hold: ${find("refusal").textContent}`);
 };

@@ -3,7 +3,6 @@
 import json
 import random
 import tempfile
-import time
 from collections import Counter
 from pathlib import Path
 
@@ -46,16 +45,16 @@ class Trial:
         name = self.rng.choice(names)
         self.acts[name] += 1
         getattr(self, f"do_{name}")()
-        self.wait_for_frames()
+        self.wait_for_frames(FRAMES)
         assert self.page.problems == [], (name, self.page.problems[:3])
         run = self.page.read_run()
         refusal = find_refusal(run)
         assert refusal == "", (name, refusal, json.dumps(run)[-2000:])
         return name
 
-    def wait_for_frames(self):
+    def wait_for_frames(self, count):
         read = "window.framesDone"
-        wanted = self.page.tab.evaluate(read) + FRAMES
+        wanted = self.page.tab.evaluate(read) + count
         self.page.until(lambda: self.page.tab.evaluate(read) >= wanted)
 
     # Acts, of which those that are done often stand in `ACTS` more than once
@@ -83,7 +82,7 @@ class Trial:
         self.page.open_tab("push")
         button = self.page.tab.locator(f"[data-sign='{self.rng.choice((1, -1))}']")
         button.dispatch_event("pointerdown")
-        self.page.tab.wait_for_timeout(self.rng.uniform(0, 400))
+        self.wait_for_frames(self.rng.randint(0, 10))
         button.dispatch_event("pointerup")
 
     def do_pull(self):
@@ -103,7 +102,7 @@ class Trial:
     def do_run(self):
         if self.page.say("pause") == "Run":
             self.page.press("Space")
-        self.page.tab.wait_for_timeout(self.rng.uniform(0, 1000))
+        self.wait_for_frames(self.rng.randint(0, 25))
 
     def do_restart(self):
         self.page.open_tab("history")
@@ -153,12 +152,11 @@ ACTS = (
 )
 
 
-def run(browser, seed, seconds, most=10**9):
-    """Do acts for some seconds; return how often each was done."""
-    end = time.monotonic() + seconds
+def run(browser, seed, count):
+    """Do so many acts; return how often each was done."""
     with tempfile.TemporaryDirectory() as folder:
         trial = Trial(browser, folder, seed)
-        while time.monotonic() < end and trial.acts.total() < most:
+        for _ in range(count):
             try:
                 trial.act(ACTS)
             except BaseException:

@@ -1,12 +1,14 @@
 """The link of a start: copied, and as a code that a camera reads."""
 
 import io
+from functools import partial
 
 import pytest
 import zxingcpp
 from page.web.opened import FUNCTIONS, KNOWN, USUAL
 from PIL import Image
 from serving import serving
+from waiting import until
 
 from symtop_ros.page.web.join import write_file
 
@@ -34,15 +36,21 @@ def test_a_camera_reads_the_link_of_a_page_that_is_served(browser):
     context = browser.new_context(color_scheme="dark")
     context.add_init_script(FUNCTIONS + KNOWN + USUAL)
     tab = context.new_page()
+    look = partial(tab.wait_for_timeout, 20)
     with serving(write_file()) as server:
         tab.goto(server.url)
         tab.locator("#headline:not(:empty)").wait_for()
         tab.click("#tab-save")
         for act in ("hurry", "delay"):
+            before = tab.input_value("#link")
             tab.click(f"#doing [data-act={act}]")
-            tab.wait_for_timeout(100)
-            picture = Image.open(io.BytesIO(tab.locator("#code").screenshot()))
-            (code,) = zxingcpp.read_barcodes(picture)
-            assert code.text == tab.input_value("#link")
-            assert code.text.startswith(f"{server.url}#")
+            until(lambda: tab.input_value("#link") != before, look)  # noqa: B023
+            until(lambda: read_code(tab) == tab.input_value("#link"), look)
+            assert read_code(tab).startswith(f"{server.url}#")
     context.close()
+
+
+def read_code(tab):
+    """Return what a camera reads."""
+    (code,) = zxingcpp.read_barcodes(Image.open(io.BytesIO(tab.locator("#code").screenshot())))
+    return code.text

@@ -10,7 +10,7 @@ from trials import trials
 
 from symtop_ros.run.simulation.presets import scene_names
 
-# Of a start that is shown: the steps of its outlook (`words/outlooks.js`), about 0.1 s, and calls of
+# Of a start that is shown: steps of its outlook (`words/outlooks.js`), about 0.1 s, and calls of
 # the kernel, each of 0.1 ms at most.
 MOST_STEPS, MOST_CALLS = 10_000, 1000
 # An axis of values far larger than their span: k + 1 is k.
