@@ -83,6 +83,7 @@ def test_a_page_with_its_open_charts_is_one_sheet_of_paper(opened):
 @pytest.mark.slow
 def test_a_saved_picture_has_the_sentence_and_the_labels(opened, tmp_path):
     opened.press("Space")
+    opened.wait_for_frames()
     texts = []
     for name in ("", "torque"):
         if name:
