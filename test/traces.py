@@ -49,11 +49,9 @@ class Traces:
 
     def __init__(self) -> None:
         self.before = list_places()
-        usual = tempfile.gettempdir()
         self.folder = Path(tempfile.mkdtemp(prefix="symtop_ros-"))
         self.folder.chmod(0o1777)  # tests may run as another user
-        # pytest keeps the folders of the last runs where it always does
-        self.variables = {"TMPDIR": str(self.folder), "PYTEST_DEBUG_TEMPROOT": usual}
+        self.variables = {"TMPDIR": str(self.folder)}
         # Playwright's Node would keep its compiled code there
         self.variables["NODE_DISABLE_COMPILE_CACHE"] = "1"
 
