@@ -7,9 +7,9 @@ import pytest
 from odd_values import CONTROL, assert_one_sentence
 
 from workshop import main as workshop_main
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 LONG = "x" * 100_000
 BYTES = "\udcff\udcfe"  # what Python makes of bytes that are no text
 TEXTS = {"CONTROL": CONTROL, "LONG": LONG, "BYTES": BYTES, "NUL": "\0", "NINES": "9" * 5000}

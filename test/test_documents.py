@@ -28,10 +28,10 @@ from symtop_ros.ros.client.connection import Connection
 from symtop_ros.run.simulation.run_file import write_run
 from symtop_ros.truth.testset.main import main as run_testset
 from symtop_ros.truth.testset.score import read_problems
-from workshop.load.domains import claim_domain, release_domain
+from workshop.load.domains import claim_domain, release_domain, share_domain
 
 pytestmark = pytest.mark.untraced
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 ROS_PAGE = ROOT / "docs/ros.md"
 LAUNCH_FILE = ROOT / "launch/top.launch.py"
 QUOTED = {"fit_imu_record": "truth", "particle_filter": "many"}

@@ -23,11 +23,11 @@ from symtop_ros.truth.fit import main as fit
 from workshop.lesson.page import PAGE, write_page
 from workshop.lesson.pictures import picture_of, run_step
 from workshop.lesson.steps import read_lesson
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
 LESSON = PAGE.read_text(encoding="utf-8")
 STEPS = read_lesson()
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 NAMES = ("/top", "/disc")
 BEFORE, *PARTS = re.split(r"^## \d+\. ", LESSON, flags=re.MULTILINE)
 

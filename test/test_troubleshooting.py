@@ -9,7 +9,7 @@ from documents import ROOT
 from log_files import Run
 from programs import command, environment, execute, run_python, running, running_node, write_without
 
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
 pytestmark = pytest.mark.untraced
 PAGE = (ROOT / "docs/troubleshooting.md").read_text(encoding="utf-8")
@@ -18,7 +18,7 @@ QUOTED = {
     for block in re.findall(r"```(?:console|text)\n(.*?)```", PAGE, re.S)
     for line in block.splitlines()
 }
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 
 
 @pytest.mark.slow

@@ -9,9 +9,9 @@ from documents import ROOT
 from programs import PATIENT, execute, running_node
 
 from symtop_ros.ros.client.main import main
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 SOURCE = ROOT / "examples" / "start_top.cpp"
 TEXT = SOURCE.read_text()
 NODE, *FIELDS = re.search(r"and then: start_top (.*)", TEXT)[1].split()

@@ -14,10 +14,10 @@ from trials import choose
 from waiting import until
 
 from symtop_ros.replay import viewer
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
 pytestmark = pytest.mark.untraced
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 PANEL = ("top_panel", "--node", "/top", "--port", "0", "--no-browser")
 PROGRAMS = (("top_node",), ("top_ctl", "state"), ("top_live", "--web"), PANEL)
 

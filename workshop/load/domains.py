@@ -4,6 +4,8 @@ import atexit
 import contextlib
 import fcntl
 import os
+import time
+from functools import cache
 from pathlib import Path
 from typing import IO
 
@@ -11,23 +13,43 @@ from typing import IO
 # those that Linux hands out to other programs.
 DOMAINS: tuple[int, ...] = (*range(1, 60), *range(90, 102))
 FOLDER = Path("/tmp/symtop_ros_domains")  # also of runs that have temporary folders of their own
+TIMEOUT, PERIOD = 60.0, 0.1  # s, while all are held
 _held: dict[int, IO[str]] = {}
 _next = os.getpid()  # a released domain is used again as late as possible
 
 
 def claim_domain() -> int:
-    """Return a domain that no other process holds; it is held until the process ends."""
-    global _next  # noqa: PLW0603
+    """Return a domain that no other process holds; it is held until the process ends.
+
+    If all are held, wait for one. RuntimeError if none is released.
+    """
     FOLDER.mkdir(exist_ok=True)
     with contextlib.suppress(PermissionError):  # of another user, who has done the same
         FOLDER.chmod(0o777)
+    deadline = time.monotonic() + TIMEOUT
+    while (number := _find_free()) is None:
+        if time.monotonic() > deadline:
+            raise RuntimeError(f"all {len(DOMAINS)} domains are held")
+        time.sleep(PERIOD)
+    return number
+
+
+@cache
+def share_domain() -> int:
+    """Return the domain of this process, for all tests that leave nobody behind in it."""
+    return claim_domain()
+
+
+def _find_free() -> int | None:
+    """Take the next domain that no other process holds."""
+    global _next  # noqa: PLW0603
     for _ in DOMAINS:
         _next += 1
         number = DOMAINS[_next % len(DOMAINS)]
         if number not in _held and (file := _lock(number)):
             _held[number] = file
             return number
-    raise RuntimeError(f"all {len(DOMAINS)} domains are held")
+    return None
 
 
 def release_domain(number: int) -> None:

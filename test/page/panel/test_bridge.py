@@ -17,9 +17,9 @@ from symtop_ros.page.panel.bridge import Bridge
 from symtop_ros.page.panel.news import SILENCE
 from symtop_ros.page.web.join import write_file
 from symtop_ros.physics import State
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 
 
 @contextlib.contextmanager

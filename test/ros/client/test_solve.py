@@ -13,9 +13,9 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import Top, solve_start
 from symtop_ros.ros.client.body import make_body
 from symtop_ros.ros.client.main import main
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 
 pytestmark = pytest.mark.usefixtures("signals_as_before")
 

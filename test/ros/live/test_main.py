@@ -8,10 +8,10 @@ from programs import PATIENT, command, run, running, running_node
 from waiting import until
 
 from symtop_ros.replay import viewer
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 from workshop.pictures.viewer import running_viewer, views
 
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 
 
 def moving(client):

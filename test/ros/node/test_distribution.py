@@ -8,7 +8,7 @@ from programs import environment, execute
 from symtop_ros.ros.node import host
 from symtop_ros.ros.node.host import VARIABLES, distribution_name, use_profile
 from symtop_ros.run.simulation.presets import config_folder
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 from workshop.load.links import LOSSY_FILES
 
 
@@ -52,7 +52,7 @@ def test_a_profile_of_the_user_is_kept(variable, monkeypatch):
     assert sorted(host.os.environ[each] for each in VARIABLES) == ["", "mine.xml"]
 
 
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 NODE = "import rclpy; rclpy.init(); rclpy.create_node('profiled'); rclpy.shutdown()"
 LOSSY = LOSSY_FILES[distribution_name()]
 

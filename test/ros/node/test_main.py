@@ -18,9 +18,9 @@ from trials import choose
 
 from symtop_ros.ros.client.connection import Connection
 from symtop_ros.ros.node.options import find_fault
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 SIGNALS = signal.SIGHUP, signal.SIGINT, signal.SIGTERM
 HEAD = "/**:\n  ros__parameters:\n"
 FILES = {"alias": "    a: &a 1.0\n    top: {Ix: *a}\n"}

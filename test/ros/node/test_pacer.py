@@ -12,7 +12,7 @@ from programs import command, running
 from waiting import TIMEOUT
 
 from symtop_ros.ros.node.host import SLICE, Pacer, SchedulerAttributes
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
 
 class Ticks:
@@ -111,7 +111,7 @@ skip_without_slices = pytest.mark.skipif(
 @skip_without_slices
 def test_the_program_and_its_middleware_have_a_short_slice():
     """A request comes through threads of both."""
-    with running(command("top_node"), claim_domain()) as node:
+    with running(command("top_node"), share_domain()) as node:
         while "states are computed" not in node.stderr.readline():
             assert node.poll() is None
         threads = [*Path(f"/proc/{node.pid}/task").iterdir()]

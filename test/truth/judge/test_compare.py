@@ -27,7 +27,7 @@ from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.judgement import judge
 from symtop_ros.truth.judge.truth import Truth, read_events, scene_truth
 from symtop_ros.truth.judge.wanted import explain
-from workshop.load.domains import claim_domain
+from workshop.load.domains import share_domain
 
 
 def test_the_attitude_of_a_stamp_is_that_of_the_last_event():
@@ -154,7 +154,7 @@ def test_a_refusal_has_both_spans_of_time():
         judge(estimates, Truth(events, begin + SECOND), "x")
 
 
-DOMAIN = claim_domain()
+DOMAIN = share_domain()
 
 
 @pytest.mark.slow
