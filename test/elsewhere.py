@@ -23,7 +23,14 @@ from processors import list_processors
 ROOT = Path(__file__).parents[1]
 FOLDERS = tuple(
     f"test/{folder}"
-    for folder in ("physics", "run/simulation", "run/session", "run/log", "run/check", "truth/judge")
+    for folder in (
+        "physics",
+        "run/simulation",
+        "run/session",
+        "run/log",
+        "run/check",
+        "truth/judge",
+    )
 )
 # A read-only checkout has no place for the cache.
 PYTEST = (sys.executable, "-m", "pytest", "-q", "-n", "3", "--dist", "loadfile")

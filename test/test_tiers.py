@@ -70,7 +70,9 @@ def test_a_failed_test_of_any_tier_runs_again(folder):
 def test_a_test_of_two_tiers_is_refused(folder):
     (folder / FILE).write_text(f"{TESTS.format(least=0)}\npytestmark = [pytest.mark.slow]\n")
     _, done = run(folder)
-    assert re.search(r"ERROR: \S+test_family\[2\] must be of one tier, got long and slow", done.stderr)
+    assert re.search(
+        r"ERROR: \S+test_family\[2\] must be of one tier, got long and slow", done.stderr
+    )
 
 
 @pytest.mark.parametrize("processes", ["0", pytest.param("2", marks=pytest.mark.slow)])
