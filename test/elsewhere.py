@@ -21,17 +21,8 @@ from pathlib import Path
 from processors import list_processors
 
 ROOT = Path(__file__).parents[1]
-FOLDERS = tuple(
-    f"test/{folder}"
-    for folder in (
-        "physics",
-        "run/simulation",
-        "run/session",
-        "run/log",
-        "run/check",
-        "truth/judge",
-    )
-)
+RUN = ("run/simulation", "run/session", "run/log", "run/check")
+FOLDERS = tuple(f"test/{folder}" for folder in ("physics", *RUN, "truth/judge"))
 # A read-only checkout has no place for the cache.
 PYTEST = (sys.executable, "-m", "pytest", "-q", "-n", "3", "--dist", "loadfile")
 OPTIONS = ("-p", "no:cacheprovider", "-m", "not realtime and not long")

@@ -70,14 +70,12 @@ def test_a_failed_test_of_any_tier_runs_again(folder):
 def test_a_test_of_two_tiers_is_refused(folder):
     (folder / FILE).write_text(f"{TESTS.format(least=0)}\npytestmark = [pytest.mark.slow]\n")
     _, done = run(folder)
-    assert re.search(
-        r"ERROR: \S+test_family\[2\] must be of one tier, got long and slow", done.stderr
-    )
+    assert "test_family[2] must be of one tier, got long and slow" in done.stderr
 
 
 @pytest.mark.parametrize("processes", ["0", pytest.param("2", marks=pytest.mark.slow)])
 def test_tests_that_took_much_cpu_are_named_and_pass(folder, processes):
-    named, done = run(folder, "--cpu", "0.1", "-n", processes, "-m", "not long")
+    _, done = run(folder, "--cpu", "0.1", "-n", processes, "-m", "not long")
     assert done.returncode == 0
     assert "1 of 3 tests took more than 0.1 s of CPU" in done.stdout
     assert re.search(rf"^ *[\d.]+ s  {FILE}::test_clock$", done.stdout, re.MULTILINE)

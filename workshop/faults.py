@@ -1,4 +1,6 @@
-"""Faults put into the sources one at a time, and which tests see them: python workshop/faults.py
+"""Faults put into the sources one at a time, and which tests see them.
+
+python workshop/faults.py [--slow] [NUMBER...]
 
 The faults are drawn with a fixed seed from the operators, comparisons and numbers of the package's
 Python, C++ and JavaScript. A copy of the checkout gets one at a time. The quick tests of its folder
@@ -43,20 +45,10 @@ PROSE = re.compile(
     r"//.*|/\*[\s\S]*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`|#include.*"
     r"|(?<=[(,=] )/(?:\\.|[^/\\\n])+/|(?<=\()/(?:\\.|[^/\\\n])+/"
 )
-TOGETHER = ("-n", "3", "--dist", "loadfile")
 LIMIT = "1800"  # s; a fault may make a loop endless
-PYTEST = (
-    "timeout",
-    LIMIT,
-    sys.executable,
-    "-m",
-    "pytest",
-    "-q",
-    "-x",
-    "-p",
-    "no:cacheprovider",
-    *TOGETHER,
-)
+TOGETHER = ("-n", "3", "--dist", "loadfile")
+OPTIONS = ("-q", "-x", "-p", "no:cacheprovider", *TOGETHER)
+PYTEST = ("timeout", LIMIT, sys.executable, "-m", "pytest", *OPTIONS)
 
 
 @dataclass(frozen=True)
