@@ -79,7 +79,7 @@ def test_each_failed_test_is_named_with_the_command_that_runs_it_alone(monkeypat
 
 LEAVES = {
     "the temporary folder": "import tempfile; tempfile.mkdtemp(prefix='left-')",
-    "the home": "import pathlib; (pathlib.Path.home() / 'left-here').touch()",
+    "the home": "import pathlib; (pathlib.Path.home() / 'left-rerun').touch()",
     "shared memory": "import pathlib; pathlib.Path('shared/left-here').touch()",
 }
 
