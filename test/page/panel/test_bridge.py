@@ -7,6 +7,7 @@ from functools import partial
 
 import pytest
 import rclpy
+from machine_time import measuring
 from page.web.opened import UNDRAWN, slow_frames
 from ros.node.listener import Listener
 from ros.node.running_top import RunningTop
@@ -283,10 +284,16 @@ def test_a_hold_on_a_page_that_draws_slowly_is_one_act_of_the_node(node, browser
         kinds = (
             "window.symtop.run().events.map(({kind}) => kind).filter((each) => each !== 'start')"
         )
-        button.dispatch_event("pointerdown")
-        until(lambda: tab.evaluate(kinds) == HOLDS[hold][:1], look)
-        tab.wait_for_timeout(2500)  # the hand is held in real time, longer than the node's time-out
-        assert tab.evaluate(kinds) == HOLDS[hold][:1]
-        button.dispatch_event("pointerup")
-        until(lambda: tab.evaluate(kinds) == HOLDS[hold], look)
+        with measuring() as machine:
+            button.dispatch_event("pointerdown")
+            until(lambda: tab.evaluate(kinds), look)
+            tab.wait_for_timeout(2500)  # the hand is held in real time, longer than the time-out
+            held = tab.evaluate(kinds)
+            button.dispatch_event("pointerup")
+            until(lambda: len(tab.evaluate(kinds)) > 1, look)
+        whole = tab.evaluate(kinds)
         tab.close()
+    if held != HOLDS[hold][:1]:  # the node has not heard of the torque for 1 s
+        machine.demand(0.2)
+    assert held == HOLDS[hold][:1]
+    assert whole == HOLDS[hold]
