@@ -21,6 +21,21 @@ def command(name: str, *arguments: object) -> list[str]:
     return bound([sys.executable, str(RESOURCE / name), *map(str, arguments)])
 
 
+# top_judge, which looks for a topic as long as it takes.
+JUDGE = """
+import sys
+from symtop_ros import programs
+from symtop_ros.truth.judge import live
+live.PATIENCE = 300.0
+sys.exit(programs.top_judge())
+"""
+
+
+def judge_live(*arguments: object) -> list[str]:
+    """Command line of `top_judge --live`."""
+    return bound([sys.executable, "-c", JUDGE, "--live", *map(str, arguments)])
+
+
 def environment(domain: int) -> dict[str, str]:
     """Environment of a program."""
     return {**os.environ, "ROS_DOMAIN_ID": str(domain)}

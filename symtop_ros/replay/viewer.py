@@ -100,10 +100,20 @@ def show(recording: Path, web: bool) -> int:
 
 
 def free_port() -> int:
-    """Return a port that is not in use."""
-    with socket.socket() as probe:
-        probe.bind((HOST, 0))
-        return int(probe.getsockname()[1])
+    """Return a port that is not in use.
+
+    Linux gives it to no other program that asks for any port: it stays bound until this process
+    ends. A server that sets SO_REUSEADDR, as Rerun and Python's do, can still listen on it.
+    """
+    probe = socket.socket()
+    probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    probe.bind((HOST, 0))
+    port = int(probe.getsockname()[1])
+    if sys.platform == "linux":
+        probe.detach()
+    else:  # where no other could bind it, or any other could take it
+        probe.close()
+    return port
 
 
 def serve_page(page: int, data: int) -> int:

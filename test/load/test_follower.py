@@ -56,4 +56,4 @@ def test_a_follower_that_has_left_receives_nothing_of_later_nodes():
     for _ in range(3):
         left.append(Follower(RATE))
         left[-1].close()
-    until(lambda: count_threads() <= before, timeout=10.0)
+    until(lambda: count_threads() <= before)

@@ -1,18 +1,18 @@
 """The policy for SROS2 allows what the programs use of ROS, and nothing else."""
 
 import contextlib
+import re
 import socket
 import subprocess
-import urllib.error
 import urllib.request
 
 import pytest
-from programs import command, running, running_node
+from programs import PATIENT, command, judge_live, running, running_node
 from rclpy.node import NodeNameNonExistentError
 from ros.node.listener import Listener
 from ros.node.running_top import RunningTop
 from security.policy import allowed, used
-from waiting import TIMEOUT, until
+from waiting import TIMEOUT
 
 from symtop_ros.replay import viewer
 from symtop_ros.run.session.services import SERVICES
@@ -70,7 +70,7 @@ def test_the_policy_allows_top_node_what_it_uses():
 @pytest.mark.slow
 def test_the_policy_allows_top_ctl_what_its_commands_use():
     words = [
-        command("top_ctl", "--timeout", "30", *each, "--ros-args", "-r", f"__node:=ctl_{name}")
+        command("top_ctl", *PATIENT, *each, "--ros-args", "-r", f"__node:=ctl_{name}")
         for name, each in COMMANDS.items()
     ]
     with processes(*words):
@@ -87,24 +87,19 @@ def test_the_policy_allows_top_live_what_it_uses():
 
 @pytest.mark.slow
 def test_the_policy_allows_top_judge_what_it_uses():
-    words = command("top_judge", "--live", "--topic", "/top/imu")
+    words = judge_live("--topic", "/top/imu")
     with running_node(DOMAIN, "imu.enabled:=true"), processes(words):
         assert_allowed("top_judge")
-
-
-def open_page(url):
-    """Ask for the news of a node, as its page does; None while the server is starting."""
-    with contextlib.suppress(urllib.error.URLError):
-        return urllib.request.urlopen(url, timeout=TIMEOUT)
 
 
 @pytest.mark.slow
 def test_the_policy_allows_top_panel_what_it_uses():
     """It takes samples while a page is open only."""
-    port = viewer.free_port()
-    words = command("top_panel", "--node", "/top", "--port", str(port), "--no-browser")
-    with processes(words), until(lambda: open_page(f"http://{viewer.HOST}:{port}/news")):
-        assert_allowed("top_panel")
+    words = command("top_panel", "--node", "/top", "--port", "0", "--no-browser")
+    with running(words, DOMAIN) as panel:
+        url = re.search(r"http://\S+", panel.stdout.readline())[0]
+        with urllib.request.urlopen(f"{url.rstrip('/')}/news", timeout=TIMEOUT):
+            assert_allowed("top_panel")
 
 
 def test_only_two_programs_may_ask_the_top_for_anything():

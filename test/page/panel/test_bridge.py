@@ -7,11 +7,12 @@ from functools import partial
 
 import pytest
 import rclpy
+from machine_time import measuring
 from page.web.opened import UNDRAWN, slow_frames
 from ros.node.listener import Listener
 from ros.node.running_top import RunningTop
 from serving import serving
-from waiting import until
+from waiting import TIMEOUT, until
 
 from symtop_ros.page.panel.bridge import Bridge
 from symtop_ros.page.panel.news import SILENCE
@@ -23,9 +24,9 @@ DOMAIN = share_domain()
 
 
 @contextlib.contextmanager
-def bridge_to(name, context, **options):
+def bridge_to(name, context, timeout=TIMEOUT):
     user = rclpy.create_node("top_panel", context=context, start_parameter_services=False)
-    bridge = Bridge(user, name, **options)
+    bridge = Bridge(user, name, timeout)
     yield bridge
     bridge.close()
     user.destroy_node()
@@ -92,7 +93,7 @@ def test_a_page_is_sent_the_run_and_the_published_attitude(node, page):
     # the time of the run is rounded to whole ns, of a motion of some 200 rad/s
     assert page.state["orientation"] == pytest.approx(published.tolist(), abs=2e-7)
     assert page.events[0]["factor"] == 0.1
-    assert page.state["lost"] is None
+    page.until(lambda: page.state["lost"] is None)  # samples may be late
 
 
 def test_integers_of_a_page_are_doubles_of_the_node(node, page):
@@ -285,10 +286,16 @@ def test_a_hold_on_a_page_that_draws_slowly_is_one_act_of_the_node(node, browser
         kinds = (
             "window.symtop.run().events.map(({kind}) => kind).filter((each) => each !== 'start')"
         )
-        button.dispatch_event("pointerdown")
-        until(lambda: tab.evaluate(kinds) == HOLDS[hold][:1], look)
-        tab.wait_for_timeout(2500)  # the hand is held in real time, longer than the node's time-out
-        assert tab.evaluate(kinds) == HOLDS[hold][:1]
-        button.dispatch_event("pointerup")
-        until(lambda: tab.evaluate(kinds) == HOLDS[hold], look)
+        with measuring() as machine:
+            button.dispatch_event("pointerdown")
+            until(lambda: tab.evaluate(kinds), look)
+            tab.wait_for_timeout(2500)  # the hand is held in real time, longer than the time-out
+            held = tab.evaluate(kinds)
+            button.dispatch_event("pointerup")
+            until(lambda: len(tab.evaluate(kinds)) > 1, look)
+        whole = tab.evaluate(kinds)
         tab.close()
+    if held != HOLDS[hold][:1]:  # the node has not heard of the torque for 1 s
+        machine.demand(0.2)
+    assert held == HOLDS[hold][:1]
+    assert whole == HOLDS[hold]

@@ -122,7 +122,7 @@ window.acts = {
         done.push(address);
       } catch {}
     }
-    for (let k = 0; k < 100 && forbidden.size < 9; k += 1)
+    for (let k = 0; k < 1200 && forbidden.size < 9; k += 1)
       await new Promise((wait) => setTimeout(wait, 50));
     if (window.pwned) done.push("script");
     return { done, forbidden: [...forbidden].sort() };

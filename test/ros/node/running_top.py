@@ -86,12 +86,14 @@ class RunningTop(Listener):
         self.close()
 
     def close(self) -> None:
-        self.executor.shutdown()
-        self.user.destroy_node()
-        self.top.close()
-        self.top.destroy_node()
-        rclpy.try_shutdown(context=self.context)
-        release_domain(self.domain)
+        try:
+            self.executor.shutdown()
+            self.user.destroy_node()
+            self.top.close()
+            self.top.destroy_node()
+            rclpy.try_shutdown(context=self.context)
+        finally:
+            release_domain(self.domain)
 
     def freeze(self) -> None:
         """Stop the simulated clock; `set_clock` still sets it."""

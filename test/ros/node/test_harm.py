@@ -16,6 +16,7 @@ from typing import Any
 
 import pytest
 from geometry_msgs.msg import QuaternionStamped
+from machine_time import measuring
 from programs import command, environment, running, set_parameters
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import (
@@ -183,5 +184,9 @@ def nodes(tmp_path_factory):
 def test_a_request_stops_samples_hardly_longer_than_those_of_a_bare_node(name, nodes):
     request = list_requests()[name]()
     top, bare = nodes
-    allowed = max(bare.ask(*request) for _ in range(2)) + MORE
-    assert any(top.ask(*request) <= allowed for _ in range(TRIES))
+    with measuring() as machine:
+        allowed = max(bare.ask(*request) for _ in range(2)) + MORE
+        is_soon = any(top.ask(*request) <= allowed for _ in range(TRIES))
+    if not is_soon:
+        machine.demand(MORE / 2)
+    assert is_soon

@@ -2,15 +2,17 @@
 
 import json
 import math
+import signal
 from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
 from physics.tops import ARTICLE, CUSPS, EPS, SLOW, precess
-from programs import run, running_node
+from programs import judge_live, running, running_node
 from scipy.spatial.transform import Rotation
 from trials import seeds
 from truth.judge.cases import SECOND, Made, make_estimates, make_events, truth_and_stamps
+from waiting import TIMEOUT
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import Motion
@@ -159,11 +161,13 @@ DOMAIN = share_domain()
 
 @pytest.mark.slow
 def test_the_nodes_own_attitude_is_exact_while_it_runs():
-    with running_node(DOMAIN, "scene:=looping"):
-        arguments = ("--live", "--topic", "/top/orientation", "--max-error", "1e-15")
-        done = run("top_judge", *arguments, "--seconds", "2.5", domain=DOMAIN)
-        assert (done.returncode, done.stderr) == (0, "")
-        assert " estimates: attitude " in done.stdout
+    words = judge_live("--topic", "/top/orientation", "--max-error", "1e-15")
+    with running_node(DOMAIN, "scene:=looping"), running(words, DOMAIN) as judging:
+        while " estimates: attitude " not in judging.stdout.readline():
+            assert judging.poll() is None
+        judging.send_signal(signal.SIGINT)
+        assert judging.wait(timeout=TIMEOUT) == 0
+        assert judging.stderr.read() == ""
 
 
 WRONG = [{"stamp": "0"}, {"stamp": None}, {"name": 3}, {"values": None}, {"values": {"top": 3}}]
