@@ -113,6 +113,9 @@ def pace_status(simulation: Simulation) -> Status:
     message = f"{write_count(ticker.missed, 'tick')} missed" if ticker.missed else "on time"
     if is_slow:
         reason = "the motion is too fast for the compute budget"
+        if lack := simulation.lack:
+            reason = f"the motion lacks CPU time: got {lack.got:.2g} % CPU, needs "
+            reason += f"{lack.needed:.2g} % (one core)"
         if kept >= asked:
             reason = f"the time waited {waits.latest:.3g} s for late samples"
         reached = kept * (1 - waits.share)

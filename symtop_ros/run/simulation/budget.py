@@ -1,7 +1,8 @@
 """Budgets of work: only driven motions (friction, applied torque) need any, one step after another.
 
 A `StepBudget` limits the steps that are taken for one request or one log. A `ComputeBudget` limits
-the CPU time of a run, and says how fast the motion can be followed.
+the CPU time of a run, and says how fast the motion can be followed. The time on the wall is no
+measure of work: on a busy machine the thread may get a tenth of a core.
 """
 
 import time
@@ -25,6 +26,9 @@ SPARE_STEPS = 3_000_000  # for what precedes the log
 OPTIMISM = 10.0
 FREE_WORK = 0.02  # s of work that is allowed for any stretch
 SHARE = 0.25  # share of one core for a motion that cannot be followed in real time
+# A thread that gets too little of the processor falls further behind in each of some windows of real
+# time. One long window may be a stop (SIGSTOP, a suspended machine) after which it catches up.
+WINDOW, WINDOWS = 0.5, 3  # s
 
 
 @dataclass
@@ -61,11 +65,19 @@ class StepBudget:
         return all(self.reach(segment.motion, segment.time_at(int(end)), free) for end in ends)
 
 
+class Lack(NamedTuple):
+    """CPU time that the thread of a motion gets and needs, in percent of one core."""
+
+    got: float
+    needed: float
+
+
 class Shortfall(NamedTuple):
     """A motion that cannot be followed."""
 
     reached: float  # time up to which it is integrated, s of the motion
-    factor: float  # real-time factor that can be kept with the CPU time of `SHARE`
+    factor: float  # real-time factor that can be kept
+    lack: Lack | None = None  # if other programs have the processor; None: it is too fast
 
 
 class Progress(NamedTuple):
@@ -79,21 +91,66 @@ class Progress(NamedTuple):
 READY = Progress(True)
 
 
-class ComputeBudget:
-    """Prepares a motion stretch by stretch and measures the time which that takes."""
+class Pursuit:
+    """Progress of a motion that is behind its clock, by windows of real time."""
 
-    def __init__(self, clock: Callable[[], float] = time.perf_counter) -> None:
+    def __init__(self, clock: Callable[[], float]) -> None:
         self._clock = clock
-        self.spent = 0.0  # work so far in s
+        self.begin()
+
+    def begin(self) -> None:
+        """Begin with no window: the motion is where its clock is."""
+        self._falling = 0  # windows in a row in which it fell further behind
+        self._open()
+
+    def _open(self) -> None:
+        self._since = self._clock()
+        self._moved = self._work = 0.0  # s of the motion, and of CPU time
+
+    def note(self, moved: float, work: float, factor: float) -> tuple[float, Lack] | None:
+        """Note the result of a call; return the factor to continue at if the thread lacks CPU time.
+
+        `factor` is that of the motion, in seconds of it per second of real time.
+        """
+        self._moved += moved
+        self._work += work
+        passed = self._clock() - self._since
+        if passed < WINDOW:
+            return None
+        pace, got = self._moved / passed, self._work / passed
+        needed = got * factor / pace if pace > 0 else 0.0
+        self._falling = self._falling + 1 if 0 < pace < factor else 0
+        self._open()
+        # Half of what was possible: the sender and its subscribers need the processor, too.
+        return (pace / 2, Lack(100 * got, 100 * needed)) if self._falling >= WINDOWS else None
+
+
+class ComputeBudget:
+    """Prepares a motion stretch by stretch and measures the CPU time which that takes.
+
+    `clock` is the CPU time of the thread that calls, and `real` the real time, both in s.
+    """
+
+    def __init__(
+        self,
+        clock: Callable[[], float] = time.thread_time,
+        real: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._clock = clock
+        self._pursuit = Pursuit(real)
+        self.spent = 0.0  # work so far in s of CPU time
         self._segment: Segment | None = None  # the last one
         self._prepared = 0  # ns: end of its last stretch
         self._stretch: tuple[Segment, int] | None = None
         self._progress, self._spent_before = 0.0, 0.0  # s of the motion and of work, of the stretch
 
-    def prepare(self, segment: Segment, stamp: int, factor: float = 1.0) -> Progress:
+    def prepare(
+        self, segment: Segment, stamp: int, factor: float = 1.0, is_timed: bool = True
+    ) -> Progress:
         """Work for about 1 ms towards the state at a stamp (ns).
 
-        `factor` is the pace of the stamps: seconds of them per second of real time.
+        `factor` is the pace of the stamps: seconds of them per second of real time. `is_timed` is
+        False if they do not follow the real time.
         """
         if not segment.motion.is_driven:
             if stamp <= segment.last_stamp:
@@ -107,12 +164,14 @@ class ComputeBudget:
             self._stretch = segment, stamp
             self._progress = 0.0
             self._spent_before = self.spent
+            self._pursuit.begin()
         # The progress is counted call by call: a state that was asked for in between may have moved
         # the integration back to an earlier point.
         start = segment.motion.reach(end, 0)
         before = self._clock()
         reached = segment.motion.reach(end, STEPS_AT_ONCE)
-        self.spent += self._clock() - before
+        spent = self._clock() - before
+        self.spent += spent
         self._progress += reached - start
         work = self.spent - self._spent_before
         if reached == end:
@@ -123,4 +182,7 @@ class ComputeBudget:
             return Progress(False, end=reached)
         if work > max(FREE_WORK, (stamp - self._prepared) * 1e-9 / factor):
             return Progress(False, shortfall=Shortfall(reached, SHARE * self._progress / work))
+        lacking = self._pursuit.note(reached - start, spent, factor * segment.factor)
+        if lacking and is_timed:
+            return Progress(False, shortfall=Shortfall(reached, *lacking))
         return Progress(False)

@@ -12,7 +12,7 @@ from typing import TypeVar
 from symtop_ros.base.refusals import attempt, one_line
 from symtop_ros.physics import State
 from symtop_ros.run.simulation.block import Blocks, Ticker
-from symtop_ros.run.simulation.budget import SHARE, ComputeBudget, Progress, Shortfall
+from symtop_ros.run.simulation.budget import SHARE, ComputeBudget, Lack, Progress, Shortfall
 from symtop_ros.run.simulation.changes.follow import Act, Request
 from symtop_ros.run.simulation.changes.outcomes import Failure, Outcome
 from symtop_ros.run.simulation.changes.timeline import Timeline
@@ -25,6 +25,7 @@ from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.run.simulation.turns import Turns
 
 AT_ONCE = 0.0  # s until the next tick, if this one has left work to do
+LONGEST_HOLD = 60  # s until a faster pace is tried on a busy machine
 WHY_IT_ENDS = "too fast for doubles, or 1e15 turns from its start"
 T = TypeVar("T")
 
@@ -47,6 +48,8 @@ class Simulation:
         self.timeline = Timeline.begin(settings, self.stamp)
         self.budget = ComputeBudget()
         self._spent = 0.0
+        self.lack: Lack | None = None  # why the motion is slowed down, if it is not too fast
+        self._hold = self._longest_hold = 0  # measurements until a faster pace is tried
         self._gaps = Gaps(clock)
         self.waits = Waits(clock)
         self._blocks = Blocks(self.segment, sink.encode)
@@ -217,7 +220,8 @@ class Simulation:
 
     def _prepare(self, stamp: int) -> Progress:
         """Work towards the state at a stamp; a motion that cannot continue is paused."""
-        progress = self.budget.prepare(self.segment, stamp, self._clock.pace)
+        clock = self._clock
+        progress = self.budget.prepare(self.segment, stamp, clock.pace, not clock.is_simulated)
         if progress.end is not None and not self._is_announcing:
             self._stop_at(progress.end)
         return progress
@@ -235,18 +239,39 @@ class Simulation:
         return True
 
     def _slow_down(self, stamp: int, shortfall: Shortfall) -> None:
-        """Slow down a motion that cannot be followed."""
+        """Slow down a motion that cannot be followed.
+
+        How much of the processor a thread could get shows only when it asks for it. So a faster
+        pace is tried after a second, and after twice as many whenever that was too fast.
+        """
+        self.lack = shortfall.lack
+        if self.lack:
+            self._hold = self._longest_hold = min(LONGEST_HOLD, max(1, 2 * self._longest_hold))
         self.host.warn(self.apply(self.timeline.slow_down(stamp, shortfall)))
 
     def speed_up(self) -> None:
-        """Return towards the real-time factor of the settings if the budget allows it."""
+        """Return towards the real-time factor of the settings if the budget allows it.
+
+        It is called once a second.
+        """
         work, self._spent = self.budget.spent - self._spent, self.budget.spent
         current = self.factor
         factor = self.settings.real_time_factor
-        if current < factor and work < SHARE / 2 and self._prepare(self.stamp).ready:
+        self._hold = max(0, self._hold - 1)
+        if current >= factor:
+            self.lack = None
+            self._longest_hold = max(0, self._longest_hold - 1)
+        elif self._hold == 0 and self._may_hurry(work) and self._prepare(self.stamp).ready:
             if self.segment.motion.is_driven:
                 factor = min(factor, 2 * current)
             self._set_pace(factor)
+
+    def _may_hurry(self, work: float) -> bool:
+        """Return True if a motion that takes `work`, in s of CPU time per second, may be faster.
+
+        One that lacked CPU time, but is not too fast, may take again what it needs.
+        """
+        return self.lack is not None or work < SHARE / 2
 
     def measure_pace(self) -> None:
         """Measure how fast the time was since the last call; warn if it waited for samples."""

@@ -246,7 +246,8 @@ def test_a_stretch_that_takes_longer_than_it_lasts_gives_a_factor_that_can_be_ke
     budget = ComputeBudget(Clock(each))
     turns, progress = prepare(budget, Segment.begin(fast(), 0, 1.0), SECOND)
     assert turns == 11  # the first with which it takes more than the second
-    reached, factor = progress.shortfall
+    reached, factor, lack = progress.shortfall
+    assert lack is None
     assert reached == fast().reach(1.0, turns * STEPS_AT_ONCE)
     # a quarter of one core
     assert factor == pytest.approx(0.25 * (reached - fast().reach(1.0, 0)) / (turns * each))
@@ -256,7 +257,7 @@ def test_the_factor_of_a_shortfall_can_be_kept():
     budget = ComputeBudget(Clock(0.1))
     segment = Segment.begin(fast(), 0, 1.0)
     _, progress = prepare(budget, segment, SECOND)
-    slower = segment.slow_down(*progress.shortfall, SECOND)
+    slower = segment.slow_down(*progress.shortfall[:2], SECOND)
     assert prepare(budget, slower, 2 * SECOND)[1] == READY
 
 
@@ -275,6 +276,71 @@ def test_a_state_that_is_asked_for_in_between_does_not_make_the_factor_negative(
         assert not progress.ready
         motion.at(0.0)  # moves the integration back to its start
     assert progress.shortfall.factor > 0
+
+
+class Machine:
+    """A processor of which a thread gets a share: CPU time and real time of a budget."""
+
+    def __init__(self, share, work):
+        self.share, self.work = share, work  # of one core, and s of CPU time for a call
+        self.cpu = self.real = 0.0
+        self.is_working = True
+
+    def read_cpu(self):
+        """A budget asks before a call and after it."""
+        self.is_working = not self.is_working
+        if self.is_working:
+            self.cpu += self.work
+            self.real += self.work / self.share
+        return self.cpu
+
+    def read_real(self):
+        return self.real
+
+
+def follow(machine, seconds, step=0.02, **options):
+    """Follow a motion in real time; return the first shortfall and when it was found, or None."""
+    budget = ComputeBudget(machine.read_cpu, machine.read_real)
+    segment = Segment.begin(fast(), 0, 1.0)
+    while machine.real < seconds:
+        stamp = int((machine.real + step) * SECOND)
+        while not (progress := budget.prepare(segment, stamp, **options)).ready:
+            if progress.shortfall:
+                return progress.shortfall, machine.real
+    return None
+
+
+def measure_need():
+    """Return how many calls a second of the motion takes."""
+    return prepare(ComputeBudget(Clock(0.0)), Segment.begin(fast(), 0, 1.0), SECOND)[0]
+
+
+def test_a_motion_that_gets_a_tenth_of_a_core_and_needs_a_third_lacks_cpu_time():
+    work = 0.3 / measure_need()
+    (_, factor, lack), _ = follow(Machine(0.1, work), 20.0)
+    assert lack.got == pytest.approx(10, rel=0.2)  # of windows that end with a call
+    assert lack.needed == pytest.approx(30, rel=0.3)  # fewer steps later, as friction slows it
+    assert factor == pytest.approx(0.5 * lack.got / lack.needed)
+
+
+def test_on_a_machine_as_busy_that_gives_what_it_needs_a_motion_keeps_its_pace():
+    work = 0.05 / measure_need()
+    assert follow(Machine(0.1, work), 5.0) is None
+
+
+def test_stamps_that_do_not_follow_the_real_time_have_no_shortfall_of_it():
+    work = 0.3 / measure_need()
+    assert follow(Machine(0.1, work), 20.0, is_timed=False) is None
+
+
+def test_a_stop_of_the_process_is_caught_up_and_no_lack():
+    machine = Machine(1.0, 0.3 / measure_need())
+    budget = ComputeBudget(machine.read_cpu, machine.read_real)
+    segment = Segment.begin(fast(), 0, 1.0)
+    assert prepare(budget, segment, SECOND // 10)[1] == READY
+    assert not budget.prepare(segment, 4 * SECOND).ready
+    machine.real += 3.0
+    assert prepare(budget, segment, 4 * SECOND)[1] == READY
 
 
 @pytest.mark.parametrize(("count", "is_reached"), [(10, False), (100, True)])

@@ -164,11 +164,17 @@ class ClockJump:
 
 @dataclass(frozen=True, slots=True)
 class Pace:
-    """The real-time factor changed; "slowed" if the motion is too fast to be computed."""
+    """The real-time factor changed, and why.
 
-    kind: Literal["slowed", "changed"]
+    "slowed": the motion is too fast to be computed. "starved": other programs have the processor;
+    `got` and `needed` are CPU times in percent of one core.
+    """
+
+    kind: Literal["slowed", "starved", "changed"]
     before: float
     after: float
+    got: float = 0.0
+    needed: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -78,8 +78,9 @@ class Timeline:
 
     def slow_down(self, stamp: int, shortfall: Shortfall) -> "Timeline":
         """Continue at a real-time factor that can be kept, from the time that was reached."""
-        reached, factor = shortfall
-        told = Pace("slowed", self.segment.factor, factor)
+        reached, factor, lack = shortfall
+        kind: Literal["slowed", "starved"] = "starved" if lack else "slowed"
+        told = Pace(kind, self.segment.factor, factor, *(lack or ()))
         return self.follow(Act("pace", stamp, {"reached": reached}, factor=factor, told=told))
 
     def set_pace(self, stamp: int, current: float, factor: float) -> "Timeline":
