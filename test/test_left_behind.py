@@ -28,7 +28,7 @@ def run(folder, line, *words):
     (folder / "test_some.py").write_text(TEST.format(line))
     (folder / "home").mkdir()
     words = [sys.executable, "-m", "pytest", "-p", "left_behind", *words, "test_some.py"]
-    variables = {"PYTHONPATH": str(ROOT / "test"), "HOME": str(folder / "home")}
+    variables = {"PYTHONPATH": f"{ROOT}:{ROOT}/test", "HOME": str(folder / "home")}
     return execute(words, cwd=folder, env={**os.environ, **variables})
 
 

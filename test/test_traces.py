@@ -1,70 +1,73 @@
 """What tests leave behind is theirs, and never that of the user's other programs."""
 
-import subprocess
-import sys
+import os
 import tempfile
+import time
 
 import pytest
 import traces
-from waiting import until
 
-# A program that leaves a file in the shared memory when it ends.
-LEAVE = """
-import mmap, sys
-with open(sys.argv[1], "w+b") as file:
-    file.truncate(4096)
-    mapped = mmap.mmap(file.fileno(), 4096)
-    print(flush=True)
-    sys.stdin.read()
-"""
+from workshop.load import domains
+
+DOMAIN = 14
+PORT = 7400 + 250 * DOMAIN + 13
 
 
 @pytest.fixture(name="found")
 def _found(monkeypatch, tmp_path):
-    for name in ("home", "shared"):
+    for name in ("home", "shared", "domains"):
         (tmp_path / name).mkdir()
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.setattr(traces, "SHARED", tmp_path / "shared")
-    monkeypatch.setattr(traces, "PERIOD", 0.01)
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(domains, "FOLDER", tmp_path / "domains")
+    monkeypatch.setattr(domains, "DOMAINS", (DOMAIN,))
+    monkeypatch.setattr(domains, "_held", {})
     found = traces.Traces()
     yield found
+    for number in list(domains._held):
+        domains.release_domain(number)
     found.close()
 
 
-def leave(path, is_seen, **options):
-    """Let a program leave a file, after the watch has seen that it uses it."""
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-    with subprocess.Popen([sys.executable, "-c", LEAVE, str(path)], **pipes, **options) as process:
-        process.stdout.readline()
-        until(is_seen)
-    assert path.exists()
+def claim(monkeypatch, folder):
+    """Claim the domain for a run with a temporary folder."""
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    assert domains.claim_domain() == DOMAIN
+    domains.release_domain(DOMAIN)
 
 
-def test_a_file_that_a_program_of_the_user_had_mapped_is_none_of_the_tests(
-    found, monkeypatch, tmp_path
+@pytest.mark.parametrize("name", [f"fastrtps_port{PORT}", f"sem.fastrtps_port{PORT}_mutex"])
+def test_a_port_of_a_domain_that_the_run_has_claimed_is_left_behind(
+    found, name, monkeypatch, tmp_path
 ):
-    monkeypatch.setattr(traces, "is_child", lambda _: False)  # as if the user had started it
-    path = tmp_path / "shared/other"
-    leave(path, lambda: path in found._of_others)
+    claim(monkeypatch, found.folder)
+    (tmp_path / "shared" / name).touch()
+    assert [path.name for path in found.find()] == [name]
+
+
+def test_a_port_of_a_domain_of_another_run_is_none_of_the_tests(found, monkeypatch, tmp_path):
+    (tmp_path / "shared" / f"fastrtps_port{PORT}").touch()
+    assert list(found.find()) == []  # of a program that claims nothing
+    claim(monkeypatch, tmp_path / "other")
     assert list(found.find()) == []
 
 
-def test_a_file_that_a_program_of_the_tests_had_mapped_is_left_behind(found, tmp_path):
-    looked = []
-    path = tmp_path / "shared/own"
-    leave(path, lambda: looked.append(found._look()) or path in looked[-1])
-    assert list(found.find()) == [path]
+def test_a_port_that_was_there_before_the_claim_is_none_of_the_tests(found, monkeypatch, tmp_path):
+    (tmp_path / "shared" / f"fastrtps_port{PORT}").touch()
+    claim(monkeypatch, found.folder)
+    later = time.time() + 60
+    os.utime(tmp_path / "domains" / str(DOMAIN), (later, later))  # clocks of files are coarse
+    assert list(found.find()) == []
 
 
-def test_a_program_that_has_left_its_parent_is_known_by_its_environment(
-    found, monkeypatch, tmp_path
+@pytest.mark.parametrize("name", ["fastrtps_24276a90ab4376da", "psm_12345678", "other"])
+def test_files_of_which_nobody_can_say_who_made_them_are_none_of_the_tests(
+    found, name, monkeypatch, tmp_path
 ):
-    monkeypatch.setattr(traces, "is_child", lambda _: False)
-    looked = []
-    path = tmp_path / "shared/orphan"
-    leave(path, lambda: looked.append(found._look()) or path in looked[-1], env=found.variables)
-    assert list(found.find()) == [path]
+    claim(monkeypatch, found.folder)
+    (tmp_path / "shared" / name).touch()
+    assert list(found.find()) == []
 
 
 def test_only_names_that_tests_may_write_are_looked_for_in_the_home(found, tmp_path):

@@ -1,17 +1,19 @@
 """What tests leave behind outside the environment: nothing is allowed.
 
-The user's other programs work meanwhile, and what is new may be theirs. A temporary folder of its
-own holds nothing else. Of a file in shared memory nobody knows who made it, but while a program
-uses it, it has it mapped: files that a program of others has mapped are its own, also later. In the
-home only names are looked for that the tests, or the programs that they start, may write.
+The user's other programs work meanwhile, and what is new may be theirs. The temporary folder of the
+run is its own. In shared memory the ports of Fast DDS count, in domains that the run has claimed:
+of its other files nobody can say who made them. In the home only names are looked for that the
+tests, or the programs that they start, may write.
 """
 
-import os
+import contextlib
+import re
 import shutil
 import tempfile
-import threading
 from collections.abc import Iterator
 from pathlib import Path
+
+from workshop.load.domains import is_of_run
 
 SHARED = Path("/dev/shm")
 # What fetches packages writes its cache into the home, and tracing of ROS, if it is installed,
@@ -27,7 +29,9 @@ OF_TESTS = (
     *("chromium", "chrome", "mozilla", "firefox", "webkit", "playwright", "wine", "zig"),
     *("pytest", "hypothesis", "coverage", "matplotlib", "jupyter", "ipython", "numba", "mypy"),
 )
-PERIOD = 1.0  # s between two looks at the programs that run
+# Fast DDS has a file for each port of a domain; the ports are those of the RTPS specification.
+PORT = re.compile(r"(?:sem\.)?fastrtps_port(\d+)(?:_\w+)?")
+FIRST_PORT, PORTS = 7400, 250
 
 
 def list_places() -> set[Path]:
@@ -41,25 +45,6 @@ def list_places() -> set[Path]:
 def may_be_of_tests(path: Path) -> bool:
     """Return True for all in shared memory, and for a name in the home that tests may write."""
     return path.parent == SHARED or any(part in path.name.lower() for part in OF_TESTS)
-
-
-def list_mapped() -> Iterator[tuple[Path, set[Path]]]:
-    """Yield running programs in /proc, and the files of the shared memory that each has mapped."""
-    for process in Path("/proc").glob("[0-9]*"):
-        try:
-            lines = (process / "maps").read_text().splitlines()
-        except OSError:  # it has ended, or is another user's
-            continue
-        if found := {Path(line.split(maxsplit=5)[5]) for line in lines if f" {SHARED}/" in line}:
-            yield process, found
-
-
-def is_child(process: Path) -> bool:
-    """Return True for a program in /proc that this one has started, directly or by another."""
-    number = int(process.name)
-    while number > 1 and number != os.getpid():
-        number = int(Path(f"/proc/{number}/stat").read_text().rpartition(")")[2].split()[1])
-    return number == os.getpid()
 
 
 def is_of_others(path: Path) -> bool:
@@ -78,41 +63,21 @@ class Traces:
         self.variables = {"TMPDIR": str(self.folder)}
         # Playwright's Node would keep its compiled code there
         self.variables["NODE_DISABLE_COMPILE_CACHE"] = "1"
-        self._of_others: set[Path] = set()  # which programs of others have had mapped
-        self._ended = threading.Event()
-        self._watching = threading.Thread(target=self._watch, daemon=True)
-        self._watching.start()
 
     def find(self) -> Iterator[Path]:
         """Yield what is left."""
         yield from self._list_temporary()
-        used = self._look() | self._of_others
-        # with a segment in use come files of its name, for its lock
-        in_use = {path.name.removesuffix("_el") for path in used}
         for path in sorted(list_places() - self.before):
-            if not any(name in path.name for name in in_use):
+            if path.parent != SHARED or self._is_own_port(path):
                 yield path
 
-    def _watch(self) -> None:
-        while not self._ended.wait(PERIOD):
-            self._look()
-
-    def _look(self) -> set[Path]:
-        """Return what is mapped now, and note what others have mapped."""
-        used = set()
-        for process, mapped in list_mapped():
-            used |= mapped
-            if not self._is_own(process):
-                self._of_others |= mapped
-        return used
-
-    def _is_own(self, process: Path) -> bool:
-        """Return True for a program of the tests: by its environment, or started by one of them."""
-        try:
-            variables = (process / "environ").read_bytes().split(b"\0")
-            return f"TMPDIR={self.folder}".encode() in variables or is_child(process)
-        except OSError:  # it has just ended, and may have been one of the tests
-            return True
+    def _is_own_port(self, path: Path) -> bool:
+        """Return True for a port that was made in a domain while this run had it."""
+        found = PORT.fullmatch(path.name)
+        domain = (int(found[1]) - FIRST_PORT) // PORTS if found else -1
+        with contextlib.suppress(FileNotFoundError):  # another program has just removed it
+            return is_of_run(self.folder, domain, path.stat().st_ctime)
+        return False
 
     def _list_temporary(self) -> list[Path]:
         found = sorted(self.folder.iterdir())
@@ -120,7 +85,5 @@ class Traces:
 
     def close(self) -> None:
         """Remove the temporary folder, unless something is in it to look at."""
-        self._ended.set()
-        self._watching.join()
         if not self._list_temporary():
             shutil.rmtree(self.folder)

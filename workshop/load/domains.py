@@ -4,6 +4,7 @@ import atexit
 import contextlib
 import fcntl
 import os
+import tempfile
 import time
 from functools import cache
 from pathlib import Path
@@ -48,8 +49,24 @@ def _find_free() -> int | None:
         number = DOMAINS[_next % len(DOMAINS)]
         if number not in _held and (file := _lock(number)):
             _held[number] = file
+            _sign(number)
             return number
     return None
+
+
+def _sign(number: int) -> None:
+    """Write whose domain it is from now on: the temporary folder of the run of tests."""
+    with contextlib.suppress(OSError):  # of another user
+        Path(FOLDER, str(number)).write_text(tempfile.gettempdir(), encoding="utf-8")
+
+
+def is_of_run(folder: Path, number: int, since: float) -> bool:
+    """Return True if a domain was of the run with a temporary folder at a time, and is still."""
+    path = FOLDER / str(number)
+    try:
+        return path.read_text(encoding="utf-8") == str(folder) and path.stat().st_mtime <= since
+    except OSError:
+        return False
 
 
 def release_domain(number: int) -> None:

@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 QUEUE_LENGTH = 60_000  # messages: about ten seconds at 1 kHz
 # s between two writes. Short, so that each takes little time: ticks wait for the interpreter.
 WRITE_PERIOD = 0.005
-FLUSH_PERIOD = 0.4  # s; at most half a second is promised
+# s: age at which a message is on the disk. Half a second is promised if the thread gets the processor
+# within 0.1 s when it is due.
+LONGEST_AGE = 0.4
 Queued = tuple[int, int, bytes]  # channel, stamp in ns, message
 
 
@@ -35,8 +37,12 @@ def describe_error(error: Exception) -> str:
 class Recorder:
     """Writes messages to files in a thread."""
 
-    def __init__(self, settings: RecordSettings) -> None:
+    def __init__(
+        self, settings: RecordSettings, clock: Callable[[], float] = time.monotonic
+    ) -> None:
         self.settings = settings  # its limits may be changed while a recording runs
+        self._clock = clock  # s
+        self._oldest: float | None = None  # when the oldest message came that is not on the disk
         self._channels: list[Topic] = []  # with their full names
         self._names: dict[str, str] = {}  # the full names of topics, by ours
         self.latched: dict[int, bytes] = {}  # last messages of latched topics, for later files
@@ -73,6 +79,7 @@ class Recorder:
         self._file = file = self._open(metadata, latched)
         self.dropped, self.failure = 0, ""
         self._queue.clear()
+        self._oldest = None
         self._ending.clear()
         self._thread = threading.Thread(
             target=self._work, args=(file, metadata, latched), daemon=True
@@ -101,6 +108,8 @@ class Recorder:
     def _put(self, message: Queued) -> None:
         if len(self._queue) < QUEUE_LENGTH:
             self._queue.append(message)
+            if self._oldest is None:
+                self._oldest = self._clock()
         else:
             self.dropped += 1
 
@@ -154,7 +163,6 @@ class Recorder:
 
     def _fill(self, file: "LogFile", latched: dict[int, bytes]) -> bool:
         """Write one file; return True if the recording ends, False if a new file is due."""
-        flushed = time.monotonic()
         while True:
             ending = self._ending.wait(WRITE_PERIOD)
             self._drain(file, latched)
@@ -164,8 +172,9 @@ class Recorder:
             size, duration = self.settings.max_size, self.settings.max_duration  # 0: no limit
             if 0 < size <= file.size or 0 < duration <= file.duration:
                 return False
-            if time.monotonic() - flushed > FLUSH_PERIOD - WRITE_PERIOD:
-                flushed = time.monotonic()
+            if self._oldest is not None and self._clock() - self._oldest > LONGEST_AGE:
+                self._oldest = None  # what is added from now on has an age of its own
+                self._drain(file, latched)
                 file.flush()
 
     def _drain(self, file: "LogFile", latched: dict[int, bytes]) -> None:

@@ -110,7 +110,8 @@ def pace_status(simulation: Simulation) -> Status:
     ticker, waits = simulation.ticker, simulation.waits
     is_slow = kept < asked or waits.latest >= GAP
     level = WARN if is_slow or ticker.missed >= GAP * ticker.rate else OK
-    message = f"{write_count(ticker.missed, 'tick')} missed" if ticker.missed else "on time"
+    missed = simulation.gaps.whole
+    message = f"{missed} since the start of the run" if missed.samples else "on time"
     if is_slow:
         reason = "the motion is too fast for the compute budget"
         if lack := simulation.lack:
@@ -127,6 +128,8 @@ def pace_status(simulation: Simulation) -> Status:
         {
             "late": ticker.late,
             "missed": ticker.missed,
+            "gaps": missed.gaps,
+            "longest_gap": missed.longest,
             "waited": waits.total,
             "real_time_factor": asked,
             "real_time_factor.achieved": simulation.achieved,

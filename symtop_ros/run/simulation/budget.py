@@ -26,8 +26,8 @@ SPARE_STEPS = 3_000_000  # for what precedes the log
 OPTIMISM = 10.0
 FREE_WORK = 0.02  # s of work that is allowed for any stretch
 SHARE = 0.25  # share of one core for a motion that cannot be followed in real time
-# A thread that gets too little of the processor falls further behind in each of some windows of real
-# time. One long window may be a stop (SIGSTOP, a suspended machine) after which it catches up.
+# A thread that gets too little of the processor falls further behind in each of some windows of
+# real time. One long window may be a stop (SIGSTOP, a suspended machine) after which it catches up.
 WINDOW, WINDOWS = 0.5, 3  # s
 
 
@@ -183,6 +183,5 @@ class ComputeBudget:
         if work > max(FREE_WORK, (stamp - self._prepared) * 1e-9 / factor):
             return Progress(False, shortfall=Shortfall(reached, SHARE * self._progress / work))
         lacking = self._pursuit.note(reached - start, spent, factor * segment.factor)
-        if lacking and is_timed:
-            return Progress(False, shortfall=Shortfall(reached, *lacking))
-        return Progress(False)
+        shortfall = Shortfall(reached, *lacking) if lacking and is_timed else None
+        return Progress(False, shortfall=shortfall)

@@ -1,11 +1,41 @@
 """Samples that were missed, or for which the time waited; when and how the user is warned."""
 
-from symtop_ros.run.simulation.block import GAP, Ticker
+from dataclasses import dataclass
+
+from symtop_ros.base.counts import write_count
+from symtop_ros.run.simulation.block import GAP
 from symtop_ros.run.simulation.clocks import HostClock, RunClock
 from symtop_ros.run.wire.layout import NANOSECONDS
 
 PERIOD = 60 * NANOSECONDS  # between two warnings
 WHY_LATE = "the process was stopped, lacked CPU time or waited for its middleware"
+
+
+@dataclass
+class Missed:
+    """Samples that were missed, and the gaps that they make among those that were sent."""
+
+    samples: int = 0
+    gaps: int = 0
+    longest: float = 0.0  # s of stamps without a sample
+    _last: int | None = None  # stamp of the sample before the last gap, in ns
+    _length: float = 0.0  # of the last gap in s
+
+    def add(self, count: int, rate: float, last: int) -> None:
+        """Add samples at a rate in Hz that were missed after the sample with the stamp `last`."""
+        if last != self._last:
+            self.gaps += 1
+            self._last, self._length = last, 0.0
+        self._length += count / rate
+        self.samples += count
+        self.longest = max(self.longest, self._length)
+
+    def __str__(self) -> str:
+        """Return the number of samples and of gaps, and the longest gap."""
+        if self.gaps == 1:
+            return f"{write_count(self.samples, 'sample')} missed in a gap of {self.longest:.3g} s"
+        missed = f"{self.samples} samples missed in {self.gaps} gaps"
+        return f"{missed}, the longest {self.longest:.3g} s"
 
 
 class Gaps:
@@ -14,29 +44,31 @@ class Gaps:
     def __init__(self, clock: HostClock | RunClock) -> None:
         self._clock = clock
         self._warned: int | None = None  # time of the last warning in ns
-        self._missed = 0  # samples since then
+        self.whole = Missed()  # since the start of the run
+        self._recent = Missed()  # since the last warning
         self.note_sent()
 
     def note_sent(self) -> None:
         """Note that all samples that are due were sent."""
         self._sent = self._clock.now, self._clock.steady  # ns
 
-    def add(self, missed: int) -> None:
-        """Add samples that were missed."""
-        self._missed += missed
+    def add(self, count: int, rate: float, last: int) -> None:
+        """Add samples that were missed after the sample with the stamp `last` (ns)."""
+        for each in (self.whole, self._recent):
+            each.add(count, rate, last)
 
-    def explain(self, ticker: Ticker) -> str | None:
+    def explain(self, rate: float) -> str | None:
         """Return a warning of what was missed since the last one; None if it is too early."""
-        seconds, now = self._missed / ticker.rate, self._clock.now
-        last = self._warned
-        if seconds < GAP or (last is not None and abs(now - last) < PERIOD):
+        now, last = self._clock.now, self._warned
+        is_early = last is not None and abs(now - last) < PERIOD
+        if is_early or self._recent.samples < GAP * rate:
             return None
         since = "" if last is None else " since the last warning of this kind"
         text = (
-            f"no samples for {seconds:.3g} s ({self._missed} missed){since}: "
-            f"{self._find_reason()}; the motion follows the clock ({ticker.missed} missed in all)"
+            f"{self._recent}{since}: {self._find_reason()}; the motion follows the clock "
+            f"({self.whole.samples} missed in all)"
         )
-        self._warned, self._missed = now, 0
+        self._warned, self._recent = now, Missed()
         return text
 
     def _find_reason(self) -> str:

@@ -50,7 +50,7 @@ class Simulation:
         self._spent = 0.0
         self.lack: Lack | None = None  # why the motion is slowed down, if it is not too fast
         self._hold = self._longest_hold = 0  # measurements until a faster pace is tried
-        self._gaps = Gaps(clock)
+        self.gaps = Gaps(clock)
         self.waits = Waits(clock)
         self._blocks = Blocks(self.segment, sink.encode)
         self._is_announcing = False  # True while an event is written: no other may precede it
@@ -164,7 +164,7 @@ class Simulation:
 
     def _send_due(self) -> None:
         ticker, clock = self.ticker, self._clock
-        missed = ticker.missed
+        missed, last = ticker.missed, self.last
         catch_up = clock.catch_up(ticker.rate)
         until = self._blocks.current.last
         for stamp in ticker.due(self.now, catch_up, until, not clock.is_simulated):
@@ -173,10 +173,10 @@ class Simulation:
             if self.turns.is_awaited:
                 break
         if ticker.missed > missed:
-            self._gaps.add(ticker.missed - missed)
-            if warning := self._gaps.explain(ticker):
+            self.gaps.add(ticker.missed - missed, ticker.rate, last)
+            if warning := self.gaps.explain(ticker.rate):
                 self.host.warn(warning)
-        self._gaps.note_sent()
+        self.gaps.note_sent()
 
     def _work_on_block(self) -> bool:
         """Work towards the states of the next stamps; return True when they are reached."""

@@ -34,9 +34,9 @@ LATCHED = Topic("/latched", "std_msgs/msg/String", latched=True)
 PLAIN = Topic("/plain", "std_msgs/msg/String")
 
 
-def create(folder, **limits):
+def create(folder, clock=time.monotonic, **limits):
     unlimited = {"max_size": 0.0, "max_duration": 0.0}
-    recorder = Recorder(RecordSettings(True, str(folder), **{**unlimited, **limits}))
+    recorder = Recorder(RecordSettings(True, str(folder), **{**unlimited, **limits}), clock)
     recorder.add_channel("/latched", LATCHED)
     recorder.add_channel("/plain", PLAIN)
     return recorder
@@ -66,6 +66,23 @@ def test_a_file_begins_with_the_current_latched_messages(tmp_path):
     recorder.stop()
     assert recorder.path is None
     assert contents(path) == [("/latched", 7, b"holds"), ("/plain", 7, b"first")]
+
+
+def test_what_is_old_enough_is_written_whatever_comes_after_it(tmp_path):
+    now = [0.0]
+    recorder = create(tmp_path, clock=lambda: now[0])
+    path = recorder.start({})
+    recorder.add(1, 7, b"first")
+    now[0] = module.LONGEST_AGE  # not older than that
+    until(lambda: not recorder._queue)
+    assert [each for chunk in read_whole(path).chunks() for each in chunk] == []
+    now[0] += 0.001
+    until(lambda: [each for chunk in McapFile(path).chunks() for each in chunk])
+    recorder.add(1, 8, b"second")  # its age begins now
+    until(lambda: not recorder._queue)
+    assert [each.data for chunk in read_whole(path).chunks() for each in chunk] == [b"first"]
+    recorder.stop()
+    assert [data for *_, data in contents(path)] == [b"first", b"second"]
 
 
 def test_a_file_that_is_long_enough_is_followed_by_another_that_stands_alone(tmp_path):

@@ -43,7 +43,7 @@ def test_it_begins_and_ends_once_and_each_answer_has_the_path(run, tmp_path):
 def test_if_the_last_bytes_cannot_be_written_the_end_is_refused_with_the_reason_and_reported_once(
     run, host, tmp_path, monkeypatch
 ):
-    monkeypatch.setattr(module, "FLUSH_PERIOD", 3600.0)  # nothing fails before the end
+    monkeypatch.setattr(module, "LONGEST_AGE", 3600.0)  # nothing fails before the end
     session, clock = run
     assert switch(session, True)[0]
     advance(session, clock, 0.1)

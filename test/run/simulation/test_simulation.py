@@ -1,9 +1,11 @@
 """The simulation without ROS: samples, events, jumps of the clock, torques and failures."""
 
+import re
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from run.simulation.runs import SECOND, ListSink, Run
 from waiting import until
@@ -12,6 +14,7 @@ from symtop_ros.run.simulation import events
 from symtop_ros.run.simulation.block import MAX_BLOCK
 from symtop_ros.run.simulation.budget import SHARE
 from symtop_ros.run.simulation.changes.outcomes import Failure
+from symtop_ros.run.simulation.gaps import Missed
 from symtop_ros.run.simulation.topics import STATE_TOPICS
 
 pytestmark = pytest.mark.numbers
@@ -179,13 +182,37 @@ def test_late_ticks_are_dropped_and_reported_once_and_then_each_minute():
         run.tick()
     assert run.simulation.ticker.missed == 3 * 199  # 100 samples of 300 are caught up
     (first,) = run.sink.warnings
-    assert "0.199 s (199 missed)" in first
+    assert read_missed(first) == (199, 1, 0.199)
     for _ in range(2 * 60):
         run.clock.now += 1000 * MS
         run.tick()
     assert len(run.sink.warnings) == 3
     missed = 2 * 199 + 60 * 899  # 100 samples of 1000 are caught up
-    assert f"{missed / 1000:.3g} s ({missed} missed)" in run.sink.warnings[1]
+    assert read_missed(run.sink.warnings[1]) == (missed, 62, 0.899)
+    assert str(run.simulation.gaps.whole) == write_missed(run.stamps, 1000)
+
+
+def read_missed(text):
+    """Return the numbers of a sentence: samples, gaps and the longest gap in s."""
+    samples, gaps, longest = re.match(
+        r"(\d+) samples missed in (a|\d+) gaps?(?: of|, the longest) ([\d.]+) s", text
+    ).groups()
+    return int(samples), 1 if gaps == "a" else int(gaps), float(longest)
+
+
+def write_missed(stamps, rate):
+    """Return the sentence on the gaps of stamps, counted on them."""
+    missed = np.rint(np.diff(stamps) * rate / SECOND).astype(int) - 1
+    gaps = missed[missed > 0]
+    longest = f"{gaps.max() / rate:.3g}"
+    return f"{gaps.sum()} samples missed in {len(gaps)} gaps, the longest {longest} s"
+
+
+def test_a_gap_that_is_found_in_two_ticks_is_one_gap():
+    missed = Missed()
+    for count, last in ((30, 5), (20, 5), (40, 9)):
+        missed.add(count, 100.0, last)
+    assert read_missed(str(missed)) == (90, 2, 0.5)
 
 
 @pytest.mark.parametrize(("rate", "caught_up"), [(1000.0, 100), (200.0, 100), (100.0, 50)])
@@ -225,7 +252,8 @@ def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_sec
     assert run.sink.warnings == []
     run.clock.now += 102 * MS
     run.tick()
-    assert "0.1 s (100 missed)" in run.sink.warnings[0]
+    assert read_missed(run.sink.warnings[0]) == (100, 100, 0.001)
+    assert str(run.simulation.gaps.whole) == write_missed(run.stamps, 1000)
 
 
 @pytest.mark.parametrize("times", [1, 8])
