@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 QUEUE_LENGTH = 60_000  # messages: about ten seconds at 1 kHz
 # s between two writes. Short, so that each takes little time: ticks wait for the interpreter.
 WRITE_PERIOD = 0.005
-# s: age at which a message is on the disk. Half a second is promised if the thread gets the processor
-# within 0.1 s when it is due.
+# s: age at which a message is written to the disk. Half a second is promised if the thread gets the
+# processor within 0.1 s when that is due.
 LONGEST_AGE = 0.4
 Queued = tuple[int, int, bytes]  # channel, stamp in ns, message
 
