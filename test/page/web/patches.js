@@ -38,10 +38,12 @@ window.patches = {
     const MORE_STEPS = 11;
     const instantiate = WebAssembly.instantiate;
     window.work = { calls: 0, hundreds: 0 };
-    const count = (call) => (...given) => {
-      window.work.calls += 1;
-      return call(...given);
-    };
+    const count =
+      (call) =>
+      (...given) => {
+        window.work.calls += 1;
+        return call(...given);
+      };
     const reachBySteps = (reach) => (handle, t, steps, place) => {
       for (let left = steps; ; left -= HUNDRED) {
         const status = reach(handle, t, Math.min(left, HUNDRED), place);
