@@ -5,8 +5,7 @@ import subprocess
 import sys
 
 import numpy as np
-import pytest
-from films import SUFFIXES, draw_balls, write_film
+from films import draw_balls, write_film
 
 COUNT = 12
 BUSY = 8  # programs next to this one
@@ -32,10 +31,10 @@ def draw_noise():
         yield np.clip(picture + noise, 0, 255).astype(np.uint8)
 
 
-@pytest.mark.parametrize("suffix", SUFFIXES)
-def test_a_film_is_the_same_file_alone_and_on_a_busy_machine(suffix, tmp_path):
+def test_a_film_is_the_same_file_alone_and_on_a_busy_machine(tmp_path):
+    """Of VP8, whose encoder can adapt to the time that it has; that of H.264 cannot."""
     times = [k / 60 for k in range(COUNT)]
-    alone = write_film(tmp_path / f"alone{suffix}", draw_noise(), times)
+    alone = write_film(tmp_path / "alone.webm", draw_noise(), times)
     with busy():
-        other = write_film(tmp_path / f"busy{suffix}", draw_noise(), times)
+        other = write_film(tmp_path / "busy.webm", draw_noise(), times)
     assert alone.read_bytes() == other.read_bytes()

@@ -1,6 +1,9 @@
 """The Rerun viewer: it leaves the home of the user unchanged."""
 
+import errno
+import os
 import re
+import socket
 import sys
 from urllib.parse import urlsplit
 
@@ -77,3 +80,14 @@ def test_the_page_asks_no_other_host(capsys, browser):
     finally:
         process.terminate()
         process.wait(timeout=TIMEOUT)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a port is not kept")
+def test_a_port_that_was_found_is_kept_for_a_server_that_reuses_it():
+    place = viewer.HOST, viewer.free_port()
+    with socket.socket() as other, pytest.raises(OSError, match=os.strerror(errno.EADDRINUSE)):
+        other.bind(place)
+    with socket.socket() as probe:
+        assert probe.connect_ex(place) == errno.ECONNREFUSED
+    with socket.create_server(place), socket.create_connection(place):
+        pass
