@@ -148,7 +148,7 @@ def test_a_run_that_takes_too_long_to_integrate_is_refused_or_reached_later(open
     opened.drop(driven)
     opened.until(lambda: len(opened.read_events()) == 3)
     assert driven["events"][2]["time"] < opened.read_run()["end"] < 4e6
-    refused = "a run must be computed in 10 s, got to event 3"
+    refused = "a run must take at most 500000 steps, got to event 3"
     assert refuse(opened, [list_late_events(4e6)]) == [refused]
 
 
