@@ -59,10 +59,9 @@ class GravityMotion {
 
   void find_turning_angles(double angles[2]) {
     prepare(SOLVED);
-    if (is_free_) return free_.find_turning_angles(is_turned_over_, angles);
     const bool from_below = is_turned_over_;
-    const Zero &near = closed_.zeros[from_below ? OF_A : OF_B],
-               &far = closed_.zeros[from_below ? OF_B : OF_A];
+    const Zero* zeros = is_free_ ? free_.zeros : closed_.zeros;
+    const Zero &near = zeros[from_below ? OF_A : OF_B], &far = zeros[from_below ? OF_B : OF_A];
     const double upper = 2 * find_half_angle(near.from_u2, far.from_u2);
     const double lower = 2 * find_half_angle(near.from_u1, far.from_u1);
     angles[0] = from_below ? lower : upper, angles[1] = from_below ? upper : lower;
@@ -162,8 +161,7 @@ class GravityMotion {
     const Precise spin = Precise(double(upper - lower)) * half + free_.turning_rate;
     return {returns ? 2 * PI / rate : INFINITY, precession.to_double(), spin.to_double(),
             free_.nutation_rate.sign ? (upper + lower) / 2.0 : NAN, free_.find_mean_cosine(),
-            free_.kind != SLEEPING &&
-                spin_reverses_free(free_.tilt, free_.cone, rate, free_.start.wz)};
+            free_.kind != SLEEPING && symtop::spin_reverses(free_)};
   }
 };
 
