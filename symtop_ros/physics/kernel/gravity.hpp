@@ -67,6 +67,22 @@ class GravityMotion {
     angles[0] = from_below ? lower : upper, angles[1] = from_below ? upper : lower;
   }
 
+  // |omega_xy| at the same turning points, and the horizontal part of L over Ix, in rad/s. Where the
+  // axis comes to rest, or L is vertical, differences of doubles would leave the root of rounding.
+  void find_rates_at_ends(double across[2], double level[2]) {
+    prepare(SOLVED);
+    const Nutation& n = is_free_ ? free_.nutation : closed_.nutation;
+    const Precise b = n.b_minus_au + n.a * n.u();
+    for (const bool is_upper : {true, false}) {
+      const Zero& zero = closed_.zeros[OF_OMEGA_XY];
+      const Precise& height = is_upper ? zero.from_u2 : zero.from_u1;
+      const Precise square = is_free_ ? n.omega_xy_squared : n.beta * height;
+      const int end = is_upper == is_turned_over_;
+      across[end] = root(square).to_double();
+      level[end] = root(square + n.a * n.a - b * b).to_double();
+    }
+  }
+
   double find_farthest_time() {
     prepare(STATES);
     return is_free_ ? free_.steps.farthest : closed_.steps.farthest;
