@@ -17,19 +17,17 @@ from physics.tops import EPS
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import (
     Motion,
+    Solution,
     State,
     Top,
-    apply_impulse,
     clamp_verdict,
     hurry,
     kick_verdict,
     perrys_rule,
-    regular_precession_rates,
-    set_precession_rate,
     solve_start,
 )
 
-Numbers3 = tuple[float, float, float]
+Numbers4 = tuple[float, float, float, float]
 Facts = dict[str, Any]
 
 # What a number is multiplied by: powers of the units of time and of moments, and its signs in a
@@ -43,6 +41,10 @@ QUANTITIES = {
     "turns": (0, 0, -1, -1),
     "fall": (-1, 0, 1, -1),
     "acceleration": (-2, 0, 1, -1),
+    "square": (-2, 0, 1, 1),
+    "energy": (-2, 1, 1, 1),
+    "vertical momentum": (-1, 1, -1, -1),
+    "momentum": (-1, 1, -1, 1),
     "height": (0, 0, 1, -1),
 }
 NAMES = {
@@ -95,11 +97,7 @@ OPPOSITES = (
     (True, False),
 )
 # Words of which a world that is turned over has the opposite.
-OVER = {
-    word: other
-    for pair in OPPOSITES
-    for word, other in (pair, pair[::-1])
-}
+OVER = {word: other for pair in OPPOSITES for word, other in (pair, pair[::-1])}
 TURNED_OVER = ("direction", "rule", "rule_holds", "effect", "subject", "facts")
 BESIDE = {"above": "below", "below": "above"}  # of a rate that changes its sign
 
@@ -120,6 +118,9 @@ class Twin:
         weight = math.ldexp(-Mgl if self.is_over else Mgl, self.moment - 2 * self.time)
         return Top(math.ldexp(Ix, self.moment), math.ldexp(Iz, self.moment), weight)
 
+    def of_time(self, t: float) -> float:
+        return math.ldexp(t, self.time)
+
     def of_rates(self, omega: Any) -> Any:
         return tuple(math.ldexp(each, -self.time) for each in self.spin(omega))
 
@@ -134,10 +135,8 @@ class Twin:
             return self._map_word(name, last, value)
         if not isinstance(value, float):
             return value
-        quantity = PLACES.get(".".join(name.split(".")[-2:]), NAMES.get(last, "dimensionless"))
-        time, moment, mirrored, over = QUANTITIES[quantity]
-        sign = (mirrored if self.is_mirrored else 1) * (over if self.is_over else 1)
-        return math.ldexp(sign * value, time * self.time + moment * self.moment)
+        place = ".".join(name.split(".")[-2:])
+        return scale(self, PLACES.get(place) or NAMES.get(last, "dimensionless"), value)
 
     def _map_word(self, name: str, last: str, value: Any) -> Any:
         if name.endswith("place.kind"):
@@ -155,6 +154,13 @@ class Twin:
         return others.get(name)
 
 
+def scale(twin: Twin, quantity: str, value: float) -> float:
+    """Return the number of a twin."""
+    time, moment, mirrored, over = QUANTITIES[quantity]
+    sign = (mirrored if twin.is_mirrored else 1) * (over if twin.is_over else 1)
+    return math.ldexp(sign * value, time * twin.time + moment * twin.moment)
+
+
 TWINS = {
     "mirrored": Twin(
         lambda q: (q[0], q[1], -q[2], -q[3]), lambda o: (o[0], -o[1], -o[2]), is_mirrored=True
@@ -170,8 +176,8 @@ TWINS = {
 }
 
 
-def list_facts(top: Top, state: State) -> Facts:
-    """Return all that is said of a start, by name."""
+def list_facts(top: Top, state: State, t: float) -> Facts:
+    """Return all that is said of a start, by name, and its state at a time."""
     motion = Motion(top, state)
     facts: Facts = {}
     for name in OF_A_MOTION:
@@ -179,6 +185,9 @@ def list_facts(top: Top, state: State) -> Facts:
     for factor in (1.4, 0.5):
         for hold in ("spin_rate", "spin_momentum"):
             add(facts, f"verdict {factor} {hold}", perrys_rule(top, state, factor, hold))
+    later = motion.at(t)
+    facts["orientation"] = tuple(later.orientation.tolist())
+    facts["angular_velocity"] = tuple(later.angular_velocity.tolist())
     if state.is_vertical:
         facts["stable"] = bool(top.sleeping_is_stable(state))
     else:
@@ -247,6 +256,10 @@ def compare(twin: Twin, facts: Facts, others: Facts) -> Iterator[tuple[str, Any,
 
 
 def map_all(twin: Twin, name: str, value: Any) -> Any:
+    if name == "orientation":
+        return twin.turn(value)
+    if name == "angular_velocity":
+        return twin.of_rates(value)
     if isinstance(value, tuple):
         return tuple(twin.map(name, each) for each in value)
     return twin.map(name, value)
@@ -257,6 +270,8 @@ def is_as_said(twin: Twin, name: str, value: Any, other: Any) -> bool:
     last = name.rsplit(".", 1)[-1]
     if last == "facts":
         return set(value) == set(other)
+    if name in OF_A_STATE and twin.is_mirrored:
+        return name != "orientation" or are_near(value, other)
     if last == "farthest_time" and twin.is_mirrored:
         # Of a pole that is passed d counts as positive: phases that count whole turns the other way
         # round differ by a nutation, of which a power of two shows at most twice as much.
@@ -275,6 +290,10 @@ def is_as_said(twin: Twin, name: str, value: Any, other: Any) -> bool:
     return is_same(value, other)
 
 
+# Phases are integers that are truncated towards minus infinity, by 2^-62 of a turn: the image of a state
+# in a mirror has other last bits, within the promise of 20 EPS of the attitude for both.
+OF_A_STATE = ("orientation", "angular_velocity")
+STATE = 20 * EPS
 # A lift is the difference of two turning angles, each right to 2 EPS of at most pi.
 LIFT = 4 * math.pi * EPS
 # Angles of a cause come from those of theta in doubles: docs/derivation.md, section 14.
@@ -288,6 +307,10 @@ def are_opposite(value: Any, other: Any) -> bool:
     return abs(value + other - math.pi) <= 2 * EPS * (value + other)
 
 
+def are_near(value: Numbers4, other: Numbers4) -> bool:
+    return all(abs(a - b) <= STATE for a, b in zip(value, other, strict=True))
+
+
 def is_same(value: Any, other: Any) -> bool:
     if isinstance(value, tuple):
         return (
@@ -298,3 +321,65 @@ def is_same(value: Any, other: Any) -> bool:
     if isinstance(value, float) and isinstance(other, float) and math.isnan(value):
         return math.isnan(other)
     return bool(value == other)
+
+
+# ---- Starts from what is seen ----
+
+# What is known, by its quantity; the tilt of a world that is turned over would be rounded.
+KNOWN = {
+    "theta": "dimensionless",
+    "dip": "dimensionless",
+    "precession_period": "time",
+    "nutation_period": "time",
+    "psi_dot": "spin",
+    "alpha": "square",
+    "a": "spin",
+    "b": "precession",
+    "energy": "energy",
+    "p_phi": "vertical momentum",
+    "p_psi": "momentum",
+}
+
+
+def map_known(twin: Twin, known: dict[str, float]) -> dict[str, float]:
+    """Return what is known of a twin."""
+    return {name: scale(twin, KNOWN[name], value) for name, value in known.items()}
+
+
+def solve_all(top: Top, known: dict[str, float]) -> Any:
+    """Return all starts that have what is known, or the name that is refused."""
+    try:
+        return solve_start(top, **known)
+    except RefusedError as error:
+        return str(error).split()[0]
+
+
+def are_twins(twin: Twin, starts: Any, others: Any) -> bool:
+    """Return whether all starts of a twin are those of the others, in any order."""
+    if isinstance(starts, str) or isinstance(others, str):
+        return bool(starts == others)
+    left = list(others)
+    for start in starts:
+        found = [other for other in left if is_twin(twin, start, other)]
+        if not found:
+            return False
+        left.remove(found[0])
+    return not left
+
+
+def is_twin(twin: Twin, start: Solution, other: Solution) -> bool:
+    if not twin.is_over:
+        return all(
+            twin.map(name, getattr(start, name)) == getattr(other, name)
+            for name in ("theta", "theta_dot", "phi_dot", "psi_dot")
+        )
+    # Each number is right to some EPS, and theta' of an axis on the vertical has no sign.
+    rates = [twin.map("phi_dot", start.phi_dot), start.psi_dot, start.theta_dot]
+    seen = [other.phi_dot, other.psi_dot, other.theta_dot]
+    size = max(map(abs, rates))
+    return are_opposite(start.theta, other.theta) and all(
+        abs(a - b) <= SOLVED * size for a, b in zip(rates, seen, strict=True)
+    )
+
+
+SOLVED = 16 * EPS

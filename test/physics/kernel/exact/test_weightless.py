@@ -1,4 +1,4 @@
-"""Tops without weight against 50 digits and more: words, turning angles and means, from 1e-12 rad on.
+"""Tops without weight, from 1e-12 rad on, against 50 digits: words, turning angles and means.
 
 The axis moves on a circle of angle `cone` about L, which has the angle `tilt` to the vertical. Here
 both angles come from cross and scalar products, in balls of 300 bits that prove their digits; the
@@ -22,7 +22,7 @@ START = 64 * EPS  # of what is computed from a start: kernel/exact/nutation.hpp
 EDGE = 1e-9  # next to a limit of rounding both words are right
 DECADES = range(-12, 1)  # of the tilt; the last one ends at pi
 FEW, MANY = 40, 5000  # starts a decade, in a run of all tests and in the long trial
-# Half an EPS each of two squares, of which the roots halve it, of their roots, of the quotient and of
+# Half an EPS each of two squares, of which roots halve it, of their roots, of the quotient and of
 # the arc tangent, and what its series leaves.
 ANGLE = 3 * EPS
 
