@@ -1,7 +1,7 @@
 """What is said of a start is said of its symmetric twins, in the same words and with bits that map.
 
-Starts are those of all families, those next to each boundary where a word changes, and those without
-weight at all tilts. Twins show what no reference looks at: this test asks every fact at once.
+Starts are those of all families, those next to each boundary where a word changes, and those
+without weight at all tilts. Twins show what no reference looks at: every fact is asked at once.
 """
 
 from collections.abc import Iterator
@@ -35,7 +35,7 @@ def list_starts(source: str, count: int) -> Iterator[Start]:
             top, state = unpack(move(rng, BOUNDARIES[source].draw(rng)))
             yield top, state, rng.uniform(0.1, 10.0)
         else:
-            motion = draw_weightless(rng, int(source.split()[-1]))
+            motion = draw_weightless(rng, int(source.rsplit(maxsplit=1)[-1]))
             yield motion.top, motion.start, rng.uniform(0.1, 10.0)
 
 

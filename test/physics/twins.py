@@ -1,9 +1,9 @@
 """Symmetric twins of a start: what is said of one must be said of the others, with bits that map.
 
 The equations of motion keep their form if the world is mirrored, turned over (with -Mgl), turned
-about the vertical, or measured in other units, and if the body is turned about its axis. Doubles bear all
-of this without rounding if turns are half ones and units powers of two. So no reference is needed,
-and no tolerance, but for theta and pi - theta, of which one is rounded.
+about the vertical, or measured in other units, and if the body is turned about its axis. Doubles
+bear all of this without rounding if turns are half ones and units powers of two. So no reference is
+needed, and no tolerance, but for theta and pi - theta, of which one is rounded.
 """
 
 import dataclasses
@@ -270,29 +270,18 @@ def is_as_said(twin: Twin, name: str, value: Any, other: Any) -> bool:
     last = name.rsplit(".", 1)[-1]
     if last == "facts":
         return set(value) == set(other)
-    if name in OF_A_STATE and twin.is_mirrored:
-        return name != "orientation" or are_near(value, other)
-    if last == "farthest_time" and twin.is_mirrored:
-        # Of a pole that is passed d counts as positive: phases that count whole turns the other way
-        # round differ by a nutation, of which a power of two shows at most twice as much.
-        return value == other or 0.5 <= value / other <= 2
     if last == "regular_rates" and len(value) == len(other) == 2 and abs(value[0]) == abs(value[1]):
         return set(value) == set(other)  # neither is the slow one
-    if twin.is_over:
-        if last in ANGLES:
-            return are_opposite(value, other)
-        if last == "amount":
-            return abs(value - other) <= LIFT
-        if last in OF_CAUSE:
-            return len(value) == len(other) and all(
-                abs(a - b) <= OF_A_CAUSE for a, b in zip(value, other, strict=True)
-            )
+    of_mirror, of_world = IN_A_MIRROR.get(last), TURNED.get(last)
+    if twin.is_mirrored and of_mirror:
+        return of_mirror(value, other)
+    if twin.is_over and of_world:
+        return of_world(value, other)
     return is_same(value, other)
 
 
-# Phases are integers that are truncated towards minus infinity, by 2^-62 of a turn: the image of a state
-# in a mirror has other last bits, within the promise of 20 EPS of the attitude for both.
-OF_A_STATE = ("orientation", "angular_velocity")
+# Phases are integers that are truncated towards minus infinity, by 2^-62 of a turn: the image of a
+# state in a mirror has other last bits, within the promise of 20 EPS of the attitude for both.
 STATE = 20 * EPS
 # A lift is the difference of two turning angles, each right to 2 EPS of at most pi.
 LIFT = 4 * math.pi * EPS
@@ -309,6 +298,32 @@ def are_opposite(value: Any, other: Any) -> bool:
 
 def are_near(value: Numbers4, other: Numbers4) -> bool:
     return all(abs(a - b) <= STATE for a, b in zip(value, other, strict=True))
+
+
+def are_of_a_cause(value: Any, other: Any) -> bool:
+    return all(abs(a - b) <= OF_A_CAUSE for a, b in zip(value, other, strict=True))
+
+
+def is_as_far(value: float, other: float) -> bool:
+    """Return whether times are equal, or one is the next power of two.
+
+    Of a pole that is passed d counts as positive: phases that count whole turns the other way round
+    differ by a nutation.
+    """
+    return value == other or 0.5 <= value / other <= 2
+
+
+# What is rounded on the way to a twin, by the last part of the name.
+IN_A_MIRROR: dict[str, Callable[[Any, Any], bool]] = {
+    "orientation": are_near,
+    "angular_velocity": lambda value, other: bool(value[2] == other[2]),
+    "farthest_time": is_as_far,
+}
+TURNED: dict[str, Callable[[Any, Any], bool]] = {
+    **dict.fromkeys(ANGLES, are_opposite),
+    **dict.fromkeys(OF_CAUSE, are_of_a_cause),
+    "amount": lambda value, other: abs(value - other) <= LIFT,
+}
 
 
 def is_same(value: Any, other: Any) -> bool:
