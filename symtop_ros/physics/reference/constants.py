@@ -123,8 +123,9 @@ def _find_nutation(fall: Fall) -> ProvedConstants:
 def _find_circle(fall: Fall) -> ProvedConstants:
     """Return the constants of an axis that turns about L, as there is no weight.
 
-    Its height is u = (a b +- |omega_xy| sqrt(|R|^2 - b^2) cos(|R| t))/|R|^2 with |R| = |L|/Ix. Of the
-    arguments of A and B a turn takes along half a turn, with the sign of b + a and of b - a.
+    Its height is u = (a b + |omega_xy| sqrt(|R|^2 - b^2) cos(|R| t))/|R|^2 with |R| = |L|/Ix, from
+    the highest place on. In a turn the arguments of A and B make half a turn each, with the signs
+    of b + a and of b - a.
     """
     square, (above, below) = fall.alpha + fall.a**2, (_turns_at(fall, pole) for pole in (1, -1))
     rate, middle = to_ball(square).sqrt(), to_ball(fall.a * fall.b / square)
