@@ -474,7 +474,7 @@ class Motion:
         """Time in s at which the fastest phase has made 1e15 turns: later states are refused.
 
         Or that of a push that cannot be made: the axis is vertical then, or the top would be too
-        fast. It is infinite with friction or an applied torque.
+        fast. It is infinite with friction or an applied torque, and if all phases stand still.
 
         Examples
         --------

@@ -43,8 +43,9 @@ class Solution:
     theta_dot, phi_dot, psi_dot : float
         Rates in rad/s; phi' is 0 on the vertical, where psi' is the whole spin.
     least, most : Solution or None
-        The least and the largest of each number, as far as what is known may be off; None without
-        half-widths, or if there may then be more or fewer starts.
+        The least and the largest of each number, as far as what is known may be off. None without
+        half-widths, or if somewhere within them there are more or fewer starts, a rate of regular
+        precession changes its sign, or p_phi = p_psi or -p_psi, where phi' has no bound.
     """
 
     theta: float
@@ -91,7 +92,8 @@ def solve_start(
         One top.
     half_widths : mapping of str to float, optional
         By how much numbers that are known may be off, >= 0 in their units: the solutions then have
-        `least` and `most`, of any numbers in the box. Extremes inside of it are found as well.
+        `least` and `most`, of any numbers in the box, if the same starts exist in all of it.
+        Extremes inside of it are found as well.
     **known : float
         Two or three numbers of one row, in rad, rad/s, s, J, N m s, 1/s^2 and 1/s. The time of one
         turn of phi, `precession_period`, has no sign: the top may go round in either direction.

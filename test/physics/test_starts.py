@@ -515,6 +515,77 @@ def test_a_spread_is_unknown_where_a_start_ends_or_goes_through_infinity():
             assert start.most is None
 
 
+def draw_turn(seed):
+    """Return a top, what is known of a turn, half-widths, and cos(theta) as a parabola of 1/p."""
+    rng = Numbers(f"turns {seed}")
+    top = Top(1.0, rng.choice([0.5, 1.5]), rng.choice([-1.0, 1.0]))
+    known = {"psi_dot": rng.uniform(2.0, 4.0), "precession_period": rng.uniform(3.0, 9.0)}
+    width = {"precession_period": known["precession_period"] * rng.uniform(0.01, 0.3)}
+    return top, known, width
+
+
+def find_cosines(top, spin, period, sign):
+    """cos(theta) of a turn: the ends of an interval of periods, and the vertex between them."""
+    low, high = period
+
+    def cosine_of(x):  # of x = 1/p
+        return (top.Iz * spin * x - top.Mgl * x * x) / (top.Ix - top.Iz)
+
+    ends = [mpf(sign) * each / (2 * mp.pi) for each in (low, high)]
+    vertex = top.Iz * mpf(spin) / (2 * mpf(top.Mgl))
+    between = [vertex] if min(ends) < vertex < max(ends) else []
+    return [cosine_of(x) for x in (*ends, *between)]
+
+
+@pytest.mark.parametrize("seed", seeds(1, 20))
+def test_a_spread_is_silent_if_starts_end_between_the_points_of_its_grid(seed):
+    told = silent = 0
+    for number in range(300):
+        top, known, width = draw_turn(300 * seed + number)
+        starts = find(top, **known)
+        if not starts:
+            continue
+        (off,) = width.values()
+        period = known["precession_period"] - off, known["precession_period"] + off
+        with mp.workdps(40):
+            sides = [find_cosines(top, known["psi_dot"], period, sign) for sign in (1, -1)]
+            # each direction has a start at all periods of the interval, or at none
+            exists = [[abs(each) < 1 for each in side] for side in sides]
+            signs = [{mp.sign(each) for each in side} for side in sides]
+        is_steady = all(
+            all(side) or (not any(side) and len(sign) == 1)
+            for side, sign in zip(exists, signs, strict=True)
+        )
+        for start in solve_start(top, half_widths=width, **known):
+            assert (start.least is not None) == is_steady, (top, known, width)
+            told += is_steady
+            silent += not is_steady
+    assert min(told, silent) > 4
+
+
+def test_a_parabola_that_leaves_the_tilts_between_two_points_is_seen():
+    # cos(theta) is 1.0012 at its vertex: 16 % of the periods have no motion.
+    known = {"psi_dot": 2.83, "precession_period": 4.6}
+    for start in solve_start(Top(1.0, 0.5, 1.0), half_widths={"precession_period": 0.9}, **known):
+        assert start.least is None
+
+
+@pytest.mark.parametrize(
+    ("top", "theta", "spin"),
+    [
+        (Top(1.0, 0.5, 1.0), 5e-324, math.sqrt(4.0 * (math.pi**2 + 1.0)) * 2.0),
+        (Top(1.0, 0.5, 1e-100), 0.5, 4.0 * math.pi),
+        (Top(1.0, 0.5, 1e-300), 3.14, 4.0 * math.pi),
+    ],
+)
+def test_a_nutation_period_has_its_spin_at_any_tilt_and_weight(top, theta, spin):
+    # Upright the nutation is sqrt(p_psi^2 - 4 Ix Mgl)/Ix; without weight p_psi/Ix.
+    for start, sign in zip(
+        solve_start(top, theta=theta, nutation_period=1.0), (1, -1), strict=True
+    ):
+        assert start.psi_dot == pytest.approx(sign * spin, rel=8 * EPS)
+
+
 def test_half_widths_are_refused_by_name():
     for half_widths, refusal in (
         ({"dip": -1.0}, r"half_widths\[dip\] must be >= 0 rad, got -1"),

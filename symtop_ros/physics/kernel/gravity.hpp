@@ -59,13 +59,28 @@ class GravityMotion {
 
   void find_turning_angles(double angles[2]) {
     prepare(SOLVED);
-    if (is_free_) return free_.find_turning_angles(is_turned_over_, angles);
     const bool from_below = is_turned_over_;
-    const Zero &near = closed_.zeros[from_below ? OF_A : OF_B],
-               &far = closed_.zeros[from_below ? OF_B : OF_A];
+    const Zero* zeros = is_free_ ? free_.zeros : closed_.zeros;
+    const Zero &near = zeros[from_below ? OF_A : OF_B], &far = zeros[from_below ? OF_B : OF_A];
     const double upper = 2 * find_half_angle(near.from_u2, far.from_u2);
     const double lower = 2 * find_half_angle(near.from_u1, far.from_u1);
     angles[0] = from_below ? lower : upper, angles[1] = from_below ? upper : lower;
+  }
+
+  // |omega_xy| at the same turning points, and the horizontal part of L over Ix, in rad/s. Where the
+  // axis comes to rest, or L is vertical, differences of doubles would leave the root of rounding.
+  void find_rates_at_ends(double across[2], double level[2]) {
+    prepare(SOLVED);
+    const Nutation& n = is_free_ ? free_.nutation : closed_.nutation;
+    const Precise b = n.b_minus_au + n.a * n.u();
+    for (const bool is_upper : {true, false}) {
+      const Zero& zero = closed_.zeros[OF_OMEGA_XY];
+      const Precise& height = is_upper ? zero.from_u2 : zero.from_u1;
+      const Precise square = is_free_ ? n.omega_xy_squared : n.beta * height;
+      const int end = is_upper == is_turned_over_;
+      across[end] = root(square).to_double();
+      level[end] = root(square + n.a * n.a - b * b).to_double();
+    }
   }
 
   double find_farthest_time() {
@@ -162,8 +177,7 @@ class GravityMotion {
     const Precise spin = Precise(double(upper - lower)) * half + free_.turning_rate;
     return {returns ? 2 * PI / rate : INFINITY, precession.to_double(), spin.to_double(),
             free_.nutation_rate.sign ? (upper + lower) / 2.0 : NAN, free_.find_mean_cosine(),
-            free_.kind != SLEEPING &&
-                spin_reverses_free(free_.tilt, free_.cone, rate, free_.start.wz)};
+            free_.kind != SLEEPING && symtop::spin_reverses(free_)};
   }
 };
 

@@ -384,7 +384,8 @@ typedef struct {
 } symtop_spreads;
 
 /* How far the same starts move while each number that is known moves by up to its half-width, if that is
- * > 0, to both sides. All NaN if there are more or fewer starts on the way, or one of them leaves all bounds. */
+ * > 0, to both sides. All NaN if somewhere within the half-widths there are more or fewer starts, a rate of
+ * regular precession changes its sign, or p_phi = p_psi or -p_psi, where phi' has no bound. */
 SYMTOP_API symtop_status symtop_find_spreads(const symtop_top* top, symtop_question seen,
                                              const double known[3], const double half_widths[3],
                                              symtop_spreads* spreads);

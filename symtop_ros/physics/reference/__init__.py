@@ -16,7 +16,11 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from symtop_ros.physics.reference.balls import ProvedState
-from symtop_ros.physics.reference.constants import ProvedConstants, prove_constants
+from symtop_ros.physics.reference.constants import (
+    ProvedConstants,
+    prove_constants,
+    prove_held_constants,
+)
 from symtop_ros.physics.reference.proved import prove_state
 from symtop_ros.physics.reference.series import Inputs
 from symtop_ros.physics.times import SECOND, ExactTimes
@@ -86,18 +90,22 @@ def exact_state(
     return prove_state(Inputs.of(top, start), _read_time(t), digits, drag, torque)
 
 
-def exact_constants(top: Top, start: State, digits: int = 50) -> ProvedConstants:
+def exact_constants(
+    top: Top, start: State, digits: int = 50, clamped: bool = False
+) -> ProvedConstants:
     """Return kind, period, turning angles and mean rates of a motion under gravity as balls.
 
     Parameters
     ----------
     top : Top
-        One top, of which Mgl is not 0.
+        One top.
     start : State
         The state at t = 0.
     digits : int
         Radii are 10^-digits at most: of angles, of the period relative to itself, and of the rates
         relative to the larger one.
+    clamped : bool
+        True if a hand holds phi, as in `Motion`.
 
     Returns
     -------
@@ -107,7 +115,7 @@ def exact_constants(top: Top, start: State, digits: int = 50) -> ProvedConstants
     Raises
     ------
     ValueError
-        If the top or the start are many, Mgl is 0, or digits are not positive.
+        If the top or the start are many, digits are not positive, or a clamped axis is vertical.
 
     Examples
     --------
@@ -119,7 +127,14 @@ def exact_constants(top: Top, start: State, digits: int = 50) -> ProvedConstants
     ('cusps', '0.15954481400192355269')
     """
     _check(top, start, digits)
-    return prove_constants(Inputs.of(top, start), digits)
+    inputs = Inputs.of(top, start)
+    if not clamped:
+        return prove_constants(inputs, digits)
+    if start.is_vertical:
+        raise ValueError(
+            "start must be tilted for a clamped motion: phi is undefined on the vertical"
+        )
+    return prove_held_constants(inputs, digits)
 
 
 def _check(top: Top, start: State, digits: int) -> None:

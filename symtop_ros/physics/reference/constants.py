@@ -29,11 +29,12 @@ class ProvedConstants(NamedTuple):
         As `Motion.kind`, for exactly the doubles given.
     period : flint.arb
         Period of theta in s, of a regular precession that of a small nutation; infinite if the axis
-        rests on the vertical or approaches it for ever.
+        rests on the vertical or approaches it for ever, and for a body at rest without weight.
     turning_angles : (flint.arb, flint.arb)
         Smallest and largest theta in rad.
     mean_rates : (flint.arb, flint.arb)
         Mean phi' and psi' over a nutation in rad/s; nan on the vertical, through it and towards it.
+        Of a clamped motion 0 and omega_z.
     """
 
     kind: str
@@ -51,8 +52,6 @@ class ProvedConstants(NamedTuple):
 
 def prove_constants(inputs: Inputs, digits: int) -> ProvedConstants:
     """Return the constants of a motion under gravity alone: see `exact_constants`."""
-    if not inputs.Mgl:
-        raise ValueError("Mgl must be other than 0 J, got 0")
 
     def is_small(found: ProvedConstants) -> bool:
         return _is_small(found, arb(10) ** -digits)
@@ -60,11 +59,21 @@ def prove_constants(inputs: Inputs, digits: int) -> ProvedConstants:
     return refine(lambda _: find_constants(inputs), is_small, int(digits * math.log2(10)) + 60)
 
 
+def prove_held_constants(inputs: Inputs, digits: int) -> ProvedConstants:
+    """Return those of the pendulum that is left while a hand holds phi."""
+    found = prove_constants(inputs.clamp(), digits)
+    rates = arb(0), to_ball(inputs.angular_velocity[2])
+    return found._replace(kind="clamped", mean_rates=rates)
+
+
 def find_constants(inputs: Inputs) -> ProvedConstants:
     """Return the constants at the precision of FLINT's context."""
     fall = Fall(turn_world(inputs))
-    found = _find_resting(fall) if fall.rests else _find_nutation(fall)
-    if inputs.Mgl > 0:
+    if fall.rests:
+        found = _find_resting(fall)
+    else:
+        found = _find_nutation(fall) if fall.beta else _find_circle(fall)
+    if inputs.Mgl >= 0:
         return found
     least, most = found.turning_angles
     phi_dot, psi_dot = found.mean_rates
@@ -75,7 +84,7 @@ def find_constants(inputs: Inputs) -> ProvedConstants:
 def _is_small(found: ProvedConstants, least: Ball) -> bool:
     """Return True if radii are small, of balls that are finite: others are too wide."""
     limits = [(each, arb(1)) for each in found.turning_angles]
-    if found.kind not in ENDLESS:
+    if found.period != arb.pos_inf():
         limits.append((found.period, found.period))
     if found.kind not in WITHOUT_MEANS:
         limits += [(each, norm(found.mean_rates)) for each in found.mean_rates]
@@ -92,7 +101,8 @@ def _find_resting(fall: Fall) -> ProvedConstants:
     phi_dot = (fall.b - fall.a * fall.u) / (1 - fall.u**2)
     rates = to_ball(phi_dot), to_ball(fall.wz - phi_dot * fall.u)
     # u'' = f'(u)/2 next to the double root
-    period = 2 * arb.pi() / to_ball(fall.alpha + fall.a**2 - 3 * fall.beta * fall.u).sqrt()
+    square = fall.alpha + fall.a**2 - 3 * fall.beta * fall.u
+    period = 2 * arb.pi() / to_ball(square).sqrt() if square else arb.pos_inf()
     return ProvedConstants("regular", period, (u.acos(), u.acos()), rates)
 
 
@@ -108,6 +118,26 @@ def _find_nutation(fall: Fall) -> ProvedConstants:
         return ProvedConstants(kind, nutation.unit, angles, (nan, nan))
     of_A, of_B = (acb(nutation.find_rate(k)).imag for k in (0, 1))
     return ProvedConstants(kind, nutation.unit, angles, (of_A + of_B, of_A - of_B))
+
+
+def _find_circle(fall: Fall) -> ProvedConstants:
+    """Return the constants of an axis that turns about L, as there is no weight.
+
+    Its height is u = (a b + |omega_xy| sqrt(|R|^2 - b^2) cos(|R| t))/|R|^2 with |R| = |L|/Ix, from
+    the highest place on. In a turn the arguments of A and B make half a turn each, with the signs
+    of b + a and of b - a.
+    """
+    square, (above, below) = fall.alpha + fall.a**2, (_turns_at(fall, pole) for pole in (1, -1))
+    rate, middle = to_ball(square).sqrt(), to_ball(fall.a * fall.b / square)
+    half = to_ball(fall.alpha * (square - fall.b**2)).sqrt() / to_ball(square)
+    highest, lowest = arb(1) if above else middle + half, arb(-1) if below else middle - half
+    angles, period = (highest.acos(), lowest.acos()), 2 * arb.pi() / rate
+    if above or below:
+        return ProvedConstants("through the pole", period, angles, (arb.nan(), arb.nan()))
+    of_A, of_B = (1 if part > 0 else -1 for part in (fall.b + fall.a, fall.b - fall.a))
+    rates = rate * (of_A + of_B) / 2, rate * (of_A - of_B) / 2 + to_ball(fall.c)
+    kind = "unidirectional" if of_A == of_B else "looping"
+    return ProvedConstants(kind, period, angles, rates)
 
 
 def _find_height(fall: Fall, nutation: Nutation, k: int) -> Ball:

@@ -1,15 +1,21 @@
 """Constants in balls: against those that are stored, which two precisions gave, and the kernel."""
 
+import math
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from drawn import Numbers
 from flint import arb, ctx
 from physics.exact_motions import DIGITS, read_motions
+from physics.families import draw_motion
+from physics.kernel.exact.test_weightless import draw_motion as draw_weightless
 from physics.reference.cases import ASYMPTOTIC, CASES
+from physics.tops import EPS
 from trials import trials
 
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.physics.reference import Inputs, exact_constants
+from symtop_ros.physics.reference import Inputs, ProvedConstants, exact_constants
 from symtop_ros.physics.reference.constants import find_constants, prove_constants
 from symtop_ros.physics.reference.fall import Fall
 
@@ -56,7 +62,7 @@ def test_turning_angles_are_those_of_the_kernel(step: int) -> None:
         assert all(abs(float(a) - b) < 3e-8 for a, b in pairs), each.family
 
 
-@pytest.mark.parametrize("name", [name for name in CASES if name != "no weight"])
+@pytest.mark.parametrize("name", CASES)
 def test_balls_contain_those_of_more_bits(name: str) -> None:
     inputs = Inputs.of(*CASES[name])
     few, many = (prove_constants(inputs, digits) for digits in (20, 200))
@@ -92,6 +98,59 @@ def test_a_root_beyond_the_pole_at_which_phi_would_rest_makes_no_cusps() -> None
     assert exact_constants(motion.top, motion.start).kind == motion.kind == "unidirectional"
 
 
+def _list_weightless(count: int) -> Iterator[Motion]:
+    rng = Numbers("constants without weight")
+    for _ in range(count):
+        yield draw_weightless(rng, rng.randint(-12, 0))
+
+
+def _are_near(motion: Motion, found: ProvedConstants) -> bool:
+    """Whether constants of the kernel are those in balls, each to some EPS of itself."""
+    rates = motion.mean_precession_rate, motion.mean_spin_rate
+    numbers = *motion.turning_angles, motion.nutation_period, *rates
+    size = max(map(abs, rates))
+    sizes = *motion.turning_angles, motion.nutation_period, size, size
+    exact = *found.turning_angles, found.period, *found.mean_rates
+    return all(
+        number == float(ball)
+        or (math.isnan(number) and ball.is_nan())
+        or abs(number - float(ball)) <= 4 * EPS * scale
+        for number, ball, scale in zip(numbers, exact, sizes, strict=True)
+    )
+
+
+@pytest.mark.parametrize("count", trials(60, 20_000))
+def test_without_weight_they_are_those_of_the_kernel(count: int) -> None:
+    kinds = set()
+    for motion in _list_weightless(count):
+        found = exact_constants(motion.top, motion.start)
+        kinds.add(motion.kind)
+        if motion.kind == found.kind:
+            assert _are_near(motion, found), motion
+        else:  # what counts as equal, by a rounding of the start
+            assert motion.kind in ROUNDED, motion
+    assert kinds == {"regular", "looping", "unidirectional", "through the pole"}
+
+
+@pytest.mark.parametrize("count", trials(60, 5000))
+def test_clamped_they_are_those_of_the_kernel(count: int) -> None:
+    for number in range(count):
+        family = ("generic", "Mgl < 0", "weightless", "near the top", "near the bottom")[number % 5]
+        drawn, _ = draw_motion(family, number)
+        motion = Motion(drawn.top, drawn.start, clamped=True)
+        found = exact_constants(motion.top, motion.start, clamped=True)
+        assert motion.kind == found.kind == "clamped"
+        assert _are_near(motion, found), motion
+
+
+def test_a_body_at_rest_without_weight_has_no_period() -> None:
+    for start in (State.from_euler(theta=1.0), State.from_euler(theta=1.0, phi_dot=2.0)):
+        held = exact_constants(Top(1.0, 0.5, 0.0), start, clamped=True)
+        assert float(held.period) == math.inf
+        assert held.turning_angles[0].overlaps(held.turning_angles[1])
+    assert exact_constants(Top(1.0, 0.5, 0.0), State.from_euler(theta=1.0)).kind == "regular"
+
+
 def test_constants_are_printed_with_the_digits_that_are_known() -> None:
     text = str(exact_constants(*CASES["sleeping"])).splitlines()
     assert text == ["kind: sleeping", "period: inf", "turning_angles: 0 0", "mean_rates: nan nan"]
@@ -102,8 +161,8 @@ def test_constants_are_printed_with_the_digits_that_are_known() -> None:
 
 
 def test_what_is_not_one_motion_under_gravity_is_refused() -> None:
-    with pytest.raises(ValueError, match="Mgl must be other than 0 J, got 0"):
-        exact_constants(*CASES["no weight"])
+    with pytest.raises(ValueError, match="start must be tilted for a clamped motion"):
+        exact_constants(*CASES["sleeping"], clamped=True)
     top, start = CASES["tilted"]
     with pytest.raises(ValueError, match="top and start must be those of one motion"):
         exact_constants(Top([1.0, 2.0], 0.5, 2.0), start)

@@ -80,6 +80,11 @@ struct ClosedForm {
     half_c = find_turning_rate<3>(start).scale(-1);
   }
 
+  // |omega_xy| at the lower turning point, in rad/s.
+  Precise find_largest_rate_across() const {
+    return root(nutation.beta * zeros[OF_OMEGA_XY].from_u1);
+  }
+
   // Phases, the place in the nutation, series, and constant factors.
   void prepare_states() {
     const Precise rates[FUNCTIONS] = {nutation_rate, add_rates(means[OF_A], half_c),

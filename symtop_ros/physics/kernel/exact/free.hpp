@@ -23,54 +23,77 @@ inline bool is_free(const Start& s) {
   return false;
 }
 
-typedef double Triple[3];
+// The same start without its weight.
+inline Start drop_weight(Start s) {
+  s.Mgl = 0.0;
+  return s;
+}
 
-// The angle between a direction of the body and the vertical, by its sine and cosine: an arc cosine
-// would lose half the digits of a small one.
-inline double find_angle_to_vertical(const Start& s, const Triple& direction) {
-  const double gx = 2 * (s.x * s.z - s.w * s.y), gy = 2 * (s.y * s.z + s.w * s.x);
-  const double gz = (s.w * s.w + s.z * s.z) - (s.x * s.x + s.y * s.y);
-  const double lx = direction[0], ly = direction[1], lz = direction[2];
-  const double across = find_modulus({gy * lz - gz * ly, gz * lx - gx * lz});
-  const double cross = find_modulus({across, gx * ly - gy * lx});
-  return arc_tangent(cross, gx * lx + gy * ly + gz * lz);
+// Roots of f = -|R|^2 (u - u1)(u - u2), which is quadratic without weight, |R| = |L|/Ix: measured from
+// the start, as in nutation.hpp. Their product is negative, so that the root of the discriminant does
+// not cancel; of the two roots one does, and comes from the product.
+inline Roots find_free_roots(const Nutation& n, const Precise& square) {
+  Roots roots;  // the third one is infinite
+  const Precise &middle = n.u_dot_dot, rise = n.u_dot * n.u_dot;
+  const Precise half_gap = root(middle * middle + square * rise);
+  if (!half_gap.sign) return roots;  // regular: both are where the start is
+  const Precise per_square = invert(square);
+  roots.s2 = middle.sign >= 0 ? (middle + half_gap) * per_square : rise / (half_gap - middle);
+  roots.s1 = middle.sign <= 0 ? (middle - half_gap) * per_square : -rise / (half_gap + middle);
+  return roots;
+}
+
+// The distances of the turning points from the poles, of which none is a difference: those that may be
+// small come from f(1) = -(b - a)^2 and f(-1) = -(b + a)^2, but for a start that is the turning point.
+inline void find_free_zeros(const Nutation& n, const Roots& roots, const Precise& square,
+                            Zero zeros[]) {
+  const Precise &below = n.b_plus_a, &above = n.b_minus_a;
+  const Precise to_lower = n.one_plus_u + roots.s2, to_upper = n.one_minus_u - roots.s1;
+  zeros[OF_A] = {true, below, n.one_plus_u, to_lower, {}};
+  zeros[OF_B] = {false, above, to_upper, n.one_minus_u, {}};
+  if (roots.s1.sign) zeros[OF_A].from_u1 = below * below / (square * to_lower);
+  if (roots.s2.sign) zeros[OF_B].from_u2 = above * above / (square * to_upper);
 }
 
 struct FreeMotion {
   Start start;  // with norm 1
   bool is_turned_over;
+  Nutation nutation;
+  Roots roots;
+  Zero zeros[OF_OMEGA_XY];  // of A and B
   Precise nutation_rate, turning_rate;
   Steps steps;
-  Triple direction;
-  double tilt, cone;
+  double direction[3];  // of L, in the body
   Kind kind;
 
   void solve(const Start& given, bool turned_over) {
     is_turned_over = turned_over;
     start = normalize(given);
-    const Precise Ix(given.Ix);
-    const Precise dropped = given.is_clamped ? drop_precession(find_nutation<3>(given), start)
-                                             : Precise();
-    const WholeStart<Precise> all(start);
-    const Precise L[3] = {Ix * all.wx, Ix * all.wy, Precise(given.Iz) * Precise(given.wz)};
+    nutation = find_nutation<3>(drop_weight(given));
     // Of a clamped motion the rounded parts of omega would give another rate.
-    const Precise size = given.is_clamped ? Ix * dropped
-                                          : root(L[0] * L[0] + L[1] * L[1] + L[2] * L[2]);
+    const Precise dropped = given.is_clamped ? drop_precession(nutation, start) : Precise();
+    const Precise square = nutation.omega_xy_squared + nutation.a * nutation.a;
+    nutation_rate = given.is_clamped ? dropped : root(square);
     turning_rate = find_turning_rate<3>(given);
-    nutation_rate = size / Ix;
     const Precise rates[] = {nutation_rate.scale(-1), turning_rate.scale(-1), -turning_rate};
     steps = find_steps(rates, 3);
-    for (int i = 0; i < 3; i++)
-      direction[i] = size.sign ? (L[i] / size).to_double() : i == 2 ? 1.0 : 0.0;
-    tilt = find_angle_to_vertical(start, direction);
-    Start upright = {};
-    upright.w = 1.0;
-    cone = find_angle_to_vertical(upright, direction);
-    const bool is_resting = start.wx == 0 && start.wy == 0;
-    const bool is_vertical = (start.w == 0 && start.z == 0) || (start.x == 0 && start.y == 0);
-    if (given.is_clamped && size.sign > 0) tilt = cone = PI / 2;  // L is along the line of nodes
-    kind = is_resting && is_vertical ? SLEEPING : classify_free(tilt, cone);
+    find_direction();
+    roots = find_free_roots(nutation, square);
+    find_free_zeros(nutation, roots, square, zeros);
+    const bool is_vertical = !nutation.one_minus_u.sign || !nutation.one_plus_u.sign;
+    kind = start.wx == 0 && start.wy == 0 && is_vertical ? SLEEPING : classify_free(*this);
   }
+
+  // Of a body at rest L has no direction, and no turn about it.
+  void find_direction() {
+    const WholeStart<Precise> all(start);
+    const Precise L[] = {all.wx, all.wy, nutation.a};
+    for (int i = 0; i < 3; i++)
+      direction[i] = nutation_rate.sign ? (L[i] / nutation_rate).to_double() : i == 2 ? 1.0 : 0.0;
+  }
+
+  // |omega_xy| is constant.
+  Precise find_largest_rate_across() const { return root(nutation.omega_xy_squared); }
 
   bool is_far(double t) const { return std::fabs(t) >= steps.farthest; }
 
@@ -95,23 +118,17 @@ struct FreeMotion {
     return complete_attitude(values, is_turned_over);
   }
 
-  // The axis moves on a circle of angle `cone` about L, which has the angle `tilt` to the vertical.
-  void find_turning_angles(bool from_below, double angles[2]) const {
-    const double far = tilt + cone;
-    double low = std::fabs(tilt - cone), high = far < 2 * PI - far ? far : 2 * PI - far;
-    if (from_below) {
-      const double before = low;
-      low = PI - high, high = PI - before;
-    }
-    angles[0] = low <= high ? low : high, angles[1] = low <= high ? high : low;
+  // u is a cosine in time about the middle of its turning points, (b/|R|) (a/|R|).
+  double find_mean_cosine() const {
+    const Precise whole = nutation_rate * nutation_rate;
+    const Precise b = nutation.b_minus_au + nutation.a * nutation.u();
+    if (!whole.sign) return nutation.u().to_double();
+    return is_lost(b, nutation.b_minus_au) ? 0.0 : (nutation.a * b / whole).to_double();
   }
 
-  // The part of the axis along L is all that is left of it in a turn about L.
-  double find_mean_cosine() const { return cosine_and_sine(tilt).x * cosine_and_sine(cone).x; }
-
   // Half turns of arg A and arg B in a turn about L: whether the circle encloses a pole.
-  int upper_turns() const { return tilt + cone <= PI ? 1 : -1; }
-  int lower_turns() const { return cone >= tilt ? 1 : -1; }
+  int upper_turns() const { return zeros[OF_A].is_negative() ? -1 : 1; }
+  int lower_turns() const { return zeros[OF_B].is_negative() ? -1 : 1; }
 };
 
 }  // namespace symtop

@@ -1,7 +1,10 @@
-// The kind of a motion, by the sign of phi' at the two turning angles of theta.
+// The kind of a motion, by the sign of phi' at the two turning angles of theta (derivation.md,
+// sections 8 and 14).
 //
 // Numbers that differ by rounding of the start alone count as equal: a start that is computed to lie
-// on a root of regular precession is regular, although its doubles miss the root.
+// on a root of regular precession is regular, although its doubles miss the root. A `Motion` here is
+// one with weight (`ClosedForm`) or one without (`FreeMotion`): both have the numbers of nutation.hpp,
+// and the same words.
 #pragma once
 
 #include "closed_form.hpp"
@@ -23,11 +26,11 @@ inline Precise find_largest_sine_squared(const Zero zeros[]) {
 // A bound on the terms of b - a u = sin^2(theta) phi' during a nutation, in rad/s. A state of the
 // motion is known to rounding of these, not to rounding of the terms at the start: they may all be
 // small there, near a cusp.
-inline Precise find_largest_precession(const ClosedForm& motion) {
-  const Nutation& n = motion.nutation;
+template <class Motion>
+inline Precise find_largest_precession(const Motion& motion) {
   const Precise sine_squared = find_largest_sine_squared(motion.zeros);
-  const Precise rate = root(n.beta * motion.zeros[OF_OMEGA_XY].from_u1);
-  return rate * root(sine_squared) + size(n.a) * sine_squared;
+  return motion.find_largest_rate_across() * root(sine_squared) +
+         size(motion.nutation.a) * sine_squared;
 }
 
 // True if theta' = theta'' = 0 at the start. The centrifugal term of theta'' is u |omega_xy|^2. Near
@@ -64,14 +67,19 @@ inline Kind classify(const ClosedForm& motion) {
   return (lower.sign > 0) == (upper.sign > 0) ? UNIDIRECTIONAL : LOOPING;
 }
 
-// Of a motion without torque, whose axis moves on a circle about L.
-inline Kind classify_free(double tilt_of_momentum, double cone) {
-  const double inside = tilt_of_momentum - cone, far = tilt_of_momentum + cone;
-  const double rounding = START_ROUNDING * PI;
-  const double sine = cosine_and_sine(tilt_of_momentum).y, other = cosine_and_sine(cone).y;
-  if ((sine < other ? sine : other) <= rounding) return REGULAR;
-  if (std::fabs(inside) <= rounding || std::fabs(far - PI) <= rounding) return THROUGH_THE_POLE;
-  return (inside < 0) == (far < PI) ? UNIDIRECTIONAL : LOOPING;
+// Of a motion without a torque, whose axis moves on a circle about L at a constant |omega_xy|. phi'
+// vanishes at no single turning angle, as there |b - a u| = sin(theta) |omega_xy|: there are no cusps.
+// If both are rounding, omega_xy is that of an axis at rest. Else the circle encloses one pole, or L
+// and no pole, or both: (b - a u1)(b - a u2) has the sign of (b - a)(b + a).
+template <class Motion>
+inline Kind classify_free(const Motion& motion) {
+  const Nutation& n = motion.nutation;
+  if (is_regular(n)) return REGULAR;
+  const Precise rounding = Precise(START_ROUNDING) * find_largest_precession(motion);
+  if (size(n.b_plus_a) <= rounding || size(n.b_minus_a) <= rounding) return THROUGH_THE_POLE;
+  const Precise lower = n.b_minus_au_at(motion.roots.s1), upper = n.b_minus_au_at(motion.roots.s2);
+  if (size(lower) <= rounding && size(upper) <= rounding) return REGULAR;
+  return n.b_plus_a.sign == n.b_minus_a.sign ? UNIDIRECTIONAL : LOOPING;
 }
 
 }  // namespace symtop

@@ -20,7 +20,7 @@
 //   u_dot_dot            d2u/dt2             half of f'(u) at u0, in rad/s^2
 //   b_minus_a            b - a               (p_phi - p_psi)/Ix, in rad/s
 //   b_plus_a             b + a               (p_phi + p_psi)/Ix, in rad/s
-//   b_minus_au_highest   b - a alpha/beta    b - a u where all energy would be potential
+//   b_minus_au_highest   b - a alpha/beta    b - a u where all energy would be potential; 0 without weight
 //   alpha_minus_beta     alpha - beta        kinetic energy left upright, in rad^2/s^2
 //
 // On the separatrix b = a and alpha = beta: the axis has just the energy to come to rest upright.
@@ -130,7 +130,7 @@ SYMTOP_SET_UP inline void sum_exactly(const Start& start, NutationOf<N>& nutatio
   nutation.u_dot_dot = Rounded((spin * along * norm).scale(1) - rise - weight) / (product * length);
   nutation.b_minus_a = Rounded(Ix * along - spin * lower).scale(1) / product;
   nutation.b_plus_a = Rounded(Ix * along + spin * upper).scale(1) / product;
-  nutation.b_minus_au_highest = Rounded(highest) / (Rounded(Mgl).scale(1) * length);
+  if (Mgl.sign) nutation.b_minus_au_highest = Rounded(highest) / (Rounded(Mgl).scale(1) * length);
   nutation.alpha_minus_beta = Rounded(squared * Ix * norm - (Mgl * lower).scale(2)) / product;
 }
 
@@ -216,7 +216,7 @@ inline NutationOf<N> find_nutation(const Start& start) {
   n.u_dot_dot = of_spin - of_rise - of_weight;
   n.b_minus_a = n.b_minus_au - n.a * n.one_minus_u;
   n.b_plus_a = n.b_minus_au + n.a * n.one_plus_u;
-  n.b_minus_au_highest = n.b_minus_au - n.a * n.omega_xy_squared / n.beta;
+  if (n.beta.sign) n.b_minus_au_highest = n.b_minus_au - n.a * n.omega_xy_squared / n.beta;
   n.alpha_minus_beta = n.omega_xy_squared - n.beta * n.one_minus_u;
   if (is_cancelled(size(n.b_minus_a), size(along_x) + size(along_y)) ||
       is_cancelled(size(n.alpha_minus_beta), n.omega_xy_squared) ||

@@ -57,11 +57,13 @@ inline Steps find_steps(const Precise* rates, int count) {
     fastest = std::fmax(fastest, std::fabs(turns[i].to_double()));
   }
   Steps steps;
-  if (fastest) std::frexp(fastest, &steps.exponent), steps.exponent += 10;
+  if (!fastest) steps.exponent = -1000;  // of any unit of time
+  else std::frexp(fastest, &steps.exponent), steps.exponent += 10;
   if (steps.exponent > 1000) steps.exponent = 1000;
   if (steps.exponent < -1000) steps.exponent = -1000;
   steps.ticks = std::ldexp(1.0, steps.exponent);
   steps.farthest = std::ldexp(1.0, 62 - steps.exponent > 1023 ? 1023 : 62 - steps.exponent);
+  if (!fastest) steps.farthest = INFINITY;  // phases that stand still are known at any time
   for (int i = 0; i < count; i++)
     steps.rest_rates[i] =
         2 * PI * truncate_step(turns[i].scale(-steps.exponent), steps.limbs[i]);

@@ -52,38 +52,31 @@ class Momentum {
   // sin^2(theta) phi' = b - a u
   double turning_at(double theta) const { return along_ + a * fall_to(theta); }
 
-  // |omega_xy|^2, of which rounding leaves some EPS where the axis is at rest.
-  double square_at(double theta) const { return leave_positive(squared_ + beta * fall_to(theta)); }
-
   // phi', where the axis is not vertical.
   double rate_at(double theta) const {
     const double sine = cosine_and_sine(theta).y;
     return turning_at(theta) / sine / sine;
   }
 
-  // Between L, or omega, and the line of the axle.
-  double momentum_from_axle(double theta) const {
-    return arc_tangent(std::sqrt(square_at(theta)), std::fabs(a));
+  // Between L, or omega, and the line of the axle, where |omega_xy| is `across` rad/s.
+  double momentum_from_axle(double across) const {
+    return arc_tangent(across / unit, std::fabs(a));
   }
-  double velocity_from_axle(double theta) const {
-    return arc_tangent(std::sqrt(square_at(theta)), std::fabs(spin));
+  double velocity_from_axle(double across) const {
+    return arc_tangent(across / unit, std::fabs(spin));
+  }
+  double across_now() const { return std::sqrt(squared_) * unit; }
+
+  // Between L and the line of the vertical, if the horizontal part of L over Ix is `level` rad/s.
+  double momentum_from_vertical(double level) const {
+    return arc_tangent(level / unit, std::fabs(b));
   }
 
-  // Between L and the line of the vertical, where theta' = 0: its horizontal part is then sin(theta)
-  // (a - phi' u).
-  double momentum_from_vertical(double theta) const {
-    const Pair tilt = cosine_and_sine(theta);
-    if (tilt.y <= SURE * SURE) return arc_tangent(std::sqrt(square_at(theta)), std::fabs(b));
-    const double level = tilt.y * a - turning_at(theta) / tilt.y * tilt.x;
-    return arc_tangent(std::fabs(level), std::fabs(b));
-  }
-
-  // The same now, with theta': |L x z'| in the body frame, where L/Ix = (omega_x, omega_y, a).
-  double momentum_from_vertical_now(const double omega[3]) const {
+  // That part now: |L x z'| in the body frame, where L/Ix = (omega_x, omega_y, a).
+  double level_now(const double omega[3]) const {
     const double x = omega[0] / unit, y = omega[1] / unit;
     const Vertical& g = vertical_;
-    const double level = find_modulus({find_modulus({y * g.z - a * g.y, a * g.x - x * g.z}), across_});
-    return arc_tangent(level, std::fabs(b));
+    return find_modulus({find_modulus({y * g.z - a * g.y, a * g.x - x * g.z}), across_}) * unit;
   }
 
   // The square of the tangent of the angle between the torque and the plane perpendicular to L, which
@@ -205,6 +198,7 @@ class CauseFinder {
   CauseFinder(const Instant& now, const symtop_verdict& verdict, GravityMotion& motion)
       : now_(now), verdict_(verdict), L_(now) {
     motion.find_turning_angles(angles_);
+    motion.find_rates_at_ends(across_, level_);
   }
 
   symtop_cause find() const {
@@ -222,29 +216,31 @@ class CauseFinder {
   const Instant& now_;
   const symtop_verdict& verdict_;
   const Momentum L_;
-  double angles_[2];
+  // theta, |omega_xy| and the horizontal part of L over Ix at the turning points
+  double angles_[2], across_[2], level_[2];
 
   bool is_zero(double rate) const { return std::fabs(rate) <= START_ROUNDING; }  // in L_.unit
   bool is_at_rest() const { return L_.size_now() == 0; }
 
   void measure(symtop_cause& cause) const {
-    const double theta = L_.theta();
+    const double across = L_.across_now();
     cause.rate_about_momentum = L_.size_now();
     cause.torque_from_perpendicular[0] = L_.torque_from_perpendicular_now();
     cause.torque_from_perpendicular[1] = find_most_from_perpendicular(L_, angles_);
-    write(cause.momentum_from_axle, L_.momentum_from_axle(theta),
-          [&](double each) { return L_.momentum_from_axle(each); });
-    write(cause.omega_from_axle, L_.velocity_from_axle(theta),
-          [&](double each) { return L_.velocity_from_axle(each); });
-    write(cause.momentum_from_vertical, L_.momentum_from_vertical_now(now_.start.angular_velocity),
-          [&](double each) { return L_.momentum_from_vertical(each); });
+    write(cause.momentum_from_axle, L_.momentum_from_axle(across),
+          [&](int end) { return L_.momentum_from_axle(across_[end]); });
+    write(cause.omega_from_axle, L_.velocity_from_axle(across),
+          [&](int end) { return L_.velocity_from_axle(across_[end]); });
+    const double level = L_.level_now(now_.start.angular_velocity);
+    write(cause.momentum_from_vertical, L_.momentum_from_vertical(level),
+          [&](int end) { return L_.momentum_from_vertical(level_[end]); });
   }
 
   // Now, and the smallest and the largest of a nutation, which are those at its turning angles. The
   // turning angles of doubles may leave out the start by some EPS.
   template <class Function>
   void write(double to[3], double present, const Function& at) const {
-    const double first = at(angles_[0]), last = at(angles_[1]);
+    const double first = at(0), last = at(1);
     to[0] = present;
     to[1] = std::fmin(present, std::fmin(first, last));
     to[2] = std::fmax(present, std::fmax(first, last));

@@ -29,22 +29,20 @@ inline bool has_none(const symtop_solutions& found) {
   return found.number == 0 && found.demand != SYMTOP_DEMANDS_RATES;
 }
 
-// The place at which `is_below` becomes false, between two doubles, and then with 60 bits more.
+// The place at which `is_below` becomes false, between two positive numbers, to 60 bits more than a double
+// has. Exponents are halved first: they may be any, as neither a tilt nor a weight has a smallest one.
 template <class Number, class Below>
-Number bisect(double low, double high, const Below& is_below) {
-  for (;;) {
-    // Roots, as the product could overflow.
-    const double middle =
-        high > 2 * low ? std::sqrt(low) * std::sqrt(high) : low + (high - low) / 2;
-    if (!(low < middle && middle < high)) break;
-    (is_below(Number(middle)) ? low : high) = middle;
+Number bisect(Number low, Number high, const Below& is_below) {
+  while (high.exponent - low.exponent > 1) {
+    Number middle(0.5);
+    middle.exponent = low.exponent + (high.exponent - low.exponent) / 2;
+    (is_below(middle) ? low : high) = middle;
   }
-  Number from(low), to(high);
-  for (int bits = 0; bits < 60; bits++) {
-    const Number middle = (from + to).scale(-1);
-    (is_below(middle) ? from : to) = middle;
+  for (int bits = 0; bits < 114; bits++) {
+    const Number middle = (low + high).scale(-1);
+    (is_below(middle) ? low : high) = middle;
   }
-  return from;
+  return low;
 }
 
 // ---- Regular precession ----
@@ -111,10 +109,11 @@ inline void solve_spin_and_turn(const symtop_top& top, double psi_dot, double pe
 // ---- Let go at rest ----
 
 // With p_psi^2 = 2 |Mgl| Ix x, and both signs.
-inline void keep_spins(const symtop_top& top, double theta, double x, symtop_solutions& found) {
-  const double momentum = std::sqrt(2 * x) * std::sqrt(std::fabs(top.Mgl)) * std::sqrt(top.Ix);
-  keep(found, {theta, 0.0, 0.0, momentum / top.Iz});
-  if (momentum > 0) keep(found, {theta, 0.0, 0.0, -momentum / top.Iz});
+inline void keep_spins(const symtop_top& top, double theta, const Precise& x, symtop_solutions& found) {
+  const Precise momentum = root(x.scale(1) * size(Precise(top.Mgl)) * Precise(top.Ix));
+  const double spin = (momentum / Precise(top.Iz)).to_double();
+  keep(found, {theta, 0.0, 0.0, spin});
+  if (spin > 0) keep(found, {theta, 0.0, 0.0, -spin});
 }
 
 // The axis comes to rest again where x (cos(theta) - cos(end)) = sin(end)^2, x as above. The
@@ -130,7 +129,7 @@ inline void solve_tilt_and_dip(const symtop_top& top, double theta, double dip,
   // The double next to pi is the vertical, and so is what a sum that rounds to it has beyond.
   const Long sine = end >= Long(PI) ? Long() : find_long_sine(end);
   const Long difference = find_long_sine(half) * find_long_sine(Long(dip).scale(-1));
-  keep_spins(top, theta, (sine * sine / difference.scale(1)).to_double(), found);
+  keep_spins(top, theta, Precise(sine * sine / difference.scale(1)), found);
 }
 
 // sqrt(r)/agm(1, sqrt(1 + r^2)): the nutation period in its unit. It grows up to LONGEST_AT.
@@ -144,8 +143,9 @@ inline Precise find_relative_period(const Precise& r) {
 const double LONGEST_AT = 2.179660431678698;
 
 // The r between two, in which the period grows or falls, at which it is a given one.
-inline Precise find_period_at(const Precise& period, double low, double high, bool grows) {
-  return bisect<Precise>(low, high, [&](const Precise& r) {
+inline Precise find_period_at(const Precise& period, const Precise& low, const Precise& high,
+                              bool grows) {
+  return bisect(low, high, [&](const Precise& r) {
     return (find_relative_period(r) < period) == grows;
   });
 }
@@ -159,12 +159,12 @@ struct LetGo {
     const Long half = Long(theta).scale(-1), quarter_turn(find_long_turn().scale(-2));
     const Precise s(find_long_sine(half)), c(find_long_sine(quarter_turn - half));
     sine = (s * c).scale(1), R = top.Mgl > 0 ? c / s : s / c;
-    per_unit = root(Precise(2 * std::fabs(top.Mgl)) * sine / Precise(top.Ix)) * PER_TURN;
+    per_unit = root(size(Precise(top.Mgl)).scale(1) * sine / Precise(top.Ix)) * PER_TURN;
   }
 
-  double find_x(const Precise& r) const {
+  Precise find_x(const Precise& r) const {
     const Precise x = sine * (R - r) * (Precise(1.0) + invert(r * R));
-    return x.sign < 0 ? 0.0 : x.to_double();
+    return x.sign < 0 ? Precise() : x;
   }
 };
 
@@ -181,16 +181,17 @@ inline void solve_tilt_and_nutation(const symtop_top& top, double theta, double 
     return refuse(found, SYMTOP_DEMANDS_POSITIVE, 1, NAN, (longest / go.per_unit).to_double());
   const auto keep_at = [&](const Precise& r) { keep_spins(top, theta, go.find_x(r), found); };
   if (asked >= longest) return keep_at(is_folded ? Precise(LONGEST_AT) : go.R);
-  const double end = std::nextafter(go.R.to_double(), INFINITY);  // not below R
-  const double square = asked.to_double() * asked.to_double();
+  const Precise fold(LONGEST_AT), end = go.R * Precise(1 + EPS);  // not below R
   // agm(1, ...) >= 1, so that r >= asked^2.
-  const double low = std::fmin(square / 2, end / 4), high = is_folded ? LONGEST_AT : end;
-  keep_at(find_period_at(asked, low, high, true));
+  const Precise square = (asked * asked).scale(-1), least = end.scale(-2);
+  keep_at(find_period_at(asked, square < least ? square : least, is_folded ? fold : end, true));
   if (!is_folded || asked < still * Precise(1 - 16 * EPS)) return;
-  keep_at(asked < still ? go.R : find_period_at(asked, LONGEST_AT, end, false));
+  keep_at(asked < still ? go.R : find_period_at(asked, fold, end, false));
 }
 
 // ---- Constants ----
+
+const double LEAST_Q = 0x1p-1000, MOST_Q = 0x1p1000;  // the tilts of which the axis is vertical
 
 // Goldstein's alpha, a and b, and Mgl/Ix. With q = tan(theta/2)^2 the axis can be where
 //
@@ -214,9 +215,11 @@ struct Well {
 
   // theta'^2 at a place, in 1/s^2: below 0 it is what the energy lacks, times 2/Ix.
   Long find_square(const Long& q) const { return at(q) / ((Long(1.0) + q) * q).scale(2); }
-};
 
-const double LEAST_Q = 0x1p-1000, MOST_Q = 0x1p1000;  // the tilts of which the axis is vertical
+  Long find_bottom() const {
+    return bisect(Long(LEAST_Q), Long(MOST_Q), [&](const Long& q) { return find_slope(q) < 0; });
+  }
+};
 
 // On the vertical the axis has all of theta'^2, and psi' counts the whole spin.
 inline symtop_solution start_on_vertical(const Well& well, bool is_upright, const Long& spin) {
@@ -235,23 +238,43 @@ inline symtop_solution start_at(const Well& well, const Long& q, const Long& spi
   return {theta, 0.0, rate.to_double(), psi_dot.to_double()};
 }
 
-// The turning angles of what has these constants. `rounding` is that of the energy, times 2/Ix, up to
-// which a regular precession has too little of it, or too much. Returns what the energy lacks, times
-// 2/Ix, or 0.
-inline Long solve_well(const Well& well, const Long& spin, const Long& rounding,
-                       symtop_solutions& found) {
-  const auto falls = [&](const Long& q) { return well.find_slope(q) < 0; };
-  const Long bottom = bisect<Long>(LEAST_Q, MOST_Q, falls), square = well.find_square(bottom);
-  if (size(square) <= rounding) {
-    keep(found, start_at(well, bottom, spin));
+// Constants of a motion. `rounding` is that of the energy, times 2/Ix, up to which a regular precession
+// has too little of it, or too much.
+struct Conserved {
+  Well well;
+  Long spin, rounding;  // omega_z
+};
+
+inline Conserved read_constants(const symtop_top& top, const double known[3]) {
+  const Long Ix(top.Ix), momentum(known[2]), spin = momentum / Long(top.Iz);
+  const Long along = momentum * spin;
+  const Long terms = (size(Long(known[0])).scale(1) + along + size(Long(top.Mgl)).scale(1)) / Ix;
+  return {{(Long(known[0]).scale(1) - along) / Ix, momentum / Ix, Long(known[1]) / Ix,
+           Long(top.Mgl) / Ix},
+          spin,
+          terms * Long(START_ROUNDING)};
+}
+
+inline Conserved read_goldstein(const symtop_top& top, const double known[3]) {
+  const Long Ix(top.Ix), a(known[1]), alpha(known[0]), weight = Long(top.Mgl) / Ix;
+  const Long terms = size(alpha) + size(weight).scale(1);
+  return {{alpha, a, Long(known[2]), weight}, a * Ix / Long(top.Iz), terms * Long(START_ROUNDING)};
+}
+
+// The turning angles of what has these constants. Returns what the energy lacks, times 2/Ix, or 0.
+inline Long solve_well(const Conserved& known, symtop_solutions& found) {
+  const Well& well = known.well;
+  const Long bottom = well.find_bottom(), square = well.find_square(bottom);
+  if (size(square) <= known.rounding) {
+    keep(found, start_at(well, bottom, known.spin));
     return Long();
   }
   if (square.sign < 0) return -square;
-  const double middle = bottom.to_double();
   const auto lacks = [&](const Long& q) { return well.at(q).sign < 0; };
   const auto has = [&](const Long& q) { return well.at(q).sign >= 0; };
-  const symtop_solution high = start_at(well, bisect<Long>(LEAST_Q, middle, lacks), spin);
-  const symtop_solution low = start_at(well, bisect<Long>(middle, MOST_Q, has), spin);
+  const Long first = bisect(Long(LEAST_Q), bottom, lacks), last = bisect(bottom, Long(MOST_Q), has);
+  const symtop_solution high = start_at(well, first, known.spin);
+  const symtop_solution low = start_at(well, last, known.spin);
   // What only approaches the vertical starts at its other turning angle.
   const auto moves = [](const symtop_solution& start) {
     return start.theta_dot > 0 || (start.theta > 0 && start.theta < PI);
@@ -262,24 +285,16 @@ inline Long solve_well(const Well& well, const Long& spin, const Long& rounding,
 }
 
 inline void solve_constants(const symtop_top& top, const double known[3], symtop_solutions& found) {
-  const Long Ix(top.Ix), momentum(known[2]), spin = momentum / Long(top.Iz);
-  const Long along = momentum * spin;
-  const Well well = {(Long(known[0]).scale(1) - along) / Ix, momentum / Ix, Long(known[1]) / Ix,
-                     Long(top.Mgl) / Ix};
-  const Long terms = (size(Long(known[0])).scale(1) + along + size(Long(top.Mgl)).scale(1)) / Ix;
-  const Long lacking = solve_well(well, spin, terms * Long(START_ROUNDING), found);
+  const Long lacking = solve_well(read_constants(top, known), found);
   if (!has_none(found)) return;
-  const Long least = Long(known[0]) + (lacking * Ix).scale(-1);
+  const Long least = Long(known[0]) + (lacking * Long(top.Ix)).scale(-1);
   refuse(found, SYMTOP_DEMANDS_LEAST, 0, least.to_double());
 }
 
 inline void solve_goldstein(const symtop_top& top, const double known[3], symtop_solutions& found) {
-  const Long Ix(top.Ix), a(known[1]), spin = a * Ix / Long(top.Iz);
-  const Well well = {Long(known[0]), a, Long(known[2]), Long(top.Mgl) / Ix};
-  const Long terms = size(well.alpha) + size(well.weight).scale(1);
-  const Long lacking = solve_well(well, spin, terms * Long(START_ROUNDING), found);
+  const Long lacking = solve_well(read_goldstein(top, known), found);
   if (!has_none(found)) return;
-  refuse(found, SYMTOP_DEMANDS_LEAST, 0, (well.alpha + lacking).to_double());
+  refuse(found, SYMTOP_DEMANDS_LEAST, 0, (Long(known[0]) + lacking).to_double());
 }
 
 // ---- All of them ----

@@ -23,6 +23,12 @@ struct Instant {
   explicit Instant(const symtop_start& s)
       : start(s), top{s.Ix, s.Iz, s.Mgl}, vertical(find_vertical(s.orientation)) {}
 
+  // The tilt, which a quaternion has whatever its norm.
+  double find_theta() const {
+    double angles[3];
+    find_angles(start.orientation, angles);
+    return angles[1];
+  }
   double find_largest_rate() const { return symtop::find_largest_rate(start); }
 
  private:
@@ -108,7 +114,9 @@ class TiltAcceleration {
     const bool is_only = std::isnan(fast) || fast == slow;  // two equal roots are one rate
     if (quadratic.is_balanced(rate)) {
       if (is_only) return SYMTOP_AT_THE_ONLY_RATE;
-      const bool is_slow = std::fabs(slow - rate) <= std::fabs(fast - rate);
+      // Without spin both are as fast, one to the left and one to the right: no mirror makes one slow.
+      const bool is_slow = std::fabs(slow - rate) <= std::fabs(fast - rate) ||
+                           std::fabs(slow) == std::fabs(fast);
       return is_slow ? SYMTOP_AT_THE_SLOW_RATE : SYMTOP_AT_THE_FAST_RATE;
     }
     if (is_only) return rate > slow ? SYMTOP_ABOVE_THE_ONLY_RATE : SYMTOP_BELOW_THE_ONLY_RATE;

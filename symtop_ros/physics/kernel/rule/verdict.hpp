@@ -170,7 +170,9 @@ inline symtop_verdict describe_course(const Instant& now, GravityMotion& motion)
   verdict.subject = now.top.Mgl < 0 ? SYMTOP_AXIS : SYMTOP_TOP;
   motion.find_turning_angles(verdict.turning_angles);
   verdict.direction = find_visible_direction(now, verdict.turning_angles);
-  if (verdict.direction == SYMTOP_STAYS) verdict.turning_angles[1] = verdict.turning_angles[0];
+  // Neither end of a way that is not seen would be the tilt of a mirror image, so it is that of now.
+  if (verdict.direction == SYMTOP_STAYS)
+    verdict.turning_angles[0] = verdict.turning_angles[1] = now.find_theta();
   verdict.motion = static_cast<symtop_kind>(motion.find_kind());
   return verdict;
 }
