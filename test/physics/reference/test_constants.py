@@ -19,7 +19,7 @@ from symtop_ros.physics.reference import Inputs, ProvedConstants, exact_constant
 from symtop_ros.physics.reference.constants import find_constants, prove_constants
 from symtop_ros.physics.reference.fall import Fall
 
-FALLS = [each for each in read_motions() if not each.motion.is_driven and each.motion.top.Mgl]
+FALLS = [each for each in read_motions() if not each.motion.is_driven]
 STEPS = trials(10, 1)  # every tenth of them, or all
 # The kernel takes numbers as equal that differ by the rounding of a start.
 ROUNDED = "regular", "through the pole", "cusps"
