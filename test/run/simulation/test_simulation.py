@@ -94,19 +94,20 @@ def test_a_sample_that_is_due_does_not_wait_for_the_rest_of_an_event(monkeypatch
     assert run.sink.order[-2:] == ["kick", "sample"]  # as a log has them
 
 
-def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state():
+@pytest.mark.parametrize("jump", [90, 3600])
+def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state(jump):
     run = Run(seconds=0.5)
     before = run.simulation.state
-    run.jump(90 * SECOND)
+    run.jump(jump * SECOND)
     run.tick()
     assert run.sink.events[-1].name == "clock"
     stamp, numbers = run.sink.samples[-1]
     w, x, y, z = before.orientation.tolist()
-    assert (stamp, numbers) == (90 * SECOND, [x, y, z, w])
-    run.clock.now = 10 * SECOND  # backwards, without a notification
+    assert (stamp, numbers) == (jump * SECOND, [x, y, z, w])
+    run.clock.now = SECOND  # backwards, without a notification
     run.tick()
     assert [event.name for event in run.sink.events].count("clock") == 2
-    assert run.sink.samples[-1][0] == 10 * SECOND
+    assert run.sink.samples[-1][0] == SECOND
 
 
 def test_a_request_between_a_jump_and_the_next_tick_belongs_to_the_time_after_the_jump():
