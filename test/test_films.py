@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 from films import draw_balls, write_film
 
 COUNT = 12
@@ -31,6 +32,7 @@ def draw_noise():
         yield np.clip(picture + noise, 0, 255).astype(np.uint8)
 
 
+@pytest.mark.slow
 def test_a_film_is_the_same_file_alone_and_on_a_busy_machine(tmp_path):
     """Of VP8, whose encoder can adapt to the time that it has; that of H.264 cannot."""
     times = [k / 60 for k in range(COUNT)]

@@ -58,6 +58,7 @@ def test_each_test_is_of_one_tier_and_one_that_is_named_runs_in_any(folder, word
     assert run(folder, *words)[0] == TIERS[words]
 
 
+@pytest.mark.slow
 def test_a_failed_test_of_any_tier_runs_again(folder):
     (folder / FILE).write_text(TESTS.format(least=1))
     assert run(folder, "-m", "slow")[1].returncode == 1

@@ -1,5 +1,6 @@
 """What tests leave behind is theirs, and never that of the user's other programs."""
 
+import mmap
 import os
 import tempfile
 import time
@@ -44,6 +45,17 @@ def test_a_port_of_a_domain_that_the_run_has_claimed_is_left_behind(
     claim(monkeypatch, found.folder)
     (tmp_path / "shared" / name).touch()
     assert [path.name for path in found.find()] == [name]
+
+
+def test_a_port_that_the_process_still_uses_is_not_left_behind_yet(found, monkeypatch, tmp_path):
+    claim(monkeypatch, found.folder)
+    path = tmp_path / "shared" / f"fastrtps_port{PORT}"
+    (tmp_path / "shared" / f"sem.{path.name}_mutex").touch()
+    with path.open("w+b") as file:
+        file.truncate(4096)
+        with mmap.mmap(file.fileno(), 4096):
+            assert list(found.find()) == []
+    assert len(list(found.find())) == 2
 
 
 def test_a_port_of_a_domain_of_another_run_is_none_of_the_tests(found, monkeypatch, tmp_path):

@@ -47,6 +47,13 @@ def may_be_of_tests(path: Path) -> bool:
     return path.parent == SHARED or any(part in path.name.lower() for part in OF_TESTS)
 
 
+def list_used() -> set[str]:
+    """Return the names of the shared memory that this process has mapped; it removes it later."""
+    maps = Path("/proc/self/maps")
+    lines = maps.read_text().splitlines() if maps.exists() else []
+    return {Path(line.split(maxsplit=5)[5]).name for line in lines if f" {SHARED}/" in line}
+
+
 def is_of_others(path: Path) -> bool:
     """Return True for what viewer and browser leave: a folder, or an empty file."""
     is_named = path.name.lstrip(".").startswith(OF_OTHERS)
@@ -67,8 +74,10 @@ class Traces:
     def find(self) -> Iterator[Path]:
         """Yield what is left."""
         yield from self._list_temporary()
+        used = list_used()
         for path in sorted(list_places() - self.before):
-            if path.parent != SHARED or self._is_own_port(path):
+            is_used = any(name in path.name for name in used)
+            if path.parent != SHARED or (self._is_own_port(path) and not is_used):
                 yield path
 
     def _is_own_port(self, path: Path) -> bool:

@@ -49,7 +49,8 @@ class Simulation:
         self.budget = ComputeBudget()
         self._spent = 0.0
         self.lack: Lack | None = None  # why the motion is slowed down, if it is not too fast
-        self._hold = self._longest_hold = 0  # measurements until a faster pace is tried
+        self._hold = self._longest_hold = 0  # s until a faster pace is tried
+        self._kept = 0  # s for which the asked pace was kept
         self.gaps = Gaps(clock)
         self.waits = Waits(clock)
         self._blocks = Blocks(self.segment, sink.encode)
@@ -242,9 +243,11 @@ class Simulation:
         """Slow down a motion that cannot be followed.
 
         How much of the processor a thread could get shows only when it asks for it. So a faster
-        pace is tried after a second, and after twice as many whenever that was too fast.
+        pace is tried after a second, and after twice as many whenever that was too fast, until it
+        was kept for a minute.
         """
         self.lack = shortfall.lack
+        self._kept = 0
         if self.lack:
             self._hold = self._longest_hold = min(LONGEST_HOLD, max(1, 2 * self._longest_hold))
         self.host.warn(self.apply(self.timeline.slow_down(stamp, shortfall)))
@@ -260,7 +263,9 @@ class Simulation:
         self._hold = max(0, self._hold - 1)
         if current >= factor:
             self.lack = None
-            self._longest_hold = max(0, self._longest_hold - 1)
+            self._kept += 1
+            if self._kept == LONGEST_HOLD:
+                self._longest_hold = 0
         elif self._hold == 0 and self._may_hurry(work) and self._prepare(self.stamp).ready:
             if self.segment.motion.is_driven:
                 factor = min(factor, 2 * current)

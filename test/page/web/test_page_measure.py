@@ -393,6 +393,7 @@ BLUE = """() => {
 }"""
 
 
+@pytest.mark.slow
 def test_the_path_of_the_fitted_axis_goes_through_the_balls_of_the_film(fitted):
     page, balls = fitted
     page.tab.set_viewport_size({"width": 2600, "height": 1800})  # dots do not cover the path

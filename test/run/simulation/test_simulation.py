@@ -12,7 +12,7 @@ from waiting import until
 
 from symtop_ros.run.simulation import events
 from symtop_ros.run.simulation.block import MAX_BLOCK
-from symtop_ros.run.simulation.budget import SHARE
+from symtop_ros.run.simulation.budget import SHARE, Lack, Shortfall
 from symtop_ros.run.simulation.changes.outcomes import Failure
 from symtop_ros.run.simulation.gaps import Missed
 from symtop_ros.run.simulation.topics import STATE_TOPICS
@@ -134,6 +134,37 @@ def test_the_pace_returns_if_half_of_the_share_is_left(used, factor):
     simulation.budget.spent += used * SHARE
     simulation.speed_up()
     assert simulation.factor == factor
+
+
+def starve(simulation):
+    """Slow the motion down as if other programs had the processor."""
+    shortfall = Shortfall(simulation.segment.time_at(simulation.stamp), 0.5, Lack(10.0, 30.0))
+    simulation._slow_down(simulation.stamp, shortfall)
+
+
+def count_seconds(simulation, factor):
+    """Return after how many measurements, one a second, a real-time factor is reached."""
+    for seconds in range(1, 200):
+        simulation.budget.spent += 0.3  # more than a motion that is too fast may take
+        simulation.speed_up()
+        if simulation.factor == factor:
+            return seconds
+    raise AssertionError
+
+
+def test_a_motion_that_lacked_cpu_time_returns_later_each_time_and_soon_after_a_good_minute():
+    run = Run("friction", seconds=0.5)
+    simulation = run.simulation
+    waits = []
+    for _ in range(8):
+        starve(simulation)
+        waits.append(count_seconds(simulation, 1.0))
+    assert waits == [1, 2, 4, 8, 16, 32, 60, 60]
+    assert run.sink.warnings[-1].startswith("the motion lacks CPU time: gets 10 % CPU, needs 30 %")
+    for _ in range(60):
+        simulation.speed_up()
+    starve(simulation)
+    assert count_seconds(simulation, 1.0) == 1
 
 
 def test_while_the_clock_jumps_no_sample_gets_a_stamp_of_the_new_time():
