@@ -166,6 +166,7 @@ CHANGING = {
     "Fit",
     "Lines",
     "Markers",
+    "Missed",
     "StampRows",
     "StepBudget",
     "Tables",

@@ -81,6 +81,9 @@ def main() -> int:
     seen: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="faults-") as name:
         copy = copy_checkout(Path(name, "checkout"))
+        if not passes(copy, "test"):
+            print("the quick tests must pass without a fault, and do not", file=sys.stderr)
+            return 1
         for number in options.numbers or range(len(faults)):
             by = try_fault(faults[number], copy, options.slow)
             text = (ROOT / faults[number].path).read_text(encoding="utf-8")
