@@ -148,7 +148,6 @@ def test_a_plan_says_what_it_is(capsys):
     assert {key for key in list_keys(record) if f"`{key}`" not in TEXT} == set()
 
 
-@pytest.mark.slow
 def test_a_fit_says_what_it_is(tmp_path, capsys):
     path = write_table(tmp_path / "axis.csv", make_axis())
     assert fit([str(path), "--json"]) == 0

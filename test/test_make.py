@@ -122,7 +122,6 @@ def is_anew(printed, reason):
     ]
 
 
-@pytest.mark.slow
 def test_nothing_is_run_where_all_is_there(checkout):
     for path in checkout.rglob("*"):
         if not path.is_symlink():

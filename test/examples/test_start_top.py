@@ -96,7 +96,6 @@ def test_a_compiler_reads_it(tmp_path):
     execute(["g++", *warnings, "-I", tmp_path, SOURCE], check=True, timeout=120)
 
 
-@pytest.mark.slow
 def test_a_node_answers_the_request_that_it_shows(capsys, monkeypatch, signals_as_before):
     """The same service, names and doubles, sent by top_ctl."""
     monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))

@@ -217,7 +217,6 @@ def test_what_doubles_do_not_resolve_is_right_or_refused(tilt):
 WEAK = Friction(axial=1e-28)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("tilt", choose((1e-6, 5e-6, 2e-5), (2e-5,)))
 def test_driven_motions_are_right_or_beyond_an_unstable_place_refused(tilt):
     motion = near_the_vertical(tilt, WEAK)

@@ -11,7 +11,6 @@ from workshop.speed.derivatives import derive_by_package, find_error, read_case
 from workshop.speed.filters import MOUNTS, format_trials
 
 
-@pytest.mark.slow
 def test_tables_and_plot_are_written(monkeypatch, tmp_path, capsys):
     pytest.importorskip("ahrs")
     short = {"SPAN": 1, "SCENES": ("conical_pendulum",), "FILTERS": ("AngularRate", "Mahony")}

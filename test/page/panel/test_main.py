@@ -76,7 +76,6 @@ def test_other_machines_are_told_an_address_and_nothing_is_to_be_guarded():
     assert (process.returncode, errors) == (0, "")  # each page has its own top
 
 
-@pytest.mark.slow
 def test_without_options_the_file_is_written_here_and_opened(monkeypatch, capsys):
     opened = []
     monkeypatch.setattr(module.webbrowser, "open", lambda url: opened.append(url) or True)
@@ -105,7 +104,6 @@ def test_a_page_without_a_run_is_renewed_whatever_its_version(change, capsys):
     assert len([*Path().iterdir()]) == 1
 
 
-@pytest.mark.slow
 def test_a_page_with_a_run_is_kept_and_named(capsys):
     saved = write_file(run=page_run(1))
     Path("top.html").write_text(saved)

@@ -198,7 +198,6 @@ def test_a_page_that_is_closed_is_no_error(capsys):
     assert capsys.readouterr().err == ""
 
 
-@pytest.mark.slow
 def test_a_slow_page_is_sent_little_that_it_has_not_taken():
     sent = []
 
@@ -238,6 +237,5 @@ def test_a_request_of_nested_lists_is_refused(live):
     assert len(live.node.asked) == asked
 
 
-@pytest.mark.slow
 def test_the_pages_of_a_class_wait_in_its_queue_at_once(static):
     assert static.request_queue_size >= 128

@@ -56,7 +56,6 @@ def test_the_ball_is_found_to_a_third_of_a_pixel(films, look, tmp_path):
     check(follow(films, path), range(3, COUNT))
 
 
-@pytest.mark.slow
 def test_clicks_beside_the_middle_do_not_move_the_suggestion(films, tmp_path):
     path = write(tmp_path, draw_balls(BALLS))
     check(follow(films, path, off=(3.0, -2.0)), range(3, COUNT))
@@ -82,7 +81,6 @@ def test_noise_and_light_that_changes_do_not_lead_it_away(films, tmp_path):
     check(follow(films, path), range(3, COUNT), near=1.0)  # px, as a click of a hand
 
 
-@pytest.mark.slow
 def test_a_wooden_disc_is_no_second_ball_though_it_is_half_like_it(films, tmp_path):
     def add_disc(pictures):
         for (x, y), picture in zip(BALLS, pictures, strict=True):

@@ -214,7 +214,6 @@ def calculate(text):
     return eval(text.replace("lambda", "lambda_").replace("U_eff(", "well("), names)
 
 
-@pytest.mark.slow
 def test_the_page_has_the_letters_of_its_formulas(open_page):
     """A letter that the font has is as wide before any other font."""
     page = open_page("#lesson=3")

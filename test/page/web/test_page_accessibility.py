@@ -94,7 +94,6 @@ def read_marks(page):
     return {name: colors for name, colors in found if colors}
 
 
-@pytest.mark.slow
 def test_arrows_come_one_by_one_by_their_words(opened):
     opened.press("Space")
     label = opened.tab.locator(".label:visible", has_text="torque")

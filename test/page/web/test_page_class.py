@@ -37,7 +37,6 @@ def test_the_list_shows_the_disc_that_moves_as_the_top_does(opened):
     assert article.moments == pytest.approx((0.000228, 0.0000572, 0.068), rel=1e-5)  # six digits
 
 
-@pytest.mark.slow
 def test_a_body_of_parts_is_that_of_python(opened):
     opened.open_tab("start")
     fill_part(opened, 0, "disc", "170 g", "5.5cm", "0,105")
@@ -197,7 +196,6 @@ def test_where_the_last_digits_decide_whether_there_is_a_start_the_page_says_so(
     assert said == [""] * len(shared.list_solutions())
 
 
-@pytest.mark.slow
 def test_what_no_motion_has_is_refused_in_words(shared):
     shared.open_tab("start")
     events = shared.read_events()

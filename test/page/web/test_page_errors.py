@@ -9,7 +9,6 @@ from trials import trials
 from symtop_ros.physics import Motion, State, Top
 
 
-@pytest.mark.slow
 def test_frames_with_old_stamps_do_not_run_the_time_backwards(open_page):
     opened = open_page(script="patches.ageStamps();" + UNDRAWN)
     opened.tab.click("#hurry")
@@ -34,7 +33,6 @@ def test_an_error_in_a_part_is_shown_once_and_costs_only_this_part(open_page):
     opened.problems.clear()
 
 
-@pytest.mark.slow
 def test_a_stored_choice_of_another_version_is_dropped(open_page):
     store = "localStorage.setItem"
     stored = f"{store}('symtop.free-x', 'speed'); {store}('symtop.unit', '');"

@@ -140,7 +140,6 @@ def test_another_act_ends_the_question(new):
     assert "lower than without the push" in new.say("headline")
 
 
-@pytest.mark.slow
 def test_a_page_that_prefers_no_motion_moves_when_it_is_answered(open_page):
     page = open_page(known="", reduced_motion="reduce")
     page.tab.click("text=It will rise")
@@ -202,7 +201,6 @@ def test_a_kick_is_a_step_in_the_chart_of_the_rate_and_a_mark_at_the_slider_of_t
     assert opened.tab.text_content("#clock") == f"{end:.2f} s"
 
 
-@pytest.mark.slow
 @pytest.mark.wording
 def test_numbers_are_in_degrees_at_first_and_in_rad_in_the_lesson(new):
     new.tab.click("text=It will rise")

@@ -409,7 +409,6 @@ def test_the_ghost_is_the_top_as_it_was_measured(opened, kind):
         assert find_label(opened).is_visible()
 
 
-@pytest.mark.slow
 def test_an_act_ends_the_measured_ghost(opened):
     drop(opened, make_measured())
     opened.until(lambda: find_label(opened).is_visible())

@@ -26,7 +26,6 @@ def read_history(opened):
     return entries.evaluate_all("all => all.map(e => e.dataset.text)")
 
 
-@pytest.mark.slow
 def test_history_is_in_the_words_of_the_user_and_the_unit_of_the_page(opened):
     opened.enter("theta", "0.6")
     opened.tab.click("#hurry")

@@ -99,7 +99,6 @@ def test_a_hold_ends_when_nobody_can_hold_the_button_any_more(opened, end):
     assert list_kinds(opened) == ["start", *ACTS["grasp"]]
 
 
-@pytest.mark.slow
 def test_a_start_during_a_hold_is_not_touched_by_its_end(opened):
     opened.open_tab("push")
     press(opened, "grasp")
@@ -111,7 +110,6 @@ def test_a_start_during_a_hold_is_not_touched_by_its_end(opened):
     assert opened.read_events()[-1]["clamped"]
 
 
-@pytest.mark.slow
 def test_enter_holds_a_button_until_it_is_released(opened):
     opened.follow(LINK[1:])
     opened.open_tab("push")

@@ -104,7 +104,6 @@ def test_a_chosen_language_stays_and_keeps_the_run(open_page, tmp_path):
     assert is_in(other, "en")
 
 
-@pytest.mark.slow
 def test_numbers_have_a_decimal_comma_where_the_language_has_one(open_page):
     page = open_page("#lang=de")
     page.press("Space")  # else the field shows another tilt at once
@@ -120,7 +119,6 @@ def test_numbers_have_a_decimal_comma_where_the_language_has_one(open_page):
     assert "," in page.tab.inner_text("#clock")
 
 
-@pytest.mark.slow
 def test_the_program_writes_the_page_in_a_language_of_its_own(open_page, tmp_path, capsys):
     path = tmp_path / "seite.html"
     assert main(["--language", "de", "--write", str(path)]) == 0

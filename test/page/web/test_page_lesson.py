@@ -158,7 +158,6 @@ def test_a_number_that_is_asked_for_is_checked(open_page, number, near, far):
     assert page.say("lesson-checked") == ""
 
 
-@pytest.mark.slow
 @pytest.mark.wording
 def test_a_number_is_asked_for_in_the_unit_of_the_page_and_may_have_a_comma(open_page):
     page = open_page("#lesson=13&lang=de")
@@ -182,7 +181,6 @@ def test_the_table_of_a_step_is_behind_its_explanation(open_page):
     assert page.tab.locator("#lesson-table tr").count() == 0
 
 
-@pytest.mark.slow
 @pytest.mark.wording
 def test_back_is_the_step_before_and_predictions_are_saved_as_a_text(open_page, tmp_path):
     page = open_page("#lesson=2")

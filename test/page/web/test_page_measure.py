@@ -221,7 +221,6 @@ def test_a_length_gives_the_scale(measuring):
     assert options.scale_deviation == pytest.approx(expected, rel=0.05)  # two digits
 
 
-@pytest.mark.slow
 def test_a_click_outside_of_the_picture_is_refused_and_nothing_is_lost(measuring):
     click(measuring, PIVOT)
     click_balls(measuring, range(2))
@@ -230,7 +229,6 @@ def test_a_click_outside_of_the_picture_is_refused_and_nothing_is_lost(measuring
     assert "2 of 40 frames" in measuring.say("plan")
 
 
-@pytest.mark.slow
 def test_every_second_frame_is_proposed_if_half_of_them_are_wanted(measuring):
     measuring.tab.fill("#wanted-frames", "20")
     assert "0 of 20 frames are clicked, from 0.00 s to 1.27 s in steps of 2" in measuring.say(
@@ -450,7 +448,6 @@ def test_a_fit_is_stopped_and_a_record_of_too_few_rows_is_refused(measuring):
     assert "40 of 40" in measuring.say("plan")
 
 
-@pytest.mark.slow
 def test_a_fit_of_what_is_measured_no_more_is_stopped(opened):
     """Its result would be that of another record than the one that is named."""
     rows = "".join(f"{k / 32},{k % 7},{k % 5}\n" for k in range(40))
@@ -485,7 +482,6 @@ def test_a_film_of_four_gigabytes_is_not_read_into_memory(opened, film, tmp_path
     assert opened.tab.evaluate("performance.memory.usedJSHeapSize") < before + 100_000_000
 
 
-@pytest.mark.slow
 def test_a_film_that_vanishes_leaves_its_clicks_and_is_opened_again(opened, film, tmp_path):
     path = tmp_path / "swing.mp4"
     path.write_bytes(film.read_bytes())
@@ -520,7 +516,6 @@ VANISH = """() => {
 }"""
 
 
-@pytest.mark.slow
 def test_a_finger_clicks_where_it_is_let_go(browser, path, film):
     page = Opened(browser, locale="en-US")
     page.open(path)

@@ -75,7 +75,6 @@ def test_the_series_are_those_of_the_motion(opened, tmp_path):
     assert table[:, 6] == pytest.approx(states.euler_rates.psi, rel=1e-14)
 
 
-@pytest.mark.slow
 def test_a_torque_acts_and_is_said_while_its_button_is_held(opened):
     opened.open_tab("push")
     button = opened.tab.locator("[data-sign='1']")

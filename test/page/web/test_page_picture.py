@@ -66,7 +66,6 @@ def test_texts_out_of_sight_are_those_of_now_and_a_printer_gets_the_charts_of_no
     assert "0.9" in opened.tab.evaluate("document.querySelector('#free svg').textContent")
 
 
-@pytest.mark.slow
 def test_a_page_with_its_open_charts_is_one_sheet_of_paper(opened):
     opened.tab.click("#hurry")
     opened.open_charts("theta", "phi_dot", "rule", "well", "ledger", "kinds")
@@ -80,7 +79,6 @@ def test_a_page_with_its_open_charts_is_one_sheet_of_paper(opened):
         assert not opened.tab.is_visible(name)
 
 
-@pytest.mark.slow
 def test_a_saved_picture_has_the_sentence_and_the_labels(opened, tmp_path):
     opened.press("Space")
     opened.wait_for_frames()
@@ -102,7 +100,6 @@ def test_a_saved_picture_has_the_sentence_and_the_labels(opened, tmp_path):
     assert after > 50
 
 
-@pytest.mark.slow
 def test_a_key_makes_text_large_and_it_stays(opened):
     def read():
         name = "getComputedStyle(document.getElementById('headline')).fontSize"

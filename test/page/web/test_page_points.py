@@ -149,7 +149,6 @@ def test_an_angle_that_is_left_is_in_the_unit_of_the_page(opened):
         assert left == pytest.approx(last * size, rel=0.051)
 
 
-@pytest.mark.slow
 def test_points_that_were_thinned_are_said_to_be(opened):
     drop(opened, make_measured("theta", rows=100_000))
     assert opened.say("points").startswith("48 measured points of 100000 rows: tilts. ")
@@ -178,7 +177,6 @@ def test_an_act_ends_what_was_seen_of_the_motion_and_a_refusal_does_not(measured
     assert measured.read_run()["points"]["times"] == [0.0]
 
 
-@pytest.mark.slow
 def test_a_run_without_points_has_the_format_of_before(measured):
     content = measured.read_run()
     del content["points"]
@@ -248,7 +246,6 @@ def test_marks_are_the_axes_and_rates_of_python(tab, kind):
         assert np.abs(np.array([mark[5] for mark in marks]) - psi_dot).max() < 1e-9
 
 
-@pytest.mark.slow
 def test_a_point_beside_the_sphere_is_not_drawn(opened):
     content = json.loads(json.dumps(make_measured("pixels")))
     content["points"]["values"][5] = [CAMERA["u"] + 10_000.0, CAMERA["v"]]
@@ -292,7 +289,6 @@ def test_without_a_picture_the_points_are_around_the_way_of_the_axle(open_page):
     assert np.abs([place[1] for place in places] - np.arctan2(y, x)).max() < 0.01
 
 
-@pytest.mark.slow
 def test_a_run_that_is_dropped_ends_the_question_of_a_first_visit(open_page):
     page = open_page(known="")
     asked = page.tab.locator("body[data-asked]")

@@ -86,7 +86,6 @@ def zip_texts(events):
     return zip([*events, events[-1]], HOSTILE, strict=True)
 
 
-@pytest.mark.slow
 def test_a_saved_page_that_is_dropped_onto_a_page_is_opened(opened, tmp_path):
     opened.tab.click("#hurry")
     events = opened.read_events()

@@ -95,7 +95,6 @@ def test_a_link_starts_the_motion_with_the_same_doubles(opened, open_page, count
         assert read_link(other) == link
 
 
-@pytest.mark.slow
 def test_a_link_is_the_whole_start_whatever_was_there_before(opened):
     """Friction, a torque and another body of the motion before are not those of a link."""
     opened.follow("theta=0.75&psi_dot=150")
@@ -109,7 +108,6 @@ def test_a_link_is_the_whole_start_whatever_was_there_before(opened):
         assert not event.get("clamped", False)
 
 
-@pytest.mark.slow
 def test_a_reset_of_a_loaded_run_keeps_its_torque(opened):
     run = change(0, torque=[0.0, 0.0, 5e-4])
     run["events"] = run["events"][:1]
@@ -144,7 +142,6 @@ def test_a_link_that_cannot_be_followed_is_refused(opened):
         assert opened.read_events() == events
 
 
-@pytest.mark.slow
 def test_a_refused_link_names_its_fields_as_they_are_typed_and_makes_no_button(opened):
     opened.follow("[phi|theta]=1")
     refused = opened.tab.locator("#refusal")

@@ -45,7 +45,6 @@ def draw_instants(count):
         yield {"top": top, "orientation": orientation, "omega": omega}
 
 
-@pytest.mark.slow
 @pytest.mark.wording
 @pytest.mark.parametrize("count", trials(400, 20_000))
 def test_an_instant_of_a_nutation_is_explained_by_what_is_so(tab, count):

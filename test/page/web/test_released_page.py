@@ -17,7 +17,6 @@ def test_it_is_of_the_newest_release_of_the_changelog():
     assert VERSION.findall(PAGE.read_text(encoding="utf-8")) == [newest]
 
 
-@pytest.mark.slow
 def test_it_opens_and_computes(open_page):
     tab = open_page("#scene=hurry_slow", file=PAGE).tab
     top = "{Ix: 0.000228, Iz: 0.0000572, Mgl: 0.068, orientation: [0.8, 0.6, 0, 0], "

@@ -208,7 +208,6 @@ class Terminal:
         return status
 
 
-@pytest.mark.slow
 @pytest.mark.wording
 def test_each_key_sends_its_request(ctl):
     assert ctl("start").returncode == 0

@@ -106,7 +106,6 @@ def test_the_mass_and_the_gravity_of_a_body_are_kept(ctl):
     assert found["pivot_force"][2] == pytest.approx(2.6 * 9.80, rel=0.1)
 
 
-@pytest.mark.slow
 def test_all_solutions_are_listed_and_one_is_started(ctl):
     answer = ctl("start theta=90deg dip=0.1rad phi=1 solution=2")
     assert "Solution 2 of 2 for Ix = 0.0" in answer.stdout

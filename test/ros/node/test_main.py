@@ -70,7 +70,6 @@ def test_a_remapping_of_other_names_is_none_of_a_parameter(words, fault):
     assert bool(find_fault(words.split())) == bool(fault)
 
 
-@pytest.mark.slow
 def test_a_scene_may_be_a_plain_option():
     with (
         running(command("top_node", "--scene", "looping"), DOMAIN) as node,
@@ -238,7 +237,6 @@ def _ask(connection, seconds):
     connection.spin_until(lambda: False, seconds)
 
 
-@pytest.mark.slow
 def test_without_mcap_it_runs_and_refuses_to_record_with_the_way_out():
     words = [sys.executable, "-c", WITHOUT_MCAP]
     with running(words, DOMAIN, stderr=None) as node, Listener(DOMAIN) as user:

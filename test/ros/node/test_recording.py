@@ -48,7 +48,6 @@ def test_each_file_of_a_recording_can_be_checked_alone(limits, start_top, tmp_pa
     assert all(path.stat().st_size > limits.get("max_size", 0) for path in files[:2])
 
 
-@pytest.mark.slow
 def test_a_log_of_clamps_is_computed_again(start_top, tmp_path):
     """Held, at rest and moving, and let go: samples, torque and balances are those of the hand."""
     run = start_top(record__directory=str(tmp_path), record__enabled=True)

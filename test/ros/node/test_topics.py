@@ -70,7 +70,6 @@ def test_the_description_is_latched_and_its_joints_are_those_of_the_euler_angles
     assert float(inertia.get("izz")) == 6e-05
 
 
-@pytest.mark.slow
 def test_diagnostics_report_the_motion_and_constants_that_do_not_drift(start_top):
     run = start_top()
     messages = run.collect(DiagnosticArray, "/diagnostics")

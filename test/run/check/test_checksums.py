@@ -46,7 +46,6 @@ KINDS = [*range(Opcode.HEADER, Opcode.DATA_END + 1)]
 ABSENT = [Opcode.MESSAGE, Opcode.ATTACHMENT, Opcode.ATTACHMENT_INDEX]  # or in chunks alone
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("opcode", choose({*KINDS}.difference(ABSENT), (Opcode.DATA_END,)))
 def test_a_flipped_bit_in_the_head_of_a_record_is_found(log, tmp_path, opcode):
     path = tmp_path / "run.mcap"

@@ -158,7 +158,6 @@ def test_what_was_flushed_is_readable_while_the_recording_goes_on(tmp_path):
     recorder.stop()
 
 
-@pytest.mark.slow
 def test_a_full_disk_stops_the_recording_and_what_was_written_opens(tmp_path):
     with mounted(tmp_path / "small", "size=300k") as folder:
         recorder = create(folder)

@@ -32,7 +32,6 @@ def fit():
     return fit_motion(make_record(TIMES, make_axis(), "axis"))
 
 
-@pytest.mark.slow
 def test_the_axis_shows_the_motion_and_the_noise(fit):
     values = read_values(fit)
     for name, truth in {
@@ -81,7 +80,6 @@ def test_rates_show_the_body_and_a_positive_weight(Mgl):
     assert "phi" not in values
 
 
-@pytest.mark.slow
 def test_attitudes_show_all_but_a_moment():
     values = read_values(fit_motion(make_noisy("attitude", CUSPS.at(TIMES).orientation, SIGMA)))
     assert_near(values["Iz/Ix"], 0.25)

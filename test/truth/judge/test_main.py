@@ -71,7 +71,6 @@ def test_estimates_may_be_in_another_file(log, capsys, tmp_path):
     assert main([str(log), "--estimates", str(log), "--topic", "/imu/data"]) == 0
 
 
-@pytest.mark.slow
 def test_an_output_that_is_no_longer_read_is_no_failure(log):
     command = "import sys; from symtop_ros.programs import top_judge; sys.exit(top_judge())"
     options = ["--topic", "/filter", "--aligned", "none", "--json"]

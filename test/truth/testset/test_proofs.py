@@ -23,7 +23,6 @@ def test_every_number_of_the_test_set_is_in_its_ball() -> None:
     assert counts == {"nearest": 9100, "zero": 700}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("step", trials(10, 1))
 def test_states_under_gravity_that_the_tests_compare_with_are_proved(step: int) -> None:
     counts = sum(map(prove, FALLS[::step]), Counter())
