@@ -72,6 +72,7 @@ test-long: test-keys test-elsewhere test-newcomer test-ubuntu test-kilted  ## tr
 	$(SET_UP) peers docs aarch64 wine zig gpu
 	@$(MAKE) --no-print-directory -C workshop coverage matrix
 	@$(PYTEST) -m long test
+	@SLOWED_PAGES=20 $(PYTEST) -m "$(UNTIMED)" $(foreach each,holds first_minute clamp,test/page/web/test_page_$(each).py)
 
 test-keys:  ## tests of all but wording, every template replaced by its key
 	$(SET_UP) test

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
 # Software takes all the time of a processor for sixty frames a second; a test needs few: four.
+# A variable: how many times slower than the processor pages are.
+SLOWED = "SLOWED_PAGES"
 FEW_FRAMES = """
 window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 250);
 window.cancelAnimationFrame = clearTimeout;
@@ -37,6 +40,9 @@ def running_browser() -> Iterator[Browser]:
         def open_page(**options: Any) -> Page:
             tab = new_page(**{"locale": "en-US", **options})  # else that of the machine
             tab.add_init_script(FEW_FRAMES)
+            if rate := os.environ.get(SLOWED):
+                session = tab.context.new_cdp_session(tab)
+                session.send("Emulation.setCPUThrottlingRate", {"rate": float(rate)})
             return tab
 
         browser.new_page = open_page  # type: ignore[method-assign]
