@@ -27,7 +27,7 @@ def test_a_fault_is_put_into_code_and_not_into_texts_and_comments(name, tmp_path
     for each in found:
         changed = each.apply(TEXTS[name])
         assert changed != TEXTS[name]
-        assert each.describe(TEXTS[name]).startswith(f"{name}:")
+        assert each.describe().startswith(f"{name}:")
 
 
 def test_faults_are_drawn_again_and_those_of_python_can_be_read():

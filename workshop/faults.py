@@ -20,7 +20,6 @@ import subprocess
 import sys
 import tempfile
 import tokenize
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -45,6 +44,7 @@ PROSE = re.compile(
     r"//.*|/\*[\s\S]*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'|`(?:\\.|[^`\\])*`|#include.*"
     r"|(?<=[(,=] )/(?:\\.|[^/\\\n])+/|(?<=\()/(?:\\.|[^/\\\n])+/"
 )
+STAGES = "quick tests of its folder", "all quick tests", "slow tests"
 LIMIT = "1800"  # s; a fault may make a loop endless
 TOGETHER = ("-n", "3", "--dist", "loadfile")
 OPTIONS = ("-q", "-x", "-p", "no:cacheprovider", *TOGETHER)
@@ -64,33 +64,44 @@ class Fault:
         """Return the text with the fault."""
         return text[: self.begin] + self.new + text[self.begin + len(self.old) :]
 
-    def describe(self, text: str) -> str:
+    def describe(self) -> str:
         """Return file, line, change and the line itself."""
+        text = (ROOT / self.path).read_text(encoding="utf-8")
         number = text.count("\n", 0, self.begin) + 1
         line = text.splitlines()[number - 1].strip()
         return f"{self.path}:{number}: {self.old} -> {self.new}: {line}"
 
 
 def main() -> int:
-    """Try the faults, or some of them by their numbers; print a line for each and the counts."""
+    """Try the faults, or some of them by their numbers; print what each stage sees."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--slow", action="store_true", help="try the slow tests on what is left")
     parser.add_argument("numbers", nargs="*", type=int, help="all if none is given")
     options = parser.parse_args()
     faults = draw()
-    seen: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="faults-") as name:
         copy = copy_checkout(Path(name, "checkout"))
         if not passes(copy, "test"):
             print("the quick tests must pass without a fault, and do not", file=sys.stderr)
             return 1
-        for number in options.numbers or range(len(faults)):
-            by = try_fault(faults[number], copy, options.slow)
-            text = (ROOT / faults[number].path).read_text(encoding="utf-8")
-            print(f"{number:2} {by:22} {faults[number].describe(text)}", flush=True)
-            seen[by] += 1
-    print(", ".join(f"{count} {by}" for by, count in seen.items()))
+        left = [faults[number] for number in options.numbers or range(len(faults))]
+        for stage in STAGES if options.slow else STAGES[:-1]:
+            left = try_stage(stage, left, copy)
+    for fault in left:
+        print(f"not seen: {fault.describe()}")
     return 0
+
+
+def try_stage(stage: str, faults: list[Fault], copy: Path) -> list[Fault]:
+    """Try faults on the tests of a stage; print those that are seen, and return the others."""
+    left = []
+    for fault in faults:
+        if is_seen(fault, stage, copy):
+            print(f"{stage}: {fault.describe()}", flush=True)
+        else:
+            left.append(fault)
+    print(f"{stage}: {len(faults) - len(left)} of {len(faults)} seen", flush=True)
+    return left
 
 
 def draw() -> list[Fault]:
@@ -139,19 +150,16 @@ def copy_checkout(folder: Path) -> Path:
     return folder
 
 
-def try_fault(fault: Fault, copy: Path, slow: bool) -> str:
-    """Return which tests see a fault."""
+def is_seen(fault: Fault, stage: str, copy: Path) -> bool:
+    """Return True if the tests of a stage, or the compiler, see a fault."""
+    words = {STAGES[0]: find_tests(fault.path), STAGES[1]: ["test"]}.get(
+        stage, ["-m", "slow", "test"]
+    )
     path = copy / fault.path
     right = path.read_text(encoding="utf-8")
     path.write_text(fault.apply(right), encoding="utf-8")
     try:
-        if not build(fault, copy):
-            return "does not build"
-        if not passes(copy, *find_tests(fault.path)):
-            return "quick, of its folder"
-        if not passes(copy, "test"):
-            return "quick"
-        return "slow" if slow and not passes(copy, "-m", "slow", "test") else "not seen"
+        return not (build(fault, copy) and passes(copy, *words))
     finally:
         path.write_text(right, encoding="utf-8")
         build(fault, copy)
