@@ -13,7 +13,7 @@ import json
 import lzma
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from multiprocessing import Pool
@@ -109,16 +109,21 @@ def _judge(text: str, ball: Any, size: Decimal, digits: int) -> str:
 
 def main() -> int:
     """Prove all that is stored, and print the counts; return 1 if a number is not proved."""
-    found: dict[str, Counter[str]] = {}
     tasks = [*list_problems(), *list_motions()]
     with Pool() as pool:
-        for stored, counts in zip(tasks, pool.imap(prove, tasks), strict=True):
-            found[stored.store] = found.get(stored.store, Counter()) + counts
-            if counts[NOT_PROVED]:
-                print(f"{stored.store}, {stored.name}: {dict(counts)}", flush=True)
+        return report(tasks, pool.imap(prove, tasks))
+
+
+def report(tasks: Iterable[Stored], proved: Iterable[Counter[str]]) -> int:
+    """Print the counts of what was proved of some tasks; return 1 if a number is not proved."""
+    found: dict[str, Counter[str]] = {}
+    for stored, counts in zip(tasks, proved, strict=True):
+        found[stored.store] = found.get(stored.store, Counter()) + counts
+        if counts[NOT_PROVED]:
+            print(f"{stored.store}, {stored.name}: {dict(counts)}", flush=True)
     for store, counts in found.items():
-        proved = ", ".join(f"{count} {name}" for name, count in counts.most_common())
-        print(f"{store}: {counts.total()} numbers, {proved}")
+        kinds = ", ".join(f"{count} {name}" for name, count in counts.most_common())
+        print(f"{store}: {counts.total()} numbers, {kinds}")
     return int(any(counts[NOT_PROVED] for counts in found.values()))
 
 

@@ -78,7 +78,6 @@ def test_a_wrong_digit_is_found_among_all_of_a_motion_and_named(
     states = [*right.states[:-1], spoil(right.states[-1], 0, right.digits)]
     assert not prove(right)[NOT_PROVED]
     monkeypatch.setattr(proofs, "MOST", 50)
-    monkeypatch.setattr(proofs, "list_problems", lambda: [right._replace(states=states), other])
-    monkeypatch.setattr(proofs, "list_motions", list)
-    assert proofs.main() == 1
+    tasks = [right._replace(states=states), other]
+    assert proofs.report(tasks, map(prove, tasks)) == 1
     assert capsys.readouterr().out.splitlines()[-1].endswith(" 1 not proved")
