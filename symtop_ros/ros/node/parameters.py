@@ -27,6 +27,7 @@ from std_srvs.srv import SetBool, Trigger
 from symtop_ros.base.command import find_nearest
 from symtop_ros.base.refusals import RefusedError, attempt, refuse, show, validate_names
 from symtop_ros.run.session.services import ServiceKind
+from symtop_ros.run.simulation.changes.requests import NOT_NUMBERS
 from symtop_ros.run.simulation.presets import load_scene, scene_names
 from symtop_ros.run.simulation.settings import PARAMETERS, Settings, override_scene
 
@@ -249,7 +250,7 @@ def read_values(parameters: Sequence[ParameterMessage]) -> dict[str, Any]:
     values: dict[str, Any] = {}
     for parameter in parameters:
         name = parameter.name
-        value = _read_value(parameter.value)
+        value = _read_value(parameter)
         if name in values:
             raise RefusedError(f"{show(name)} must be given once, got it more than once")
         if value is None:
@@ -258,15 +259,34 @@ def read_values(parameters: Sequence[ParameterMessage]) -> dict[str, Any]:
     return values
 
 
-def _read_value(message: ParameterValue) -> Any:
-    """Return the value of a message; without a type, the one field that is set.
+def _read_value(parameter: ParameterMessage) -> Any:
+    """Return the value of a parameter; without a type, the one field that is set.
 
-    `ros2 service call ... {name: theta, value: {double_value: 0.5}}` sends no type.
+    `ros2 service call ... {name: theta, value: {double_value: 0.5}}` sends no type. With 0.0 it
+    sends no value either.
     """
+    message = parameter.value
     if message.type != ParameterType.PARAMETER_NOT_SET:
         return parameter_value_to_python(message)
-    given = [value for name in VALUE_FIELDS if (value := getattr(message, name))]
+    given = _list_given(message)
+    if not given and parameter.name not in NOT_NUMBERS:
+        return 0.0
     return given[0] if len(given) == 1 else None
+
+
+def _list_given(message: ParameterValue) -> list[Any]:
+    """Return the fields of a value that are neither zero nor empty."""
+    return [value for name in VALUE_FIELDS if (value := getattr(message, name))]
+
+
+def tell_zeros(parameters: Sequence[ParameterMessage]) -> str:
+    """Return which numbers of a granted request were read as 0, because nothing came; or ""."""
+    zeros = [
+        f"{each.name}: 0"
+        for each in parameters
+        if each.value.type == ParameterType.PARAMETER_NOT_SET and not _list_given(each.value)
+    ]
+    return f"{', '.join(zeros)} (a value without a type). " if zeros else ""
 
 
 def refuse_too_many(parameters: Sequence[ParameterMessage]) -> None:

@@ -8,6 +8,7 @@ from typing import Any, cast
 
 from geometry_msgs.msg import WrenchStamped
 from rcl_interfaces.msg import SetParametersResult
+from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.clock import Clock, ClockChange, JumpThreshold, ROSClock, TimeJump
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
@@ -25,6 +26,7 @@ from symtop_ros.ros.node.parameters import (
     declare_parameters,
     fill_response,
     guard_parameters,
+    tell_zeros,
     warn_of_unused_qos,
 )
 from symtop_ros.run.session.services import SERVICES
@@ -194,6 +196,8 @@ class TopNode(Node):
         def handle(request: Any, response: Any) -> Any:
             granted, answer = self.session.answer(name, lambda: read(request))
             self._pacer.wake()  # a clock that stood still may be running
+            if granted and isinstance(request, SetParametersAtomically.Request):
+                answer = tell_zeros(request.parameters) + answer
             return fill_response(response, granted, answer)
 
         return handle
