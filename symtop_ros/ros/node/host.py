@@ -2,8 +2,9 @@
 
 A thread calls for each tick at its time. A timer of rclpy would do, but an executor rebuilds its
 wait set for each of its calls: at 1 kHz that takes 50 % CPU (one core). `use_real_time` asks for
-real-time scheduling, so that ticks and requests come on time on a busy machine; without it, or the
-right to it, a short slice lets the thread run soon after it wakes.
+real-time scheduling, so that ticks come on time on a busy machine; without it, or the right to it,
+a short slice lets the thread run soon after it wakes. No other thread is changed: the process
+belongs to its program.
 """
 
 import ctypes
@@ -25,6 +26,7 @@ from rclpy.qos_overriding_options import QoSOverridingOptions
 
 from symtop_ros.base.refusals import RefusedError, one_line
 from symtop_ros.run.session.diagnostics import make_status
+from symtop_ros.run.simulation.changes.outcomes import Failure
 from symtop_ros.run.simulation.presets import config_folder
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.run.simulation.topics import CLOCK, MARKERS, SAMPLE_TOPICS, Topic
@@ -151,6 +153,13 @@ class NodeHost:
         """Log an error."""
         self._node.get_logger().error(text)
 
+    def fail(self, failure: Failure) -> None:
+        """Log the end of the run, and wake the executor; nothing when ROS is shutting down."""
+        if self._node.context.ok():
+            self._node.get_logger().fatal(str(failure))
+            if self._node.executor:
+                self._node.executor.wake()
+
 
 def _look_for_nodes(node: Node) -> Status:
     """Look for other nodes of the name of this node: a request reaches any of them."""
@@ -180,10 +189,15 @@ def _look_for_clocks(node: Node, publishes_clock: bool) -> Status:
 
 
 class Pacer:
-    """Calls `tick` repeatedly in a thread."""
+    """Calls `tick` repeatedly in a thread, with a priority of SCHED_FIFO if that is above 0."""
 
-    def __init__(self, tick: Callable[[], float | None], fail: Callable[[Exception], None]) -> None:
-        self._tick, self._fail = tick, fail
+    def __init__(
+        self,
+        tick: Callable[[], float | None],
+        priority: int,
+        warn: Callable[[str], None],
+    ) -> None:
+        self._tick, self._priority, self._warn = tick, priority, warn
         self._awake = threading.Event()
         self._ending = False
         self._thread = threading.Thread(target=self._run, name="pacer", daemon=True)
@@ -202,13 +216,12 @@ class Pacer:
 
     def _run(self) -> None:
         shorten_slice()
-        try:
-            while not self._ending:
-                wait = self._tick()
-                self._awake.wait(None if wait is None else max(wait, MIN_PAUSE))
-                self._awake.clear()
-        except Exception as error:
-            self._fail(error)
+        if self._priority and (failure := use_real_time(self._priority)):
+            self._warn(failure)
+        while not self._ending:
+            wait = self._tick()
+            self._awake.wait(None if wait is None else max(wait, MIN_PAUSE))
+            self._awake.clear()
 
 
 def use_real_time(priority: int) -> str | None:

@@ -12,7 +12,7 @@ from rclpy.parameter import Parameter
 
 from symtop_ros.base.refusals import RefusedError, one_line
 from symtop_ros.base.shutdown import run_with_ros
-from symtop_ros.ros.node.host import shorten_slice, use_profile
+from symtop_ros.ros.node.host import shorten_slice, use_profile, use_real_time
 from symtop_ros.ros.node.options import SCENE, find_fault, make_parser
 from symtop_ros.ros.node.top_node import TopNode
 
@@ -37,7 +37,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _run(words: Sequence[str], options: argparse.Namespace, listen: Callable[[], None]) -> int:
-    """Spin until shutdown; return 1 if a tick or the recording failed (both were reported)."""
+    """Spin until shutdown or a failure of the top; return 1 if it or the recording failed."""
     # Not rclpy's EventsExecutor, under which no request is answered (rclpy 7.1 and 9.1): other
     # threads stand still as it waits. It is created before a signal can shut ROS down, as the node.
     if fault := find_fault(words, options.scene):
@@ -45,10 +45,16 @@ def _run(words: Sequence[str], options: argparse.Namespace, listen: Callable[[],
     scene = [] if options.scene is None else [Parameter(SCENE, value=options.scene)]
     executor = SingleThreadedExecutor()
     top = TopNode(parameter_overrides=scene)
+    # Requests come through this thread; a busy machine would else preempt it while it holds the
+    # interpreter's lock, for which the ticks then wait. Refused, the node has said so.
+    if priority := top.simulation.settings.scheduling_priority:
+        use_real_time(priority)
     gc.freeze()  # collecting garbage among the objects of the start would delay ticks
     try:
         listen()
-        rclpy.spin(top, executor)
+        executor.add_node(top)
+        while rclpy.ok() and not top.failure:
+            executor.spin_once()
     except Exception:
         if rclpy.ok():
             raise

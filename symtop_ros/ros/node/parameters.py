@@ -27,6 +27,7 @@ from std_srvs.srv import SetBool, Trigger
 from symtop_ros.base.command import find_nearest
 from symtop_ros.base.refusals import RefusedError, attempt, refuse, show, validate_names
 from symtop_ros.run.session.services import ServiceKind
+from symtop_ros.run.simulation.changes.requests import NOT_NUMBERS
 from symtop_ros.run.simulation.presets import load_scene, scene_names
 from symtop_ros.run.simulation.settings import PARAMETERS, Settings, override_scene
 
@@ -40,6 +41,7 @@ TYPES = {
     str: Parameter.Type.STRING,
     list: Parameter.Type.DOUBLE_ARRAY,
 }
+KNOWN = [*PARAMETERS, "scene", "use_sim_time"]
 GROUPS = {name.partition(".")[0] for name in PARAMETERS if "." in name}
 MAX_COUNT = 1000  # parameters of a request; a file with all of them has a tenth
 MAX_UNUSED = 5  # unknown names that are named: a file for /** may have those of many nodes
@@ -115,24 +117,32 @@ def _check_unknown_names(node: Node) -> None:
 
     A parameter file for /** holds the parameters of other nodes too.
     """
-    known = [*PARAMETERS, "scene", "use_sim_time"]
     unknown = [
         name
         for name in node._parameter_overrides
-        if not (name in known or node.has_parameter(name) or name.startswith(QOS))
+        if not (name in KNOWN or node.has_parameter(name) or name.startswith(QOS))
     ]
     for name in unknown:
         if name.partition(".")[0] in GROUPS:
-            condition = f"known (the nearest is {find_nearest(name, known, likeness=0.0)})"
-            raise refuse("parameter name", condition, name)
-    _warn_of_unused(node, unknown, known)
+            raise _refuse_name(name, KNOWN)
+    _warn_of_unused(node, unknown, KNOWN)
+
+
+def _refuse_name(name: str, known: Sequence[str]) -> RefusedError:
+    """Return the refusal of an unknown parameter, with the known name that is most like it."""
+    nearest = find_nearest(name, known, likeness=0.0)
+    return refuse("parameter name", f"known (the nearest is {nearest})", name)
 
 
 def warn_of_unused_qos(node: Node) -> None:
     """Warn about overrides of QoS for topics that there are not; call it when all are there."""
-    known = [QOS + name for name in sorted(node.get_parameters_by_prefix(QOS.rstrip(".")))]
     overrides = (name for name in node._parameter_overrides if name.startswith(QOS))
-    _warn_of_unused(node, [name for name in overrides if not node.has_parameter(name)], known)
+    unused = [name for name in overrides if not node.has_parameter(name)]
+    _warn_of_unused(node, unused, _list_qos(node))
+
+
+def _list_qos(node: Node) -> list[str]:
+    return [QOS + name for name in sorted(node.get_parameters_by_prefix(QOS.rstrip(".")))]
 
 
 def _warn_of_unused(node: Node, unknown: list[str], known: list[str]) -> None:
@@ -158,8 +168,9 @@ def _descriptor(description: str, condition: str, read_only: bool) -> ParameterD
 def guard_parameters(node: Node, name: str, handler: Handler) -> Handler:
     """Return a handler of a service (full name) of parameters; those of others are unchanged.
 
-    rclpy's own handlers raise an exception for unknown types, which would end the node. Ranges are
-    only described, not declared: rclpy would refuse what is outside before we do, in other words.
+    rclpy's own handlers raise an exception for unknown types, which would end the node, and refuse
+    unknown names and wrong types in words that name neither. Ranges are only described, not
+    declared: rclpy would refuse what is outside before we do.
     """
 
     def set_all(request: Any, response: Any) -> Any:
@@ -208,7 +219,11 @@ def _set(
     try:
         refuse_too_many(parameters)
         refuse_unknown_types(parameters)
+        for each in parameters:
+            _check_name(node, each.name)
         changes = [each for each in map(_convert, parameters) if not _is_kept(node, each)]
+        for each in changes:
+            _check_change(node, each)
     except RefusedError as refusal:
         return SetParametersResult(successful=False, reason=str(refusal))
     if not changes:
@@ -224,6 +239,25 @@ def _convert(message: ParameterMessage) -> ParameterMessage:
     validate = PARAMETERS[message.name].validate
     clean = validate(message.name, parameter_value_to_python(message.value))
     return _typed(message.name, clean).to_parameter_msg()
+
+
+def _check_name(node: Node, name: str) -> None:
+    """Refuse a parameter that is not declared."""
+    if not node.has_parameter(name):
+        raise _refuse_name(name, _list_qos(node) if name.startswith(QOS) else KNOWN)
+
+
+def _check_change(node: Node, message: ParameterMessage) -> None:
+    """Refuse to change a parameter after the start, or its type; see `_convert` for our own."""
+    name, value = message.name, message.value
+    descriptor = node.describe_parameter(name)
+    if descriptor.read_only:
+        kept = node.get_parameter(name).value
+        condition = f"{show(kept)}, as only the start can set it"
+        raise refuse(name, condition, parameter_value_to_python(value))
+    if not descriptor.dynamic_typing and value.type != descriptor.type:
+        kind = Parameter.Type(descriptor.type).name.lower().replace("_", " ")
+        raise refuse(name, f"of type {kind}", parameter_value_to_python(value))
 
 
 def _is_kept(node: Node, message: ParameterMessage) -> bool:
@@ -249,7 +283,7 @@ def read_values(parameters: Sequence[ParameterMessage]) -> dict[str, Any]:
     values: dict[str, Any] = {}
     for parameter in parameters:
         name = parameter.name
-        value = _read_value(parameter.value)
+        value = _read_value(parameter)
         if name in values:
             raise RefusedError(f"{show(name)} must be given once, got it more than once")
         if value is None:
@@ -258,15 +292,34 @@ def read_values(parameters: Sequence[ParameterMessage]) -> dict[str, Any]:
     return values
 
 
-def _read_value(message: ParameterValue) -> Any:
-    """Return the value of a message; without a type, the one field that is set.
+def _read_value(parameter: ParameterMessage) -> Any:
+    """Return the value of a parameter; without a type, the one field that is set.
 
-    `ros2 service call ... {name: theta, value: {double_value: 0.5}}` sends no type.
+    `ros2 service call ... {name: theta, value: {double_value: 0.5}}` sends no type. With 0.0 it
+    sends no value either.
     """
+    message = parameter.value
     if message.type != ParameterType.PARAMETER_NOT_SET:
         return parameter_value_to_python(message)
-    given = [value for name in VALUE_FIELDS if (value := getattr(message, name))]
+    given = _list_given(message)
+    if not given and parameter.name not in NOT_NUMBERS:
+        return 0.0
     return given[0] if len(given) == 1 else None
+
+
+def _list_given(message: ParameterValue) -> list[Any]:
+    """Return the fields of a value that are neither zero nor empty."""
+    return [value for name in VALUE_FIELDS if (value := getattr(message, name))]
+
+
+def tell_zeros(parameters: Sequence[ParameterMessage]) -> str:
+    """Return which numbers of a granted request were read as 0, because nothing came; or ""."""
+    zeros = [
+        f"{each.name}: 0"
+        for each in parameters
+        if each.value.type == ParameterType.PARAMETER_NOT_SET and not _list_given(each.value)
+    ]
+    return f"{', '.join(zeros)} (a value without a type). " if zeros else ""
 
 
 def refuse_too_many(parameters: Sequence[ParameterMessage]) -> None:

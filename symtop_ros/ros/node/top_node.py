@@ -8,6 +8,7 @@ from typing import Any, cast
 
 from geometry_msgs.msg import WrenchStamped
 from rcl_interfaces.msg import SetParametersResult
+from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.clock import Clock, ClockChange, JumpThreshold, ROSClock, TimeJump
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
@@ -17,14 +18,15 @@ from rclpy.qos import QoSProfile, QoSReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from rclpy.utilities import get_rmw_implementation_identifier
 
-from symtop_ros.base.refusals import RefusedError, attempt, one_line, refuse
+from symtop_ros.base.refusals import RefusedError, attempt, refuse
 from symtop_ros.physics import kernel_version
-from symtop_ros.ros.node.host import NodeHost, Pacer, distribution_name, use_real_time
+from symtop_ros.ros.node.host import NodeHost, Pacer, distribution_name
 from symtop_ros.ros.node.parameters import (
     SERVICE_TYPES,
     declare_parameters,
     fill_response,
     guard_parameters,
+    tell_zeros,
     warn_of_unused_qos,
 )
 from symtop_ros.run.session.services import SERVICES
@@ -91,7 +93,6 @@ class TopNode(Node):
         settings = declare_parameters(self)
         self._refuse_own_clock(settings, self.get_parameter(SIM_TIME).value)
         host = NodeHost(self, settings)
-        self.failure: Exception | None = None  # the exception that ended the ticks
         self.session = Session(
             settings,
             SteadyClock() if settings.publish_clock else NodeClock(self),
@@ -117,16 +118,13 @@ class TopNode(Node):
         self.create_timer(1.0, self.session.keep_up)
         # By the host, whose warnings may come in a tick: rclpy takes 10 ms for the first of a file.
         host.inform(f"states are computed by the kernel, version {kernel_version()}")
-        priority = settings.scheduling_priority
-        if priority and (failure := use_real_time(priority)):
-            host.warn(failure)
         self.clock_is_missing = False
         # On a steady clock, as it also ends the node: rclpy 7 may wake the executor a moment before
         # a signal has shut ROS down, which then waits for its next event.
         self.create_timer(
             CLOCK_WAIT, self._check_clock, clock=Clock(clock_type=ClockType.STEADY_TIME)
         )
-        self._pacer = Pacer(self.simulation.tick, self._fail)
+        self._pacer = Pacer(self.simulation.tick, settings.scheduling_priority, host.warn)
         if find_spec("simulation_interfaces"):
             from symtop_ros.ros.node.simulator import Simulator  # noqa: PLC0415 - it needs its messages
 
@@ -147,6 +145,11 @@ class TopNode(Node):
         """The simulation of the session."""
         return self.session.simulation
 
+    @property
+    def failure(self) -> Failure | None:
+        """What has ended the top, if anything has; the other nodes of its executor continue."""
+        return self.simulation.failure
+
     def close(self) -> None:
         """End the ticks and the recording."""
         self._pacer.stop()
@@ -161,13 +164,6 @@ class TopNode(Node):
         super().destroy_node()
 
     # Time
-
-    def _fail(self, error: Exception) -> None:
-        """End the node after an exception in a tick, unless ROS is shutting down anyway."""
-        if self.context.ok():
-            self.failure = error
-            self.get_logger().fatal(f"a tick failed: {type(error).__name__}: {one_line(error)}")
-            self.context.try_shutdown()
 
     def _check_clock(self) -> None:
         """Warn once if time is simulated and nothing has set it: the top then stands still."""
@@ -200,6 +196,8 @@ class TopNode(Node):
         def handle(request: Any, response: Any) -> Any:
             granted, answer = self.session.answer(name, lambda: read(request))
             self._pacer.wake()  # a clock that stood still may be running
+            if granted and isinstance(request, SetParametersAtomically.Request):
+                answer = tell_zeros(request.parameters) + answer
             return fill_response(response, granted, answer)
 
         return handle

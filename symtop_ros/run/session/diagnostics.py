@@ -21,7 +21,7 @@ from symtop_ros.physics import (
 )
 from symtop_ros.run.log.recorder import Recorder
 from symtop_ros.run.simulation.block import GAP
-from symtop_ros.run.simulation.changes.outcomes import Neglected
+from symtop_ros.run.simulation.changes.outcomes import Failure, Neglected
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.simulation import Simulation
 from symtop_ros.run.wire.diagnostics import ERROR, OK, WARN, Status, write_text
@@ -64,6 +64,11 @@ def motion_status(segment: Segment, stamp: int, event: int) -> Status:
             "event": event,
         },
     )
+
+
+def failure_status(failure: Failure, event: int) -> Status:
+    """Return why the motion has ended, and the number of the latest event."""
+    return make_status("motion", ERROR, str(failure), {"running": False, "event": event})
 
 
 def balance_status(segment: Segment, stamp: int) -> Status:

@@ -18,6 +18,7 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import Motion
 from symtop_ros.run.session.outputs import Publisher
 from symtop_ros.run.session.session import Session
+from symtop_ros.run.simulation.changes.outcomes import Failure
 from symtop_ros.run.simulation.events import KICKS
 from symtop_ros.run.simulation.points import Points
 from symtop_ros.run.simulation.run_file import RATE, RunEvent
@@ -68,6 +69,10 @@ class Silent:
         self.failures.append(text)
 
     report_error = warn
+
+    def fail(self, failure: Failure) -> None:
+        """Keep the reason for which the run ended."""
+        self.failures.append(str(failure))
 
 
 def write_run_log(

@@ -5,6 +5,7 @@ A host of a session translates: the node between it and ROS, a run of the page i
 
 import json
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from functools import partial
@@ -22,7 +23,12 @@ from symtop_ros.base.refusals import (
     validate_names,
 )
 from symtop_ros.run.log.recorder import Recorder, describe_error
-from symtop_ros.run.session.diagnostics import collect_statuses, summarize_state
+from symtop_ros.run.session.diagnostics import (
+    collect_statuses,
+    failure_status,
+    log_status,
+    summarize_state,
+)
 from symtop_ros.run.session.outputs import OutputHost, Outputs
 from symtop_ros.run.session.services import SERVICES, Response
 from symtop_ros.run.simulation.budget import StepBudget
@@ -82,7 +88,9 @@ class Session:
         """Apply a torque (N m) until its time-out; return the reason if it is refused."""
         hold = partial(self.simulation.hold_torque, torque, frame)
         found = self.simulation.take_turn("~/applied_torque", partial(attempt, hold))
-        return "" if isinstance(found, Failure) else found[1]
+        if isinstance(found, Failure):  # reported, unless it has ended the run long ago
+            return str(self.simulation.failure or "")
+        return found[1]
 
     def plan_settings(self, changes: Mapping[str, Any]) -> Settings:
         """Return the settings with changed values; raise RefusedError if they do not fit."""
@@ -102,6 +110,24 @@ class Session:
     def keep_up(self) -> None:
         """Do what is due once a second: pace, failed recordings, diagnostics."""
         self.simulation.take_turn("/diagnostics", self._keep_up)
+        if failure := self.simulation.failure:
+            self._report_end(failure)
+
+    def _report_end(self, failure: Failure) -> None:
+        """Complete the log, and say why there are no more samples.
+
+        What failed may be the outputs; the program around the run continues.
+        """
+        with self.simulation.turns, suppress(Exception):
+            self._recorder.stop()
+            self._outputs.send_diagnostics(
+                self.simulation.now,
+                lambda: [
+                    failure_status(failure, self.simulation.event_number),
+                    log_status(self._recorder),
+                    *self._host.update_statuses(),
+                ],
+            )
 
     def _keep_up(self) -> None:
         own = self._host.update_statuses()

@@ -5,6 +5,7 @@ from typing import Protocol
 
 from symtop_ros.base.arrays import Real, Stamps
 from symtop_ros.run.simulation.block import Block
+from symtop_ros.run.simulation.changes.outcomes import Failure
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.settings import Settings
 
@@ -40,6 +41,9 @@ class Host(Protocol):
 
     def report_error(self, text: str) -> None:
         """Report an error to the user."""
+
+    def fail(self, failure: Failure) -> None:
+        """Report that an unexpected exception has ended the run."""
 
 
 class Sink(Protocol):

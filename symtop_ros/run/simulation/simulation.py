@@ -26,6 +26,7 @@ from symtop_ros.run.simulation.turns import Turns
 
 AT_ONCE = 0.0  # s until the next tick, if this one has left work to do
 LONGEST_HOLD = 60  # s until a faster pace is tried on a busy machine
+HOW_TO_CONTINUE = "the top has stopped: start the node again"
 WHY_IT_ENDS = "too fast for doubles, or 1e15 turns from its start"
 T = TypeVar("T")
 
@@ -42,6 +43,7 @@ class Simulation:
         self._sink, self.host, self._clock = sink, host, clock
         self.turns = Turns()
         self._failures: dict[str, Failure] = {}  # by the name of the turn
+        self.failure: Failure | None = None  # has ended the run: no samples, all is refused
         self.event_number = 0  # of the latest event
         self.ticker = Ticker(settings.publish_rate, self.now)
         self.last = self.now  # stamp of the last sample
@@ -99,10 +101,22 @@ class Simulation:
 
         An unexpected exception becomes a failure, which is reported as an error and as an event,
         once until the action `name` succeeds again; the motion keeps running. A request that may
-        be refused is an action of `attempt`.
+        be refused is an action of `attempt`. An exception outside the action ends the run.
         """
         with self.turns:
-            return self._act(name, act)
+            return self._protect(name, partial(self._act, name, act))
+
+    def _protect(self, name: str, act: Callable[[], T]) -> T | Failure:
+        """Return what an action returns. An exception ends the run, not the program around it."""
+        if self.failure:
+            return self.failure
+        try:
+            return act()
+        except Exception as error:
+            text = f"{one_line(error)} ({HOW_TO_CONTINUE})"
+            self.failure = Failure(name, type(error).__name__, text)
+            self.host.fail(self.failure)
+            return self.failure
 
     def _act(self, name: str, act: Callable[[], T]) -> T | Failure:
         self._follow_jump()
@@ -132,26 +146,30 @@ class Simulation:
         `act` returns the answer or raises RefusedError.
         """
         with self.turns:
-            found = self._act(f"~/{name}", partial(attempt, act))
+            found = self.take_turn(f"~/{name}", partial(attempt, act))
             # The first sample of the new motion need not wait for the next tick.
-            self.publish()
+            self._protect("a sample", self.publish)
         return (False, str(found)) if isinstance(found, Failure) else found
 
     def tick(self) -> float | None:
         """Publish all samples that are due; return the seconds until the next call.
 
-        None: only a change of a simulated clock can make a sample due.
+        None: only a change of a simulated clock can make a sample due, or nothing after a failure.
         """
         with self.turns.lock:
-            self._follow_jump()
-            self._release_torque()
-            if not (self.publish() and self._work_on_block()):
-                return AT_ONCE
-            # What is left of the block is computed now, so that it is ready when it is due. Of the
-            # first sample after a change each topic is computed when it is sent.
-            self._blocks.current.finish()
-            self._work_ahead()
-            return self._clock.wait_for(self.stamp)
+            wait = self._protect("a tick", self._tick)
+        return None if isinstance(wait, Failure) else wait
+
+    def _tick(self) -> float | None:
+        self._follow_jump()
+        self._release_torque()
+        if not (self.publish() and self._work_on_block()):
+            return AT_ONCE
+        # What is left of the block is computed now, so that it is ready when it is due. Of the
+        # first sample after a change each topic is computed when it is sent.
+        self._blocks.current.finish()
+        self._work_ahead()
+        return self._clock.wait_for(self.stamp)
 
     # Samples
 

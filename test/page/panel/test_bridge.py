@@ -113,7 +113,7 @@ def test_integers_of_a_page_are_doubles_of_the_node(node, page):
         ({"service": "set_parameters"}, "service must be "),
         ({"service": "kick", "argument": "9"}, "argument must be "),
         ({"service": "kick", "argument": {"precession_rate": {}}}, "argument must "),
-        ({"service": "kick", "argument": {"precession_rate": None}}, ""),
+        ({"service": "kick", "argument": {"precession_rate": None}}, "argument must have "),
         ({"torque": [0, 0]}, "torque must have 3 "),
         ({"torque": [0, 0, "x"]}, "torque must be "),
         ({"torque": [10**400, 0, 0]}, "torque must be "),

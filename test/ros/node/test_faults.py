@@ -173,6 +173,7 @@ def test_one_in_a_tick_ends_the_node_with_a_line_and_a_complete_log(tmp_path):
     result = execute([sys.executable, "-c", FAILING, *options], env=environment(DOMAIN))
     assert result.returncode == 1
     (line,) = result.stderr.splitlines()
-    assert line.endswith("a tick failed: ZeroDivisionError: by a bug")
+    failure = "a tick failed: ZeroDivisionError: by a bug"
+    assert line.endswith(f"{failure} (the top has stopped: start the node again)")
     (path,) = tmp_path.iterdir()
     assert assert_exact(path) > 100

@@ -6,6 +6,7 @@ Each is answered in one sentence, the samples stay those of the motion, and so d
 import math
 
 import pytest
+import rclpy
 from exact_log import assert_no_deviation, compare_samples
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from hypothesis import given
@@ -153,8 +154,77 @@ NO_TYPE, TWICE = "type of '{}' must be ", "'{}' must be given once, got it more 
 ODD = [
     *((service, ParameterValue(type=77), 1, NO_TYPE + "0 to 9, got 77") for service in NAMES),
     *((service, ONE, 2, TWICE) for service in (START, "kick")),
-    (START, ParameterValue(), 1, NO_TYPE + "1 to 9 (3 for a double), got 0"),
+    (START, ParameterValue(), 2, TWICE),
 ]
+UNTYPED = ParameterValue  # as `ros2 service call` sends a value without a type
+FULL = {"integer_value": 1, "double_value": 1.0}
+NO_NUMBERS = [
+    *((START, name, {}) for name in ("orientation", "angular_velocity", "precession")),
+    *(("kick", name, {}) for name in ("angular_impulse", "hold")),
+    (START, "theta", FULL),
+]
+
+
+@pytest.mark.parametrize(("service", "name", "fields"), NO_NUMBERS)
+def test_an_empty_value_without_a_type_is_refused_where_it_is_no_number(run, service, name, fields):
+    """Vectors and words; two values are none either."""
+    before = run.top.simulation.segment.motion
+    found = run.send(service, [Parameter(name=name, value=UNTYPED(**fields))])
+    assert found == [(False, f"type of '{name}' must be 1 to 9 (3 for a double), got 0")]
+    assert run.top.simulation.segment.motion is before
+
+
+# What is typed in full beside it, and what the answer says: the zero, then what followed.
+ZEROS = [
+    (START, ["theta"], {"psi_dot": 200.0}, "theta: 0"),
+    (START, ["phi", "psi_dot"], {"theta": 0.5}, "phi: 0, psi_dot: 0"),
+    ("kick", ["precession_rate"], {}, "precession_rate: 0"),
+    ("kick", ["precession_rate_change"], {"hold": "spin_momentum"}, "precession_rate_change: 0"),
+    ("kick", ["precession_rate_factor"], {}, "precession_rate_factor: 0"),
+    ("kick", ["axle_impulse"], {}, "axle_impulse: 0"),
+    ("step", ["duration"], {}, "duration: 0"),
+]
+
+
+@pytest.fixture(name="still")
+def _still(run):
+    """A top that is paused, so that the same request has the same answer again."""
+    assert run.switch("pause", True)[0]
+    yield run
+    assert run.switch("pause", False)[0]
+
+
+def ask_anew(run, ask):
+    """Return the answer to a request after a start, and the state that follows."""
+    assert run.set(START, theta=0.5, psi_dot=200.0, phi_dot=2.0)[0]
+    ((granted, answer),) = ask()
+    assert granted, answer
+    return answer, {**run.state(), "stamp": 0, "time_since": ""}
+
+
+@pytest.mark.parametrize(("service", "zeros", "others", "words"), ZEROS)
+def test_a_zero_can_be_typed_as_any_other_number(still, service, zeros, others, words):
+    """`{name: theta, value: {double_value: 0.0}}` and `{name: theta}` are the same message."""
+    full = [rclpy.Parameter(name, value=value).to_parameter_msg() for name, value in others.items()]
+    empty = [Parameter(name=name, value=UNTYPED(double_value=0.0)) for name in zeros]
+    answer, state = ask_anew(still, lambda: still.send(service, [*empty, *full]))
+    values = {**dict.fromkeys(zeros, 0.0), **others}
+    plain, same = ask_anew(still, lambda: [still.set(service, **values)])
+    assert (answer, state) == (f"{words} (a value without a type). {plain}", same)
+
+
+@pytest.mark.parametrize(
+    ("service", "name", "reason"),
+    [
+        (START, "thetta", "field name must be one of theta, "),
+        (START, "solution", "a start must have one of theta, "),
+        ("kick", "rate", "pushes must have axle_impulse, rate, number, got ['rate']"),
+    ],
+)
+def test_a_zero_that_fits_nothing_is_refused_for_what_it_is(run, service, name, reason):
+    ((granted, answer),) = run.send(service, [Parameter(name=name)])
+    assert not granted
+    assert answer.startswith(reason)
 
 
 @pytest.mark.parametrize(("service", "value", "times", "reason"), ODD)

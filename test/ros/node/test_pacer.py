@@ -1,6 +1,5 @@
 """The thread that calls for ticks, and its scheduling."""
 
-import ctypes
 import os
 import platform
 import threading
@@ -9,9 +8,10 @@ from pathlib import Path
 import pytest
 from geometry_msgs.msg import QuaternionStamped
 from programs import command, running
+from ros.node.scheduling import GET_SCHEDULER, read_scheduling
 from waiting import TIMEOUT
 
-from symtop_ros.ros.node.host import SLICE, Pacer, SchedulerAttributes
+from symtop_ros.ros.node.host import SLICE, Pacer
 from workshop.load.domains import share_domain
 
 
@@ -21,26 +21,24 @@ class Ticks:
     def __init__(self, *waits):
         self.waits = list(waits)
         self.count = 0
-        self.done, self.failed = threading.Event(), threading.Event()
+        self.done = threading.Event()
 
     def tick(self):
         self.count += 1
         if not self.waits:
             self.done.set()
             return None
-        wait = self.waits.pop(0)
-        if isinstance(wait, Exception):
-            raise wait
-        return wait
+        return self.waits.pop(0)
 
-    def fail(self, error):
-        self.error = error
-        self.failed.set()
+
+def start_pacer(tick):
+    """A pacer with the usual scheduling."""
+    return Pacer(tick, 0, pytest.fail)
 
 
 def test_it_ticks_at_once_after_each_wait_and_where_only_the_clock_can_tell_when_it_is_woken():
     ticks = Ticks(0.001, -1.0, 0.0, 0.002, None, None)
-    pacer = Pacer(ticks.tick, ticks.fail)
+    pacer = start_pacer(ticks.tick)
     while not ticks.done.wait(0.001):
         pacer.wake()
     pacer.stop()
@@ -56,49 +54,28 @@ def test_to_wake_it_during_a_tick_is_not_forgotten():
         pacer.wake()
         return ticks.tick()
 
-    pacer = Pacer(tick, ticks.fail)
+    pacer = start_pacer(tick)
     begun.set()
     assert ticks.done.wait(TIMEOUT)
     pacer.stop()
 
 
-def test_an_error_ends_it_and_is_told():
-    error = ValueError("no")
-    ticks = Ticks(0.0, error)
-    pacer = Pacer(ticks.tick, ticks.fail)
-    assert ticks.failed.wait(TIMEOUT)
-    assert ticks.error is error
-    pacer.stop()
-    pacer.stop()
-    assert ticks.count == 2
-
-
 @pytest.mark.parametrize("granted", [True, False])
 def test_the_node_runs_with_and_without_the_right(monkeypatch, start_top, capfd, granted):
+    """Its thread alone is to be scheduled in real time: the others are those of the user."""
     asked = []
 
     def set_scheduler(thread, policy, parameters):
-        asked.append((thread, policy, parameters.sched_priority))
+        who = threading.current_thread().name
+        asked.append((who, thread, policy, parameters.sched_priority))
         if not granted:
             raise PermissionError
 
     monkeypatch.setattr(os, "sched_setscheduler", set_scheduler)
     top = start_top(scheduling_priority=50)
     top.wait_for(top.collect(QuaternionStamped, "/top/orientation"))
-    assert asked == [(0, os.SCHED_FIFO, 50)]
+    assert asked == [("pacer", 0, os.SCHED_FIFO, 50)]
     assert ("scheduling_priority 50 has no effect" in capfd.readouterr().err) == (not granted)
-
-
-GET_SCHEDULER = {"x86_64": 315, "aarch64": 275}  # the system call sched_getattr
-
-
-def read_scheduling(thread=0):
-    """Return niceness and slice (ns; 0: the usual one) of a thread; 0 is this one."""
-    found = SchedulerAttributes()
-    number = GET_SCHEDULER[platform.machine()]
-    size = ctypes.sizeof(found)
-    assert ctypes.CDLL(None).syscall(number, thread, ctypes.byref(found), size, 0) == 0
-    return found.niceness, found.runtime
 
 
 skip_without_slices = pytest.mark.skipif(
@@ -130,7 +107,7 @@ def test_it_alone_has_a_short_slice_and_keeps_its_niceness():
         found.append(read_scheduling())
         ended.set()
 
-    pacer = Pacer(tick, lambda _: ended.set())
+    pacer = start_pacer(tick)
     assert ended.wait(TIMEOUT)
     pacer.stop()
     niceness, usual = read_scheduling()

@@ -63,6 +63,9 @@ class Program:
     def report_error(self, text):
         self.errors.append(text)
 
+    def fail(self, failure):
+        self.errors.append(str(failure))
+
 
 def start(host, scene="cusps", points="", **changes):
     clock = HandClock()

@@ -8,6 +8,7 @@ from symtop_ros.base.arrays import Real, Stamps
 from symtop_ros.run.session.session import Requests
 from symtop_ros.run.simulation.block import Block
 from symtop_ros.run.simulation.budget import ComputeBudget
+from symtop_ros.run.simulation.changes.outcomes import Failure
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.own_time import simulate
 from symtop_ros.run.simulation.settings import Settings
@@ -67,6 +68,9 @@ class ListSink:
 
     def report_error(self, text: str) -> None:
         self.errors.append(text)
+
+    def fail(self, failure: Failure) -> None:
+        raise AssertionError(str(failure))
 
 
 class Run:

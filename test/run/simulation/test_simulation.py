@@ -302,7 +302,7 @@ def test_a_torque_acts_until_its_time_out_and_when_repeated_on_without_further_e
     run.assert_recomputed()
 
 
-def fail():
+def fail(*_, **__):
     raise ZeroDivisionError("by\na bug")
 
 
@@ -320,11 +320,42 @@ def test_an_unexpected_exception_is_reported_once_and_the_motion_keeps_running()
     run.assert_recomputed()
 
 
-def test_an_exception_during_shutdown_is_raised():
+HOW = "by a bug (the top has stopped: start the node again)"
+
+
+def test_an_exception_during_shutdown_ends_the_run_and_is_not_reported():
     run = Run()
-    run.sink.is_open = False
-    with pytest.raises(ZeroDivisionError):
-        run.simulation.take_turn("a test", fail)
+    run.sink.is_open, ends = False, []
+    run.sink.fail = ends.append
+    failure = Failure("a test", "ZeroDivisionError", HOW)
+    assert run.simulation.take_turn("a test", fail) == failure
+    assert (ends, run.sink.errors, len(run.sink.events)) == ([failure], [], 1)
+
+
+@pytest.mark.parametrize("name", ["a tick", "~/kick", "a sample"])
+def test_an_exception_outside_of_an_action_ends_the_run_and_not_its_program(name):
+    """It is reported once; then there is no sample, and every request is refused with it."""
+    run, ends = Run(seconds=0.1), []
+    run.sink.fail = ends.append
+    simulation = run.simulation
+    failure = Failure(name, "ZeroDivisionError", HOW)
+    samples = len(run.sink.samples)
+    if name == "~/kick":
+        simulation.settle = fail
+        assert simulation.answer("kick", lambda: "done") == (False, str(failure))
+    else:
+        run.sink.send_sample = fail
+        run.clock.now += 10 * MS
+        if name == "a tick":
+            assert simulation.tick() is None
+        else:
+            assert simulation.answer("kick", lambda: "done") == (True, "done")
+    assert simulation.failure == failure
+    for _ in range(2):
+        assert simulation.tick() is None
+        assert simulation.answer("reset", lambda: "done") == (False, str(failure))
+        assert simulation.take_turn("a test", lambda: 7) == failure
+    assert (ends, len(run.sink.samples), run.sink.errors) == ([failure], samples, [])
 
 
 def test_requests_of_many_threads_are_carried_out_one_at_a_time():

@@ -211,7 +211,7 @@ class Record:
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """An unexpected exception in an action; the motion keeps running."""
+    """An unexpected exception in an action, or in what led up to it."""
 
     action: str
     error: str  # type of the exception

@@ -73,6 +73,8 @@ DIRECT = ("orientation", "angular_velocity")
 START_FIELDS = (*ANGLES, *RATES, *DIRECT, "precession")
 # What ~/set_initial_conditions knows, besides what is seen of a motion.
 ALL_START_FIELDS = (*START_FIELDS, *SEEN, SOLUTION)
+# Fields of requests that are words or vectors; all others are numbers.
+NOT_NUMBERS = (*DIRECT, "precession", "hold", *(name for name in KINDS if "size" in FIELDS[name]))
 
 
 def read_kick(texts: Mapping[str, str]) -> dict[str, Any]:
