@@ -53,7 +53,7 @@ from symtop_ros.physics.rule.perry import KickVerdict, Lift, kick_verdict
 from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
 from symtop_ros.physics.starts import Solution, solve_start
-from symtop_ros.physics.state import Angles, State
+from symtop_ros.physics.state import Angles, Rates, State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 
@@ -90,6 +90,7 @@ __all__ = [
     "Part",
     "Piece",
     "Pushes",
+    "Rates",
     "Solution",
     "State",
     "Top",

@@ -28,7 +28,7 @@ from symtop_ros.physics.jacobian import differentiate
 from symtop_ros.physics.kernel import door, states
 from symtop_ros.physics.kernel.records import Engine, Kind, PieceRecord, RatesRecord
 from symtop_ros.physics.pushes import Pushes
-from symtop_ros.physics.state import Angles, State
+from symtop_ros.physics.state import Rates, State
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import validate_array, validate_number, validate_vector
@@ -241,7 +241,7 @@ class Motion:
             torque = torque + self.clamp_torque(state)
         return np.asarray(state.to_world(torque) + self.applied_torque)
 
-    def euler_rates(self, state: State) -> Angles:
+    def euler_rates(self, state: State) -> Rates:
         """Return the rates of Euler's angles in states of this motion, in rad/s.
 
         They are those of `State.euler_rates`, but for a motion that a hand holds: there phi' is 0
@@ -254,7 +254,7 @@ class Motion:
 
         Returns
         -------
-        Angles
+        Rates
             phi', theta', psi', each (...).
 
         Examples
@@ -263,14 +263,15 @@ class Motion:
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
         >>> held = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0), clamped=True)
         >>> rates = held.euler_rates(held.at(0.1))
-        >>> rates.phi, rates.psi
+        >>> rates.phi_dot, rates.psi_dot
         (0.0, 200.0)
         """
         rates = state.euler_rates
         if not self.clamped:
             return rates
         spin = state.angular_velocity[..., 2]
-        return Angles(0.0 * abs(rates.theta), rates.theta, spin if np.ndim(spin) else float(spin))
+        held = 0.0 * abs(rates.theta_dot)
+        return Rates(held, rates.theta_dot, spin if np.ndim(spin) else float(spin))
 
     def clamp_torque(self, state: State) -> Real:
         """Return the torque of the hand that holds phi, in the body frame in N m.

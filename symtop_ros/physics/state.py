@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real, rotate, split, stack
+from symtop_ros.base.deprecation import warn_of_name
 from symtop_ros.base.refusals import Words, refuse, require, show
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.times import ExactTimes, to_seconds
@@ -46,16 +47,16 @@ COLUMNS = (
 
 
 class Angles(NamedTuple):
-    """Euler angles z-x-z, or their rates.
+    """Euler angles z-x-z.
 
     Attributes
     ----------
     phi : float or ndarray (...)
-        Precession, in rad or rad/s.
+        Precession, in rad.
     theta : float or ndarray (...)
-        Tilt of the axis from the vertical, in rad or rad/s.
+        Tilt of the axis from the vertical, in rad.
     psi : float or ndarray (...)
-        Spin, in rad or rad/s.
+        Spin, in rad.
 
     Examples
     --------
@@ -67,6 +68,45 @@ class Angles(NamedTuple):
     phi: Any
     theta: Any
     psi: Any
+
+
+class Rates(NamedTuple):
+    """Rates of Euler's angles z-x-z.
+
+    Attributes
+    ----------
+    phi_dot : float or ndarray (...)
+        Precession rate, in rad/s.
+    theta_dot : float or ndarray (...)
+        Rate of the tilt, in rad/s.
+    psi_dot : float or ndarray (...)
+        Spin rate, in rad/s.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State
+    >>> State.from_euler(theta=0.5, psi_dot=200.0).euler_rates
+    Rates(phi_dot=0.0, theta_dot=0.0, psi_dot=200.0)
+    """
+
+    phi_dot: Any
+    theta_dot: Any
+    psi_dot: Any
+
+    @property
+    def phi(self) -> Any:
+        """The old name of `phi_dot`, until 0.8."""
+        return warn_of_name("Rates.phi", "phi_dot", self.phi_dot)
+
+    @property
+    def theta(self) -> Any:
+        """The old name of `theta_dot`, until 0.8."""
+        return warn_of_name("Rates.theta", "theta_dot", self.theta_dot)
+
+    @property
+    def psi(self) -> Any:
+        """The old name of `psi_dot`, until 0.8."""
+        return warn_of_name("Rates.psi", "psi_dot", self.psi_dot)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -100,7 +140,7 @@ class State:
     --------
     >>> from symtop_ros.physics import State
     >>> state = State(orientation=(1, 0, 0, 0), angular_velocity=(0, 0, 200))
-    >>> state.euler_rates.psi
+    >>> state.euler_rates.psi_dot
     200.0
     """
 
@@ -225,7 +265,7 @@ class State:
         --------
         >>> from symtop_ros.physics import State
         >>> state = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
-        >>> round(state.euler_rates.phi, 12)
+        >>> round(state.euler_rates.phi_dot, 12)
         6.5
         >>> State.from_euler(theta=[0.4, 0.5, 0.6], psi_dot=200.0)
         <State of shape (3,)>
@@ -268,9 +308,9 @@ class State:
         return Angles(*split(door.find_angles(self.orientation)))
 
     @cached_property
-    def euler_rates(self) -> Angles:
+    def euler_rates(self) -> Rates:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
-        return Angles(*split(door.find_angle_rates(*self.parts)))
+        return Rates(*split(door.find_angle_rates(*self.parts)))
 
     @door.compute_soundly
     def to_world(self, vector: ArrayLike) -> Real:

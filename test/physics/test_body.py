@@ -162,13 +162,15 @@ def test_theta_acceleration_is_the_articles(top):
     states = random_states(500)
     theta = states.euler_angles.theta
     rates = states.euler_rates
-    expected = (Ix - Iz) * rates.phi**2 * np.cos(theta) - Iz * rates.phi * rates.psi + Mgl
-    found = theta_acceleration(top, theta, rates.phi, rates.psi)
-    terms = (abs(rates.phi) + abs(rates.psi)) ** 2 + abs(Mgl) / Ix
+    expected = (
+        (Ix - Iz) * rates.phi_dot**2 * np.cos(theta) - Iz * rates.phi_dot * rates.psi_dot + Mgl
+    )
+    found = theta_acceleration(top, theta, rates.phi_dot, rates.psi_dot)
+    terms = (abs(rates.phi_dot) + abs(rates.psi_dot)) ** 2 + abs(Mgl) / Ix
     off = found - np.sin(theta) / Ix * expected
     assert (np.abs(off) <= 16 * EPS * terms).all()  # sums of three products
     # without sin(theta)/Ix, which the product takes back to a few roundings
-    torque = theta_torque(top, theta, rates.phi, rates.psi)
+    torque = theta_torque(top, theta, rates.phi_dot, rates.psi_dot)
     assert found == pytest.approx(np.sin(theta) / Ix * torque, rel=4 * EPS)
 
 

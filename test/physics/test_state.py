@@ -208,7 +208,7 @@ def test_a_table_has_a_column_for_each_quantity_of_many_states():
     assert np.array_equal(np.stack([table[c] for c in "wxyz"], axis=1), states.orientation)
     assert np.array_equal(table["wz"], states.angular_velocity[:, 2])
     assert np.array_equal(table["theta"], states.euler_angles.theta)
-    assert np.array_equal(table["psi_dot"], states.euler_rates.psi)
+    assert np.array_equal(table["psi_dot"], states.euler_rates.psi_dot)
     table["w"][0] = 2.0  # the table is the caller's
     assert states.orientation[0, 0] != 2.0
     with refused("times", "of shape (7,), one for each state", "shape (6,)"):

@@ -25,6 +25,12 @@ SLOW, FAST = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
 DISC = Top(Ix=0.0002, Iz=0.00035, Mgl=-0.05)
 
 
+def find_roots(top, theta, spin):
+    """Return the rates of regular precession that there are, the slow one first."""
+    rates = regular_precession_rates(top, theta=theta, psi_dot=spin)
+    return [rate for rate in rates if math.isfinite(rate)]
+
+
 @dataclass(frozen=True)
 class Case:
     """A top, its start and a time."""

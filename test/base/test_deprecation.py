@@ -1,0 +1,14 @@
+"""Old names work and warn of their replacements, at the line that uses them."""
+
+import pytest
+
+from symtop_ros.physics import State
+
+RATES = State.from_euler(theta=0.5, phi_dot=1.0, theta_dot=2.0, psi_dot=3.0).euler_rates
+
+
+@pytest.mark.parametrize("name", ["phi", "theta", "psi"])
+def test_rates_have_their_old_names_with_a_warning(name):
+    with pytest.warns(DeprecationWarning, match=f"Rates.{name} is now {name}_dot") as caught:
+        assert getattr(RATES, name) == getattr(RATES, f"{name}_dot")
+    assert caught[0].filename == __file__
