@@ -238,5 +238,5 @@ def find_fastest_rate(motion: Motion, t: float) -> float:
     nutation = float(np.linalg.norm(top.body_angular_momentum(state))) / top.Ix
     torque = float(np.linalg.norm(motion.applied_torque))
     swing = math.sqrt(abs(top.Mgl) / top.Ix + torque / min(top.Ix, top.Iz))
-    decay = float(motion.friction.find_decay(top))
+    decay = float(motion.friction._find_decay(top))
     return max(nutation + swing + decay, 1e-300)

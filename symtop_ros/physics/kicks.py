@@ -173,7 +173,7 @@ def _kick(tops: Real, state: State, kind: KickKind, hold: Hold, amounts: Any, na
     """
     given = np.asarray(amounts, np.float64)
     axes = given.ndim - (kind == "impulse")
-    parts: tuple[Real, ...] = (tops, *state.parts, given)
+    parts: tuple[Real, ...] = (tops, *state._parts, given)
     if axes or tops.ndim > 1 or state.orientation.ndim > 1:
         parts = _spread(parts, axes)
     rows, orientation, omega, given = parts
@@ -183,10 +183,10 @@ def _kick(tops: Real, state: State, kind: KickKind, hold: Hold, amounts: Any, na
         attitude = state.given_orientation
         if attitude.shape != orientation.shape:
             attitude = np.broadcast_to(attitude, orientation.shape)
-        return State.wrap(orientation, kicked, attitude)
+        return State._wrap(orientation, kicked, attitude)
     flat = [part.reshape(-1, width) for part, width in zip(parts[1:3], (4, 3), strict=True)]
     if status == records.VERTICAL:
-        raise _refuse_vertical(State.wrap(*(part[done].copy() for part in flat)))
+        raise _refuse_vertical(State._wrap(*(part[done].copy() for part in flat)))
     if status == records.BAD_KICK:
         raise refuse(
             name,

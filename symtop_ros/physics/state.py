@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real, rotate, split, stack
-from symtop_ros.base.deprecation import warn_of_name
+from symtop_ros.base.deprecation import Internal, warn_of_name
 from symtop_ros.base.refusals import Words, refuse, require, show
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.times import ExactTimes, to_seconds
@@ -162,8 +162,10 @@ class State:
             raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
         self._set(q, _normalize(q), omega)
 
+    wrap, of_given, parts = Internal(), Internal(), Internal()
+
     @classmethod
-    def wrap(
+    def _wrap(
         cls,
         orientation: Real,
         angular_velocity: Real,
@@ -187,7 +189,7 @@ class State:
         return state
 
     @classmethod
-    def of_given(cls, given: Real, angular_velocity: Real) -> "State":
+    def _of_given(cls, given: Real, angular_velocity: Real) -> "State":
         """Return the state of orientations that are valid but for their norm, and of their rates.
 
         Parameters
@@ -197,7 +199,7 @@ class State:
         angular_velocity : ndarray (..., 3)
             Finite angular velocities of the same leading shape, in rad/s.
         """
-        return cls.wrap(_normalize(given), angular_velocity, given)
+        return cls._wrap(_normalize(given), angular_velocity, given)
 
     def _set(self, given: Real, orientation: Real, omega: Real) -> None:
         orientation.setflags(write=False)
@@ -213,8 +215,8 @@ class State:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a state by its arrays, which are read-only in the copy, too."""
-        given, (q, omega) = self.given_orientation, self.parts
-        return State.wrap, (q.copy(), omega.copy(), given.copy())
+        given, (q, omega) = self.given_orientation, self._parts
+        return State._wrap, (q.copy(), omega.copy(), given.copy())
 
     def __repr__(self) -> str:
         """Return the call that makes one state; of many, their shape."""
@@ -224,7 +226,7 @@ class State:
         return f"State(orientation={orientation}, angular_velocity={omega})"
 
     @property
-    def parts(self) -> tuple[Real, Real]:
+    def _parts(self) -> tuple[Real, Real]:
         """Orientation and angular velocity."""
         return self.orientation, self.angular_velocity
 
@@ -277,7 +279,7 @@ class State:
         if table.ndim > 1:
             table = np.moveaxis(table, 0, -1)
         q, omega = door.from_angles(table[..., :3], table[..., 3:])
-        return cls.of_given(q, omega)
+        return cls._of_given(q, omega)
 
     @cached_property
     @door.compute_soundly
@@ -310,7 +312,7 @@ class State:
     @cached_property
     def euler_rates(self) -> Rates:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
-        return Rates(*split(door.find_angle_rates(*self.parts)))
+        return Rates(*split(door.find_angle_rates(*self._parts)))
 
     @door.compute_soundly
     def to_world(self, vector: ArrayLike) -> Real:
@@ -455,7 +457,7 @@ class State:
             f"of shape {shape}, one for each state",
             Words(f"shape {t.shape}"),
         )
-        vectors = *map(split, self.parts), self.euler_angles, self.euler_rates
+        vectors = *map(split, self._parts), self.euler_angles, self.euler_rates
         return dict(zip(COLUMNS, (t, *map(np.array, chain(*vectors))), strict=True))
 
     def __getitem__(self, place: Any) -> "State":
@@ -473,8 +475,8 @@ class State:
         places = place if isinstance(place, tuple) else (place,)
         has_gap = any(each is Ellipsis for each in places)
         where = (*places, slice(None)) if has_gap else (*places, ..., slice(None))
-        orientation, omega, given = (part[where] for part in (*self.parts, self.given_orientation))
-        return State.wrap(orientation, omega, given)
+        orientation, omega, given = (part[where] for part in (*self._parts, self.given_orientation))
+        return State._wrap(orientation, omega, given)
 
     def __len__(self) -> int:
         """Return the number of states along the first axis."""

@@ -38,7 +38,7 @@ def test_a_copy_shares_no_integration_and_gives_the_same_states(make):
     before = motion.at(0.7)
     other = make(motion)
     assert other._kernel is not motion._kernel
-    assert other.reach(0.7, 0) < 0.7
+    assert other._reach(0.7, 0) < 0.7
     assert other.at(0.7) == before
 
 

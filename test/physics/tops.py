@@ -128,7 +128,7 @@ def follow_exactly(
 
 def exact_parts(state: State):
     """w, x, y, z of norm 1 and omega of a state of doubles, with many digits."""
-    q, omega = ([mpf(c) for c in part.tolist()] for part in state.parts)
+    q, omega = ([mpf(c) for c in part.tolist()] for part in state._parts)
     return [c / mp.norm(q) for c in q], omega
 
 

@@ -289,7 +289,7 @@ def _compare(motion: Motion, function: Callable[[Real], Real], expected: Real) -
 def attitude_turns_with_the_angular_velocity(top: Top) -> Measured:
     """Check that the angular velocity is 2 q* q', so that L and E belong to the attitude."""
     motion = cusps(top)
-    q, omega = motion.at(TENTH).parts
+    q, omega = motion.at(TENTH)._parts
     p, coarse = (slope(lambda t: motion.at(t).orientation, TENTH, h) for h in (STEP, 2 * STEP))
     # The vector part of conj(q) q', for quaternions w, x, y, z
     axis = q[:, 1:]

@@ -266,7 +266,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
     """
     validate_one(motion, "motion")
     held = HOLDS.index(hold if hold is None else validate_hold(hold))
-    found = door.judge_kick(motion.pack_with("before", before), motion.packed_start, held)
+    found = door.judge_kick(motion._pack_with("before", before), motion._packed_start, held)
     reason = read_reason(found, hold)
     low, high = found.turning_angles
     return KickVerdict(

@@ -151,7 +151,7 @@ class Model:
             motion = motions[k]
             assert isinstance(motion, Motion)
             found.append(
-                specific_force(motion, State.wrap(q[k], omega[k]), self.record.position, g)
+                specific_force(motion, State._wrap(q[k], omega[k]), self.record.position, g)
             )
         return np.array(found)
 

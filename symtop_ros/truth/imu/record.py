@@ -205,6 +205,6 @@ def _find_fastest_driven(motion: Motion, stamps: Stamps, interval: float) -> flo
     torque = math.hypot(*motion.applied_torque)
     least = min(Ix, Iz)
     energy = math.sqrt(twice) + torque / math.sqrt(least) * interval / NANOSECONDS
-    drive = float(motion.friction.find_decay(motion.top)) + math.sqrt(2 * torque / least)
+    drive = float(motion.friction._find_decay(motion.top)) + math.sqrt(2 * torque / least)
     rates = energy * (1 / math.sqrt(Ix) + 1 / math.sqrt(Iz))
     return float(rates + math.sqrt(2 * abs(Mgl) / Ix) + drive)

@@ -68,8 +68,8 @@ def judge_in_python(case):
     verdict = physics.perrys_rule(top, state, hold=kick.get("hold", "spin_momentum"))
     record = physics.kick_verdict(physics.Motion(top, after), state, kick.get("hold"))
     return {
-        "start": np.concatenate(state.parts).tolist(),
-        "after": np.concatenate(after.parts).tolist(),
+        "start": np.concatenate(state._parts).tolist(),
+        "after": np.concatenate(after._parts).tolist(),
         "angles": state.euler_angles._asdict(),
         "rates": dict(zip(physics.Angles._fields, state.euler_rates, strict=True)),
         "verdict": dataclasses.asdict(verdict),

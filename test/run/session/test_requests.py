@@ -71,7 +71,7 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
         motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
         assert_one_sentence(str(perrys_rule(motion.top, start)))
         # A run is paused before a motion has no further states.
-        reached = motion.reach(min(t, motion.farthest_time / 2), 100)
+        reached = motion._reach(min(t, motion.farthest_time / 2), 100)
         segment = Segment(motion, 0, to_nanoseconds(reached), 1.0, running=False)
         state = segment.state_at(0)
         for topic in STATE_TOPICS.values():

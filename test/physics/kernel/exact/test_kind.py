@@ -62,14 +62,14 @@ def test_a_kind_is_the_same_from_any_state_of_the_motion(kind):
     motion = Motion(ARTICLE, State.from_euler(**KINDS[kind], phi=0.3, psi=-1.1))
     assert motion.kind == kind
     states = motion.at(np.linspace(0.0, 7.3 * motion.nutation_period, 1000))
-    for q, omega in zip(*states.parts, strict=True):
+    for q, omega in zip(*states._parts, strict=True):
         assert Motion(ARTICLE, State(q, omega)).kind == kind
 
 
 def test_a_kind_is_the_same_from_any_state_within_rounding_of_a_turning_point():
     motion = Motion(ARTICLE, State.from_euler(**KINDS["cusps"], phi=0.3, psi=-1.1))
     times = motion.nutation_period * (3 + np.geomspace(1e-16, 1e-3, 300))
-    for q, omega in zip(*motion.at(times).parts, strict=True):
+    for q, omega in zip(*motion.at(times)._parts, strict=True):
         assert Motion(ARTICLE, State(q, omega)).kind == "cusps"
 
 
