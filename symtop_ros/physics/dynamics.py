@@ -20,7 +20,7 @@ from symtop_ros.physics.values import (
     validate_vector,
 )
 
-STANDARD_GRAVITY = 9.81  # m/s^2
+DEFAULT_GRAVITY = 9.81  # m/s^2: that of a class's book; standard gravity is 9.80665 m/s^2
 NODES = 24  # of the Gauss-Legendre quadrature: exact to rounding over a stretch of STRETCH radians
 STRETCH = 4.0  # rad of the fastest rate
 
@@ -112,7 +112,7 @@ def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Rea
 
 
 def specific_force(
-    motion: Motion, state: State, position: ArrayLike, gravity: float = STANDARD_GRAVITY
+    motion: Motion, state: State, position: ArrayLike, gravity: float = DEFAULT_GRAVITY
 ) -> Real:
     """Return what an ideal accelerometer at a point of the body measures, in the body frame.
 

@@ -2,7 +2,8 @@
 
 import pytest
 
-from symtop_ros.physics import Friction, Motion, State, Top
+import symtop_ros.physics
+from symtop_ros.physics import DEFAULT_GRAVITY, Friction, Motion, State, Top
 
 RATES = State.from_euler(theta=0.5, phi_dot=1.0, theta_dot=2.0, psi_dot=3.0).euler_rates
 
@@ -29,3 +30,13 @@ def test_internal_members_have_their_old_names_with_a_warning(owner, name):
         found = getattr(owner, name)
     assert found == getattr(owner, f"_{name}")
     assert caught[0].filename == __file__
+
+
+def test_the_gravity_that_is_not_the_standard_one_has_its_old_name_with_a_warning():
+    with pytest.warns(
+        DeprecationWarning, match="STANDARD_GRAVITY is now DEFAULT_GRAVITY"
+    ) as caught:
+        from symtop_ros.physics import STANDARD_GRAVITY
+    assert STANDARD_GRAVITY == DEFAULT_GRAVITY == 9.81
+    assert {each.filename for each in caught} == {__file__}
+    assert not hasattr(symtop_ros.physics, "STANDARD")

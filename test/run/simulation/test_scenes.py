@@ -23,7 +23,7 @@ from symtop_ros.physics import (
     perrys_rule,
     regular_precession_rates,
 )
-from symtop_ros.physics.dynamics import STANDARD_GRAVITY
+from symtop_ros.physics.dynamics import DEFAULT_GRAVITY
 from symtop_ros.run.simulation import presets
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.presets import CONFIG, load_scene, scene_names
@@ -58,7 +58,7 @@ def test_what_a_class_has_at_hand_is_computed_from_its_mass_and_size():
     gyroscope, wheel = (motion_of(name) for name in ("toy_gyroscope", "bicycle_wheel"))
     disc = Body.disc(mass=0.06, radius=0.026, distance=0.035).top
     rim = 1.5 * 0.3**2  # its moment about the axle; a diameter has half of it
-    ring = Body(mass=1.5, arm=0.15, Ix=rim / 2, Iz=rim, gravity=STANDARD_GRAVITY).top
+    ring = Body(mass=1.5, arm=0.15, Ix=rim / 2, Iz=rim, gravity=DEFAULT_GRAVITY).top
     assert gyroscope.top.moments == pytest.approx(disc.moments, rel=8 * EPS)
     assert wheel.top.moments == pytest.approx(ring.moments, rel=8 * EPS)
     # seconds for a turn, and the radius of the disc that moves as the wheel does
