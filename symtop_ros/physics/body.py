@@ -183,6 +183,7 @@ class Body:
         >>> round(body.mass, 3), round(body.top.Mgl, 5)
         (2.6, 0.11772)
         """
+        require(isinstance(parts, Iterable), "parts", "some of type Part", parts)
         given = [*parts]
         for each in given:
             require(isinstance(each, Part), "parts", "of type Part", each)

@@ -52,6 +52,7 @@ def angular_acceleration(motion: Motion, state: State) -> Real:
     >>> angular_acceleration(motion, motion.start).tolist()
     [0.0, 3.0, 0.0]
     """
+    validate_one(motion, "motion")
     Ix, Iz, _ = motion.top.moments
     x, y, z = split(state.angular_velocity)
     torque_x, torque_y, torque_z = split(_body_torque(motion, state))
@@ -95,6 +96,7 @@ def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Rea
     >>> point_acceleration(motion, motion.start, (0.5, 0, 0)).tolist()
     [-8.0, 0.0, 0.0]
     """
+    validate_one(motion, "motion")
     a, b, c = validate_vector("position", position, "m, body frame")
     Ix, Iz, _ = motion.top.moments
     x, y, z = split(state.angular_velocity)
@@ -140,7 +142,8 @@ def specific_force(
     >>> specific_force(motion, motion.start, (0, 0, 1)).tolist()
     [0.0, 0.0, 9.81]
     """
-    return point_acceleration(motion, state, position) + gravity * state.vertical
+    g = validate_number("gravity", gravity, "m/s^2")
+    return point_acceleration(motion, state, position) + g * state.vertical
 
 
 def _body_torque(motion: Motion, state: State) -> Real:

@@ -17,11 +17,9 @@ from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
     TORQUE_UNIT,
-    find_shape,
     pack_start,
     read_start,
     validate_times,
-    validate_torque,
     validate_types,
     wrap_states,
 )
@@ -33,7 +31,9 @@ from symtop_ros.physics.pushes import Pushes
 from symtop_ros.physics.state import Rates, State
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import validate_array, validate_number, validate_vector
+from symtop_ros.physics.values import validate_array, validate_number, validate_one, validate_vector
+
+MANY = " (`Motions` takes many)"
 
 
 @overload
@@ -149,8 +149,9 @@ class Motion:
         clamped: bool = False,
     ) -> None:
         validate_types(top, start, friction)
-        shape = find_shape(top, start, friction, validate_torque(torque))
-        require(not shape, "top and start", "those of one motion (`Motions` takes many)", shape)
+        validate_one(top, instead=MANY)
+        validate_one(start, "start", "state", MANY)
+        validate_one(friction, "friction", instead=MANY)
         require(pushes is None or isinstance(pushes, Pushes), "pushes", "Pushes", pushes)
         require(isinstance(clamped, bool), "clamped", "True or False", clamped)
         require(not (pushes and clamped), "pushes", "None for a clamped motion", pushes)
@@ -202,8 +203,8 @@ class Motion:
 
     def _pack_with(self, name: str, state: Any) -> bytes:
         """Return the numbers of the motion from another state, as `symtop_start` has them."""
-        is_one = isinstance(state, State) and state.orientation.ndim == 1
-        require(is_one, name, "one state", state)
+        require(isinstance(state, State), name, "one state", state)
+        validate_one(state, name, "state")
         given, omega = state.given_orientation, state.angular_velocity
         return door.replace_state(self._packed_start, given, omega)
 
@@ -454,11 +455,14 @@ class Motion:
         >>> piece.motion.kind
         'unidirectional'
         """
+        if isinstance(t, ExactTimes):
+            validate_one(t, "t", "time")
+        else:
+            t = validate_number("t", t, "s")
         if not self.pushes:
             return Piece(self, 0, 0)
         if not isinstance(t, ExactTimes):
-            t = ExactTimes(0, elapsed=Fraction(validate_number("t", t, "s")) * SECOND)
-        require(not t.shape, "t", "one time", t.shape)
+            t = ExactTimes(0, elapsed=Fraction(t) * SECOND)
         found = states.find_piece(self._kernel, t)
         piece = self._piece
         if piece is None or piece.number != found.number:
@@ -493,6 +497,7 @@ class Motion:
         >>> pushed.end_pushes(3).piece_at(1.0).begin
         100000000
         """
+        number = int(validate_number("number", number))
         if not self.pushes or number > self.pushes.number:
             given = self.pushes.number if self.pushes else 0
             raise refuse("number", f"at most the {given} pushes of the motion", number)

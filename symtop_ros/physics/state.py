@@ -226,6 +226,11 @@ class State:
         return f"State(orientation={orientation}, angular_velocity={omega})"
 
     @property
+    def shape(self) -> tuple[int, ...]:
+        """() for one state, (...) for many."""
+        return self.orientation.shape[:-1]
+
+    @property
     def _parts(self) -> tuple[Real, Real]:
         """Orientation and angular velocity."""
         return self.orientation, self.angular_velocity

@@ -136,6 +136,7 @@ class Top(_Numbers):
             One state, with a vertical axis.
         """
         validate_one(self)
+        validate_one(state, "state")
         weight = self.Mgl if state.vertical[2] > 0 else -self.Mgl
         if weight == 0:
             return bool(state.angular_velocity[2] != 0)

@@ -188,7 +188,7 @@ def test_what_cannot_be_clamped_is_refused():
         Motion(ARTICLE, CUSPS, pushes=Pushes(1e-5, 20.0, 3), clamped=True)
     with pytest.raises(ValueError, match="clamped must be True or False, got 1"):
         Motion(ARTICLE, CUSPS, clamped=1)
-    with pytest.raises(ValueError, match="those of one motion"):
+    with pytest.raises(ValueError, match="start must be one state"):
         Motion(ARTICLE, random_states(3), clamped=True)
     motion = Motion(ARTICLE, CUSPS, clamped=True)
     with pytest.raises(ValueError, match="clamped must be False for derivatives, got True"):

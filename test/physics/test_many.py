@@ -168,7 +168,7 @@ def test_a_table_at_exact_times_has_their_states_and_the_nearest_seconds():
 
 
 def test_a_motion_of_arrays_is_refused_and_told_of_motions():
-    refusal = r"^top and start must be those of one motion \(`Motions` takes many\), got \(2,\)$"
+    refusal = r"^top must be one top \(`Motions` takes many\), got tops of shape \(2,\)$"
     with pytest.raises(ValueError, match=refusal):
         Motion(Top(1.0, 1.0, [1.0, 2.0]), CUSPS)
 

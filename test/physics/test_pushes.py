@@ -249,7 +249,7 @@ def test_what_asks_for_one_motion_without_pushes_says_so():
     with pytest.raises(ValueError, match="pushes must be none for a balance: take a piece, got"):
         balance(MOTION, 1.0, 1.0)
     many = State(np.stack([START.orientation] * 2), np.stack([START.angular_velocity] * 2))
-    with pytest.raises(ValueError, match="top and start must be those of one motion"):
+    with pytest.raises(ValueError, match="start must be one state"):
         Motion(ARTICLE, many, pushes=PUSHES)
     with pytest.raises(ValueError, match="pushes must be Pushes, got 3"):
         Motion(ARTICLE, START, pushes=3)
