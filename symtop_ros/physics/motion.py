@@ -437,7 +437,7 @@ class Motion:
             Its `motion`, which starts at the last push up to then (before the second one with the
             start of this motion), the time `begin` of that push in ns, and the `number` of pushes
             up to then. Without pushes that is this motion itself, 0 and 0. Its start is rounded to
-            doubles, where this motion has 32 digits: docs/library.md has what that does.
+            doubles, where this motion has 32 digits: docs/accuracy.md, "Pushes", has what that does.
 
         Raises
         ------
