@@ -34,7 +34,7 @@ for row in json.loads(lzma.open(sys.argv[1]).read())[:200]:
     top, q, omega, friction, torque, times = (
         [float.fromhex(each) for each in row[name]]
         for name in ("top", "q", "omega", "friction", "torque", "t"))
-    for part in Motion(Top(*top), State(q, omega), Friction(*friction), torque).at(times).parts:
+    for part in Motion(Top(*top), State(q, omega), Friction(*friction), torque).at(times)._parts:
         digest.update(part.tobytes())
 print(digest.hexdigest()[:12])
 """

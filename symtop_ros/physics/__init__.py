@@ -13,10 +13,11 @@ Examples
 'cusps'
 """
 
+from symtop_ros.base.deprecation import warn_of_name
 from symtop_ros.physics.body import Body
 from symtop_ros.physics.certificate import Certificate
 from symtop_ros.physics.dynamics import (
-    STANDARD_GRAVITY,
+    DEFAULT_GRAVITY,
     Balance,
     angular_acceleration,
     balance,
@@ -53,18 +54,18 @@ from symtop_ros.physics.rule.perry import KickVerdict, Lift, kick_verdict
 from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
 from symtop_ros.physics.starts import Solution, solve_start
-from symtop_ros.physics.state import Angles, State
+from symtop_ros.physics.state import Angles, Rates, State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
 
 __all__ = [
     "BODIES",
+    "DEFAULT_GRAVITY",
     "HOLDS",
     "MOST_PUSHES",
     "PUSH_RATES",
     "QUESTIONS",
     "SIZES",
-    "STANDARD_GRAVITY",
     "Angles",
     "Balance",
     "Body",
@@ -90,6 +91,7 @@ __all__ = [
     "Part",
     "Piece",
     "Pushes",
+    "Rates",
     "Solution",
     "State",
     "Top",
@@ -117,3 +119,10 @@ __all__ = [
     "theta_torque",
     "validate_hold",
 ]
+
+
+def __getattr__(name: str) -> float:
+    """Return what an old name stands for."""
+    if name == "STANDARD_GRAVITY":  # until 0.8
+        return warn_of_name(name, "DEFAULT_GRAVITY", DEFAULT_GRAVITY)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -58,7 +58,7 @@ def wrap_states(orientation: Real, angular_velocity: Real, shape: tuple[int, ...
     """Return the states of arrays (n, 4) and (n, 3), in a shape."""
     for array in (orientation, angular_velocity):
         array.flags.writeable = False  # so that it cannot be written to as `base` of a view
-    return State.wrap(orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3))
+    return State._wrap(orientation.reshape(*shape, 4), angular_velocity.reshape(*shape, 3))
 
 
 def find_shape(top: Top, start: State, friction: Friction, torque: Any) -> tuple[int, ...]:
@@ -105,7 +105,7 @@ def list_starts(
 def read_start(row: Real) -> tuple[Top, State, Friction, Vector]:
     """Return the arguments of one motion, from its numbers."""
     moments, orientation, omega, coefficients, (x, y, z) = np.split(row, STARTS[:-1])
-    start = State.of_given(orientation.copy(), omega.copy())
+    start = State._of_given(orientation.copy(), omega.copy())
     friction = Friction(*coefficients.tolist()) if coefficients.any() else NO_FRICTION
     return Top(*moments.tolist()), start, friction, (float(x), float(y), float(z))
 

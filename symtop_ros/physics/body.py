@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import Words, refuse, require, show_limit
-from symtop_ros.physics.dynamics import STANDARD_GRAVITY, specific_force
+from symtop_ros.physics.dynamics import DEFAULT_GRAVITY, specific_force
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import PART_KINDS
 from symtop_ros.physics.motion import Motion
@@ -90,7 +90,7 @@ class Body:
 
     @classmethod
     def about_pivot(
-        cls, mass: float, arm: float, Ix: float, Iz: float, gravity: float = STANDARD_GRAVITY
+        cls, mass: float, arm: float, Ix: float, Iz: float, gravity: float = DEFAULT_GRAVITY
     ) -> "Body":
         """Return the body with these moments of inertia about the pivot.
 
@@ -121,7 +121,7 @@ class Body:
 
     @classmethod
     def disc(
-        cls, mass: float, radius: float, distance: float, gravity: float = STANDARD_GRAVITY
+        cls, mass: float, radius: float, distance: float, gravity: float = DEFAULT_GRAVITY
     ) -> "Body":
         """Return a flat disc on an axle without mass.
 
@@ -151,7 +151,7 @@ class Body:
     def of_parts(
         cls,
         parts: Iterable[Part],
-        gravity: float = STANDARD_GRAVITY,
+        gravity: float = DEFAULT_GRAVITY,
         Ix: float | None = None,
         Iz: float | None = None,
     ) -> "Body":
@@ -183,6 +183,7 @@ class Body:
         >>> round(body.mass, 3), round(body.top.Mgl, 5)
         (2.6, 0.11772)
         """
+        require(isinstance(parts, Iterable), "parts", "some of type Part", parts)
         given = [*parts]
         for each in given:
             require(isinstance(each, Part), "parts", "of type Part", each)
@@ -196,7 +197,7 @@ class Body:
         return cls.about_pivot(found.mass, found.arm, Ix, found.Iz if Iz is None else Iz, gravity)
 
     @classmethod
-    def of(cls, top: Top, gravity: float = STANDARD_GRAVITY, mass: float | None = None) -> "Body":
+    def of(cls, top: Top, gravity: float = DEFAULT_GRAVITY, mass: float | None = None) -> "Body":
         """Return the body of a known mass that is a top, or else the body that is chosen for it.
 
         Parameters

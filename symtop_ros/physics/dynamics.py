@@ -20,7 +20,7 @@ from symtop_ros.physics.values import (
     validate_vector,
 )
 
-STANDARD_GRAVITY = 9.81  # m/s^2
+DEFAULT_GRAVITY = 9.81  # m/s^2: that of a class's book; standard gravity is 9.80665 m/s^2
 NODES = 24  # of the Gauss-Legendre quadrature: exact to rounding over a stretch of STRETCH radians
 STRETCH = 4.0  # rad of the fastest rate
 
@@ -52,6 +52,7 @@ def angular_acceleration(motion: Motion, state: State) -> Real:
     >>> angular_acceleration(motion, motion.start).tolist()
     [0.0, 3.0, 0.0]
     """
+    validate_one(motion, "motion")
     Ix, Iz, _ = motion.top.moments
     x, y, z = split(state.angular_velocity)
     torque_x, torque_y, torque_z = split(_body_torque(motion, state))
@@ -95,6 +96,7 @@ def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Rea
     >>> point_acceleration(motion, motion.start, (0.5, 0, 0)).tolist()
     [-8.0, 0.0, 0.0]
     """
+    validate_one(motion, "motion")
     a, b, c = validate_vector("position", position, "m, body frame")
     Ix, Iz, _ = motion.top.moments
     x, y, z = split(state.angular_velocity)
@@ -112,7 +114,7 @@ def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Rea
 
 
 def specific_force(
-    motion: Motion, state: State, position: ArrayLike, gravity: float = STANDARD_GRAVITY
+    motion: Motion, state: State, position: ArrayLike, gravity: float = DEFAULT_GRAVITY
 ) -> Real:
     """Return what an ideal accelerometer at a point of the body measures, in the body frame.
 
@@ -140,7 +142,8 @@ def specific_force(
     >>> specific_force(motion, motion.start, (0, 0, 1)).tolist()
     [0.0, 0.0, 9.81]
     """
-    return point_acceleration(motion, state, position) + gravity * state.vertical
+    g = validate_number("gravity", gravity, "m/s^2")
+    return point_acceleration(motion, state, position) + g * state.vertical
 
 
 def _body_torque(motion: Motion, state: State) -> Real:
@@ -238,5 +241,5 @@ def find_fastest_rate(motion: Motion, t: float) -> float:
     nutation = float(np.linalg.norm(top.body_angular_momentum(state))) / top.Ix
     torque = float(np.linalg.norm(motion.applied_torque))
     swing = math.sqrt(abs(top.Mgl) / top.Ix + torque / min(top.Ix, top.Iz))
-    decay = float(motion.friction.find_decay(top))
+    decay = float(motion.friction._find_decay(top))
     return max(nutation + swing + decay, 1e-300)

@@ -55,7 +55,7 @@ def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rat
     >>> from symtop_ros.physics import State, set_precession_rate
     >>> state = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
     >>> rates = set_precession_rate(state, 9.1).euler_rates
-    >>> round(rates.phi, 9), round(rates.psi, 9)
+    >>> round(rates.phi_dot, 9), round(rates.psi_dot, 9)
     (9.1, 200.0)
     """
     rate, hold = validate_rate("phi_dot", phi_dot), validate_hold(hold)
@@ -83,11 +83,11 @@ def hurry(state: State, factor: ArrayLike = 1.4, hold: Hold = "spin_rate") -> St
     --------
     >>> from symtop_ros.physics import State, hurry
     >>> state = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
-    >>> round(hurry(state, factor=1.4).euler_rates.phi, 9)
+    >>> round(hurry(state, factor=1.4).euler_rates.phi_dot, 9)
     9.1
     >>> hurry(state, hold="spin_momentum").angular_velocity[2] == state.angular_velocity[2]
     np.True_
-    >>> hurry(state, factor=[1.1, 1.2]).euler_rates.phi.round(9).tolist()
+    >>> hurry(state, factor=[1.1, 1.2]).euler_rates.phi_dot.round(9).tolist()
     [7.15, 7.8]
     """
     factor, hold = validate_numbers("factor", factor), validate_hold(hold)
@@ -153,7 +153,7 @@ def push_axle(top: Top, state: State, impulse: ArrayLike) -> State:
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> state = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
     >>> pushed = push_axle(top, state, 0.00005)
-    >>> round(float(pushed.euler_rates.phi), 6)
+    >>> round(float(pushed.euler_rates.phi_dot), 6)
     6.957419
     >>> pushed.angular_velocity[2] == state.angular_velocity[2]
     np.True_
@@ -173,7 +173,7 @@ def _kick(tops: Real, state: State, kind: KickKind, hold: Hold, amounts: Any, na
     """
     given = np.asarray(amounts, np.float64)
     axes = given.ndim - (kind == "impulse")
-    parts: tuple[Real, ...] = (tops, *state.parts, given)
+    parts: tuple[Real, ...] = (tops, *state._parts, given)
     if axes or tops.ndim > 1 or state.orientation.ndim > 1:
         parts = _spread(parts, axes)
     rows, orientation, omega, given = parts
@@ -183,10 +183,10 @@ def _kick(tops: Real, state: State, kind: KickKind, hold: Hold, amounts: Any, na
         attitude = state.given_orientation
         if attitude.shape != orientation.shape:
             attitude = np.broadcast_to(attitude, orientation.shape)
-        return State.wrap(orientation, kicked, attitude)
+        return State._wrap(orientation, kicked, attitude)
     flat = [part.reshape(-1, width) for part, width in zip(parts[1:3], (4, 3), strict=True)]
     if status == records.VERTICAL:
-        raise _refuse_vertical(State.wrap(*(part[done].copy() for part in flat)))
+        raise _refuse_vertical(State._wrap(*(part[done].copy() for part in flat)))
     if status == records.BAD_KICK:
         raise refuse(
             name,
@@ -231,7 +231,7 @@ def precession_rate(state: State) -> Any:
         raise _refuse_vertical(
             state if state.orientation.ndim == 1 else state[state.is_vertical][0]
         )
-    return state.euler_rates.phi
+    return state.euler_rates.phi_dot
 
 
 def _refuse_vertical(state: State) -> ValueError:

@@ -1,25 +1,25 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.deprecation import Internal
 from symtop_ros.base.refusals import refuse, require
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
     NO_TORQUE,
     TORQUE_UNIT,
-    find_shape,
     pack_start,
     read_start,
     validate_times,
-    validate_torque,
     validate_types,
     wrap_states,
 )
@@ -28,19 +28,38 @@ from symtop_ros.physics.jacobian import differentiate
 from symtop_ros.physics.kernel import door, states
 from symtop_ros.physics.kernel.records import Engine, Kind, PieceRecord, RatesRecord
 from symtop_ros.physics.pushes import Pushes
-from symtop_ros.physics.state import Angles, State
+from symtop_ros.physics.state import Rates, State
 from symtop_ros.physics.times import SECOND, ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import validate_array, validate_number, validate_vector
+from symtop_ros.physics.values import validate_array, validate_number, validate_one, validate_vector
+
+MANY = " (`Motions` takes many)"
 
 
-def find_period(rate: float) -> float:
+@overload
+def find_period(rate: float) -> float: ...
+
+
+@overload
+def find_period(rate: Sequence[float] | Real) -> Real: ...
+
+
+def find_period(rate: ArrayLike) -> float | Real:
     """Return the time in s of one turn at a rate in rad/s; infinite for a rate of 0.
 
     Parameters
     ----------
-    rate : float
-        Of either sign.
+    rate : float or array_like (...)
+        Of either sign. That of nan is nan.
+
+    Returns
+    -------
+    float or ndarray (...)
+
+    Raises
+    ------
+    ValueError
+        If a rate is not a number.
 
     Examples
     --------
@@ -49,7 +68,14 @@ def find_period(rate: float) -> float:
     >>> [round(find_period(rate), 4) for rate in regular_precession_rates(top, 0.5, 200.0)]
     [0.9671, 0.09]
     """
-    return 2 * math.pi / abs(rate) if rate else math.inf
+    if isinstance(rate, int | float | np.number):
+        return 2 * math.pi / abs(float(rate)) if rate else math.inf
+    try:
+        rates: Real = np.abs(np.asarray(rate, np.float64))
+    except (TypeError, ValueError):
+        raise refuse("rate", "a number, or an array of numbers (rad/s)", rate) from None
+    with np.errstate(divide="ignore"):
+        return np.asarray(2 * math.pi / rates)
 
 
 class Motion:
@@ -110,6 +136,9 @@ class Motion:
     (3, 4)
     """
 
+    packed_start, pack_with = Internal(), Internal()
+    fill, reach = Internal(), Internal()
+
     def __init__(
         self,
         top: Top,
@@ -120,21 +149,22 @@ class Motion:
         clamped: bool = False,
     ) -> None:
         validate_types(top, start, friction)
-        shape = find_shape(top, start, friction, validate_torque(torque))
-        require(not shape, "top and start", "those of one motion (`Motions` takes many)", shape)
+        validate_one(top, instead=MANY)
+        validate_one(start, "start", "state", MANY)
+        validate_one(friction, "friction", instead=MANY)
         require(pushes is None or isinstance(pushes, Pushes), "pushes", "Pushes", pushes)
         require(isinstance(clamped, bool), "clamped", "True or False", clamped)
         require(not (pushes and clamped), "pushes", "None for a clamped motion", pushes)
         self.top, self.start, self.friction, self.pushes = top, start, friction, pushes
         self.clamped = clamped
         self.applied_torque = validate_vector("torque", torque, TORQUE_UNIT)
-        self.packed_start = pack_start(top, start, friction, self.applied_torque)
+        self._packed_start = pack_start(top, start, friction, self.applied_torque)
         self._open()
 
     def _open(self) -> None:
         """Make the motion in the kernel."""
         packed = self.pushes.packed if self.pushes else b""
-        self._kernel = door.KernelMotion(self.packed_start, packed, self.clamped)
+        self._kernel = door.KernelMotion(self._packed_start, packed, self.clamped)
         self._piece: Piece | None = None  # the last one that was asked for
 
     def restart(self, start: State) -> "Motion":
@@ -165,18 +195,18 @@ class Motion:
         motion.top = self.top
         motion.start = start
         motion.friction, motion.applied_torque = self.friction, self.applied_torque
-        motion.packed_start = self.pack_with("start", start)
+        motion._packed_start = self._pack_with("start", start)
         motion.pushes = None
         motion.clamped = False
         motion._open()
         return motion
 
-    def pack_with(self, name: str, state: Any) -> bytes:
+    def _pack_with(self, name: str, state: Any) -> bytes:
         """Return the numbers of the motion from another state, as `symtop_start` has them."""
-        is_one = isinstance(state, State) and state.orientation.ndim == 1
-        require(is_one, name, "one state", state)
+        require(isinstance(state, State), name, "one state", state)
+        validate_one(state, name, "state")
         given, omega = state.given_orientation, state.angular_velocity
-        return door.replace_state(self.packed_start, given, omega)
+        return door.replace_state(self._packed_start, given, omega)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integration."""
@@ -241,7 +271,7 @@ class Motion:
             torque = torque + self.clamp_torque(state)
         return np.asarray(state.to_world(torque) + self.applied_torque)
 
-    def euler_rates(self, state: State) -> Angles:
+    def euler_rates(self, state: State) -> Rates:
         """Return the rates of Euler's angles in states of this motion, in rad/s.
 
         They are those of `State.euler_rates`, but for a motion that a hand holds: there phi' is 0
@@ -254,7 +284,7 @@ class Motion:
 
         Returns
         -------
-        Angles
+        Rates
             phi', theta', psi', each (...).
 
         Examples
@@ -263,14 +293,15 @@ class Motion:
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
         >>> held = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0), clamped=True)
         >>> rates = held.euler_rates(held.at(0.1))
-        >>> rates.phi, rates.psi
+        >>> rates.phi_dot, rates.psi_dot
         (0.0, 200.0)
         """
         rates = state.euler_rates
         if not self.clamped:
             return rates
         spin = state.angular_velocity[..., 2]
-        return Angles(0.0 * abs(rates.theta), rates.theta, spin if np.ndim(spin) else float(spin))
+        held = 0.0 * abs(rates.theta_dot)
+        return Rates(held, rates.theta_dot, spin if np.ndim(spin) else float(spin))
 
     def clamp_torque(self, state: State) -> Real:
         """Return the torque of the hand that holds phi, in the body frame in N m.
@@ -333,21 +364,21 @@ class Motion:
             return self._compute_one(times)
         count = math.prod(times.shape)
         orientation, angular_velocity = np.empty((count, 4)), np.empty((count, 3))
-        self.fill(times, orientation, angular_velocity)
+        self._fill(times, orientation, angular_velocity)
         return wrap_states(orientation, angular_velocity, times.shape)
 
     def _compute_one(self, time: float | ExactTimes) -> State:
         numbers = None if self.is_driven else self._kernel.at(time)
         if numbers:
             # Two arrays, not views of one: `base` of a view could be written to.
-            return State.wrap(np.array(numbers[:4]), np.array(numbers[4:]))
+            return State._wrap(np.array(numbers[:4]), np.array(numbers[4:]))
         # Of a driven motion, in steps between which signals are seen; or a time that is refused.
         orientation, omega = np.empty((1, 4)), np.empty((1, 3))
         times = time.ravel() if isinstance(time, ExactTimes) else np.array([time])
         states.fill_states(self._kernel, times, orientation, omega)
-        return State.wrap(orientation[0].copy(), omega[0].copy())
+        return State._wrap(orientation[0].copy(), omega[0].copy())
 
-    def fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
+    def _fill(self, times: Real | ExactTimes, orientation: Real, angular_velocity: Real) -> None:
         """Write the states at many times into arrays; the times are not validated.
 
         Parameters
@@ -361,7 +392,7 @@ class Motion:
         """
         states.fill_states(self._kernel, times.ravel(), orientation, angular_velocity)
 
-    def reach(self, t: float, steps: float) -> float:
+    def _reach(self, t: float, steps: float) -> float:
         """Prepare the states up to a time, within a limited number of steps.
 
         Parameters
@@ -383,9 +414,9 @@ class Motion:
         >>> from symtop_ros.physics import Friction, Motion, State, Top
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
         >>> start = State.from_euler(theta=0.5, psi_dot=200.0)
-        >>> Motion(top, start).reach(1e6, steps=0)
+        >>> Motion(top, start)._reach(1e6, steps=0)
         1000000.0
-        >>> 0 < Motion(top, start, Friction(axial=2e-6)).reach(10.0, steps=100) < 10
+        >>> 0 < Motion(top, start, Friction(axial=2e-6))._reach(10.0, steps=100) < 10
         True
         """
         t = validate_number("t", t, "s")
@@ -406,7 +437,7 @@ class Motion:
             Its `motion`, which starts at the last push up to then (before the second one with the
             start of this motion), the time `begin` of that push in ns, and the `number` of pushes
             up to then. Without pushes that is this motion itself, 0 and 0. Its start is rounded to
-            doubles, where this motion has 32 digits: docs/library.md has what that does.
+            doubles, where this motion has 32 digits: docs/accuracy.md, "Pushes", has what that does.
 
         Raises
         ------
@@ -424,11 +455,14 @@ class Motion:
         >>> piece.motion.kind
         'unidirectional'
         """
+        if isinstance(t, ExactTimes):
+            validate_one(t, "t", "time")
+        else:
+            t = validate_number("t", t, "s")
         if not self.pushes:
             return Piece(self, 0, 0)
         if not isinstance(t, ExactTimes):
-            t = ExactTimes(0, elapsed=Fraction(validate_number("t", t, "s")) * SECOND)
-        require(not t.shape, "t", "one time", t.shape)
+            t = ExactTimes(0, elapsed=Fraction(t) * SECOND)
         found = states.find_piece(self._kernel, t)
         piece = self._piece
         if piece is None or piece.number != found.number:
@@ -463,6 +497,7 @@ class Motion:
         >>> pushed.end_pushes(3).piece_at(1.0).begin
         100000000
         """
+        number = int(validate_number("number", number))
         if not self.pushes or number > self.pushes.number:
             given = self.pushes.number if self.pushes else 0
             raise refuse("number", f"at most the {given} pushes of the motion", number)
@@ -653,7 +688,7 @@ class Motion:
         """
         if self.is_driven or self.pushes or self.clamped:
             return math.inf
-        return door.find_doubt(self.packed_start)
+        return door.find_doubt(self._packed_start)
 
     @property
     def mean_spin_rate(self) -> float:

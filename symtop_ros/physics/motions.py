@@ -1,7 +1,8 @@
 """Many motions at once: of many tops, or from many states."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import astuple
 from functools import cached_property
 from typing import Any
 
@@ -24,10 +25,11 @@ from symtop_ros.physics.arguments import (
     validate_types,
     wrap_states,
 )
+from symtop_ros.physics.certificate import Certificate
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import ENGINES, KINDS
-from symtop_ros.physics.motion import Motion
-from symtop_ros.physics.state import State
+from symtop_ros.physics.motion import Motion, find_period
+from symtop_ros.physics.state import Rates, State
 from symtop_ros.physics.times import ExactTimes, to_seconds
 from symtop_ros.physics.top import Friction, Top
 from symtop_ros.physics.values import validate_array
@@ -115,7 +117,7 @@ class Motions:
         if not np.ndim(numbers):
             return self._find_member(int(numbers))
         moments, q, omega, friction, torque, _ = np.split(self._starts[numbers], STARTS, axis=-1)
-        start = State.of_given(np.array(q), np.array(omega))
+        start = State._of_given(np.array(q), np.array(omega))
         top = Top(*np.moveaxis(moments, -1, 0))
         drag = Friction(*np.moveaxis(friction, -1, 0))
         return Motions(top, start, drag, torque)
@@ -160,7 +162,7 @@ class Motions:
         orientation, omega = np.empty((count, many, 4)), np.empty((count, many, 3))
         left = fill_states(self._starts, flat, orientation, omega)
         for n in np.flatnonzero(left.any(axis=1)).tolist():
-            self._find_member(n).fill(flat, orientation[n], omega[n])
+            self._find_member(n)._fill(flat, orientation[n], omega[n])
         return wrap_states(orientation, omega, (*self.shape, *shape))
 
     def at_each(self, times: ArrayLike | ExactTimes) -> State:
@@ -200,7 +202,7 @@ class Motions:
         places = np.arange(math.prod(t.shape)).reshape(shape)
         orientation, omega = np.empty((*shape, 4)), np.empty((*shape, 3))
         for n, row in enumerate(places):
-            self._find_member(n).fill(flat[row], orientation[n], omega[n])
+            self._find_member(n)._fill(flat[row], orientation[n], omega[n])
         return wrap_states(orientation, omega, t.shape)
 
     def table(self, times: ArrayLike | ExactTimes) -> dict[str, Any]:
@@ -228,7 +230,7 @@ class Motions:
         count = math.prod(self.shape)
         states = self.at(given)
         t = to_seconds(given)
-        orientation, omega = (np.array(part) for part in states.parts)
+        orientation, omega = (np.array(part) for part in states._parts)
         flat = wrap_states(orientation, omega, (count * len(t),))
         return {"motion": np.repeat(np.arange(count), len(t)), **flat.table(np.tile(t, count))}
 
@@ -245,8 +247,7 @@ class Motions:
         ndarray (..., 6, 9)
             In the shape of the motions, followed by that of the times.
         """
-        count = math.prod(self.shape)
-        found = np.array([self._find_member(n).jacobian(t) for n in range(count)])
+        found = np.array(self._ask_each(lambda motion: motion.jacobian(t)))
         shape = t.shape if isinstance(t, ExactTimes) else np.shape(t)
         return found.reshape(*self.shape, *shape, 6, 9)
 
@@ -299,13 +300,76 @@ class Motions:
 
         It is in the world frame, about the pivot.
         """
-        gravity = self.gravity_torque(states)
+        return np.asarray(self.gravity_torque(states) + self.added_torque(states))
+
+    def added_torque(self, states: State) -> Real:
+        """Return the torque of friction and the applied torque, (..., m, ..., 3), in N m.
+
+        It is in the world frame, about the pivot.
+        """
+        self._spread(states)
         shape = states.orientation.shape[:-1]
         friction = self.friction.spread(self.shape, shape)
         applied = np.broadcast_to(self.applied_torque, (*self.shape, 3))
         axes = (1,) * (len(shape) - len(self.shape))
-        added = states.to_world(friction.torque(states)) + applied.reshape(*self.shape, *axes, 3)
-        return np.asarray(gravity + added)
+        applied = applied.reshape(*self.shape, *axes, 3)
+        return np.asarray(states.to_world(friction.torque(states)) + applied)
+
+    def euler_rates(self, states: State) -> Rates:
+        """Return the rates of Euler's angles in states of these motions, each (..., m, ...).
+
+        They are those of `State.euler_rates`: none of these motions is clamped.
+        """
+        self._spread(states)
+        return states.euler_rates
+
+    def certify(self, t: ArrayLike | ExactTimes) -> Certificate:
+        """Return proved bounds of the errors of the states, as `Motion.certify` does.
+
+        Parameters
+        ----------
+        t : float, array_like (m, ...) or ExactTimes
+            Times since the start in s, or exact times in ns, the same for all motions.
+
+        Returns
+        -------
+        Certificate
+            Its bounds are ndarray (..., m, ...): in the shape of the motions, then of the times.
+
+        Examples
+        --------
+        >>> from symtop_ros.physics import Motions, State, Top
+        >>> motions = Motions(Top(1.0, 1.0, [1.0, 2.0]), State.from_euler(theta=1.0, psi_dot=3.0))
+        >>> proved = motions.certify([0.0, 1.0, 2.0])
+        >>> proved.attitude.shape, bool((proved.attitude < 1e-15).all())
+        ((2, 3), True)
+        """
+        found = self._ask_each(lambda motion: astuple(motion.certify(t)))
+        shape = t.shape if isinstance(t, ExactTimes) else np.shape(t)
+        bounds = np.reshape(found, (-1, 2, *shape))
+        attitude, rates = (bounds[:, k].reshape(*self.shape, *shape) for k in range(2))
+        return Certificate(attitude, rates)
+
+    def _ask_each(self, ask: Callable[[Motion], Any]) -> list[Any]:
+        """Return what each motion answers, in the order of a flat array."""
+        return [ask(self._find_member(n)) for n in range(math.prod(self.shape))]
+
+    @property
+    def farthest_time(self) -> Real:
+        """Times in s from which on states are refused, as in `Motion.farthest_time`."""
+        found = self._ask_each(lambda motion: motion.farthest_time)
+        return np.array(found, np.float64).reshape(self.shape)
+
+    @property
+    def rounding_shows_at(self) -> Real:
+        """Times in s from which on rounding shows, as in `Motion.rounding_shows_at`."""
+        found = self._ask_each(lambda motion: motion.rounding_shows_at)
+        return np.array(found, np.float64).reshape(self.shape)
+
+    @property
+    def is_driven(self) -> NDArray[np.bool_]:
+        """True where friction or an applied torque acts."""
+        return np.asarray(self.engine == "taylor")
 
     @property
     def engine(self) -> NDArray[np.str_]:
@@ -345,6 +409,11 @@ class Motions:
     def mean_precession_rate(self) -> Real:
         """Mean phi' in rad/s, as in `Motion.mean_precession_rate`."""
         return self._find_rates("mean_precession_rate")
+
+    @property
+    def precession_period(self) -> Real:
+        """Mean times of one turn of the precession in s, as in `Motion.precession_period`."""
+        return find_period(self.mean_precession_rate)
 
     @property
     def mean_spin_rate(self) -> Real:

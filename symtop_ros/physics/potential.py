@@ -14,7 +14,7 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
-from symtop_ros.physics.values import validate_array, validate_one
+from symtop_ros.physics.values import validate_array, validate_number, validate_one
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +49,7 @@ class EffectivePotential:
     def of(cls, top: Top, state: State) -> "EffectivePotential":
         """Return the potential for the constants of motion of one state."""
         validate_one(top)
+        validate_one(state, "state")
         wx, wy, _ = state.angular_velocity.tolist()
         # Without the energy of the spin from the start: as a difference it would lose digits.
         energy = top.Ix * (wx * wx + wy * wy) / 2 + top.Mgl * float(state.vertical[2])
@@ -113,6 +114,7 @@ class EffectivePotential:
         >>> EffectivePotential(Top(2.0, 1.0, 3.0), 0.0, 0.0, 3.0).find_third_root(0.0, np.pi)
         1.0
         """
+        low, high = validate_number("low", low, "rad"), validate_number("high", high, "rad")
         if self.top.Mgl == 0:
             return np.inf
         a = self.axial_momentum / self.top.Ix

@@ -19,7 +19,6 @@ spin momentum    Ix cos(theta)           p_psi = Iz omega_z
 At the same state both give the same theta''.
 """
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,7 +36,7 @@ from symtop_ros.physics.values import (
 )
 
 
-def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> tuple[Any, ...]:
+def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> tuple[Any, Any]:
     """Return the rates phi' of regular precession at one tilt and spin rate.
 
     They are the roots of (Ix - Iz) cos(theta) p^2 - Iz psi' p + Mgl = 0, formed without
@@ -54,11 +53,11 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
 
     Returns
     -------
-    tuple of float, or of two ndarray (...)
-        (slow, fast) in rad/s with |slow| <= |fast|; one rate if the equation is linear; none if the
-        spin is too small. Of arrays two arrays, with nan for a rate that there is not. They are
-        the nearest doubles to the exact rates of the doubles given, but |cos(theta)| <= 2.2e-16
-        counts as zero: no double is exactly pi/2.
+    slow, fast : float or ndarray (...)
+        In rad/s, with |slow| <= |fast|; nan for a rate that there is not. If the equation is
+        linear, as for a horizontal axis, there is no fast one; if the spin is too small, there is
+        neither. They are the nearest doubles to the exact rates of the doubles given, but
+        |cos(theta)| <= 2.2e-16 counts as zero: no double is exactly pi/2.
 
     Raises
     ------
@@ -71,6 +70,10 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> [round(rate, 2) for rate in regular_precession_rates(top, theta=0.5, psi_dot=200.0)]
     [6.5, 69.82]
+    >>> import math
+    >>> slow, fast = regular_precession_rates(top, theta=math.pi / 2, psi_dot=200.0)
+    >>> round(slow, 2), fast
+    (5.94, nan)
     >>> slow, fast = regular_precession_rates(top, theta=0.5, psi_dot=[100.0, 200.0])
     >>> slow.round(2).tolist(), fast.round(2).tolist()
     ([nan, 6.5], [nan, 69.82])
@@ -79,8 +82,10 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
     shape, (tops, thetas, spins) = spread_tops(top, theta, psi_dot)
     rates = door.find_regular_rates(tops, thetas, spins, hold=0)
     if not shape:
-        return tuple(rate for rate in rates[0].tolist() if not math.isnan(rate))
-    return tuple(np.ascontiguousarray(rates[:, k]).reshape(shape) for k in range(2))
+        slow, fast = rates[0].tolist()
+        return slow, fast
+    slow, fast = (np.ascontiguousarray(rates[:, k]).reshape(shape) for k in range(2))
+    return slow, fast
 
 
 def spread_tops(top: Top, *columns: Any) -> tuple[tuple[int, ...], list[Real]]:

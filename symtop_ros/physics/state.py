@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real, rotate, split, stack
+from symtop_ros.base.deprecation import Internal, warn_of_name
 from symtop_ros.base.refusals import Words, refuse, require, show
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.times import ExactTimes, to_seconds
@@ -46,16 +47,16 @@ COLUMNS = (
 
 
 class Angles(NamedTuple):
-    """Euler angles z-x-z, or their rates.
+    """Euler angles z-x-z.
 
     Attributes
     ----------
     phi : float or ndarray (...)
-        Precession, in rad or rad/s.
+        Precession, in rad.
     theta : float or ndarray (...)
-        Tilt of the axis from the vertical, in rad or rad/s.
+        Tilt of the axis from the vertical, in rad.
     psi : float or ndarray (...)
-        Spin, in rad or rad/s.
+        Spin, in rad.
 
     Examples
     --------
@@ -67,6 +68,45 @@ class Angles(NamedTuple):
     phi: Any
     theta: Any
     psi: Any
+
+
+class Rates(NamedTuple):
+    """Rates of Euler's angles z-x-z.
+
+    Attributes
+    ----------
+    phi_dot : float or ndarray (...)
+        Precession rate, in rad/s.
+    theta_dot : float or ndarray (...)
+        Rate of the tilt, in rad/s.
+    psi_dot : float or ndarray (...)
+        Spin rate, in rad/s.
+
+    Examples
+    --------
+    >>> from symtop_ros.physics import State
+    >>> State.from_euler(theta=0.5, psi_dot=200.0).euler_rates
+    Rates(phi_dot=0.0, theta_dot=0.0, psi_dot=200.0)
+    """
+
+    phi_dot: Any
+    theta_dot: Any
+    psi_dot: Any
+
+    @property
+    def phi(self) -> Any:
+        """The old name of `phi_dot`, until 0.8."""
+        return warn_of_name("Rates.phi", "phi_dot", self.phi_dot)
+
+    @property
+    def theta(self) -> Any:
+        """The old name of `theta_dot`, until 0.8."""
+        return warn_of_name("Rates.theta", "theta_dot", self.theta_dot)
+
+    @property
+    def psi(self) -> Any:
+        """The old name of `psi_dot`, until 0.8."""
+        return warn_of_name("Rates.psi", "psi_dot", self.psi_dot)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -100,7 +140,7 @@ class State:
     --------
     >>> from symtop_ros.physics import State
     >>> state = State(orientation=(1, 0, 0, 0), angular_velocity=(0, 0, 200))
-    >>> state.euler_rates.psi
+    >>> state.euler_rates.psi_dot
     200.0
     """
 
@@ -122,8 +162,10 @@ class State:
             raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
         self._set(q, _normalize(q), omega)
 
+    wrap, of_given, parts = Internal(), Internal(), Internal()
+
     @classmethod
-    def wrap(
+    def _wrap(
         cls,
         orientation: Real,
         angular_velocity: Real,
@@ -147,7 +189,7 @@ class State:
         return state
 
     @classmethod
-    def of_given(cls, given: Real, angular_velocity: Real) -> "State":
+    def _of_given(cls, given: Real, angular_velocity: Real) -> "State":
         """Return the state of orientations that are valid but for their norm, and of their rates.
 
         Parameters
@@ -157,7 +199,7 @@ class State:
         angular_velocity : ndarray (..., 3)
             Finite angular velocities of the same leading shape, in rad/s.
         """
-        return cls.wrap(_normalize(given), angular_velocity, given)
+        return cls._wrap(_normalize(given), angular_velocity, given)
 
     def _set(self, given: Real, orientation: Real, omega: Real) -> None:
         orientation.setflags(write=False)
@@ -173,8 +215,8 @@ class State:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a state by its arrays, which are read-only in the copy, too."""
-        given, (q, omega) = self.given_orientation, self.parts
-        return State.wrap, (q.copy(), omega.copy(), given.copy())
+        given, (q, omega) = self.given_orientation, self._parts
+        return State._wrap, (q.copy(), omega.copy(), given.copy())
 
     def __repr__(self) -> str:
         """Return the call that makes one state; of many, their shape."""
@@ -184,7 +226,12 @@ class State:
         return f"State(orientation={orientation}, angular_velocity={omega})"
 
     @property
-    def parts(self) -> tuple[Real, Real]:
+    def shape(self) -> tuple[int, ...]:
+        """() for one state, (...) for many."""
+        return self.orientation.shape[:-1]
+
+    @property
+    def _parts(self) -> tuple[Real, Real]:
         """Orientation and angular velocity."""
         return self.orientation, self.angular_velocity
 
@@ -225,7 +272,7 @@ class State:
         --------
         >>> from symtop_ros.physics import State
         >>> state = State.from_euler(theta=0.5, phi_dot=6.5, psi_dot=200.0)
-        >>> round(state.euler_rates.phi, 12)
+        >>> round(state.euler_rates.phi_dot, 12)
         6.5
         >>> State.from_euler(theta=[0.4, 0.5, 0.6], psi_dot=200.0)
         <State of shape (3,)>
@@ -237,7 +284,7 @@ class State:
         if table.ndim > 1:
             table = np.moveaxis(table, 0, -1)
         q, omega = door.from_angles(table[..., :3], table[..., 3:])
-        return cls.of_given(q, omega)
+        return cls._of_given(q, omega)
 
     @cached_property
     @door.compute_soundly
@@ -268,9 +315,9 @@ class State:
         return Angles(*split(door.find_angles(self.orientation)))
 
     @cached_property
-    def euler_rates(self) -> Angles:
+    def euler_rates(self) -> Rates:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
-        return Angles(*split(door.find_angle_rates(*self.parts)))
+        return Rates(*split(door.find_angle_rates(*self._parts)))
 
     @door.compute_soundly
     def to_world(self, vector: ArrayLike) -> Real:
@@ -415,7 +462,7 @@ class State:
             f"of shape {shape}, one for each state",
             Words(f"shape {t.shape}"),
         )
-        vectors = *map(split, self.parts), self.euler_angles, self.euler_rates
+        vectors = *map(split, self._parts), self.euler_angles, self.euler_rates
         return dict(zip(COLUMNS, (t, *map(np.array, chain(*vectors))), strict=True))
 
     def __getitem__(self, place: Any) -> "State":
@@ -433,8 +480,8 @@ class State:
         places = place if isinstance(place, tuple) else (place,)
         has_gap = any(each is Ellipsis for each in places)
         where = (*places, slice(None)) if has_gap else (*places, ..., slice(None))
-        orientation, omega, given = (part[where] for part in (*self.parts, self.given_orientation))
-        return State.wrap(orientation, omega, given)
+        orientation, omega, given = (part[where] for part in (*self._parts, self.given_orientation))
+        return State._wrap(orientation, omega, given)
 
     def __len__(self) -> int:
         """Return the number of states along the first axis."""

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real, Vector, split, stack
+from symtop_ros.base.deprecation import Internal
 from symtop_ros.base.refusals import Words, refuse, show_limit
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import FRICTION_KINDS
@@ -135,6 +136,7 @@ class Top(_Numbers):
             One state, with a vertical axis.
         """
         validate_one(self)
+        validate_one(state, "state")
         weight = self.Mgl if state.vertical[2] > 0 else -self.Mgl
         if weight == 0:
             return bool(state.angular_velocity[2] != 0)
@@ -238,6 +240,8 @@ class Friction(_Numbers):
     axial: float
     transverse: float
 
+    find_decay = Internal()
+
     def __init__(self, axial: ArrayLike = 0.0, transverse: ArrayLike = 0.0) -> None:
         given = {"friction.axial": axial, "friction.transverse": transverse}
         units = ("N m s",) * len(given)
@@ -257,7 +261,7 @@ class Friction(_Numbers):
         """The coefficients in N m s, in the order of the kernel: (axial, transverse)."""
         return tuple(getattr(self, name) for name in FRICTION_KINDS)
 
-    def find_decay(self, top: Top) -> Any:
+    def _find_decay(self, top: Top) -> Any:
         """Return the fastest rate in 1/s, (...), at which friction slows a top."""
         return np.maximum(self.axial / top.Iz, self.transverse / top.Ix)
 

@@ -207,10 +207,26 @@ def fit_shapes(names: str, *shapes: tuple[int, ...], listed: str = "") -> tuple[
         raise refuse(names, "of shapes that fit together", Words(text)) from None
 
 
-def validate_one(given: Any, name: str = "top") -> None:
-    """Refuse many tops, or many motions, where one is wanted."""
+def validate_one(given: Any, name: str = "top", kind: str = "", instead: str = "") -> None:
+    """Refuse many tops, states or motions where one is wanted.
+
+    Parameters
+    ----------
+    given : Any
+        A top, a friction, a state or a motion, or many of them.
+    name, kind : str
+        Name of the argument, and what it is, if that is another word.
+    instead : str
+        What takes many, for the message.
+
+    Raises
+    ------
+    ValueError
+        If there are many.
+    """
     if shape := getattr(given, "shape", ()):
-        raise refuse(name, f"one {name}", Words(f"{name}s of shape {shape}"))
+        what = kind or name
+        raise refuse(name, f"one {what}{instead}", Words(f"{what}s of shape {shape}"))
 
 
 def validate_vector(name: str, value: Any, unit: str) -> Vector:

@@ -18,7 +18,7 @@ ROUNDING = 1e-15  # N m s; 64 products of up to 3e-3 N m s are summed
 
 @pytest.mark.parametrize("time", [0.01, 0.025, FASTEST, 0.0625, BOTTOM])
 def test_the_sum_of_the_impulses_is_the_momentum_of_the_fall(time):
-    rate = float(MOTION.at(time).euler_rates.theta)
+    rate = float(MOTION.at(time).euler_rates.theta_dot)
     assert find_impulses(MOTION, time).total == pytest.approx(TOP.Ix * rate, abs=ROUNDING)
 
 

@@ -82,7 +82,9 @@ def test_a_link_starts_its_motion_whatever_moved_before(link, tab):
         if f"{name}_dot" in fields:
             asked = float(fields[f"{name}_dot"])
             # rates are made of an angular velocity: rounding of sums of three products
-            assert getattr(motion.start.euler_rates, name) == pytest.approx(asked, abs=1e-11)
+            assert getattr(motion.start.euler_rates, f"{name}_dot") == pytest.approx(
+                asked, abs=1e-11
+            )
 
 
 @pytest.mark.parametrize("name", choose(FIGURES, QUICK))

@@ -363,7 +363,7 @@ def measure_many(genes: Genes) -> float:
     same = all(
         one.tobytes() == other.tobytes()
         for state, single in zip(among, alone, strict=True)
-        for one, other in zip(state.parts, single.parts, strict=True)
+        for one, other in zip(state._parts, single._parts, strict=True)
     )
     return 0.0 if same else math.inf
 

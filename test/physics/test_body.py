@@ -11,7 +11,7 @@ from trials import seeds
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import BODIES, Body, Friction, Motion, Part, State, Top
-from symtop_ros.physics.dynamics import STANDARD_GRAVITY, point_acceleration
+from symtop_ros.physics.dynamics import DEFAULT_GRAVITY, point_acceleration
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.precession import theta_acceleration, theta_torque
 from workshop.digits import ClosedForm
@@ -147,7 +147,7 @@ def find_disc(moments):
     """Mass, radius and distance of the disc that moves as a top does, as the page asks for them."""
     found = np.empty(3)
     top = door.read_from(np.array(moments))
-    door.demand(door.open_door().find_disc(top, STANDARD_GRAVITY, door.write_to(found, 3)))
+    door.demand(door.open_door().find_disc(top, DEFAULT_GRAVITY, door.write_to(found, 3)))
     return found
 
 
@@ -162,13 +162,15 @@ def test_theta_acceleration_is_the_articles(top):
     states = random_states(500)
     theta = states.euler_angles.theta
     rates = states.euler_rates
-    expected = (Ix - Iz) * rates.phi**2 * np.cos(theta) - Iz * rates.phi * rates.psi + Mgl
-    found = theta_acceleration(top, theta, rates.phi, rates.psi)
-    terms = (abs(rates.phi) + abs(rates.psi)) ** 2 + abs(Mgl) / Ix
+    expected = (
+        (Ix - Iz) * rates.phi_dot**2 * np.cos(theta) - Iz * rates.phi_dot * rates.psi_dot + Mgl
+    )
+    found = theta_acceleration(top, theta, rates.phi_dot, rates.psi_dot)
+    terms = (abs(rates.phi_dot) + abs(rates.psi_dot)) ** 2 + abs(Mgl) / Ix
     off = found - np.sin(theta) / Ix * expected
     assert (np.abs(off) <= 16 * EPS * terms).all()  # sums of three products
     # without sin(theta)/Ix, which the product takes back to a few roundings
-    torque = theta_torque(top, theta, rates.phi, rates.psi)
+    torque = theta_torque(top, theta, rates.phi_dot, rates.psi_dot)
     assert found == pytest.approx(np.sin(theta) / Ix * torque, rel=4 * EPS)
 
 

@@ -51,7 +51,7 @@ def test_a_bound_is_that_of_the_states_which_are_given(monkeypatch: pytest.Monke
         state = right(self, t)
         w, x, y, z = state.orientation.T
         turned = np.stack((w - z * 5e-10, x + y * 5e-10, y - x * 5e-10, z + w * 5e-10), axis=-1)
-        return State.wrap(turned, state.angular_velocity + np.array([1e-7, 0.0, 0.0]))
+        return State._wrap(turned, state.angular_velocity + np.array([1e-7, 0.0, 0.0]))
 
     monkeypatch.setattr(Motion, "at", at)
     found = motion.certify([1.0, 2.0])

@@ -27,9 +27,9 @@ def test_a_change_of_rate_holds_theta_dot_and_the_spin_rate_or_axial_momentum(ho
     if hold == "spin_momentum":
         assert ARTICLE.axial_momentum(after) == ARTICLE.axial_momentum(START)
     rates = after.euler_rates
-    assert rates.phi == pytest.approx(9.1, abs=4 * ROUNDING)  # 1/sin(theta) of rounding
-    assert rates.theta == pytest.approx(2.0, abs=ROUNDING)
-    assert rates.psi == pytest.approx(200.0 - lost * math.cos(0.5), abs=4 * ROUNDING)
+    assert rates.phi_dot == pytest.approx(9.1, abs=4 * ROUNDING)  # 1/sin(theta) of rounding
+    assert rates.theta_dot == pytest.approx(2.0, abs=ROUNDING)
+    assert rates.psi_dot == pytest.approx(200.0 - lost * math.cos(0.5), abs=4 * ROUNDING)
 
 
 J = np.array([1e-4, -2e-3, 5e-4])
@@ -74,7 +74,7 @@ def test_a_new_rate_is_met_as_closely_as_omega_has_it(hold):
         kicked = set_precession_rate(before, 1e6, hold)
         largest = max(math.hypot(*each.angular_velocity.tolist()) for each in (before, kicked))
         # 15 eps of the kick, and 12 of the rate that is read
-        assert abs(kicked.euler_rates.phi - 1e6) <= 27 * EPS * largest / math.sin(theta)
+        assert abs(kicked.euler_rates.phi_dot - 1e6) <= 27 * EPS * largest / math.sin(theta)
 
 
 @pytest.mark.parametrize("hold", ["spin_rate", "spin_momentum"])
@@ -86,7 +86,7 @@ def test_a_kick_that_ends_the_precession_leaves_no_rounding_of_it(hold):
         start = State.from_euler(**angles, psi=1.2, theta_dot=tilting, phi_dot=rate)
         ended = set_precession_rate(start, 0.0, hold)
         # What is left belongs to theta', to rounding of it, however fast the precession was.
-        assert abs(ended.euler_rates.phi) * math.sin(angles["theta"]) <= 8 * EPS * tilting
+        assert abs(ended.euler_rates.phi_dot) * math.sin(angles["theta"]) <= 8 * EPS * tilting
         if hold == "spin_rate":  # psi' was 0, and stays so
             assert ended.angular_velocity[2] == 0.0 or tilting
 
@@ -94,7 +94,7 @@ def test_a_kick_that_ends_the_precession_leaves_no_rounding_of_it(hold):
 def test_a_kick_at_the_smallest_tilt_needs_no_division():
     start = State.from_euler(theta=1e-12, psi_dot=200.0)
     after = set_precession_rate(start, 9.0)
-    assert after.euler_rates.phi == pytest.approx(9.0, rel=8 * EPS)
+    assert after.euler_rates.phi_dot == pytest.approx(9.0, rel=8 * EPS)
 
 
 @pytest.mark.parametrize("q", [(1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)])
@@ -117,9 +117,11 @@ def test_a_root_is_a_root_to_rounding(psi_dot, theta, Mgl):
 
 def test_degenerate_cases_have_one_root_or_none():
     sphere = Top(0.001, 0.001, 0.05)
-    assert regular_precession_rates(sphere, theta=0.5, psi_dot=100.0) == (0.05 / (0.001 * 100.0),)
-    assert regular_precession_rates(sphere, theta=0.5, psi_dot=0.0) == ()
-    assert regular_precession_rates(ARTICLE, theta=0.5, psi_dot=50.0) == ()
+    slow, fast = regular_precession_rates(sphere, theta=0.5, psi_dot=100.0)
+    assert slow == 0.05 / (0.001 * 100.0)
+    assert math.isnan(fast)
+    assert np.isnan(regular_precession_rates(sphere, theta=0.5, psi_dot=0.0)).all()
+    assert np.isnan(regular_precession_rates(ARTICLE, theta=0.5, psi_dot=50.0)).all()
     weightless = Top(0.001, 0.0005, 0.0)
     slow, fast = regular_precession_rates(weightless, theta=0.5, psi_dot=10.0)
     assert slow == 0.0
@@ -128,7 +130,8 @@ def test_degenerate_cases_have_one_root_or_none():
 
 @pytest.mark.parametrize("theta", [math.pi / 2, -math.pi / 2, math.pi / 2 + 2e-16])
 def test_an_axis_horizontal_to_rounding_has_the_slow_rate_alone(theta):
-    (slow,) = regular_precession_rates(ARTICLE, theta=theta, psi_dot=200.0)
+    slow, fast = regular_precession_rates(ARTICLE, theta=theta, psi_dot=200.0)
+    assert math.isnan(fast)
     assert slow == pytest.approx(0.068 / (5.72e-05 * 200.0), rel=2 * EPS)
 
 
@@ -144,13 +147,14 @@ def test_merging_roots_are_those_of_the_exact_quadratic(steps, theta):
         half = Iz * mpf(psi_dot) / 2
         discriminant = half**2 - a * Mgl
         found = regular_precession_rates(ARTICLE, theta=theta, psi_dot=psi_dot)
-        assert len(found) == (2 if discriminant >= 0 else 0)
-        for sign, rate in zip((-1, 1), found, strict=False):
-            assert rate == float((half + sign * mp.sqrt(discriminant)) / a)
+        assert np.isfinite(found).tolist() == [discriminant >= 0] * 2
+        if discriminant >= 0:
+            roots = ((half + sign * mp.sqrt(discriminant)) / a for sign in (-1, 1))
+            assert found == tuple(map(float, roots))
 
 
 def test_a_tilt_may_be_of_many_turns():
-    assert len(regular_precession_rates(ARTICLE, theta=1e15, psi_dot=200.0)) == 2
+    assert np.isfinite(regular_precession_rates(ARTICLE, theta=1e15, psi_dot=200.0)).all()
 
 
 def test_a_spin_of_minus_zero_is_no_spin():

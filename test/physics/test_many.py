@@ -7,10 +7,12 @@ from itertools import product
 
 import numpy as np
 import pytest
+from documents import ROOT, names, rows
 from drawn import Numbers
 from physics.refusals import refused
 from physics.tops import ARTICLE, CUSPS, random_case
 
+from symtop_ros.base.deprecation import Internal
 from symtop_ros.physics import (
     HOLDS,
     ExactTimes,
@@ -30,6 +32,11 @@ PROPERTIES = (
     "kind",
     "nutation_period",
     "mean_precession_rate",
+    "precession_period",
+    "farthest_time",
+    "rounding_shows_at",
+    "is_driven",
+    "engine",
     "mean_spin_rate",
     "nutation_rate",
     "precession_per_nutation",
@@ -40,6 +47,17 @@ PROPERTIES = (
     "turning_angles",
 )
 TIMES = np.array([[0.0, 1e-4, 0.7], [-3.0, 12.0, 1e4]])
+
+
+def list_names(motion):
+    """The public names of a motion, without old names, which warn."""
+    names = {*dir(type(motion)), *vars(motion)}
+    old = {name for each in type(motion).mro() for name in find_old_names(each)}
+    return {name for name in names - old if not name.startswith("_")}
+
+
+def find_old_names(owner):
+    return {name for name, each in vars(owner).items() if isinstance(each, Internal)}
 
 
 def draw_motions():
@@ -55,7 +73,7 @@ def draw_motions():
 ALONE = draw_motions()
 MANY = Motions(
     Top(*np.transpose([each.top.moments for each in ALONE])),
-    State(*(np.stack([each.start.parts[k] for each in ALONE]) for k in range(2))),
+    State(*(np.stack([each.start._parts[k] for each in ALONE]) for k in range(2))),
 )
 
 
@@ -64,7 +82,7 @@ def test_each_state_is_that_of_the_motion_alone(times):
     states = MANY.at(times)
     assert len(states) == len(ALONE)
     for n, single in enumerate(ALONE):
-        for one, other in zip(states[n].parts, single.at(times).parts, strict=True):
+        for one, other in zip(states[n]._parts, single.at(times)._parts, strict=True):
             assert one.tobytes() == other.tobytes()
 
 
@@ -150,7 +168,7 @@ def test_a_table_at_exact_times_has_their_states_and_the_nearest_seconds():
 
 
 def test_a_motion_of_arrays_is_refused_and_told_of_motions():
-    refusal = r"^top and start must be those of one motion \(`Motions` takes many\), got \(2,\)$"
+    refusal = r"^top must be one top \(`Motions` takes many\), got tops of shape \(2,\)$"
     with pytest.raises(ValueError, match=refusal):
         Motion(Top(1.0, 1.0, [1.0, 2.0]), CUSPS)
 
@@ -229,6 +247,30 @@ def test_angles_and_rates_of_many_are_those_of_each(name):
         assert [part[n] for part in getattr(STATES, name)] == list(getattr(state, name))
 
 
+def test_the_table_of_many_says_what_each_has():
+    table = rows(ROOT / "docs/many.md", "What `Motion` and `Motions` have")
+    for column, motion in ((1, ALONE[0]), (2, MANY)):
+        said = {name for row in table for name in names(row[0]) if row[column] == "yes"}
+        assert said == list_names(motion)
+    assert {row[1:3] == ["yes", "yes"] for row in table if not row[3]} == {True}
+    assert all("no" in row[1:3] for row in table if row[3])
+
+
+def test_many_are_driven_and_certified_as_each_alone():
+    frictions = Friction(axial=[0.0, 1e-6], transverse=0.0)
+    many = Motions(ARTICLE, CUSPS, frictions)
+    assert many.is_driven.tolist() == [each.is_driven for each in many] == [False, True]
+    states = many.at([0.0, 0.25])
+    proved = many.certify([0.0, 0.25])
+    for n, one in enumerate(many):
+        alone = one.certify([0.0, 0.25])
+        assert proved.attitude[n].tolist() == alone.attitude.tolist()
+        assert proved.angular_velocity[n].tolist() == alone.angular_velocity.tolist()
+        assert many.added_torque(states)[n].tolist() == one.added_torque(states[n]).tolist()
+        found = [each[n].tolist() for each in many.euler_rates(states)]
+        assert found == [each.tolist() for each in one.euler_rates(states[n])]
+
+
 def test_arguments_are_broadcast():
     states = State.from_euler(theta=[[0.4], [0.5]], psi_dot=[1.0, 2.0, 3.0])
     assert states.orientation.shape == (2, 3, 4)
@@ -251,8 +293,8 @@ def test_verdicts_on_arrays_are_those_on_each(hold):
         one = perrys_rule(take(tops, n), states[n], take(factors, n), hold)
         assert many.direction[n] == one.direction
         assert tuple(angles[n] for angles in many.turning_angles) == one.turning_angles
-        found = [rates[n] for rates in many.regular_rates if not np.isnan(rates[n])]
-        assert found == list(one.regular_rates)
+        found = [rates[n] for rates in many.regular_rates]
+        assert np.array_equal(found, one.regular_rates, equal_nan=True)
         holds = many.rule_holds[n] if many.rule_applies[n] else None
         assert holds == one.rule_holds
     assert {True, False} <= set(many.rule_holds.tolist())
@@ -265,6 +307,6 @@ def test_regular_rates_of_arrays_are_those_of_each():
     counts = set()
     for n in range(COUNT):
         alone = regular_precession_rates(*(take(each, n) for each in arguments))
-        assert [rate for rate in (slow[n], fast[n]) if not np.isnan(rate)] == list(alone)
-        counts.add(len(alone))
+        assert np.array_equal((slow[n], fast[n]), alone, equal_nan=True)
+        counts.add(int(np.isfinite(alone).sum()))
     assert counts == {0, 1, 2}

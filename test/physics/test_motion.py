@@ -38,7 +38,7 @@ def test_a_copy_shares_no_integration_and_gives_the_same_states(make):
     before = motion.at(0.7)
     other = make(motion)
     assert other._kernel is not motion._kernel
-    assert other.reach(0.7, 0) < 0.7
+    assert other._reach(0.7, 0) < 0.7
     assert other.at(0.7) == before
 
 
@@ -148,7 +148,7 @@ def test_the_cubic_is_the_square_of_the_rate_of_u(top, start):
     motion = Motion(top, start)
     potential = EffectivePotential.of(top, start)
     states = motion.at(np.linspace(0.0, 1.0, 50))
-    rate = np.sin(states.euler_angles.theta) * states.euler_rates.theta
+    rate = np.sin(states.euler_angles.theta) * states.euler_rates.theta_dot
     u = states.vertical[:, 2]
     scale = terms(top, potential) / top.Ix
     np.testing.assert_allclose(potential.cubic(u), rate**2, rtol=0, atol=32 * EPS * scale)

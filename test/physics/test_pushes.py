@@ -240,7 +240,7 @@ def test_a_push_that_cannot_be_ends_the_states_and_says_why():
         for ask in (motion.at, motion.piece_at, lambda t, motion=motion: motion.at([0.0, t])):
             with pytest.raises(ValueError, match=words):
                 ask(t)
-    assert driven.reach(0.5, math.inf) == 0.25
+    assert driven._reach(0.5, math.inf) == 0.25
 
 
 def test_what_asks_for_one_motion_without_pushes_says_so():
@@ -249,7 +249,7 @@ def test_what_asks_for_one_motion_without_pushes_says_so():
     with pytest.raises(ValueError, match="pushes must be none for a balance: take a piece, got"):
         balance(MOTION, 1.0, 1.0)
     many = State(np.stack([START.orientation] * 2), np.stack([START.angular_velocity] * 2))
-    with pytest.raises(ValueError, match="top and start must be those of one motion"):
+    with pytest.raises(ValueError, match="start must be one state"):
         Motion(ARTICLE, many, pushes=PUSHES)
     with pytest.raises(ValueError, match="pushes must be Pushes, got 3"):
         Motion(ARTICLE, START, pushes=3)
@@ -273,7 +273,7 @@ def test_a_driven_motion_is_pushed_in_as_many_steps_as_are_allowed():
     motion = Motion(ARTICLE, START, Friction(2.0**-20), pushes=PUSHES)
     reached = 0.0
     while reached < 1.0:
-        before, reached = reached, motion.reach(1.0, 1.0)
+        before, reached = reached, motion._reach(1.0, 1.0)
         assert reached > before
     assert motion.at(1.0) == Motion(ARTICLE, START, Friction(2.0**-20), pushes=PUSHES).at(1.0)
 

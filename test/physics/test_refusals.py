@@ -49,7 +49,7 @@ FIT = "of shapes that fit together"
 EULER = "theta", "phi", "psi", "theta_dot", "phi_dot", "psi_dot"
 SMALL = "so small that rates stay within 1e+100 rad/s"
 ONE_MOTION = "one motion", "motions of shape (2,)"
-ONE_STATE = "one state", "<State of shape (2,)>"
+ONE_STATE = "one state", "states of shape (2,)"
 STAMP = "an int or an array (n,) of ints, of at most 63 bits (ns)"
 ELAPSED = "a Fraction with a power of two as denominator (ns)"
 ROTATION = "a rotation (orthogonal within 0.001, determinant 1)"
@@ -144,15 +144,16 @@ STATES = [
 ]
 MOTIONS = [
     (partial(Motion, ARTICLE.moments, CUSPS), "top", "a Top"),
-    (partial(Motion, ARTICLE, CUSPS.parts), "start", "a State"),
+    (partial(Motion, ARTICLE, CUSPS._parts), "start", "a State"),
     (partial(Motion, ARTICLE, CUSPS, 2e-6), "friction", "a Friction"),
     *((partial(PUSHED, torque=each), "torque", VECTOR) for each in ([1, 2], "abc", [0, 0, INF])),
-    (partial(Motion, MANY.top, MANY.at(REST)), "top, start, friction and torque", FIT),
+    (partial(Motions, MANY.top, MANY.at(REST)), "top, start, friction and torque", FIT),
     *((partial(MOTION.at, t), "t", f"{FINITE_ARRAY} (s)") for t in (NAN, INF, -INF, [0.0, NAN])),
     *((partial(MOTION.at, t), "t", f"{FINITE_ARRAY} (s)", repr(t)[:40]) for t in NO_TIMES),
-    *((partial(MOTION.reach, t, 10), "t", "number") for t in (NAN, INF, "1")),
-    (partial(MOTION.reach, 1.0, NAN), "steps", ">= 0", "nan"),
-    *((partial(MOTION.restart, x), "start", "one state", str(x)) for x in (MANY.at(0.0), 3)),
+    *((partial(MOTION._reach, t, 10), "t", "number") for t in (NAN, INF, "1")),
+    (partial(MOTION._reach, 1.0, NAN), "steps", ">= 0", "nan"),
+    (partial(MOTION.restart, MANY.at(0.0)), "start", *ONE_STATE),
+    (partial(MOTION.restart, 3), "start", "one state", "3"),
     *((partial(PUSHED(torque=(0, 0, x)).at, 1.0), "t", NOT_TOO_FAST, "1") for x in (1e300, 1e308)),
     (partial(MOTION.jacobian, NAN), "t", FINITE_ARRAY),
     *((partial(MOTION.at, t), "t", NOT_TOO_LATE) for t in TOO_LATE),

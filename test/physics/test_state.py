@@ -43,10 +43,10 @@ pytestmark = pytest.mark.numbers
 def test_an_orientation_is_normalised_once_and_then_stays_bit_for_bit():
     once = State((1.0005, 0.0, 1e-3, 0.0), (1.0, 2.0, 3.0))
     assert np.linalg.norm(once.orientation) == pytest.approx(1.0, abs=EPS)
-    again = State(*once.parts)
-    assert [each.tobytes() for each in again.parts] == [each.tobytes() for each in once.parts]
+    again = State(*once._parts)
+    assert [each.tobytes() for each in again._parts] == [each.tobytes() for each in once._parts]
     states = random_states(1000)
-    assert State(*states.parts) == states
+    assert State(*states._parts) == states
 
 
 @pytest.mark.parametrize(("q", "psi"), [((0.8, 0, 0, 0.6), 1.287), ((0, 0.8, 0.6, 0), -1.287)])
@@ -124,7 +124,7 @@ def test_states_and_their_copies_are_read_only_also_through_their_base():
     for state in (CUSPS, Motion(ARTICLE, CUSPS).at([[0.0], [1.0]])):
         for other in (state, copy.deepcopy(state), pickle.loads(pickle.dumps(state))):
             assert other == state
-            for part in other.parts:
+            for part in other._parts:
                 assert not part.flags.writeable
                 assert part.base is None or not part.base.flags.writeable
 
@@ -194,7 +194,7 @@ def test_the_bits_of_angles_are_those_of_every_other_machine():
     angles = rng.uniform(-4, 4, (6, 1000)) * [[1], [1], [1e5], [1], [1], [30]]
     names = "theta", "phi", "psi", "theta_dot", "phi_dot", "psi_dot"
     states = State.from_euler(**dict(zip(names, angles, strict=True)))
-    found = [*states.parts, *states.euler_angles, *states.euler_rates]
+    found = [*states._parts, *states.euler_angles, *states.euler_rates]
     digest = hashlib.sha256(b"".join(np.ascontiguousarray(each).tobytes() for each in found))
     assert digest.hexdigest()[:12] == "4bcd9fccacbc"
 
@@ -208,7 +208,7 @@ def test_a_table_has_a_column_for_each_quantity_of_many_states():
     assert np.array_equal(np.stack([table[c] for c in "wxyz"], axis=1), states.orientation)
     assert np.array_equal(table["wz"], states.angular_velocity[:, 2])
     assert np.array_equal(table["theta"], states.euler_angles.theta)
-    assert np.array_equal(table["psi_dot"], states.euler_rates.psi)
+    assert np.array_equal(table["psi_dot"], states.euler_rates.psi_dot)
     table["w"][0] = 2.0  # the table is the caller's
     assert states.orientation[0, 0] != 2.0
     with refused("times", "of shape (7,), one for each state", "shape (6,)"):

@@ -23,4 +23,4 @@ def test_the_fastest_decay_is_that_of_the_rotation_which_friction_slows_most(fri
     motion = Motion(TOP, State((1.0, 0.0, 0.0, 0.0), omega), friction)
     after = motion.at(3.0).angular_velocity @ omega / 4.0
     # a driven state is within hundreds of eps
-    assert after == pytest.approx(math.exp(-3.0 * friction.find_decay(TOP)), rel=1e-12)
+    assert after == pytest.approx(math.exp(-3.0 * friction._find_decay(TOP)), rel=1e-12)

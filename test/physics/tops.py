@@ -25,6 +25,12 @@ SLOW, FAST = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)
 DISC = Top(Ix=0.0002, Iz=0.00035, Mgl=-0.05)
 
 
+def find_roots(top, theta, spin):
+    """Return the rates of regular precession that there are, the slow one first."""
+    rates = regular_precession_rates(top, theta=theta, psi_dot=spin)
+    return [rate for rate in rates if math.isfinite(rate)]
+
+
 @dataclass(frozen=True)
 class Case:
     """A top, its start and a time."""
@@ -122,7 +128,7 @@ def follow_exactly(
 
 def exact_parts(state: State):
     """w, x, y, z of norm 1 and omega of a state of doubles, with many digits."""
-    q, omega = ([mpf(c) for c in part.tolist()] for part in state.parts)
+    q, omega = ([mpf(c) for c in part.tolist()] for part in state._parts)
     return [c / mp.norm(q) for c in q], omega
 
 

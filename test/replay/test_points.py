@@ -152,7 +152,7 @@ def test_the_viewer_draws_each_point_where_it_was_seen(kind, tmp_path):
         _, drawn = rows(recording, entities.SEEN[2], "Scalars:scalars")
         rates = START.euler_rates(states)
         # noise of 2^-9 rad/s of each rate, over sin(theta) > 0.4
-        assert np.abs(np.concatenate(drawn) - rates.psi).max() < 40 * 2.0**-9
+        assert np.abs(np.concatenate(drawn) - rates.psi_dot).max() < 40 * 2.0**-9
         assert np.concatenate(drawn).std() > 0
     else:
         _, drawn = rows(recording, entities.SEEN[0], "Scalars:scalars")

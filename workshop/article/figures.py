@@ -55,9 +55,9 @@ def draw_cusps_against_time() -> Figure:
     rates = states.euler_rates
     curves = {
         r"$\theta$ (rad)": states.euler_angles.theta,
-        r"$\dot\theta$ (rad/s)": rates.theta,
-        r"$\dot\phi$ (rad/s)": rates.phi,
-        r"$\dot\psi$ (rad/s)": rates.psi,
+        r"$\dot\theta$ (rad/s)": rates.theta_dot,
+        r"$\dot\phi$ (rad/s)": rates.phi_dot,
+        r"$\dot\psi$ (rad/s)": rates.psi_dot,
     }
     for axes, (label, values) in zip(rows(figure, 4), curves.items(), strict=True):
         axes.plot(TIMES, values, color=BLUE)

@@ -190,5 +190,5 @@ def measure_acceleration(motion: Motion, share: float | None = None) -> float:
     The step is `STEP`, or a share of the nutation period.
     """
     step = STEP if share is None else share * motion.nutation_period
-    found = slope(lambda t: np.asarray(motion.at(t).euler_rates.theta), np.zeros(1), step)
+    found = slope(lambda t: np.asarray(motion.at(t).euler_rates.theta_dot), np.zeros(1), step)
     return float(found[0])

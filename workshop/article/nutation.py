@@ -76,9 +76,9 @@ def precession_stops_at_the_cusps(top: Top) -> Measured:
     between = times[:-1, None] + np.diff(times)[:, None] * np.linspace(0.01, 0.99, 99)
     at_cusps = motion.at(times)
     elsewhere = motion.at(between.ravel())
-    largest = np.abs(elsewhere.euler_rates.phi).max()
-    stopped = np.abs(at_cusps.euler_rates.phi).max() / largest
-    slowest = np.abs(elsewhere.euler_rates.phi).min() / largest
+    largest = np.abs(elsewhere.euler_rates.phi_dot).max()
+    stopped = np.abs(at_cusps.euler_rates.phi_dot).max() / largest
+    slowest = np.abs(elsewhere.euler_rates.phi_dot).min() / largest
     smallest = np.max(at_cusps.euler_angles.theta) < np.min(elsewhere.euler_angles.theta)
     holds = stopped < VANISHED < slowest and smallest
     return Measured(holds, count=len(times), stopped=stopped, largest=largest, slowest=slowest)
@@ -88,11 +88,11 @@ def times_of_smallest_tilt(motion: Motion) -> Real:
     """Return the times (n,) in s within ten seconds at which theta' rises through zero."""
     # The start is left out: cusps start at a minimum, where the sign of theta' is rounding.
     times = DENSE_TIMES[1:]
-    rates = np.asarray(motion.at(times).euler_rates.theta)
+    rates = np.asarray(motion.at(times).euler_rates.theta_dot)
     rising = np.flatnonzero((rates[:-1] < 0) & (rates[1:] >= 0))
 
     def rate(t: float) -> float:
-        return float(motion.at(t).euler_rates.theta)
+        return float(motion.at(t).euler_rates.theta_dot)
 
     return np.array([brentq(rate, times[k], times[k + 1], xtol=1e-15) for k in rising])
 
@@ -104,8 +104,8 @@ def fall_is_fastest_at_zero_acceleration(top: Top) -> Measured:
     period = motion.nutation_period
     zero, second = times_of_extreme_rate(motion)
     around = zero + LOCATED ** (1 / 2) * period * np.linspace(-1, 1, 5)
-    rates = np.asarray(motion.at(around).euler_rates.theta)
-    fastest = float(motion.at(zero).euler_rates.theta)
+    rates = np.asarray(motion.at(around).euler_rates.theta_dot)
+    fastest = float(motion.at(zero).euler_rates.theta_dot)
     mirror = abs((zero + second) / period - 1)
     holds = rates.argmax() == 2 and abs(4 * zero / period - 1) > 0.01 and mirror < LOCATED
     return Measured(
@@ -142,7 +142,7 @@ def precession_is_fastest_when_lowest(top: Top) -> Measured:
     motion = cusps(top)
     times = np.linspace(0.0, motion.nutation_period, 2001)
     states = motion.at(times)
-    theta, phi_dot = states.euler_angles.theta, states.euler_rates.phi
+    theta, phi_dot = states.euler_angles.theta, states.euler_rates.phi_dot
     holds = theta.argmax() == 1000 == phi_dot.argmax()
     return Measured(holds, count=len(times), times=times, theta=theta, phi_dot=phi_dot)
 
@@ -152,9 +152,9 @@ def spin_falls_with_the_axis(top: Top) -> Measured:
     """Check that psi' falls as theta grows, although L_z is constant."""
     motion = cusps(top)
     states = motion.at(np.linspace(0.0, motion.nutation_period / 2, 1001))
-    theta, psi_dot = states.euler_angles.theta, states.euler_rates.psi
+    theta, psi_dot = states.euler_angles.theta, states.euler_rates.psi_dot
     omega_z = float(motion.start.angular_velocity[2])
-    expected = omega_z - states.euler_rates.phi * np.cos(theta)
+    expected = omega_z - states.euler_rates.phi_dot * np.cos(theta)
     off = float(np.abs(psi_dot - expected).max()) / abs(omega_z)
     falls = bool((np.diff(psi_dot) < 0).all() and (np.diff(theta) > 0).all())
     return Measured(falls and off < SUMMED, psi_dot=psi_dot, last=psi_dot[-1], off=off)

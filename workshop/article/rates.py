@@ -55,8 +55,8 @@ def find_departure(motion: Motion) -> tuple[set[Direction], str]:
     top = motion.top
     theta = motion.start.euler_angles.theta
     rates = motion.start.euler_rates
-    acceleration = float(theta_acceleration(top, theta, rates.phi, rates.psi))
-    terms = abs(top.Iz * rates.phi * rates.psi) + abs(top.Mgl)
+    acceleration = float(theta_acceleration(top, theta, rates.phi_dot, rates.psi_dot))
+    terms = abs(top.Iz * rates.phi_dot * rates.psi_dot) + abs(top.Mgl)
     rounding = ROUNDING * float(np.sin(theta)) / top.Ix * terms  # what it can make of zero
     after = SHORT * motion.nutation_period
     moved = float(motion.at(after).euler_angles.theta) - theta
@@ -86,7 +86,8 @@ def roots_are_as_printed(top: Top) -> Measured:
     digits = [len(printed.partition(".")[2]) for printed in PRINTED_ROOTS]
     rounded = [f"{root:.{n}f}" for root, n in zip(roots, digits, strict=False)]
     holds = rounded == list(PRINTED_ROOTS)
-    return Measured(holds, listed=" and ".join(f"{root:.6f}" for root in roots) or "not real")
+    real = [f"{root:.6f}" for root in roots if np.isfinite(root)]
+    return Measured(holds, listed=" and ".join(real) or "not real")
 
 
 @claim()
@@ -114,7 +115,7 @@ def acceleration_is_a_parabola(top: Top) -> Measured:
     off = np.abs(parabola(PARABOLA) - measured).max() / np.abs(measured).max()
     zeros = np.sort(parabola.roots().real)
     roots = regular_precession_rates(top, THETA, PSI_DOT)
-    missed = np.abs(zeros - roots).max() if len(roots) == len(zeros) else np.inf
+    missed = np.abs(zeros - roots).max() if np.isfinite(roots).all() else np.inf
     holds = off < FITTED and missed < FITTED * PARABOLA[-1]
     return Measured(holds, count=len(PARABOLA), off=off, zeros=zeros, missed=missed)
 
@@ -128,7 +129,7 @@ def hurrying_decides(top: Top, case: HurryCase) -> Measured:
     verb = "holds" if rises else "fails"
     moved = "top" if top.Mgl > 0 else "axis"
     end = "" if top.Mgl > 0 else ", and the centre of mass, below the pivot, rises"
-    rate = before.start.euler_rates.phi
+    rate = before.start.euler_rates.phi_dot
     found, departure = find_departure(Motion(top, hurry(before.start, FACTOR)))
     rule = perrys_rule(top, before.start, FACTOR)
     holds = found == {case.direction} and rule.rule_holds is rises

@@ -95,7 +95,7 @@ def inertia_change(top: Top, states: State) -> Real:
     b = np.cos(phi)
     a2 = np.sin(2 * phi)
     b2 = np.cos(2 * phi)
-    p, t = more * rates.phi, more * rates.theta
+    p, t = more * rates.phi_dot, more * rates.theta_dot
     xx = t * s2 * a * a + p * s * s * a2
     yy = t * s2 * b * b - p * s * s * a2
     xy = -t * s2 * a2 / 2 - p * s * s * b2
@@ -172,7 +172,7 @@ def precession_alone_balances_gravity(top: Top) -> Measured:
 def _imbalance(motion: Motion) -> float:
     states = motion.at(FEW)
     L, torque = motion.top.angular_momentum(states), motion.top.gravity_torque(states)
-    turning = np.asarray(states.euler_rates.phi)[:, None] * np.cross(UP, L)
+    turning = np.asarray(states.euler_rates.phi_dot)[:, None] * np.cross(UP, L)
     return differ(turning, torque)
 
 
@@ -289,7 +289,7 @@ def _compare(motion: Motion, function: Callable[[Real], Real], expected: Real) -
 def attitude_turns_with_the_angular_velocity(top: Top) -> Measured:
     """Check that the angular velocity is 2 q* q', so that L and E belong to the attitude."""
     motion = cusps(top)
-    q, omega = motion.at(TENTH).parts
+    q, omega = motion.at(TENTH)._parts
     p, coarse = (slope(lambda t: motion.at(t).orientation, TENTH, h) for h in (STEP, 2 * STEP))
     # The vector part of conj(q) q', for quaternions w, x, y, z
     axis = q[:, 1:]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.physics import STANDARD_GRAVITY, Friction, Motion, State, Top, specific_force
+from symtop_ros.physics import DEFAULT_GRAVITY, Friction, Motion, State, Top, specific_force
 from symtop_ros.truth.fit import Record, make_record
 from symtop_ros.truth.fit.camera import project
 from symtop_ros.truth.fit.model import find_axis
@@ -51,9 +51,9 @@ class Sample:
             "spin": spin,
             "theta": np.pi - angles.theta if turned else angles.theta,
             "phi": angles.phi,
-            "theta_dot": sign * rates.theta,
-            "phi_dot": sign * rates.phi,
-            "gravity": STANDARD_GRAVITY,
+            "theta_dot": sign * rates.theta_dot,
+            "phi_dot": sign * rates.phi_dot,
+            "gravity": DEFAULT_GRAVITY,
             "axial/Iz": motion.friction.axial / top.Iz,
             "transverse/Ix": motion.friction.transverse / top.Ix,
             **{name: value for name, value in self.camera.items() if name != "log_scale"},

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.physics import STANDARD_GRAVITY, Body
+from symtop_ros.physics import DEFAULT_GRAVITY, Body
 from symtop_ros.run.models.descriptions import MATRIX, PLAIN, describe
 from symtop_ros.truth.testset.score import DESCRIPTIONS, TURNED
 
@@ -19,7 +19,7 @@ def expect(facts: Mapping[str, Any], description: str) -> dict[str, Any]:
 
     Nothing of what writes the models is used but the turn of the frame, its place, and their names.
     """
-    body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
+    body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], DEFAULT_GRAVITY)
     described = describe(description, body) if description in DESCRIPTIONS else PLAIN
     turn = np.array(MATRIX, float) if description in TURNED else np.eye(3)
     moments = turn.T @ np.diag([body.Ix, body.Ix, body.Iz]) @ turn

@@ -61,7 +61,7 @@ def run_step(step: LessonStep) -> Runs:
         elif act.start is None:
             _, run = runs.popitem()
             runs.pop(NOT_KICKED, None)
-            rate = run.pieces[0][1].start.euler_rates.phi
+            rate = run.pieces[0][1].start.euler_rates.phi_dot
             runs[f"from {rate:.3g} rad/s, {_name_held(act)} held"] = _kick(run, act)
             runs[NOT_KICKED] = run
         else:
@@ -96,8 +96,8 @@ def draw_record(axes: Axes, runs: Runs) -> None:
 
 def _name_start(start: State) -> str:
     rates = start.euler_rates
-    tilting = rf"$\dot\theta$ = {rates.theta:.3g}, " if rates.theta else ""
-    return rf"{tilting}$\dot\phi$ = {rates.phi:.3g}, $\dot\psi$ = {rates.psi:.4g} rad/s"
+    tilting = rf"$\dot\theta$ = {rates.theta_dot:.3g}, " if rates.theta_dot else ""
+    return rf"{tilting}$\dot\phi$ = {rates.phi_dot:.3g}, $\dot\psi$ = {rates.psi_dot:.4g} rad/s"
 
 
 def _name_held(act: LessonAct) -> str:
@@ -166,7 +166,7 @@ def _draw_chains(axes: Axes, runs: Runs) -> None:
             y = -row - 0.14 * k
             if abs(tip - tail) > SHORTEST:
                 draw_arrow(axes, (tail, y), (tip, y), color)
-        rate = float(motion.start.euler_rates.phi)
+        rate = float(motion.start.euler_rates.phi_dot)
         axes.text(-1.05, -row - 0.2, f"{rate:.3g} rad/s", ha="right", va="center", fontsize=8)
     axes.axvline(0.0, color=GREY, lw=0.7, ls=":")
     axes.set(xlim=(-1.9, 1.15), ylim=(-len(runs) + 0.3, 0.25))
@@ -179,7 +179,7 @@ def draw_fictitious(axes: Axes, runs: Runs) -> None:
     plot_torques(axes)
     for motion in _list_first(runs):
         total = float(torques_of(motion.top, motion.start).total)
-        axes.plot(float(motion.start.euler_rates.phi), total, "o", color=INK, ms=5, zorder=3)
+        axes.plot(float(motion.start.euler_rates.phi_dot), total, "o", color=INK, ms=5, zorder=3)
     axes.set_ylabel("torque (N m)")
     axes.legend(loc="upper left", fontsize=8)
 
@@ -225,7 +225,7 @@ def draw_pushes(axes: Axes, runs: Runs) -> None:
     """Draw how much phi' has changed against time."""
     times = _list_times(runs)
     for (color, dash), (label, run) in zip(LOOKS, runs.items(), strict=False):
-        rates = run.at(times).euler_rates.phi
+        rates = run.at(times).euler_rates.phi_dot
         axes.plot(times, rates - rates[0], color=color, ls=dash, label=label)
     axes.set(xlabel="$t$ (s)", ylabel=r"change of $\dot\phi$ (rad/s)")
     axes.set_title("faster: up", loc="right")
@@ -268,7 +268,7 @@ def draw_parabola(axes: Axes, runs: Runs) -> None:
     roots = regular_precession_rates(TOP, THETA, PSI_DOT)
     axes.plot(roots, [0, 0], "o", color="white", mec=INK, ms=7)
     for (color, _), motion in zip(LOOKS, _list_first(runs), strict=False):
-        axes.plot(motion.start.euler_rates.phi, 0, "o", color=color, ms=7, zorder=3)
+        axes.plot(motion.start.euler_rates.phi_dot, 0, "o", color=color, ms=7, zorder=3)
     for x, y, word, side in (
         (38, -260, "the top rises", "center"),
         (80, 330, "falls", "right"),
@@ -283,7 +283,7 @@ def draw_turning(axes: Axes, runs: Runs) -> None:
     (motion,) = _list_first(runs)
     L = 1e3 * motion.top.angular_momentum(motion.start)
     flat = float(np.hypot(L[0], L[1]))
-    rate = float(motion.start.euler_rates.phi)
+    rate = float(motion.start.euler_rates.phi_dot)
     torque = 1e3 * float(np.linalg.norm(motion.top.gravity_torque(motion.start)))
     reach = 20.0 * np.array([np.sin(THETA), np.cos(THETA)])
     axes.plot(*zip((0, 0), reach, strict=True), color=BLUE, ls="--", label="axis")

@@ -43,7 +43,7 @@ def find_link_effect(setting: Setting, J: float = MUJOCO_BOUND) -> float | None:
 
 def find_lowest_sine(top: Top, start: State) -> float:
     """Return the smallest sin(theta) of the motion; 1 if the axis stays in a plane."""
-    if not (start.euler_rates.phi or start.euler_rates.psi):
+    if not (start.euler_rates.phi_dot or start.euler_rates.psi_dot):
         return 1.0
     return min(map(math.sin, Motion(top, start).turning_angles))
 
@@ -53,8 +53,8 @@ def follow(top: Top, start: State, J: float, times: Real) -> Real:
     Ix, Iz, Mgl = top.moments
     angles, rates = start.euler_angles, start.euler_rates
     u = math.cos(angles.theta)
-    p_psi = Iz * (rates.psi + rates.phi * u)
-    p_phi = (Ix * math.sin(angles.theta) ** 2 + 2 * J) * rates.phi + p_psi * u
+    p_psi = Iz * (rates.psi_dot + rates.phi_dot * u)
+    p_phi = (Ix * math.sin(angles.theta) ** 2 + 2 * J) * rates.phi_dot + p_psi * u
 
     def slope(_: float, y: Real) -> tuple[float, ...]:
         _, theta, _, theta_dot = y
@@ -63,6 +63,6 @@ def follow(top: Top, start: State, J: float, times: Real) -> Real:
         torque = Mgl * s + (Ix * phi_dot * u - p_psi) * phi_dot * s
         return phi_dot, theta_dot, p_psi / Iz - phi_dot * u, torque / (Ix + J)
 
-    begin = (*angles, rates.theta)
+    begin = (*angles, rates.theta_dot)
     found = solve_ivp(slope, (0.0, times[-1]), begin, "DOP853", times, rtol=1e-13, atol=1e-13)
     return from_euler_angles(found.y[:3].T)

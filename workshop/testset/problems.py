@@ -61,7 +61,7 @@ def _read_start(
     """Return the start with an orientation by its name, or with Euler angles and rates."""
     if orientation:
         return State(DATA["orientations"][orientation], omega)
-    parts = State.from_euler(**angles).parts
+    parts = State.from_euler(**angles)._parts
     return State(*([float(f"{x:.{digits}g}") for x in part] for part in parts))
 
 

@@ -16,7 +16,7 @@ from typing import Any
 
 from mpmath import mp, mpf
 
-from symtop_ros.physics import STANDARD_GRAVITY
+from symtop_ros.physics import DEFAULT_GRAVITY
 from symtop_ros.physics.reference import Inputs
 from symtop_ros.truth.testset.score import FILE, VERSION, read_problems
 from symtop_ros.truth.testset.tables import FORCES, LIMITS, STATES, WORLD, complete, format_problems
@@ -113,7 +113,7 @@ def pack(setting: Setting, states: list[ExactState]) -> dict[str, Any]:
 def list_all(setting: Setting, states: list[ExactState], count: int = DIGITS) -> dict[str, Any]:
     """Return states, forces, and the world's view, from states with so many digits."""
     inputs = describe_inputs(setting) | write_states(states, count)
-    found = complete(inputs, STANDARD_GRAVITY)
+    found = complete(inputs, DEFAULT_GRAVITY)
     return {name: found[name] for name in (*STATES, *FORCES, *WORLD)}
 
 
@@ -146,7 +146,7 @@ def main() -> None:
             problem["mujoco_urdf_effect"] = effects.get(name, problem["mujoco_urdf_effect"])
             problems.append(problem)
             print(setting.name, flush=True)
-    text = format_problems(problems, STANDARD_GRAVITY, VERSION)
+    text = format_problems(problems, DEFAULT_GRAVITY, VERSION)
     PACKED.write_bytes(lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME))
 
 

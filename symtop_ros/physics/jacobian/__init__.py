@@ -103,7 +103,7 @@ def _differentiate_disc(motion: Differentiable, times: Real | ExactTimes) -> Rea
     A body with half of Iz and twice the spin has the same Iz omega_z, so that its axis moves in the
     same way. It is turned about the axis by omega_z t, and can be made flatter.
     """
-    row = np.frombuffer(motion.packed_start).copy()
+    row = np.frombuffer(motion._packed_start).copy()
     row[1], row[9] = row[1] / 2, 2 * row[9]
     top, start, *_ = read_start(row)
     other = _restart(motion, top, start)

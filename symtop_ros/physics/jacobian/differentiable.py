@@ -32,7 +32,7 @@ class Differentiable(Protocol):
         """True if friction or an applied torque acts."""
 
     @property
-    def packed_start(self) -> bytes:
+    def _packed_start(self) -> bytes:
         """The start as the kernel takes it."""
 
     @property

@@ -22,7 +22,7 @@ class Neighbours:
     def __init__(self, motion: Differentiable, times: Real | ExactTimes, at_times: State) -> None:
         """Begin with the states of the motion itself at times (n,)."""
         self._times, self._at_times = times, at_times
-        self._start = np.frombuffer(motion.packed_start)
+        self._start = np.frombuffer(motion._packed_start)
         self._margin = 2 * motion.top.Ix - motion.top.Iz
 
     def find_longest_steps(self, sizes: Real) -> Real:

@@ -108,7 +108,7 @@ def _refuse_time(motion: KernelMotion, t: float, status: int) -> Exception:
     if status == TOO_STIFF:
         # After some decay times the top creeps, but explicit series cannot take longer steps.
         top, _, friction, _ = read_start(np.frombuffer(motion.start))
-        decay = 1 / float(friction.find_decay(top))
+        decay = 1 / float(friction._find_decay(top))
         end += MOST_DECAYS * decay
         why = f"friction stops the top in {decay:.3g} s, and every such time takes a step"
     return refuse("t", f"within {end:.3g} s of the start ({why})", t)

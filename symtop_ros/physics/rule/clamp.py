@@ -77,7 +77,7 @@ def clamp_verdict(top: Top, before: State) -> ClampVerdict:
     in 0.163 s. Without the clamp theta would stay between 0.500 and 0.664 rad.
     """
     validate_one(top, "top")
-    validate_one(before, "before")
+    validate_one(before, "before", "state")
     found = door.judge_clamp(pack_start(top, before, NO_FRICTION, NO_TORQUE))
     low, high = found.angles_without
     return ClampVerdict(

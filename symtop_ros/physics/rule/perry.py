@@ -78,15 +78,15 @@ class Place:
         rate that is twice a root is the only one, and of two of one size both are slow.
     rate : float
         The rate in rad/s.
-    regular_rates : tuple of float
-        Rates of regular precession in rad/s, the slow one first.
+    regular_rates : (float, float)
+        Rates of regular precession in rad/s, the slow one first; nan for one that there is not.
     held : {"spin_rate", "spin_momentum"}
         The quantity at which these rates are regular: that which the kick holds.
     """
 
     kind: PlaceKind
     rate: float
-    regular_rates: tuple[float, ...]
+    regular_rates: tuple[float, float]
     held: Hold = "spin_rate"
 
 
@@ -266,7 +266,7 @@ def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdic
     """
     validate_one(motion, "motion")
     held = HOLDS.index(hold if hold is None else validate_hold(hold))
-    found = door.judge_kick(motion.pack_with("before", before), motion.packed_start, held)
+    found = door.judge_kick(motion._pack_with("before", before), motion._packed_start, held)
     reason = read_reason(found, hold)
     low, high = found.turning_angles
     return KickVerdict(
@@ -299,7 +299,7 @@ def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
     kind, rule, subject = REASON_KINDS[found.kind], RULES[found.rule], SUBJECTS[verdict.subject]
     if found.kind >= VERTICAL:
         return Reason(kind, rule, subject)
-    rates = tuple(rate for rate in found.place.regular_rates if not math.isnan(rate))
+    slow, fast = found.place.regular_rates
     held = hold or ("spin_rate" if kind == "angular_impulse" else "spin_momentum")
     return Reason(
         kind,
@@ -310,7 +310,7 @@ def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
         found.theta_ddot_without,
         found.theta_ddot,
         EFFECTS[found.effect],
-        Place(PLACE_KINDS[found.place.kind], found.place.rate, rates, held),
+        Place(PLACE_KINDS[found.place.kind], found.place.rate, (slow, fast), held),
     )
 
 

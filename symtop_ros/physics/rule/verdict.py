@@ -1,5 +1,6 @@
 """The consequences of a state: direction, turning angles and Perry's rule, as a record."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, overload
@@ -48,8 +49,9 @@ class Verdict:
         theta' = 0. It does not move by less than 1e-7 rad.
     turning_angles : (float, float)
         Smallest and largest theta in rad from this state on, without the kick.
-    regular_rates : tuple of float
-        Rates of regular precession in rad/s at this tilt and at the held spin rate or momentum.
+    regular_rates : (float, float)
+        Slow and fast rate of regular precession in rad/s, at this tilt and at the held spin rate or
+        momentum; nan for a rate that there is not, and on the vertical.
     rule_holds : bool or None
         True if Perry's rule holds for the axis; None if it says nothing. For Mgl < 0 the rule is
         the opposite for the centre of mass, which lies on the other side of the pivot.
@@ -76,7 +78,7 @@ class Verdict:
     subject: Subject
     direction: Direction
     turning_angles: tuple[float, float]
-    regular_rates: tuple[float, ...]
+    regular_rates: tuple[float, float]
     rule_holds: bool | None
     reason: Reason
     average: Average | None
@@ -201,7 +203,7 @@ def _read(found: VerdictRecord, hold: Hold) -> Verdict:
         subject=SUBJECTS[found.subject],
         direction=DIRECTIONS[found.direction],
         turning_angles=(low, high),
-        regular_rates=reason.place.regular_rates if reason.place else (),
+        regular_rates=reason.place.regular_rates if reason.place else (math.nan, math.nan),
         rule_holds=None if reason.rule is None else reason.rule == "holds",
         reason=reason,
         average=read_average(found.average),

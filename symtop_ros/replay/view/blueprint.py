@@ -74,8 +74,8 @@ def _find_ranges(motion: Motion) -> dict[str, tuple[float, float]]:
     found = {}
     for entity, values in (
         (entities.THETA, np.asarray(states.euler_angles.theta)),
-        (entities.PHI_DOT, np.asarray(rates.phi)),
-        (entities.PSI_DOT, np.asarray(rates.psi)),
+        (entities.PHI_DOT, np.asarray(rates.phi_dot)),
+        (entities.PSI_DOT, np.asarray(rates.psi_dot)),
         (entities.L_HORIZONTAL, (momentum[:, :2] ** 2).sum(axis=1)),
     ):
         low, high = float(values.min()), float(values.max())

@@ -155,7 +155,8 @@ def _name_condition(segment: Segment) -> str:
 
 
 def _list_rates(motion: Motion, state: State) -> dict[str, str]:
-    rates = ", ".join(f"{rate:.4g}" for rate in perrys_rule(motion.top, state).regular_rates)
+    found = perrys_rule(motion.top, state).regular_rates
+    rates = ", ".join(f"{rate:.4g}" for rate in found if not math.isnan(rate))
     return {
         "nutation": f"{_number(motion.nutation_period, 's')}, "
         f"{_number(motion.nutation_rate, 'rad/s')} "

@@ -167,7 +167,7 @@ class FictitiousView:
 def torques_of(top: Top, state: State) -> FrameTorques:
     """Return the torques of a state; zero on the vertical, where phi' is undefined."""
     return precessing_frame_torques(
-        top, state.euler_angles.theta, state.euler_rates.phi, state.euler_rates.psi
+        top, state.euler_angles.theta, state.euler_rates.phi_dot, state.euler_rates.psi_dot
     )
 
 

@@ -39,7 +39,7 @@ def describe_body(body: "Body") -> str:
 
 def make_body(words: list[str]) -> "Body":
     """Return the body of parts, or of its name, with `gravity=`, and Ix and Iz as measured."""
-    from symtop_ros.physics import STANDARD_GRAVITY, Body
+    from symtop_ros.physics import DEFAULT_GRAVITY, Body
 
     given = [word.split("=", 1) for word in words if "=" in word]
     texts = dict(given)
@@ -47,7 +47,7 @@ def make_body(words: list[str]) -> "Body":
     if len(texts) < len(given):
         raise RefusedError(f"{', '.join(texts)} must be given once, got {len(given)} values")
     measured = {name: parse_quantity(name, texts[name], MEASURED[name]) for name in texts}
-    gravity = measured.pop("gravity", STANDARD_GRAVITY)
+    gravity = measured.pop("gravity", DEFAULT_GRAVITY)
     parts = [part for word in words if "=" not in word for part in read_parts(word)]
     return Body.of_parts(parts, gravity, measured.get("Ix"), measured.get("Iz"))
 

@@ -50,4 +50,4 @@ def _take(solved: Solved) -> State | None:
 
 
 def _list_numbers(state: State | None) -> list[Any]:
-    return [each.tolist() for each in state.parts] if state else []
+    return [each.tolist() for each in state._parts] if state else []

@@ -28,7 +28,7 @@ def format_mjcf(top: Top, start: State, body: Body, described: Description = PLA
     place = f' pos="{join([-each for each in described.pivot])}"' if described.is_moved else ""
     pivot = f' pos="{join(described.pivot)}"' if described.is_moved else ""
     joint = f'  <joint name="pivot" type="ball"{pivot}/>'
-    q, omega = (each.tolist() for each in described.begin(start).parts)
+    q, omega = (each.tolist() for each in described.begin(start)._parts)
     lines = [f'<body name="top"{place}>', joint, *_fill(body, described), "</body>"]
     flag = '<flag contact="disable" constraint="disable"/>'
     return _write_mjcf(top, body, f"0 0 {-body.gravity!r}", flag, lines, q, omega)
@@ -37,7 +37,7 @@ def format_mjcf(top: Top, start: State, body: Body, described: Description = PLA
 def format_free_mjcf(top: Top, start: State, body: Body, described: Description = PLAIN) -> str:
     """Return the body as MJCF with a free joint; its start is the keyframe "start"."""
     place, velocity = described.find_origin(start)
-    q, omega = (each.tolist() for each in described.begin(start).parts)
+    q, omega = (each.tolist() for each in described.begin(start)._parts)
     joint = '  <freejoint name="free"/>'
     lines = ['<body name="top">', joint, *_fill(body, described), "</body>"]
     flag = '<flag contact="disable"/>'

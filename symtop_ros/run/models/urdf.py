@@ -105,7 +105,7 @@ def join_child(frame: str, body: Body | None, described: Description) -> str:
 
 def format_urdf(top: Top, start: State, body: Body, described: Description = PLAIN) -> str:
     """Return the top as URDF: three revolute joints, since the format has no ball joint."""
-    angles, rates = start.euler_angles, start.euler_rates
+    angles, (phi_dot, theta_dot, psi_dot) = start.euler_angles, start.euler_rates
     text = robot_description(top, "world", "top", tf_moves_it=False, body=body, described=described)
     first, _, rest = text.partition("\n")
     return f"""{first}
@@ -113,7 +113,7 @@ def format_urdf(top: Top, start: State, body: Body, described: Description = PLA
      A heavy symmetric top with its pivot in the origin. URDF has no ball joint: three joints with
      the axes z-x-z (precession, tilt, spin) take its place. Start of the motion, in this order:
      position {angles.phi!r} {angles.theta!r} {angles.psi!r} rad, \
-velocity {rates.phi!r} {rates.theta!r} {rates.psi!r} rad/s. The chain has its pole where the
+velocity {phi_dot!r} {theta_dot!r} {psi_dot!r} rad/s. The chain has its pole where the
      axis is vertical (tilt 0 or pi): a motion through it needs a ball joint.
 -->
 {rest}"""

@@ -8,6 +8,7 @@ from typing import Any
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import (
+    Angles,
     Ledger,
     Motion,
     State,
@@ -59,7 +60,7 @@ def motion_status(segment: Segment, stamp: int, event: int) -> Status:
             **now,
             **{f"{name}.drift": value - start[name] for name, value in now.items()},
             **summarize_motion(motion, state),
-            "regular_precession_rates": list(verdict.regular_rates),
+            "regular_precession_rates": _list_rates(verdict),
             "running": segment.running,
             "event": event,
         },
@@ -184,13 +185,13 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
         "angular_momentum": top.angular_momentum(state).tolist(),
         "torque": motion.total_torque(state).tolist(),
         "euler_angles": state.euler_angles._asdict(),
-        "euler_rates": rates._asdict(),
+        "euler_rates": dict(zip(Angles._fields, rates, strict=True)),
         "constants": constants_of_motion(top, state),
         **summarize_motion(motion, state),
         "friction": asdict(motion.friction),
         "applied_torque": list(motion.applied_torque),
-        "regular_precession_rates": list(verdict.regular_rates),
-        "regular_precession_periods": _keep(map(find_period, verdict.regular_rates)),
+        "regular_precession_rates": _list_rates(verdict),
+        "regular_precession_periods": _keep(map(find_period, _list_rates(verdict))),
         "seen_from_above": _name_way(0.0 if motion.clamped else verdict.reason.before or 0.0),
         "critical_spin": _keep([float(top.critical_spin)])[0],
         **_describe_pivot(segment, motion, state),
@@ -236,6 +237,11 @@ def _describe_pivot(segment: Segment, motion: Motion, state: State) -> dict[str,
         "mass_is_assumed": not segment.rig.mass,
         "gravity": segment.rig.gravity,
     }
+
+
+def _list_rates(verdict: Verdict) -> list[float]:
+    """Return the rates of regular precession that there are, the slow one first."""
+    return [rate for rate in verdict.regular_rates if not math.isnan(rate)]
 
 
 def _keep(numbers: Iterable[float]) -> list[float | None]:

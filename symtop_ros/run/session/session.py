@@ -223,7 +223,7 @@ class Requests:
             )
         end = segment.step(duration, segment.stamp).time_at(segment.stamp)
         if not StepBudget().reach(segment.motion, end, STEPS_OF_A_REQUEST):
-            longest = segment.motion.reach(end, 0) - segment.time_at(segment.stamp)
+            longest = segment.motion._reach(end, 0) - segment.time_at(segment.stamp)
             driven = "in one step under friction or an applied torque"
             raise refuse("duration", f"up to {show_limit(longest)} s {driven}", duration)
         return duration

@@ -42,10 +42,10 @@ class StepBudget:
 
         `free` steps are not counted. Work that would exceed the budget by far is not begun.
         """
-        before = motion.reach(t, 0)
+        before = motion._reach(t, 0)
         while free + self.spare > 0:
             count = min(STEPS_OF_A_CHECK, free + self.spare)
-            reached = motion.reach(t, count)
+            reached = motion._reach(t, count)
             if reached == t:
                 return True
             self.spare -= max(0, count - max(0, free))
@@ -167,9 +167,9 @@ class ComputeBudget:
             self._pursuit.begin()
         # The progress is counted call by call: a state that was asked for in between may have moved
         # the integration back to an earlier point.
-        start = segment.motion.reach(end, 0)
+        start = segment.motion._reach(end, 0)
         before = self._clock()
-        reached = segment.motion.reach(end, STEPS_AT_ONCE)
+        reached = segment.motion._reach(end, STEPS_AT_ONCE)
         spent = self._clock() - before
         self.spent += spent
         self._progress += reached - start

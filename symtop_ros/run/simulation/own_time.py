@@ -53,7 +53,7 @@ class OwnTimeSimulation(Simulation):
         if progress.shortfall:
             self._slow_down(stamp, progress.shortfall)
         segment = self.segment
-        self._bring_forward(segment.motion.reach(segment.time_at(stamp), 0))
+        self._bring_forward(segment.motion._reach(segment.time_at(stamp), 0))
         while not self._prepare(self.stamp).ready:  # 1 ns at most
             pass
         return False

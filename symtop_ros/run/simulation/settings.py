@@ -17,7 +17,7 @@ from symtop_ros.base.refusals import (
     refuse,
     vector,
 )
-from symtop_ros.physics import STANDARD_GRAVITY, Body, Friction, Motion, Top
+from symtop_ros.physics import DEFAULT_GRAVITY, Body, Friction, Motion, Top
 from symtop_ros.run.simulation.presets import load_scene
 from symtop_ros.run.simulation.sensor.imu import (
     ALONG,
@@ -207,7 +207,7 @@ PARAMETERS: dict[str, Parameter] = {
     "mass": _moment(
         0.0, "mass of the top; 0: a mass is assumed for the force of the pivot", "kg", 0.0
     ),
-    "gravity": _number(STANDARD_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3),
+    "gravity": _number(DEFAULT_GRAVITY, "acceleration of gravity", "m/s^2", 1e-3, 1e3),
     "imu.enabled": _flag(False, "publish ~/imu", read_only=True),
     "imu.position": _fix(_vector("place of the sensor, body frame", 3, MAX_DISTANCE, "m")),
     "imu.orientation": _fix(_vector("quaternion, sensor -> body", 4, 2.0, "x, y, z, w")),

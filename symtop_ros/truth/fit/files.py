@@ -14,7 +14,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import RefusedError, one_line, plain
-from symtop_ros.physics import STANDARD_GRAVITY
+from symtop_ros.physics import DEFAULT_GRAVITY
 from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.judge.columns import (
     ANGLES,
@@ -126,7 +126,7 @@ def _name(name: str) -> str:
 
 def _find_factor(unit: str, kind: str) -> float:
     if unit in G:
-        return STANDARD_GRAVITY
+        return DEFAULT_GRAVITY
     return np.pi / 180 if unit in DEGREES and kind in ANGULAR else 1.0
 
 

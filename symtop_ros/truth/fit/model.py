@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real, compose, find_rotation_vectors, invert
 from symtop_ros.physics import (
-    STANDARD_GRAVITY,
+    DEFAULT_GRAVITY,
     Friction,
     Motion,
     Motions,
@@ -151,7 +151,7 @@ class Model:
             motion = motions[k]
             assert isinstance(motion, Motion)
             found.append(
-                specific_force(motion, State.wrap(q[k], omega[k]), self.record.position, g)
+                specific_force(motion, State._wrap(q[k], omega[k]), self.record.position, g)
             )
         return np.array(found)
 
@@ -220,7 +220,7 @@ class Model:
         if "log_scale" in self.place:
             size = float(np.exp(x[self.place["log_scale"]]))
         sizes = {"Mgl/Ix": max(abs(x[0]), 0.01 * rate**2), "u": size, "v": size}
-        sizes |= dict.fromkeys(("gravity", *FORCE_BIASES), STANDARD_GRAVITY)
+        sizes |= dict.fromkeys(("gravity", *FORCE_BIASES), DEFAULT_GRAVITY)
         ones = "Iz/Ix", "log_scale", "elevation", "roll", "nearness", LENGTH, *TURNS, *MOUNT[3:]
         sizes |= dict.fromkeys(ones, 1.0)
         return np.array([sizes.get(name, rate) for name in self.names])

@@ -4,6 +4,7 @@ No unbiased estimate has a smaller deviation than that of Cramer and Rao, the in
 matrix of an exact record. A fit reaches it if the valley of motions that fit as well is straight.
 """
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -152,12 +153,11 @@ class Plan:
     def _list_starts(self) -> Iterator[tuple[str, float, float, float]]:
         """Yield kinds of starts, with phi', theta', and how far phi' is off."""
         angles, rates = self.motion.start.euler_angles, self.motion.start.euler_rates
-        if rates.phi or rates.theta:
-            yield "given", float(rates.phi), float(rates.theta), 0.0
+        if rates.phi_dot or rates.theta_dot:
+            yield "given", float(rates.phi_dot), float(rates.theta_dot), 0.0
         yield "rest", 0.0, 0.0, 0.0
-        regular = regular_precession_rates(self.motion.top, angles.theta, rates.psi)
-        if regular:
-            slow = float(regular[0])
+        slow, _ = regular_precession_rates(self.motion.top, angles.theta, rates.psi_dot)
+        if not math.isnan(slow):
             yield from (("off", slow + off, 0.0, off) for off in OFF)
             yield "back", -slow, 0.0, -2 * slow
 
@@ -166,7 +166,7 @@ class Plan:
         new = State.from_euler(
             theta=float(angles.theta),
             phi=float(angles.phi),
-            psi_dot=float(rates.psi),
+            psi_dot=float(rates.psi_dot),
             phi_dot=phi_dot,
             theta_dot=theta_dot,
         )

@@ -13,7 +13,7 @@ from scipy.signal import savgol_filter
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.physics import STANDARD_GRAVITY
+from symtop_ros.physics import DEFAULT_GRAVITY
 from symtop_ros.truth.fit.camera import CAMERA
 from symtop_ros.truth.fit.model import (
     FORCE_BIASES,
@@ -73,7 +73,7 @@ def fill(model: Model, values: Mapping[str, float]) -> Real:
     """Return the parameters (p,) of named values; the others are those of a start."""
     slight = dict.fromkeys(FRICTION, SLIGHT)
     missing = dict.fromkeys((*TURNS, *MOUNT, LENGTH, *FORCE_BIASES, *CAMERA), 0.0) | slight
-    missing["gravity"] = STANDARD_GRAVITY
+    missing["gravity"] = DEFAULT_GRAVITY
     return np.array([{**missing, **values}[name] for name in model.names], dtype=float)
 
 

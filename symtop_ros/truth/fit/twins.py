@@ -41,14 +41,14 @@ def exchange_momenta(motion: Motion) -> Motion:
     top, angles, rates = motion.top, motion.start.euler_angles, motion.start.euler_rates
     cos, square = np.cos(angles.theta), np.sin(angles.theta) ** 2
     p_psi = top.Iz * float(motion.start.angular_velocity[2])
-    p_phi = top.Ix * square * rates.phi + p_psi * cos
+    p_phi = top.Ix * square * rates.phi_dot + p_psi * cos
     return _start(motion, float((p_psi - p_phi * cos) / (top.Ix * square)), p_phi / top.Iz)
 
 
 def reverse_momenta(motion: Motion) -> Motion:
     """Return a motion with the same theta: p_psi and p_phi with the other sign."""
     rates = motion.start.euler_rates
-    return _start(motion, float(-rates.phi), float(-motion.start.angular_velocity[2]))
+    return _start(motion, float(-rates.phi_dot), float(-motion.start.angular_velocity[2]))
 
 
 def _start(motion: Motion, phi_dot: float, spin: float) -> Motion:
@@ -56,7 +56,7 @@ def _start(motion: Motion, phi_dot: float, spin: float) -> Motion:
     top, start, friction = motion.top, motion.start, motion.friction
     angles, rates = start.euler_angles, start.euler_rates
     psi_dot = float(spin - phi_dot * np.cos(angles.theta))
-    given = {"theta": float(angles.theta), "theta_dot": float(rates.theta)}
+    given = {"theta": float(angles.theta), "theta_dot": float(rates.theta_dot)}
     new = State.from_euler(**given, phi=float(angles.phi), phi_dot=phi_dot, psi_dot=psi_dot)
     return Motion(top, new, friction)
 

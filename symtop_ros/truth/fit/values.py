@@ -166,8 +166,8 @@ def _list_angles(fit: Fit) -> Iterator[tuple[str, Callable[[Real], float]]]:
     yield "theta", lambda x: float(model.find_motion(x).start.euler_angles.theta)
     if model.kind.shows_azimuth:
         yield "phi", turn
-    yield "theta_dot", lambda x: float(model.find_motion(x).start.euler_rates.theta)
-    yield "phi_dot", lambda x: float(model.find_motion(x).start.euler_rates.phi)
+    yield "theta_dot", lambda x: float(model.find_motion(x).start.euler_rates.theta_dot)
+    yield "phi_dot", lambda x: float(model.find_motion(x).start.euler_rates.phi_dot)
 
 
 def find_value(valley: Valley, name: str, of: Callable[[Real], float]) -> Value:

@@ -180,7 +180,7 @@ def _magnetic(name: str, fields: Real, variance: float) -> Content:
 
 def _odometry(record: ImuRecord) -> Real:
     """Return pose of the sensor in the world, and twist in its own frame."""
-    state = State.wrap(record.orientations, record.rates)
+    state = State._wrap(record.orientations, record.rates)
     values = {
         "position": record.positions,
         "orientation": record.orientations[:, [1, 2, 3, 0]],

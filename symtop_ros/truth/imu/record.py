@@ -9,7 +9,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real, Stamps
 from symtop_ros.base.refusals import RefusedError, number, refuse
-from symtop_ros.physics import STANDARD_GRAVITY, ExactTimes, Motion
+from symtop_ros.physics import DEFAULT_GRAVITY, ExactTimes, Motion
 from symtop_ros.run.simulation.events import Event, start_event
 from symtop_ros.run.simulation.sensor.imu import Imu, Rig
 from symtop_ros.run.wire.layout import NANOSECONDS
@@ -78,7 +78,7 @@ def record_imu(
     imu: Imu,
     seconds: float,
     *,
-    gravity: float = STANDARD_GRAVITY,
+    gravity: float = DEFAULT_GRAVITY,
     average: bool = False,
 ) -> ImuRecord:
     """Return what a sensor measures from the start of a motion on.
@@ -205,6 +205,6 @@ def _find_fastest_driven(motion: Motion, stamps: Stamps, interval: float) -> flo
     torque = math.hypot(*motion.applied_torque)
     least = min(Ix, Iz)
     energy = math.sqrt(twice) + torque / math.sqrt(least) * interval / NANOSECONDS
-    drive = float(motion.friction.find_decay(motion.top)) + math.sqrt(2 * torque / least)
+    drive = float(motion.friction._find_decay(motion.top)) + math.sqrt(2 * torque / least)
     rates = energy * (1 / math.sqrt(Ix) + 1 / math.sqrt(Iz))
     return float(rates + math.sqrt(2 * abs(Mgl) / Ix) + drive)

@@ -145,7 +145,7 @@ class Truth:
             find_segment = self._segments[number]
             segment = find_segment() if find_segment else None
             if segment and self._budget.reach_stamps(segment, stamps[chosen]):
-                q, omega = segment.state_at(stamps[chosen]).parts
+                q, omega = segment.state_at(stamps[chosen])._parts
                 if of_sensor and (imu := segment.rig.imu):
                     q, omega = compose(q, imu.mount.orientation), imu.mount.to_body(omega)
                 orientations[chosen], rates[chosen] = q, omega

@@ -7,7 +7,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from symtop_ros.physics import STANDARD_GRAVITY, Body, State, Top
+from symtop_ros.physics import DEFAULT_GRAVITY, Body, State, Top
 from symtop_ros.run.models import FORMATS, FREE_FORMATS, UNSAID, name_file
 from symtop_ros.run.models.descriptions import describe
 from symtop_ros.truth.testset import score
@@ -48,7 +48,7 @@ def write_set(problems: dict[str, score.Problem], folder: Path) -> None:
     facts = [each.facts for each in problems.values()]
     models = {name: text for each in facts for name, text in _describe_models(each).items()}
     texts = {
-        score.FILE.name: format_problems(facts, STANDARD_GRAVITY, score.VERSION),
+        score.FILE.name: format_problems(facts, DEFAULT_GRAVITY, score.VERSION),
         **tabulate(facts),
         **{f"{MODELS}/{name}": text for name, text in models.items()},
     }
@@ -104,7 +104,7 @@ def _describe_models(facts: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _read_motion(facts: Mapping[str, Any]) -> tuple[State, Body]:
-    body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], STANDARD_GRAVITY)
+    body = Body(facts["mass"], facts["arm"], facts["Ix_centre"], facts["Iz"], DEFAULT_GRAVITY)
     return State(facts["orientation"], facts["angular_velocity"]), body
 
 

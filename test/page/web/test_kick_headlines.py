@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 from drawn import PI, Numbers
 from page.web.modules import load_kernel
+from physics.tops import find_roots
 from trials import choose, trials
 
 from symtop_ros.page.web.join import LANGUAGES
-from symtop_ros.physics import Motion, State, Top, regular_precession_rates
+from symtop_ros.physics import Motion, State, Top
 
 # rad; a change of the tilt up to this is not seen (docs/panel.md)
 SEEN = 5e-4
@@ -38,7 +39,7 @@ def draw_kicks(count):
         scale = float(np.sqrt(abs(Mgl) / Ix)) or 1.0
         theta = rng.choice([rng.uniform(0.01, 3.13), 0.5, PI / 2, rng.power(-4, -1)])
         spin = rng.choice([0.0, rng.uniform(-10, 10) * scale, rng.uniform(-50, 50) * scale])
-        roots = regular_precession_rates(Top(**top), theta=theta, psi_dot=spin)
+        roots = find_roots(Top(**top), theta, spin)
         phi_dot = rng.choice([0.0, rng.uniform(-3, 3) * scale, *roots, *roots])
         rates = {"phi": phi_dot, "theta": rng.choice([0.0, rng.uniform(-1, 1) * scale])}
         angles = {"phi": rng.uniform(-3, 3), "theta": theta, "psi": 0.0}

@@ -100,5 +100,5 @@ def test_scripts_find_the_motions_of_python(opened):
         start,
     )
     motion = Motion(Top(**top), State(start["orientation"], angular_velocity))
-    state = np.concatenate(motion.at(3.7).parts).tolist()
+    state = np.concatenate(motion.at(3.7)._parts).tolist()
     assert found == [state, motion.kind, list(motion.turning_angles), motion.nutation_period]

@@ -209,7 +209,7 @@ def test_an_instant_is_explained_while_it_can_be_read(opened):
     opened.until(lambda: opened.say("instant") == "")
     opened.press("Space")
     opened.until(lambda: opened.say("instant").startswith("Now: turning the "))
-    falls = opened.read_last().euler_rates.theta > 0
+    falls = opened.read_last().euler_rates.theta_dot > 0
     assert ("falls" in opened.say("instant")) == falls or "turns" in opened.say("instant")
     opened.tab.click("[data-act=reset]")
     opened.until(lambda: opened.say("instant").endswith("so the axle turns down again."))

@@ -92,7 +92,7 @@ def test_impulses_are_integrals_of_thirty_digits(tab, count):
         size = sum(map(abs, wanted))
         assert found[-1] == pytest.approx(wanted, rel=0, abs=BOUND * size), start
         # Their sum is Ix theta', at the nanosecond that is next to the turning point.
-        left = top.Ix * Motion(top, state).at(round(half * 1e9) / 1e9).euler_rates.theta
+        left = top.Ix * Motion(top, state).at(round(half * 1e9) / 1e9).euler_rates.theta_dot
         assert abs(float(texts[-1]) / 1e3 - left) <= 1e-6 * size + 1e-3 * abs(left), start
 
 
@@ -110,6 +110,8 @@ def test_on_the_way_the_sum_is_the_change_of_theta_dot(tab, count):
         cases, moved, tab.evaluate("findImpulses", cases), strict=True
     ):
         for share, parts in zip((0.3, 0.9, 1.0), found, strict=True):
-            change = motion.at(share * half).euler_rates.theta - motion.start.euler_rates.theta
+            change = (
+                motion.at(share * half).euler_rates.theta_dot - motion.start.euler_rates.theta_dot
+            )
             size = sum(map(abs, parts)) + top.Ix * abs(change)
             assert sum(parts) == pytest.approx(top.Ix * change, rel=0, abs=10 * BOUND * size), case

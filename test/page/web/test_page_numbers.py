@@ -6,8 +6,9 @@ import re
 import pytest
 from page.web.opened import read_motion
 from page.web.random_acts import Trial
+from physics.tops import find_roots
 
-from symtop_ros.physics import ExactTimes, Motion, regular_precession_rates
+from symtop_ros.physics import ExactTimes, Motion
 
 FIELDS = "theta", "phi_dot", "psi_dot"
 ACTS = "run", "run", "scrub", "key", "torque", "friction"  # after which numbers may be old ones
@@ -44,10 +45,10 @@ class Shown:
         rates = self.state.euler_rates
         if self.state.is_vertical:
             return
-        shown = {"theta": theta, "phi_dot": rates.phi, "psi_dot": rates.psi}
+        shown = {"theta": theta, "phi_dot": rates.phi_dot, "psi_dot": rates.psi_dot}
         for name, value in shown.items():
             assert is_rounded(self.texts["fields"][name], value, 6), (name, value, self.texts)
-        roots = regular_precession_rates(self.top, theta, rates.psi)
+        roots = find_roots(self.top, theta, rates.psi_dot)
         assert len(roots) == len(self.texts["roots"])
         for text, root in zip(self.texts["roots"], roots, strict=True):
             assert is_rounded(re.findall(NUMBER, text)[0], root, 4), (text, root)

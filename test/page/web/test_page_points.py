@@ -92,7 +92,7 @@ def test_rates_that_were_seen_are_in_the_charts_of_rates(opened):
     states = START.at(TIMES)
     opened.open_charts("phi_dot", "psi_dot")
     rates = START.euler_rates(states)
-    for name, exact in (("phi_dot", rates.phi), ("psi_dot", rates.psi)):
+    for name, exact in (("phi_dot", rates.phi_dot), ("psi_dot", rates.psi_dot)):
         opened.tab.locator(f"#{name}").scroll_into_view_if_needed()
         opened.until(lambda name=name: opened.tab.locator(f"#{name} path.seen").count())
         heights, scale = read_heights(opened, name, read_dots(opened, name))

@@ -142,7 +142,7 @@ def test_a_series_of_pushes_is_told_with_its_first_one(open_page):
     later = Ledger.of(motion, 0.0, 0.12).pushes
     given = later.vertical_momentum + 5e-5 * math.sin(0.5)
     page.until(lambda: f"the pushes gave {given:.3g} N m s to p_phi." in page.say("stretch-act"))
-    speeds = (start.euler_rates.phi + first.euler_rates.phi) / 2 * math.sin(0.5)
+    speeds = (start.euler_rates.phi_dot + first.euler_rates.phi_dot) / 2 * math.sin(0.5)
     work = 1e3 * (later.work + 5e-5 * speeds)
     assert f"the pushes gave {work:.3g} mJ" in page.say("stretch-act")
     page.seek(page.read_events()[-1]["time"] + 0.02)  # back to the first one

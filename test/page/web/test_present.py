@@ -76,7 +76,7 @@ def check_effect(effect, motion, period, sign):
     """Check the way and the pace by the rates at which the weight goes down."""
 
     def fall(time):
-        return sign * motion.at(time).euler_rates.theta
+        return sign * motion.at(time).euler_rates.theta_dot
 
     if "turns" in effect:
         before, after = fall(-NEAR * period), fall(NEAR * period)
@@ -94,7 +94,7 @@ def check_needs(needs, case):
     phi, theta, _ = state.euler_angles
     nodes = np.array([math.cos(phi), math.sin(phi), 0.0])
     momentum = motion.top.angular_momentum(state)
-    taken = state.euler_rates.phi * (np.cross([0.0, 0.0, 1.0], momentum) @ nodes)
+    taken = state.euler_rates.phi_dot * (np.cross([0.0, 0.0, 1.0], momentum) @ nodes)
     share = taken / (motion.top.Mgl * math.sin(theta))
     low, high = NEEDS[needs]
     assert low - ROUNDING <= share <= high + ROUNDING

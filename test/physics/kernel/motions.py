@@ -85,13 +85,13 @@ class Sample:
             t = float(self.times[-1])
             pushed = Motion(motion.top, motion.at(t), motion.friction, self.torque)
             states.append(pushed.at(t))
-        rows = [np.concatenate([np.atleast_2d(each) for each in s.parts], axis=1) for s in states]
+        rows = [np.concatenate([np.atleast_2d(each) for each in s._parts], axis=1) for s in states]
         return np.concatenate([constants, *verdicts, np.concatenate(rows).ravel()])
 
 
 def list_verdicts(motion):
     """Yield the start from its angles, its regular rates, kicks and verdicts, by both holds."""
-    start = np.frombuffer(motion.packed_start)
+    start = np.frombuffer(motion._packed_start)
     top = start[:3]
     q = start[3:7]
     omega = start[7:10]

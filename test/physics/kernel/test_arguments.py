@@ -24,7 +24,7 @@ SEEN, PART = 26, 27
 DISC_KIND = 3
 START = State.from_euler(theta=0.5, phi=0.3, psi=-1.1, phi_dot=6.5, psi_dot=200.0)
 TOP_ROW = np.array(ARTICLE.moments)
-TURN, OMEGA = START.parts
+TURN, OMEGA = START._parts
 
 
 def pack(*numbers):
@@ -124,7 +124,7 @@ def test_a_hold_that_is_none_is_refused_by_its_name(kind, hold):
 def test_nothing_is_held_by_impulses_alone():
     given = pack(*TOP_ROW), pack(0.5), pack(200.0), 1, NOTHING, (c_double * 2)()
     assert DOOR.find_regular_rates(*given) == HOLD
-    start = Motion(ARTICLE, START).packed_start
+    start = Motion(ARTICLE, START)._packed_start
     assert DOOR.find_tilt_accelerations(start, NOTHING, pack(1.0), 1, (c_double * 1)()) == HOLD
     verdict = door.VerdictRecord()
     assert DOOR.judge(start, pack(1.4), 1, NOTHING, verdict, c_size_t()) == HOLD
@@ -189,7 +189,7 @@ def test_null_pointers_are_refused_and_arrays_without_elements_may_be_null():
     handle = c_void_p()
     found = (c_double * 4)()
     done = c_size_t()
-    start = Motion(ARTICLE, START).packed_start
+    start = Motion(ARTICLE, START)._packed_start
     assert DOOR.new(None, byref(handle)) == DOOR.new(start, None) == POINTER
     assert DOOR.find_angles(None, 1, found) == DOOR.find_angles(pack(*TURN), 1, None) == POINTER
     assert DOOR.find_angles(None, 0, None) == door.OK
@@ -204,7 +204,7 @@ def test_null_pointers_are_refused_and_arrays_without_elements_may_be_null():
 def test_a_count_beyond_all_memory_and_steps_that_are_no_number_are_refused():
     assert find_angles(*TURN, count=2**62) == COUNT
     handle = c_void_p()
-    assert DOOR.new(Motion(ARTICLE, START).packed_start, byref(handle)) == door.OK
+    assert DOOR.new(Motion(ARTICLE, START)._packed_start, byref(handle)) == door.OK
     q = (c_double * 4)()
     omega = (c_double * 3)()
     done = c_size_t()

@@ -32,7 +32,7 @@ def test_an_instant_has_the_same_bits_alone_and_among_others(stored):
     times = stored.times[0] * np.array(PARTS)
     together = motion.at(times)
     for n, t in enumerate(times):
-        for one, other in zip(together[n].parts, motion.at(float(t)).parts, strict=True):
+        for one, other in zip(together[n]._parts, motion.at(float(t))._parts, strict=True):
             assert one.tobytes() == other.tobytes()
 
 
@@ -60,7 +60,7 @@ def test_small_integers_have_the_bits_that_python_and_the_kernel_had():
     moments, attitudes, rates = (np.array(column, float) for column in zip(*rows, strict=True))
     motions = Motions(Top(*moments.T), State(attitudes, rates))
     digest = hashlib.sha256("".join(motions.kind).encode())
-    for part in motions.at(1.0).parts:
+    for part in motions.at(1.0)._parts:
         digest.update(part.tobytes())
     assert digest.hexdigest()[:12] == DIGEST
 

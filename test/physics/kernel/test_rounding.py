@@ -43,7 +43,7 @@ OF_A_TOP = (
 
 def fresh():
     """A motion and a state of which nothing is known."""
-    return physics.Motion(ARTICLE, CUSPS), physics.State(*CUSPS.parts)
+    return physics.Motion(ARTICLE, CUSPS), physics.State(*CUSPS._parts)
 
 
 CALLS = {
@@ -56,7 +56,7 @@ CALLS = {
     "rates": partial(physics.regular_precession_rates, ARTICLE, 0.5, 200.0),
     "verdict": partial(physics.perrys_rule, ARTICLE, CUSPS),
     "verdict on a kick": partial(physics.kick_verdict, MOTION, CUSPS, "spin_rate"),
-    "steps": partial(DRIVEN.reach, 1.0, 100),
+    "steps": partial(DRIVEN._reach, 1.0, 100),
     "state of a driven motion": partial(DRIVEN.at, 0.5),
     "jacobian": partial(MOTION.jacobian, 0.5),
     "torque": partial(MOTION.total_torque, CUSPS),

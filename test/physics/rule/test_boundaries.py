@@ -194,7 +194,7 @@ def judge_cusp(*numbers: float) -> Said | None:
     top, state = unpack(numbers)
     theta, (phi_dot, *_), _, (Ix, Iz, Mgl) = look(top, state)
     motion = Motion(top, state)
-    away = float(motion.at(motion.nutation_period / 2).euler_rates.phi)
+    away = float(motion.at(motion.nutation_period / 2).euler_rates.phi_dot)
     sign = {"looping": -1, "cusps": 0, "unidirectional": 1}[motion.kind]
     spin = Iz / Ix * abs(mpf(numbers[-1]))
     # Of the terms of sin(theta)^2 phi' during a nutation: the axis is never faster than a pendulum.

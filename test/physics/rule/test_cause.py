@@ -10,6 +10,7 @@ from collections import Counter
 import numpy as np
 import pytest
 from drawn import PI, Numbers
+from physics.tops import find_roots
 from trials import trials
 
 from symtop_ros.physics import (
@@ -21,7 +22,6 @@ from symtop_ros.physics import (
     hurry,
     kick_verdict,
     perrys_rule,
-    regular_precession_rates,
 )
 
 SAMPLES = 1001
@@ -52,7 +52,7 @@ def draw_start(rng, family):
         rest = State.from_euler(theta=pole, psi_dot=spin)
         return top, apply_impulse(top, rest, [rng.choice([0.0, 0.3]) * Ix * unit, 0.0, 0.0])
     if family == "steady":
-        rates = regular_precession_rates(top, theta, spin)
+        rates = find_roots(top, theta, spin)
         phi_dot, theta_dot = (rng.choice(rates), 0.0) if rates else (phi_dot, theta_dot)
     if family == "rest":
         phi_dot = theta_dot = 0.0

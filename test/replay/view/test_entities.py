@@ -174,7 +174,7 @@ def check_inertial(part):
         L = drawn.top.angular_momentum(state)
         turning = np.cross(state.to_world(state.angular_velocity), L)
         body = torque_of(drawn.top, state) - turning
-        precession = np.cross(state.euler_rates.phi[:, None] * UP, L)
+        precession = np.cross(state.euler_rates.phi_dot[:, None] * UP, L)
         expected = {"body": body, "turning": turning, "precession": precession}[part]
         assert near(vectors, expected / drawn.scales["torque"])
         tail = body / drawn.scales["torque"] if part == "turning" else 0.0 * body
@@ -361,7 +361,7 @@ def check_cubic(drawn, entity):
         assert off.max() <= FLAT
         zero = chart["marks"][0, 1]
         assert np.abs(np.interp(chart["marks"][:2, 0], x, y) - zero).max() <= FLAT
-        rate = np.sin(state.euler_angles.theta) * state.euler_rates.theta
+        rate = np.sin(state.euler_angles.theta) * state.euler_rates.theta_dot
         height = zero - dots[:, 1]
         assert near(height / height.max(), rate**2 / (rate**2).max())
 

@@ -45,7 +45,7 @@ def test_on_cusps_the_fourth_arrow_is_the_angular_acceleration(tmp_path):
     motion = Motion(ARTICLE, CUSPS)
     step = 1e-5
     seconds = (times - begin) * 1e-9
-    before, after = (motion.at(seconds + h).euler_rates.theta for h in (-step, step))
+    before, after = (motion.at(seconds + h).euler_rates.theta_dot for h in (-step, step))
     expected = ARTICLE.Ix * (after - before) / (2 * step) / UNIT
     phi = motion.at(seconds).euler_angles.phi
     nodes = np.stack([np.cos(phi), np.sin(phi), 0 * phi], axis=1)

@@ -67,8 +67,8 @@ def test_plots_hold_the_doubles_that_were_logged(recording, truth):
     rates = truth[1].euler_rates
     for path, expected in (
         (entities.THETA, truth[1].euler_angles.theta[:, None]),
-        (entities.PHI_DOT, rates.phi[:, None]),
-        (entities.PSI_DOT, rates.psi[:, None]),
+        (entities.PHI_DOT, rates.phi_dot[:, None]),
+        (entities.PSI_DOT, rates.psi_dot[:, None]),
         (entities.L, L),
         (entities.L_HORIZONTAL, (L[:, :1] ** 2 + L[:, 1:2] ** 2)),
     ):

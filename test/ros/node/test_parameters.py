@@ -326,7 +326,7 @@ def test_a_value_without_a_type_is_the_one_field_that_is_set(start_top):
         ((successful, reason),) = run.send("kick", [given])
         assert successful is (fields in accepted)
         if successful:
-            rate = run.top.simulation.segment.motion.start.euler_rates.phi
+            rate = run.top.simulation.segment.motion.start.euler_rates.phi_dot
             assert rate == pytest.approx(9.0, rel=1e-13)  # rounding of psi' = 200 rad/s
         else:
             assert reason.startswith("type of 'precession_rate' must be ")

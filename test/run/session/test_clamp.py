@@ -34,7 +34,7 @@ def test_it_stops_the_precession_and_says_what_follows():
     assert motion.kind == "clamped"
     assert run.sink.events[-1].name == "clamp"
     rates = motion.euler_rates(run.simulation.state)
-    assert rates.phi == 0.0
+    assert rates.phi_dot == 0.0
     p_psi = [float(ARTICLE.axial_momentum(each)) for each in (before, run.simulation.state)]
     assert p_psi[0] == p_psi[1]
     run.advance(0.15)

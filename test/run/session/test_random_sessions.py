@@ -60,7 +60,7 @@ def test_of_acts_at_one_time_only_the_last_has_a_sample_and_what_is_undone_is_no
 
 
 KICKED = make_run()[1]
-_q, _omega = KICKED.motion.start.parts
+_q, _omega = KICKED.motion.start._parts
 NEARLY = Motion(START.top, State(_q, _omega * (1 + 1e-6)))
 WILD = Motion(START.top, START.start, torque=(0.0, 0.0, 1e20))
 

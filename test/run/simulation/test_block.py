@@ -248,9 +248,9 @@ def test_a_stretch_that_takes_longer_than_it_lasts_gives_a_factor_that_can_be_ke
     assert turns == 11  # the first with which it takes more than the second
     reached, factor, lack = progress.shortfall
     assert lack is None
-    assert reached == fast().reach(1.0, turns * STEPS_AT_ONCE)
+    assert reached == fast()._reach(1.0, turns * STEPS_AT_ONCE)
     # a quarter of one core
-    assert factor == pytest.approx(0.25 * (reached - fast().reach(1.0, 0)) / (turns * each))
+    assert factor == pytest.approx(0.25 * (reached - fast()._reach(1.0, 0)) / (turns * each))
 
 
 def test_the_factor_of_a_shortfall_can_be_kept():

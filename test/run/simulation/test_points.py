@@ -48,8 +48,8 @@ def test_rates_that_were_seen_are_those_of_the_angles(kind):
     phi_dot, psi_dot = found
     rates = START.euler_rates(states)
     # of sums of 200 rad/s, divided by sin(theta) > 0.4
-    assert np.abs(phi_dot - rates.phi).max() < 1e-12
-    assert np.abs(psi_dot - rates.psi).max() < 1e-12
+    assert np.abs(phi_dot - rates.phi_dot).max() < 1e-12
+    assert np.abs(psi_dot - rates.psi_dot).max() < 1e-12
 
 
 def test_a_point_of_a_picture_is_the_axis_on_the_side_where_the_motion_is():

@@ -34,7 +34,7 @@ def test_the_numbers_of_the_article_s_top_pushed_for_a_second(root, numbers):
     pushes = Pushes(2.5e-6, 400.0, 400)  # 1e-3 N m for 1 s
     motion = push(before, pushes)
     states = motion.at(ExactTimes(np.arange(1, 401) * 2_500_000 - 1))  # each before a push
-    rates = states.euler_rates.phi
+    rates = states.euler_rates.phi_dot
     tilt = states.euler_angles.theta[-40:]
     found = [f"{each.mean():#.3g}" for each in (rates[:40], rates[-40:], tilt)]
     weight = 1e3 * ARTICLE.Mgl * (np.cos(tilt) - np.cos(0.5)).mean()

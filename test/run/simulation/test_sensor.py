@@ -14,12 +14,12 @@ from symtop_ros.run.session.outputs import list_fixed_frames
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.sensor.imu import (
     CONSUMER,
+    DEFAULT_GRAVITY,
     EARTH,
     EXACT,
     EXACT_FIELD,
     MAGNETOMETER_NOISE,
     NOISE,
-    STANDARD_GRAVITY,
     Imu,
     Magnetometer,
     Rig,
@@ -160,10 +160,10 @@ def test_the_consumer_sensor_has_the_figures_of_its_data_sheet():
     noise = CONSUMER.gyroscope_noise_density, CONSUMER.accelerometer_noise_density
     # two digits of each, and one of the walks: half of the last one
     assert noise[0] == pytest.approx(math.radians(0.014), abs=0.5e-5)
-    assert noise[1] == pytest.approx(175e-6 * STANDARD_GRAVITY, abs=0.5e-4)
+    assert noise[1] == pytest.approx(175e-6 * DEFAULT_GRAVITY, abs=0.5e-4)
     assert CONSUMER.gyroscope_random_walk == pytest.approx(math.radians(2) / 3600, abs=0.5e-6)
     # The data sheet has no stability of the accelerometer: 1e-5 g in a second is usual.
-    assert CONSUMER.accelerometer_random_walk == pytest.approx(1e-5 * STANDARD_GRAVITY, abs=0.5e-5)
+    assert CONSUMER.accelerometer_random_walk == pytest.approx(1e-5 * DEFAULT_GRAVITY, abs=0.5e-5)
 
 
 def test_noise_shows_in_the_covariances():

@@ -120,7 +120,7 @@ def add_friction(random: Random, motion: Motion, stamps: Stamps) -> Real:
 
 def start_elsewhere(random: Random, motion: Motion, stamps: Stamps) -> Real:
     """An angular velocity at the start that is wrong."""
-    q, omega = motion.start.parts
+    q, omega = motion.start._parts
     size = 0.01 * float(np.linalg.norm(omega)) + 0.05
     start = State(q, omega + size * draw_vector(random))
     return Motion(motion.top, start).at(stamps / SECOND).orientation

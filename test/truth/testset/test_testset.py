@@ -55,7 +55,7 @@ def test_inputs_rounded_to_single_precision_err_by_no_more_than_their_limits_all
         q = np.array(q) / np.linalg.norm(q)
         omega = np.float32(facts["angular_velocity"]).astype(float)
         states = Motion(Top(Ix, Iz, Mgl), State(q, omega)).at(facts["times"])
-        found[name] = problem.score(*states.parts).in_float32_limits.max()
+        found[name] = problem.score(*states._parts).in_float32_limits.max()
     # A limit is the root of the sum of squares of ten roundings of half an ulp. Their sum is at
     # most sqrt(10) times that, as long as the effect is in proportion.
     assert max(found.values()) < 10**0.5

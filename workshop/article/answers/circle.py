@@ -95,7 +95,7 @@ def draw_cusp_story() -> Figure:
     changes = dict(zip(("phi", "theta", "psi"), accelerations(motion.top, states).T, strict=True))
     parts = zip(rows(figure, 3), ("theta", "phi", "psi"), (BLUE, RED, INK), strict=True)
     for axes, name, color in parts:
-        axes.plot(times, states.euler_rates._asdict()[name], color=color)
+        axes.plot(times, states.euler_rates._asdict()[f"{name}_dot"], color=color)
         axes.set(ylabel=rf"$\dot\{name}$ (rad/s)", xmargin=0, ymargin=0.22)
         inner = [0.0, first, second, period] if name == "theta" else [0.0, period / 2, period]
         for low, high in pairwise(inner):

@@ -29,7 +29,7 @@ def torques_at(motion: Motion, times: Real) -> Real:
     states = motion.at(times)
     rates = states.euler_rates
     theta = states.euler_angles.theta
-    return np.array(precessing_frame_torques(motion.top, theta, rates.phi, rates.psi))
+    return np.array(precessing_frame_torques(motion.top, theta, rates.phi_dot, rates.psi_dot))
 
 
 def find_impulses(motion: Motion, time: float) -> FrameTorques:
@@ -62,7 +62,7 @@ def draw_impulses() -> Figure:
     plot_impulses(upper, motion)
     half = motion.nutation_period / 2
     times = np.linspace(0.0, half, 401)
-    lower.plot(MILLI * times, motion.at(times).euler_rates.theta, color=INK)
+    lower.plot(MILLI * times, motion.at(times).euler_rates.theta_dot, color=INK)
     lower.set(xmargin=0, xlabel="$t$ (ms)", ylabel=r"$\dot\theta$ (rad/s)")
     fastest, _ = times_of_extreme_rate(motion)
     for axes in (upper, lower):

@@ -56,8 +56,8 @@ class Ledger:
         return cls(
             spin=MILLI * float(top.axial_momentum(state)) ** 2 / (2 * top.Iz),
             weight=MILLI * top.Mgl * float(np.cos(theta)),
-            precession=MILLI * top.Ix * float(rates.phi * np.sin(theta)) ** 2 / 2,
-            nutation=MILLI * top.Ix * float(rates.theta) ** 2 / 2,
+            precession=MILLI * top.Ix * float(rates.phi_dot * np.sin(theta)) ** 2 / 2,
+            nutation=MILLI * top.Ix * float(rates.theta_dot) ** 2 / 2,
         )
 
     def __sub__(self, other: "Ledger") -> "Ledger":
@@ -129,12 +129,12 @@ def hold_decides(_: Top) -> Measured:
     """Check the disc at its fast root: the axis rises with psi' held, and falls with p_psi held."""
     before = replace(HURRIED["disc"], root=1).begin()
     disc = before.top
-    rate = before.start.euler_rates.phi
+    rate = before.start.euler_rates.phi_dot
     words, heights = [], []
     for hold in HOLDS:
         after = hurry(before.start, FACTOR, hold)
         rates = after.euler_rates
-        found = float(theta_acceleration(disc, THETA, rates.phi, rates.psi))
+        found = float(theta_acceleration(disc, THETA, rates.phi_dot, rates.psi_dot))
         low, high = Motion(disc, after).turning_angles
         heights.append(disc.Mgl * (low + high - 2 * THETA) < 0)
         words.append(f"{found:+.0f}")

@@ -50,7 +50,7 @@ def spin_has_three_cases(top: Top) -> Measured:
     for theta, spin, case in cases:
         motion = Motion(top, State.from_euler(theta=theta, psi_dot=spin))
         states = motion.at(np.linspace(0.0, motion.nutation_period / 2, 1001))
-        slopes = np.sign(np.diff(states.euler_rates.psi))
+        slopes = np.sign(np.diff(states.euler_rates.psi_dot))
         turn = (1 - np.sin(theta)) / np.cos(theta)  # cos(theta) where psi' is least
         low = np.cos(states.euler_angles.theta)
         # the steps whose ends are both above the tilt, and both below it
@@ -67,7 +67,7 @@ def regular_precession_needs_spin(top: Top) -> Measured:
     """Check the least spin rate with regular precession, and that below it every top falls."""
     least = 2 * np.sqrt((top.Ix - top.Iz) * top.Mgl * np.cos(THETA)) / top.Iz
     above, below = (
-        len(regular_precession_rates(top, THETA, float(factor * least)))
+        int(np.isfinite(regular_precession_rates(top, THETA, float(factor * least))).sum())
         for factor in (1 + 1e-9, 1 - 1e-9)
     )
     rates = np.linspace(-FAST, 2 * FAST, 4001)

@@ -64,7 +64,7 @@ def line_of_nodes_is_principal(top: Top) -> Measured:
 def _fastest_fall(top: Top) -> float:
     """Return theta' in rad/s of cusps at t1."""
     first, _ = times_of_extreme_rate(cusps(top))
-    return float(cusps(top).at(first).euler_rates.theta)
+    return float(cusps(top).at(first).euler_rates.theta_dot)
 
 
 @claim()

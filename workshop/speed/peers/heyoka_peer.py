@@ -119,7 +119,7 @@ def prepare_batches(tolerance: float) -> Callable[[Any, float], Real]:
             top.Iz * wz / top.Ix,
             wz,
         ]
-        variables = np.array([*angles, start.euler_rates.theta])
+        variables = np.array([*angles, start.euler_rates.theta_dot])
         found = np.empty((3, len(wz)))
         for first in range(0, len(wz), size):
             places = np.arange(first, first + size) % len(wz)

@@ -291,8 +291,9 @@ def _from_euler(top: Top, values: Mapping[str, Any], name: str) -> State:
 
 def _regular_rate(top: Top, which: str, theta: float, psi_dot: float, name: str) -> float:
     """Return a root of regular precession; `name` is that of what asks for it."""
-    rates = regular_precession_rates(top, theta=theta, psi_dot=psi_dot)
-    roots = [float(rate) for rate in rates if abs(rate) <= MAX_RATE]
+    found = regular_precession_rates(top, theta=theta, psi_dot=psi_dot)
+    rates = [float(rate) for rate in found if not math.isnan(rate)]
+    roots = [rate for rate in rates if abs(rate) <= MAX_RATE]
     if len(roots) > PRECESSIONS.index(which):
         return roots[PRECESSIONS.index(which)]
     count = f"only {roots[0]:.6g} rad/s" if roots else "no real root"

@@ -11,7 +11,7 @@ from typing import Any
 
 from symtop_ros.base.arrays import Real, Vector, compose
 from symtop_ros.base.refusals import number, vector
-from symtop_ros.physics import STANDARD_GRAVITY, Body, Motion, State, Top, specific_force
+from symtop_ros.physics import DEFAULT_GRAVITY, Body, Motion, State, Top, specific_force
 from symtop_ros.run.simulation.sensor.noise import AXES, MAX_NOISE, Noise
 from symtop_ros.run.wire.diagnostics import write_text
 
@@ -224,7 +224,7 @@ CONSUMER = Imu(CENTRE, ALONG, 2.4e-4, 1e-5, 1.7e-3, 1e-4)
 class Rig:
     """Gravity, mass and sensor: all that samples depend on besides the motion."""
 
-    gravity: float = STANDARD_GRAVITY  # m/s^2
+    gravity: float = DEFAULT_GRAVITY  # m/s^2
     imu: Imu | None = None  # the sensor on the top, or None
     mass: float = 0.0  # kg of the top; 0: a body is chosen
 

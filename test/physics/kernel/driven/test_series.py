@@ -40,7 +40,7 @@ HARDLY_ANY = Friction(1e-300, 1e-300)
 def steps_to(motion, t):
     """Return the number of steps on the way to t."""
     steps = 0
-    while motion.reach(t, 1) != t:
+    while motion._reach(t, 1) != t:
         steps += 1
     return steps + 1
 
@@ -81,7 +81,7 @@ def test_a_sleeping_top_spins_down_exponentially_and_stays_upright():
 
 def test_a_top_at_rest_stays_there_at_any_time_in_one_step():
     motion = Motion(ARTICLE, State.from_euler(theta=0.0), Friction(1e-6, 1e-5))
-    assert motion.reach(1e300, 0) == 1e300
+    assert motion._reach(1e300, 0) == 1e300
     assert motion.at([1e300, -1e9]).orientation.tolist() == [[1, 0, 0, 0]] * 2
 
 
@@ -143,7 +143,7 @@ def test_one_can_come_back_from_anywhere(end):
 @pytest.mark.parametrize("t", [3.0, -3.0])
 def test_reach_goes_as_far_as_its_steps_and_then_the_rest(t):
     motion = Motion(ARTICLE, CUSPS, FRICTION)
-    reached = [motion.reach(t, 5) for _ in range(30)]  # which takes 110 steps or so
+    reached = [motion._reach(t, 5) for _ in range(30)]  # which takes 110 steps or so
     assert all(0 < a / t < b / t <= 1 or a == b == t for a, b in pairwise(reached))
     assert reached[0] != t
     assert reached[-1] == t
