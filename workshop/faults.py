@@ -47,8 +47,7 @@ PROSE = re.compile(
 STAGES = "quick tests of its folder", "all quick tests", "slow tests"
 LIMIT = "1800"  # s; a fault may make a loop endless
 TOGETHER = ("-n", "3", "--dist", "loadfile")
-OPTIONS = ("-q", "-x", "-p", "no:cacheprovider", *TOGETHER)
-PYTEST = ("timeout", LIMIT, sys.executable, "-m", "pytest", *OPTIONS)
+PYTEST = ("timeout", LIMIT, sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider")
 
 
 @dataclass(frozen=True)
@@ -81,7 +80,7 @@ def main() -> int:
     faults = draw()
     with tempfile.TemporaryDirectory(prefix="faults-") as name:
         copy = copy_checkout(Path(name, "checkout"))
-        if not passes(copy, "test"):
+        if not passes(copy, *TOGETHER, "test"):
             print("the quick tests must pass without a fault, and do not", file=sys.stderr)
             return 1
         left = [faults[number] for number in options.numbers or range(len(faults))]
@@ -152,9 +151,11 @@ def copy_checkout(folder: Path) -> Path:
 
 def is_seen(fault: Fault, stage: str, copy: Path) -> bool:
     """Return True if the tests of a stage, or the compiler, see a fault."""
-    words = {STAGES[0]: find_tests(fault.path), STAGES[1]: ["test"]}.get(
-        stage, ["-m", "slow", "test"]
-    )
+    words = {
+        STAGES[0]: find_tests(fault.path),
+        STAGES[1]: [*TOGETHER, "test"],
+        STAGES[2]: [*TOGETHER, "-m", "slow", "test"],
+    }[stage]
     path = copy / fault.path
     right = path.read_text(encoding="utf-8")
     path.write_text(fault.apply(right), encoding="utf-8")
