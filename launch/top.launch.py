@@ -22,9 +22,16 @@ ARGUMENTS = (
     ("publish_clock", "", "true: publish /clock, the elapsed time of the run"),
     ("record", "", "true: record a log from the start"),
     ("record_directory", "", "folder of the logs (./logs)"),
+    (
+        "robot_description",
+        "true",
+        "publish the URDF as robot_description, where rviz looks for it; false: "
+        "~/robot_description, next to a robot, which has its own",
+    ),
     ("rviz", "false", "show the top in rviz2, with ~/markers"),
     ("live", "false", "show the top in Rerun (top_live)"),
 )
+SWITCHES = ("robot_description", "rviz", "live")
 # The parameter that an argument sets; booleans are read as in YAML.
 PARAMETERS: dict[str, tuple[str, Callable[[str], object]]] = {
     "scene": ("scene", str),
@@ -47,7 +54,7 @@ def generate_launch_description() -> LaunchDescription:
 def start(context: LaunchContext) -> list[Node]:
     """Return the node, and the programs that show it, for the arguments of a launch."""
     values = {name: LaunchConfiguration(name).perform(context) for name, _, _ in ARGUMENTS}
-    rviz, live = (yaml.safe_load(values[name]) for name in ("rviz", "live"))
+    remaps, rviz, live = (yaml.safe_load(values[name]) for name in SWITCHES)
     given = {
         parameter: read(values[name])
         for name, (parameter, read) in PARAMETERS.items()
@@ -62,6 +69,7 @@ def start(context: LaunchContext) -> list[Node]:
         name=values["name"],
         namespace=values["namespace"],
         parameters=parameters,
+        remappings=[("~/robot_description", "robot_description")] if remaps else [],
         output="screen",
     )
     layout = PathJoinSubstitution([FindPackageShare(PACKAGE), "config", "top.rviz"])

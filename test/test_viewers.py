@@ -19,7 +19,8 @@ from symtop_ros.run.simulation.topics import TOPICS
 from symtop_ros.run.wire.messages import JOINTS
 
 CONFIG = ROOT / "config"
-NAMES = {topic.resolve("/top") for topic in TOPICS.values()}
+# The launch file remaps one, for rviz.
+NAMES = {topic.resolve("/top") for topic in TOPICS.values()} | {"/robot_description"}
 MODULES = ("launch", "launch.actions", "launch.substitutions")
 MODULES += ("launch_ros", "launch_ros.actions", "launch_ros.substitutions")
 
@@ -39,7 +40,8 @@ def test_foxglove_shows_topics_that_there_are():
     text = json.dumps(layout)
     named = {each.rstrip("/") for each in re.findall(r'"(/[a-z_/]+)', text)}
     assert named <= NAMES
-    assert {"/top/euler_angles", "/robot_description", "/diagnostics"} <= named
+    urdfs = {"/top/robot_description", "/robot_description"}
+    assert {"/top/euler_angles", "/diagnostics", *urdfs} <= named
 
     def panels(part):
         return [part] if isinstance(part, str) else panels(part["first"]) + panels(part["second"])
@@ -95,6 +97,11 @@ def test_a_launch_without_arguments_starts_a_node_that_decides_all(launch):
     assert list(nodes) == ["top_node"]
     node = nodes["top_node"]
     assert (node["name"], node["namespace"], node["parameters"]) == ("top", "", [])
+
+
+def test_a_launch_publishes_the_urdf_where_rviz_looks_for_it_unless_a_robot_has_its_own(launch):
+    assert launch()["top_node"]["remappings"] == [("~/robot_description", "robot_description")]
+    assert launch(robot_description="false")["top_node"]["remappings"] == []
 
 
 def test_a_launch_sets_parameters_that_there_are_after_those_of_the_file(launch):
