@@ -80,6 +80,6 @@ def test_the_stamp_of_a_state_is_exact_and_that_of_an_event_is_the_first_of_the_
     state = run.state()
     assert state["sec"] * 1e-9 < state["stamp"] <= state["sec"] + 1
     nearest = float(f"{state['sec']}.{state['nanosec']:09d}")
-    # A product of a double and 1e-9 is off by a unit in the last place, 2.4e-7 s of a time of today.
+    # A product with 1e-9 is off by a unit in the last place: 2.4e-7 s of a time of today.
     assert state["stamp"] == pytest.approx(nearest, rel=2**-51)
     assert 0 <= state["nanosec"] < 10**9
