@@ -20,6 +20,7 @@ ARGUMENTS = (
     ("params_file", "", "file with parameters of the node; arguments given here come first"),
     ("use_sim_time", "", "true: follow /clock, that of a simulation"),
     ("publish_clock", "", "true: publish /clock, the elapsed time of the run"),
+    ("start_paused", "", "true: start paused, to be stepped or resumed by request"),
     ("record", "", "true: record a log from the start"),
     ("record_directory", "", "folder of the logs (./logs)"),
     (
@@ -37,6 +38,7 @@ PARAMETERS: dict[str, tuple[str, Callable[[str], object]]] = {
     "scene": ("scene", str),
     "use_sim_time": ("use_sim_time", yaml.safe_load),
     "publish_clock": ("publish_clock", yaml.safe_load),
+    "start_paused": ("start_paused", yaml.safe_load),
     "record": ("record.enabled", yaml.safe_load),
     "record_directory": ("record.directory", str),
 }

@@ -106,12 +106,13 @@ def test_a_launch_publishes_the_urdf_where_rviz_looks_for_it_unless_a_robot_has_
 
 def test_a_launch_sets_parameters_that_there_are_after_those_of_the_file(launch):
     place = {"name": "disc", "namespace": "lab", "scene": "disc", "params_file": "mine.yaml"}
-    clock = {"use_sim_time": "true", "publish_clock": "false"}
+    clock = {"use_sim_time": "true", "publish_clock": "false", "start_paused": "true"}
     node = launch(**place, **clock, record="true", record_directory="here")["top_node"]
     assert (node["name"], node["namespace"]) == ("disc", "lab")
     file, given = node["parameters"]
     assert file == "mine.yaml"
     switches = {"use_sim_time": True, "publish_clock": False, "record.enabled": True}
+    switches["start_paused"] = True
     assert given == {"scene": "disc", "record.directory": "here", **switches}
     assert set(given) <= {*PARAMETERS, "scene", "use_sim_time"}
 

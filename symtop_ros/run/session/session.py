@@ -71,6 +71,8 @@ class Session:
         self._requests = Requests(self.simulation, self.recording.switch)
         if settings.record.enabled:
             self.recording.begin()
+        if settings.start_paused:
+            self.simulation.begin_paused()
         kind, _, sentence = verdict.partition(": ")
         host.inform(f"scene {scene} (motion: {kind}). {sentence}")
 
