@@ -20,16 +20,25 @@ ARGUMENTS = (
     ("params_file", "", "file with parameters of the node; arguments given here come first"),
     ("use_sim_time", "", "true: follow /clock, that of a simulation"),
     ("publish_clock", "", "true: publish /clock, the elapsed time of the run"),
+    ("start_paused", "", "true: start paused, to be stepped or resumed by request"),
     ("record", "", "true: record a log from the start"),
     ("record_directory", "", "folder of the logs (./logs)"),
+    (
+        "robot_description",
+        "true",
+        "publish the URDF as robot_description, where rviz looks for it; false: "
+        "~/robot_description, next to a robot, which has its own",
+    ),
     ("rviz", "false", "show the top in rviz2, with ~/markers"),
     ("live", "false", "show the top in Rerun (top_live)"),
 )
+SWITCHES = ("robot_description", "rviz", "live")
 # The parameter that an argument sets; booleans are read as in YAML.
 PARAMETERS: dict[str, tuple[str, Callable[[str], object]]] = {
     "scene": ("scene", str),
     "use_sim_time": ("use_sim_time", yaml.safe_load),
     "publish_clock": ("publish_clock", yaml.safe_load),
+    "start_paused": ("start_paused", yaml.safe_load),
     "record": ("record.enabled", yaml.safe_load),
     "record_directory": ("record.directory", str),
 }
@@ -47,7 +56,7 @@ def generate_launch_description() -> LaunchDescription:
 def start(context: LaunchContext) -> list[Node]:
     """Return the node, and the programs that show it, for the arguments of a launch."""
     values = {name: LaunchConfiguration(name).perform(context) for name, _, _ in ARGUMENTS}
-    rviz, live = (yaml.safe_load(values[name]) for name in ("rviz", "live"))
+    remaps, rviz, live = (yaml.safe_load(values[name]) for name in SWITCHES)
     given = {
         parameter: read(values[name])
         for name, (parameter, read) in PARAMETERS.items()
@@ -62,6 +71,7 @@ def start(context: LaunchContext) -> list[Node]:
         name=values["name"],
         namespace=values["namespace"],
         parameters=parameters,
+        remappings=[("~/robot_description", "robot_description")] if remaps else [],
         output="screen",
     )
     layout = PathJoinSubstitution([FindPackageShare(PACKAGE), "config", "top.rviz"])

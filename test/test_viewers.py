@@ -19,7 +19,8 @@ from symtop_ros.run.simulation.topics import TOPICS
 from symtop_ros.run.wire.messages import JOINTS
 
 CONFIG = ROOT / "config"
-NAMES = {topic.resolve("/top") for topic in TOPICS.values()}
+# The launch file remaps one, for rviz.
+NAMES = {topic.resolve("/top") for topic in TOPICS.values()} | {"/robot_description"}
 MODULES = ("launch", "launch.actions", "launch.substitutions")
 MODULES += ("launch_ros", "launch_ros.actions", "launch_ros.substitutions")
 
@@ -39,7 +40,8 @@ def test_foxglove_shows_topics_that_there_are():
     text = json.dumps(layout)
     named = {each.rstrip("/") for each in re.findall(r'"(/[a-z_/]+)', text)}
     assert named <= NAMES
-    assert {"/top/euler_angles", "/robot_description", "/diagnostics"} <= named
+    urdfs = {"/top/robot_description", "/robot_description"}
+    assert {"/top/euler_angles", "/diagnostics", *urdfs} <= named
 
     def panels(part):
         return [part] if isinstance(part, str) else panels(part["first"]) + panels(part["second"])
@@ -97,14 +99,20 @@ def test_a_launch_without_arguments_starts_a_node_that_decides_all(launch):
     assert (node["name"], node["namespace"], node["parameters"]) == ("top", "", [])
 
 
+def test_a_launch_publishes_the_urdf_where_rviz_looks_for_it_unless_a_robot_has_its_own(launch):
+    assert launch()["top_node"]["remappings"] == [("~/robot_description", "robot_description")]
+    assert launch(robot_description="false")["top_node"]["remappings"] == []
+
+
 def test_a_launch_sets_parameters_that_there_are_after_those_of_the_file(launch):
     place = {"name": "disc", "namespace": "lab", "scene": "disc", "params_file": "mine.yaml"}
-    clock = {"use_sim_time": "true", "publish_clock": "false"}
+    clock = {"use_sim_time": "true", "publish_clock": "false", "start_paused": "true"}
     node = launch(**place, **clock, record="true", record_directory="here")["top_node"]
     assert (node["name"], node["namespace"]) == ("disc", "lab")
     file, given = node["parameters"]
     assert file == "mine.yaml"
     switches = {"use_sim_time": True, "publish_clock": False, "record.enabled": True}
+    switches["start_paused"] = True
     assert given == {"scene": "disc", "record.directory": "here", **switches}
     assert set(given) <= {*PARAMETERS, "scene", "use_sim_time"}
 

@@ -97,7 +97,16 @@ def _run(domain: int) -> Path:
     """
     space = f"/demo_{secrets.token_hex(4)}"
     _say(f"starting top_node with the scene {SCENE!r} in the ROS domain {domain} ...")
-    options = ["-p", f"scene:={SCENE}", "-p", "record.enabled:=true", "-r", f"__ns:={space}"]
+    options = [
+        "-p",
+        f"scene:={SCENE}",
+        "-p",
+        "record.enabled:=true",
+        "-p",
+        "start_paused:=true",
+        "-r",
+        f"__ns:={space}",
+    ]
     command = [sys.executable, "-c", NODE, "--ros-args", *options, "--log-level", "warn"]
     node = None
     try:
@@ -128,8 +137,6 @@ def _show(top: Connection) -> Path:
     logs: list[str] = []
     top.subscribe(DiagnosticArray, "events", lambda message: logs.extend(_list_logs(message)))
     top.subscribe(JointState, "euler_angles", lambda message: thetas.append(message.position[1]))
-    top.request("pause", True)
-    top.request("reset")
     _say(f"let go at rest:       {_watch(top, thetas)}")
     top.request("reset")
     state = json.loads(top.request("get_state")[1])

@@ -18,8 +18,7 @@ REMAPPED = {
     "~/imu": "/imu/data",
     "/tf": "/tf2",
     "/diagnostics": "/health",
-    "robot_description": "/urdf",
-    "/robot_description": "/urdf",
+    "~/robot_description": "/urdf",
 }
 
 

@@ -101,7 +101,9 @@ class Bridge:
             if argument is not None and not isinstance(argument, dict | bool):
                 raise RefusedError(f"argument must be named values, true or false, for {name}")
             if isinstance(argument, dict) and None in argument.values():  # ROS would read it as 0
-                raise RefusedError("argument must have numbers, words and lists of numbers, got null")
+                raise RefusedError(
+                    "argument must have numbers, words and lists of numbers, got null"
+                )
             with self._calls:  # one at a time: two pages may ask at once
                 granted, text = self._connection.request(name, _to_doubles(argument))
         except (RefusedError, UnreachableError) as error:

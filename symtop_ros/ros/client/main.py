@@ -100,8 +100,14 @@ def carry_out(options: argparse.Namespace, values: dict[str, Any], top: Connecti
     if options.command == "start" and granted:
         text = f"{text} {describe_spread(top, options.values, values)}".rstrip()
     if options.command == "state" and granted and not options.json:
-        text = _readable(json.loads(text))
+        text = _readable(_join_stamp(json.loads(text)))
     return granted, text
+
+
+def _join_stamp(state: dict[str, Any]) -> dict[str, Any]:
+    """Return the state with its stamp to the nanosecond, for which a double has too few digits."""
+    sec, nanosec = state.pop("sec"), state.pop("nanosec")
+    return {**state, "stamp": f"{sec}.{nanosec:09d}"}
 
 
 def _readable(state: dict[str, Any]) -> str:

@@ -8,7 +8,7 @@ and by their types, so that namespaces and other topics do not matter.
 import json
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from symtop_ros.run.log.batch import TF
@@ -16,12 +16,12 @@ from symtop_ros.run.log.source import MessageSource
 from symtop_ros.run.log.writer import METADATA, NODE_ENTRY, TOPICS_ENTRY
 from symtop_ros.run.simulation.topics import (
     APPLIED_TORQUE,
+    DESCRIPTION,
     EVENTS,
     POINTS,
     SAMPLE_TOPICS,
     TOPICS,
     Topic,
-    choose_description,
 )
 from symtop_ros.run.wire.names import full_name
 
@@ -30,6 +30,8 @@ KNOWN: dict[str, Topic] = {
     APPLIED_TORQUE.name: APPLIED_TORQUE,
     POINTS.name: POINTS,
 }
+# The URDF where rviz looks for it: remapped by the launch file, or of a node of version 0.6.
+REMAPPED = replace(DESCRIPTION, ros_name=DESCRIPTION.name)
 # Topics by whose names a top is found. /tf is that of all nodes.
 TELLING = {name: KNOWN[name].type for name in (EVENTS.name, *SAMPLE_TOPICS) if name != TF}
 
@@ -102,7 +104,7 @@ class Names:
             return node, name
         if name == TF:
             return None, TF if kind == KNOWN[TF].type else ""
-        shared = choose_description(self.node or ""), *KNOWN.values()
+        shared = REMAPPED, *KNOWN.values()
         names = (
             each.name
             for each in shared

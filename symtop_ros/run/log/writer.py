@@ -16,7 +16,7 @@ from mcap.well_known import MessageEncoding, Profile, SchemaEncoding
 from mcap.writer import CompressionType, Writer
 
 from symtop_ros import __version__
-from symtop_ros.run.simulation.topics import Topic
+from symtop_ros.run.simulation.topics import DEFAULT_NAME, Topic
 
 MAGIC = b"\x89MCAP0\r\n"
 CHUNK_SIZE = 4 * 2**20  # bytes; at 1 kHz the flush every half second closes chunks earlier
@@ -25,6 +25,7 @@ ENDING = "symtop_ros.end"  # name of the metadata record written at the end
 REPAIR, REPAIR_LOSSES = "symtop_ros.repair", "losses"  # that of a repair, and what it has lost
 # Entries of the metadata: JSON of the topics' full names by ours, the full name of the node, the
 # host's time at the beginning of a recording, and the number of a file in it.
+MAX_OWNER = 200  # characters; a file name has 255 at most
 TOPICS_ENTRY, NODE_ENTRY, BEGUN_ENTRY, FILE_ENTRY = "topics", "node", "clock.host", "file"
 
 
@@ -39,7 +40,8 @@ class LogFile:
         head: Mapping[int, bytes],
     ) -> None:
         directory.mkdir(parents=True, exist_ok=True)
-        self.path, self._file = _open_new(directory.absolute())
+        node = metadata.get(NODE_ENTRY, DEFAULT_NAME)
+        self.path, self._file = _open_new(directory.absolute(), node)
         self.size = 0  # bytes of complete chunks, which a killed process does not lose
         self._head = dict(sorted(head.items()))
         self._first: int | None = None
@@ -161,9 +163,13 @@ def _qos_profile(topic: Topic) -> str:
     )
 
 
-def _open_new(directory: Path) -> tuple[Path, BinaryIO]:
-    """Return the path of a file that did not exist, and the file."""
-    name = f"top_{datetime.now(timezone.utc):%Y-%m-%dT%H-%M-%SZ}"
+def _open_new(directory: Path, node: str) -> tuple[Path, BinaryIO]:
+    """Return the path of a file that did not exist, and the file; its name begins with the node's.
+
+    `node` is the full name, such as "/a/disc".
+    """
+    owner = node.strip("/").replace("/", "_")[:MAX_OWNER]
+    name = f"{owner}_{datetime.now(timezone.utc):%Y-%m-%dT%H-%M-%SZ}"
     path = directory / f"{name}.mcap"
     number = 1
     while True:

@@ -26,6 +26,7 @@ from symtop_ros.run.simulation.changes.outcomes import Failure, Neglected
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.simulation import Simulation
 from symtop_ros.run.wire.diagnostics import ERROR, OK, WARN, Status, write_text
+from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.words import write
 
 MIN_BALANCE = 1e-3  # s of the motion over which balances are taken at its very start
@@ -174,7 +175,9 @@ def summarize_state(segment: Segment, stamp: int, since: str = "start") -> dict[
     rates = motion.euler_rates(state)
     w, x, y, z = state.orientation.tolist()
     return {
-        "stamp": stamp * 1e-9,
+        "stamp": stamp * 1e-9,  # a double: of a time since 1970 it is up to 128 ns off
+        "sec": stamp // NANOSECONDS,
+        "nanosec": stamp % NANOSECONDS,
         "time": segment.time_at(stamp),
         "time_since": since,
         "running": segment.running,

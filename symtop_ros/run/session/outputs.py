@@ -24,6 +24,7 @@ from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.run.simulation.topics import (
     APPLIED_TORQUE,
     CLOCK,
+    DESCRIPTION,
     DIAGNOSTICS,
     EVENTS,
     MARKERS,
@@ -32,7 +33,6 @@ from symtop_ros.run.simulation.topics import (
     TF_STATIC,
     Topic,
     centre_frame,
-    choose_description,
     imu_frame,
 )
 from symtop_ros.run.wire import messages
@@ -126,7 +126,7 @@ class Outputs:
         self._recorder, self._name = recorder, name
         self._frame = settings.world_frame
         self._events = add(EVENTS)
-        self._description = add(choose_description(name))
+        self._description = add(DESCRIPTION)
         topics = {
             n: each
             for n, each in SAMPLE_TOPICS.items()

@@ -71,12 +71,29 @@ class Session:
         self._requests = Requests(self.simulation, self.recording.switch)
         if settings.record.enabled:
             self.recording.begin()
+        if settings.start_paused:
+            self.simulation.begin_paused()
         kind, _, sentence = verdict.partition(": ")
         host.inform(f"scene {scene} (motion: {kind}). {sentence}")
 
     def answer(self, service: str, read: Callable[[], Any]) -> Response:
-        """Carry out a request; `read` returns its argument, or raises RefusedError."""
-        return self.simulation.answer(service, self._requests.find(service, read))
+        """Carry out a request; `read` returns its argument, or raises RefusedError.
+
+        A granted answer ends with the number of its event, or of the latest one if the request
+        changed nothing. That of `~/get_state` is JSON, and has it as a field.
+        """
+        act = self._requests.find(service, read)
+        if service != "get_state":
+            act = partial(self._add_number, act)
+        return self.simulation.answer(service, act)
+
+    def _add_number(self, act: Callable[[], str]) -> str:
+        self.recording.report_failure()  # an event of its own
+        latest = self.simulation.event_number
+        text = act()
+        # A step in the time of the run is followed by other events.
+        number = min(latest + 1, self.simulation.event_number)
+        return f"{text} [event {number}]"
 
     def log_torque(self, data: bytes) -> None:
         """Log the bytes of an applied torque, accepted or not."""
@@ -232,7 +249,8 @@ class Requests:
         """Return the state, the constants of motion and the verdict as JSON."""
         simulation = self._simulation
         since = simulation.timeline.since
-        return json.dumps(summarize_state(simulation.segment, simulation.stamp, since))
+        state = summarize_state(simulation.segment, simulation.stamp, since)
+        return json.dumps({**state, "event": simulation.event_number})
 
 
 class Recording:
@@ -270,7 +288,6 @@ class Recording:
 
     def switch(self, on: bool) -> str:
         """Begin or end a recording; return the answer."""
-        self.report_failure()
         path = self._recorder.path
         if on == bool(path):
             return str(Answer("recording", str(path)) if path else Answer("not_recording"))

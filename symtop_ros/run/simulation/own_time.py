@@ -84,6 +84,14 @@ class OwnTimeSimulation(Simulation):
             self._clock.start()
         return verdict
 
+    def begin_paused(self) -> None:
+        """Pause a run right after its first sample: later ones would need a time that runs."""
+        self._clock.stop(self.stamp)
+        self.restart_grid(self.stamp)
+        self.settle()
+        self.publish()
+        self.pause(True)
+
     def step(self, duration: float) -> str:
         """Advance a paused motion and its time, with one sample at the end."""
         now = self.now + round(duration * NANOSECONDS)

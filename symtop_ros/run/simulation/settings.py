@@ -187,6 +187,9 @@ PARAMETERS: dict[str, Parameter] = {
     "real_time_factor": _number(
         1.0, "seconds of the motion per second of the clock", "", 1e-3, 100.0
     ),
+    "start_paused": _flag(
+        False, "start paused, for a run that is stepped or resumed by request", read_only=True
+    ),
     "publish_tf": _flag(True, "publish world -> top on /tf"),
     "publish_clock": _flag(
         False,
@@ -279,6 +282,7 @@ class Settings:
     hurry_factor: float
     publish_rate: float
     real_time_factor: float
+    start_paused: bool
     publish_tf: bool
     publish_clock: bool
     publish_markers: bool

@@ -356,6 +356,10 @@ class Simulation:
         """Stop the motion, or continue it; return the verdict."""
         return self.do("pause" if paused else "resume", {})
 
+    def begin_paused(self) -> None:
+        """Pause a run at its very start, before any sample."""
+        self.pause(True)
+
     def step(self, duration: float) -> str:
         """Advance a paused motion by a duration in s; return the verdict."""
         return self.do("step", {"duration": duration})

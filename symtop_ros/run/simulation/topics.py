@@ -6,7 +6,7 @@ it. World frame, SI units, radians.
 
 import importlib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -173,16 +173,6 @@ def _odometry(samples: Samples) -> Real:
     )
 
 
-def choose_description(node: str) -> Topic:
-    """Return the topic of the URDF of a node, given by its full name.
-
-    rviz looks for /robot_description: a node called top publishes there. Others in its namespace
-    have topics of their own.
-    """
-    is_top = node.rpartition("/")[2] == DEFAULT_NAME
-    return DESCRIPTION if is_top else replace(DESCRIPTION, ros_name=f"~/{DESCRIPTION.name}")
-
-
 def imu_frame(top: str) -> str:
     """Return the name of the frame of the sensor."""
     return f"{top}_imu"
@@ -259,7 +249,7 @@ SENSOR_TOPICS: dict[str, StateTopic] = {
 SAMPLE_TOPICS = {**STATE_TOPICS, **SENSOR_TOPICS}
 TF_STATIC = Topic("/tf_static", "tf2_msgs/msg/TFMessage", depth=1, latched=True)
 EVENTS = Topic("~/events", DIAGNOSTIC_ARRAY, latched=True)
-DESCRIPTION = Topic("robot_description", "std_msgs/msg/String", depth=1, latched=True)
+DESCRIPTION = Topic("~/robot_description", "std_msgs/msg/String", depth=1, latched=True)
 DIAGNOSTICS = Topic("/diagnostics", DIAGNOSTIC_ARRAY, depth=10)
 CLOCK = Topic("/clock", "rosgraph_msgs/msg/Clock")
 MARKERS = Topic("~/markers", "visualization_msgs/msg/MarkerArray", depth=10)

@@ -199,7 +199,8 @@ def ask_anew(run, ask):
     assert run.set(START, theta=0.5, psi_dot=200.0, phi_dot=2.0)[0]
     ((granted, answer),) = ask()
     assert granted, answer
-    return answer, {**run.state(), "stamp": 0, "time_since": ""}
+    changing = {"stamp": 0, "sec": 0, "nanosec": 0, "time_since": "", "event": 0}
+    return answer.rpartition(" [event ")[0], {**run.state(), **changing}
 
 
 @pytest.mark.parametrize(("service", "zeros", "others", "words"), ZEROS)

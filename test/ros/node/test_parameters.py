@@ -238,25 +238,24 @@ def test_the_qos_of_a_topic_can_be_overridden(start_top):
 def test_messages_and_description_bear_the_frames_that_were_asked_for(start_top):
     run = start_top(world_frame="map", top_frame="gyro")
     samples = run.collect(QuaternionStamped, "/top/orientation")
-    described = run.collect(String, "/robot_description", LATCHED)
+    described = run.collect(String, "/top/robot_description", LATCHED)
     run.spin_until(lambda: samples and described)
     assert samples[0].header.frame_id == "map"
     assert '"map"' in described[0].data
     assert '"gyro"' in described[0].data
 
 
-@pytest.mark.parametrize("full", ["/gyro", "/lab/gyro", "/a/top"])
+@pytest.mark.parametrize("full", ["/gyro", "/lab/gyro", "/a/top", "/top"])
 def test_a_top_of_another_name_has_its_own_frame_and_diagnostics(full, start_top, tmp_path):
     namespace, _, name = full.rpartition("/")
     arguments = ["--ros-args", "-r", f"__ns:={namespace or '/'}", "-r", f"__node:={name}"]
     run = start_top(arguments=arguments, record=tmp_path, imu__enabled=True)
-    place = namespace if name == "top" else full
-    described = run.collect(String, f"{place}/robot_description", LATCHED)
+    described = run.collect(String, f"{full}/robot_description", LATCHED)
     diagnostics = run.collect(DiagnosticArray, "/diagnostics")
     run.spin_until(lambda: described and diagnostics)
     topics = {topic for topic, _ in run.top.get_topic_names_and_types()}
     unnamed = "/robot_description", f"{namespace}/robot_description"
-    assert name == "top" or not topics.intersection(unnamed)
+    assert not topics.intersection(unnamed)  # those of a robot
     frame = full.lstrip("/")
     assert run.top.get_parameter("top_frame").value == frame
     for link in ("", "_precession", "_tilt"):

@@ -61,7 +61,7 @@ def test_all_state_topics_say_what_the_library_says_at_their_stamp(start_top):
 def test_the_description_is_latched_and_its_joints_are_those_of_the_euler_angles(start_top):
     run = start_top()
     assert run.change({"top.Iz": 6e-05})[0]
-    late = run.collect(String, "/robot_description", LATCHED)  # of both it gets the present one
+    late = run.collect(String, "/top/robot_description", LATCHED)  # of both it gets the present one
     run.spin_until(lambda: late)
     robot = ElementTree.fromstring(late[0].data)
     assert [joint.get("name") for joint in robot.iter("joint")] == JOINTS

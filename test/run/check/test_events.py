@@ -164,7 +164,7 @@ def alter_digit(rng, memory, place, k):
 
 
 def test_a_run_with_all_events_agrees(memory):
-    for topic in ("/robot_description", "/tf_static", "/diagnostics"):
+    for topic in ("/top/robot_description", "/tf_static", "/diagnostics"):
         assert memory.places(topic), topic
     assert mismatches(memory) == []
 
@@ -172,13 +172,13 @@ def test_a_run_with_all_events_agrees(memory):
 @pytest.mark.parametrize("seed", seeds(1, 5))
 def test_an_altered_digit_of_a_description_is_found(memory, seed):
     rng = random.Random(seed)
-    memory.keep("/robot_description")
-    for place in memory.places("/robot_description"):
+    memory.keep("/top/robot_description")
+    for place in memory.places("/top/robot_description"):
         data = memory.messages[place].data
         digits = [k for k in range(4, len(data)) if chr(data[k]).isdigit()]
         for k in rng.sample(digits, 10):
             (found,) = alter_digit(rng, memory, place, k)
-            assert (found.topic, found.field) == ("/robot_description", "text")
+            assert (found.topic, found.field) == ("/top/robot_description", "text")
 
 
 def test_an_altered_number_of_a_fixed_frame_is_found(memory):
@@ -216,7 +216,7 @@ def test_a_message_that_cannot_be_read_is_named(memory):
 
 
 def test_descriptions_of_a_run_of_another_version_are_not_judged(memory):
-    (place, *_) = memory.places("/robot_description")
+    (place, *_) = memory.places("/top/robot_description")
     text = Reader(memory.messages[place].data).string()
     other = memory.messages[place].data.replace(b"robot", b"tobor", 1)
     assert "robot" in text

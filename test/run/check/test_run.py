@@ -45,7 +45,7 @@ def test_all_messages_of_a_whole_run_are_compared_and_judged(memory):
     findings = judge(memory)[1]
     assert (findings.unjudged, findings.foreign) == (0, 0)
     assert set(findings.reasons) == {"clock", "markers", "applied_torque", "points"}  # not computed
-    others = {EVENTS: "/top/events", DESCRIPTION: "/robot_description"}
+    others = {EVENTS: "/top/events", DESCRIPTION: "/top/robot_description"}
     others |= {TF_STATIC: "/tf_static", DIAGNOSTICS: "/diagnostics"}
     expected = {each.name: len(memory.places(topic)) for each, topic in others.items()}
     assert findings.compared == expected

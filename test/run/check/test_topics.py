@@ -10,6 +10,7 @@ from run.log.damaged import Log, Recorded
 from run.simulation.page_points import make_points
 
 from symtop_ros.replay.main import main
+from symtop_ros.run.check.run import check_run
 from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.log.names import KNOWN
 from symtop_ros.run.log.reader import LogError
@@ -22,9 +23,7 @@ pytestmark = pytest.mark.numbers
 ON = ("imu__enabled", "magnetic_field__enabled", "odometry__enabled")
 OPTIONS = {**dict.fromkeys(ON, True), "publish_markers": True, "publish_clock": True}
 OPTIONS["points"] = json.dumps(make_points("theta").to_json())
-NAMES = {topic.ros_name: f"/other/{name}s" for name, topic in KNOWN.items()} | {
-    "robot_description": "/other/robot_descriptions"
-}
+NAMES = {topic.ros_name: f"/other/{name}s" for name, topic in KNOWN.items()}
 NOT_COMPARED = {
     MARKERS.name: "markers are drawings of the samples before them",
     APPLIED_TORQUE.name: "it was received, and not computed",
@@ -114,3 +113,18 @@ def test_names_that_contradict_the_types_of_channels_are_not_taken(log, tmp_path
         found = TopLog(open_run([odd.write(tmp_path / f"{len(text)}.mcap")]))
         with pytest.raises(LogError, match="no run of a top in"):
             list(found.batches())
+
+
+@pytest.mark.parametrize("name", ["/robot_description", "/lab/robot_description"])
+def test_a_description_where_rviz_looks_for_it_is_read_in_a_log_without_names(name, tmp_path):
+    """A bag of a node that was remapped, or of one called top in version 0.6."""
+    node = f"{name.rpartition('/')[0]}/top"
+    names = {topic.ros_name: topic.resolve(node) for topic in KNOWN.values()}
+    recorded = Recorded(tmp_path / "run", {**names, "~/robot_description": name})
+    recorded.run(0.5)
+    (path,) = recorded.close()
+    bag = replace(Log.read(path), metadata={})
+    found = TopLog(open_run([bag.write(tmp_path / "bag.mcap")]))
+    findings = check_run(found)
+    assert (found.account.node, findings.mismatches) == (node, [])
+    assert findings.compared["robot_description"] == 1

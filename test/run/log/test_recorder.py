@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import re
 import threading
 import time
 from dataclasses import replace
@@ -347,3 +348,24 @@ def test_messages_of_a_channel_without_a_description_are_omitted_and_reported(tm
     assert str(repair(file, tmp_path / "whole.mcap", account)) == "1 message"
     assert account.problems == (f"channel {known + 1} is not described: its messages are lost",)
     assert [data for *_, data in contents(tmp_path / "whole.mcap")] == [b"mine"]
+
+
+@pytest.mark.parametrize(
+    ("metadata", "owner"),
+    [
+        ({}, "top"),
+        ({"node": "/top"}, "top"),
+        ({"node": "/a/disc"}, "a_disc"),
+        ({"node": f"/{'n' * 250}"}, "n" * 200),
+    ],
+)
+def test_the_name_of_a_log_begins_with_that_of_its_node_and_is_not_taken_twice(
+    metadata, owner, tmp_path
+):
+    logs = [LogFile(tmp_path, [EVENTS], metadata, {}) for _ in range(2)]
+    paths = [each.path for each in logs]
+    for each in logs:
+        each.finish({})
+    assert len(set(paths)) == 2
+    time = r"_\d{4}-\d\d-\d\dT\d\d-\d\d-\d\dZ(_2)?\.mcap"
+    assert all(re.fullmatch(owner + time, each.name) for each in paths)

@@ -47,6 +47,7 @@ def test_sensors_frames_topics_and_the_log_are_chosen_at_the_start():
         "record.directory",
         "record.enabled",
         "scheduling_priority",
+        "start_paused",
         "top_frame",
         "world_frame",
     }
