@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.deprecation import Internal
+from symtop_ros.base.deprecation import OldName
 from symtop_ros.base.refusals import refuse, require
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
@@ -136,8 +136,8 @@ class Motion:
     (3, 4)
     """
 
-    packed_start, pack_with = Internal(), Internal()
-    fill, reach = Internal(), Internal()
+    packed_start, pack_with = OldName(), OldName()
+    fill, reach = OldName(), OldName()
 
     def __init__(
         self,
@@ -437,7 +437,7 @@ class Motion:
             Its `motion`, which starts at the last push up to then (before the second one with the
             start of this motion), the time `begin` of that push in ns, and the `number` of pushes
             up to then. Without pushes that is this motion itself, 0 and 0. Its start is rounded to
-            doubles, where this motion has 32 digits: docs/accuracy.md, "Pushes", has what that does.
+            doubles, where this motion has 32 digits (docs/accuracy.md, "Pushes").
 
         Raises
         ------

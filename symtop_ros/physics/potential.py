@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.deprecation import OldName
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
@@ -34,7 +35,7 @@ class EffectivePotential:
     >>> from symtop_ros.physics import EffectivePotential, Motion, State, Top
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> start = State.from_euler(theta=0.5, psi_dot=200.0)
-    >>> potential = EffectivePotential.of(top, start)
+    >>> potential = EffectivePotential.from_state(top, start)
     >>> low, high = Motion(top, start).turning_angles
     >>> bool(abs(potential.at(high) - potential.energy) < 1e-15 * top.Mgl)
     True
@@ -45,8 +46,10 @@ class EffectivePotential:
     axial_momentum: float
     energy: float
 
+    of = OldName("from_state")
+
     @classmethod
-    def of(cls, top: Top, state: State) -> "EffectivePotential":
+    def from_state(cls, top: Top, state: State) -> "EffectivePotential":
         """Return the potential for the constants of motion of one state."""
         validate_one(top)
         validate_one(state, "state")

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real, rotate, split, stack
-from symtop_ros.base.deprecation import Internal, warn_of_name
+from symtop_ros.base.deprecation import OldName, warn_of_name
 from symtop_ros.base.refusals import Words, refuse, require, show
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.times import ExactTimes, to_seconds
@@ -162,7 +162,7 @@ class State:
             raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
         self._set(q, _normalize(q), omega)
 
-    wrap, of_given, parts = Internal(), Internal(), Internal()
+    wrap, of_given, parts = OldName(), OldName(), OldName()
 
     @classmethod
     def _wrap(

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real, Vector, split, stack
-from symtop_ros.base.deprecation import Internal
+from symtop_ros.base.deprecation import OldName
 from symtop_ros.base.refusals import Words, refuse, show_limit
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import FRICTION_KINDS
@@ -240,7 +240,7 @@ class Friction(_Numbers):
     axial: float
     transverse: float
 
-    find_decay = Internal()
+    find_decay = OldName()
 
     def __init__(self, axial: ArrayLike = 0.0, transverse: ArrayLike = 0.0) -> None:
         given = {"friction.axial": axial, "friction.transverse": transverse}

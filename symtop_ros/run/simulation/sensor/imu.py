@@ -291,6 +291,6 @@ def _read_magnetometer(values: Mapping[str, str]) -> Magnetometer:
 def find_body(top: Top, gravity: float, mass: float = 0.0) -> Body | None:
     """Return the body of a top: of its mass, or the chosen one; None if no body can be it."""
     try:
-        return Body.of(top, gravity, mass or None)
+        return Body.from_top(top, gravity, mass or None)
     except ValueError:
         return None
