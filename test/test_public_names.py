@@ -11,6 +11,9 @@ from collections import defaultdict
 
 import pytest
 from documents import PAGES, ROOT, blocks
+from types_of_examples import list_examples, write_page
+
+from symtop_ros import physics
 
 API = (ROOT / "docs/site/api.md").read_text()
 DECLARED = (ROOT / "QUALITY_DECLARATION.md").read_text().partition("## Public API")[2]
@@ -49,3 +52,23 @@ def test_documents_import_public_names_alone(page):
             is_module = f"{module}.{name}" in MODULES
             assert is_module or name in importlib.import_module(module).__all__, (module, name)
             assert module in MODULES
+
+
+def test_the_types_of_each_public_name_of_the_physics_are_asserted():
+    tree = ast.parse((ROOT / "test/public_types.py").read_text())
+    nodes = [node for node in ast.walk(tree) if isinstance(node, ast.Attribute)]
+    seen = {node.attr for node in nodes if ast.unparse(node.value) == "p"}
+    assert seen == set(physics.__all__)
+
+
+def test_examples_stand_at_their_lines_when_types_are_checked():
+    page = ROOT / "docs/library.md"
+    shown = page.read_text().splitlines()
+    lines = write_page(page).splitlines()
+    assert [shown[n] for n, line in enumerate(lines) if line] == [*filter(None, lines)]
+    assert "motion = Motion(top, start)" in lines
+    path = ROOT / "symtop_ros/physics/potential.py"
+    shown = path.read_text().splitlines()
+    for _, code in list_examples(path):
+        for n, line in enumerate(code.splitlines()):
+            assert shown[n].endswith(line)

@@ -81,7 +81,7 @@ class Body:
         require(self.Iz <= most, "Iz", f"<= 2 Ix = {show_limit(most)} kg m^2", self.Iz)
 
     @property
-    def top(self) -> Top:
+    def top(self) -> Top[float]:
         """The top that moves as the body does: moments about the pivot, and Mgl.
 
         Raises
@@ -204,7 +204,7 @@ class Body:
 
     @classmethod
     def from_top(
-        cls, top: Top, gravity: float = DEFAULT_GRAVITY, mass: float | None = None
+        cls, top: Top[float], gravity: float = DEFAULT_GRAVITY, mass: float | None = None
     ) -> "Body":
         """Return the body of a known mass that is a top, or else the body that is chosen for it.
 
@@ -225,6 +225,7 @@ class Body:
 
         Examples
         --------
+        >>> from symtop_ros.physics import Body, Top
         >>> article = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
         >>> round(Body.from_top(article, mass=0.5).arm, 6)
         0.013863

@@ -170,6 +170,7 @@ class Ledger:
         --------
         Nineteen pushes along the precession after the first one:
 
+        >>> from symtop_ros.physics import Ledger, Motion, State, Top
         >>> from symtop_ros.physics import Pushes, push_axle, regular_precession_rates
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
         >>> slow, _ = regular_precession_rates(top, 0.5, 200.0)
@@ -217,6 +218,7 @@ class Ledger:
 
         Examples
         --------
+        >>> from symtop_ros.physics import Ledger, Motion, State, Top
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
         >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
         >>> rise = Ledger.from_turns(motion, 0.2)

@@ -41,7 +41,7 @@ class EffectivePotential:
     True
     """
 
-    top: Top
+    top: Top[float]
     vertical_momentum: float
     axial_momentum: float
     energy: float
@@ -49,7 +49,7 @@ class EffectivePotential:
     of = OldName("from_state")
 
     @classmethod
-    def from_state(cls, top: Top, state: State) -> "EffectivePotential":
+    def from_state(cls, top: Top[float], state: State[float]) -> "EffectivePotential":
         """Return the potential for the constants of motion of one state."""
         validate_one(top)
         validate_one(state, "state")
@@ -71,8 +71,10 @@ class EffectivePotential:
 
         Examples
         --------
+        >>> import math
+        >>> from symtop_ros.physics import EffectivePotential, Top
         >>> potential = EffectivePotential(Top(2.0, 1.0, 3.0), 2.0, 0.0, 1.0)
-        >>> potential.at([np.pi / 2, 0.0]).tolist()
+        >>> potential.at([math.pi / 2, 0.0]).tolist()
         [1.0000000000000002, inf]
         """
         theta = validate_array("theta", theta, unit="rad")
@@ -92,6 +94,7 @@ class EffectivePotential:
 
         Examples
         --------
+        >>> from symtop_ros.physics import EffectivePotential, Top
         >>> potential = EffectivePotential(Top(2.0, 1.0, 3.0), 2.0, 0.0, 1.0)
         >>> potential.cubic(0.0).item()
         0.0
@@ -114,7 +117,9 @@ class EffectivePotential:
 
         Examples
         --------
-        >>> EffectivePotential(Top(2.0, 1.0, 3.0), 0.0, 0.0, 3.0).find_third_root(0.0, np.pi)
+        >>> import math
+        >>> from symtop_ros.physics import EffectivePotential, Top
+        >>> EffectivePotential(Top(2.0, 1.0, 3.0), 0.0, 0.0, 3.0).find_third_root(0.0, math.pi)
         1.0
         """
         low, high = validate_number("low", low, "rad"), validate_number("high", high, "rad")

@@ -59,8 +59,9 @@ class Magnetometer:
     Examples
     --------
     >>> from symtop_ros.truth.imu import Imu, Magnetometer
-    >>> Imu(magnetometer=Magnetometer(vector=(0, 2e-5, -4.5e-5))).magnetometer.seed
-    0
+    >>> seen = Magnetometer(vector=(0, 2e-5, -4.5e-5))
+    >>> Imu(magnetometer=seen).magnetometer == seen
+    True
     """
 
     vector: Vector = EARTH
