@@ -15,7 +15,7 @@ from fractions import Fraction
 from mpmath import mp, mpf
 
 from symtop_ros.physics import State, Top
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import ClosedForm
 
 TRIED = (16, 28, 38, 50, 57)

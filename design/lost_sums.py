@@ -8,7 +8,7 @@ rounding, or zero, where the true rate is in proportion to the weight.
 """
 
 from symtop_ros.physics import State, Top
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import ClosedForm
 
 WEIGHTS = (1e-3, 1e-12, 1e-24, 1e-30, 1e-36, 1e-48, 1e-60)  # J

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from symtop_ros.base.measured import format_measured
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.truth.imu import CONSUMER, Imu, record_imu
 
@@ -37,6 +36,6 @@ for count in (25, len(measured)):
     p = fit.x
 errors = np.sqrt(np.diag(np.linalg.inv(fit.jac.T @ fit.jac)))
 print(f"chi^2 {2 * fit.cost / (measured.size - 7):.2f} per degree of freedom")
-print(f"Iz/Ix  {format_measured(p[0], errors[0])}, exact {0.0572 / 0.228:.7f}")
-print(f"Mgl/Ix {format_measured(p[1], errors[1])}, exact {68 / 0.228:.4f}")
-print(f"theta  {format_measured(p[2], errors[2])}")
+print(f"Iz/Ix  {p[0]:.7f} +- {errors[0]:.7f}, exact {0.0572 / 0.228:.7f}")
+print(f"Mgl/Ix {p[1]:.4f} +- {errors[1]:.4f}, exact {68 / 0.228:.4f}")
+print(f"theta  {p[2]:.6f} +- {errors[2]:.6f}")

@@ -48,7 +48,7 @@ def main() -> None:
 def step(start: State, seconds: float, steps: int) -> NDArray[np.float64]:
     """Return the orientations (n, 4) that MuJoCo Warp reaches; it computes with 24 bits."""
     body = State.from_euler(theta=0.5)
-    model = mujoco.MjModel.from_xml_string(format_mjcf(TOP, body, Body.of(TOP)))
+    model = mujoco.MjModel.from_xml_string(format_mjcf(TOP, body, Body.from_top(TOP)))
     model.opt.timestep = seconds / steps
     worlds = mujoco_warp.put_model(model)
     count = len(start.orientation)

@@ -71,6 +71,8 @@ def list_commands(*chosen: str) -> list[list[str]]:
         ],
         "types": [
             [str(BIN / "mypy"), *(word for name in modules for word in ("-m", name))],
+            [sys.executable, str(ROOT / "test/types_of_examples.py")],
+            [str(BIN / "mypy"), str(ROOT / "test/public_types.py")],
             [*page, "types"],
         ],
     }

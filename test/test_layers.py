@@ -22,7 +22,7 @@ TABLE = {
     # text from records of any kind, so it is below them
     "words": " | ",
     # flint: only in reference, cupy: only in gpu
-    "physics": "base/deprecation base/missing words | cupy flint numpy",
+    "physics": "base/deprecation base/missing base/one_or_many words | cupy flint numpy",
     "run/wire": " | numpy",
     "run/simulation": "__init__ physics run/wire words | numpy scipy yaml",
     "run/log": "__init__ run/simulation run/wire | lz4 mcap numpy zstandard",

@@ -114,7 +114,7 @@ def slow_root():
 def fast_root():
     size, flat, lean = momentum(FAST_STATE)
     torque = TOP.gravity_torque(FAST_STATE)[0]
-    body = Body.of(TOP)
+    body = Body.from_top(TOP)
     friction = np.sin(THETA) * FAST**2 / body.gravity  # that a peg needs, for an arm of 1 m
     return [
         f"{torque:.4f}",
@@ -243,7 +243,7 @@ def pushed_along():
 
 def find_bottom(motion):
     """The bottom of the valley of the effective potential, in rad."""
-    potential = EffectivePotential.of(TOP, motion.start)
+    potential = EffectivePotential.from_state(TOP, motion.start)
     found = minimize_scalar(lambda theta: float(potential.at(theta)), motion.turning_angles)
     return found.x
 

@@ -22,9 +22,9 @@ from typing import Any, NamedTuple
 
 from flint import arb, ctx
 
-from symtop_ros.physics.reference import Inputs
 from symtop_ros.physics.reference.balls import ProvedState, to_ball
 from symtop_ros.physics.reference.proved import prove_states
+from symtop_ros.physics.reference.series import Inputs
 from symtop_ros.truth.testset.score import read_problems
 
 TABLE = Path(__file__).parents[1] / "test/physics/exact_motions.json.xz"

@@ -15,13 +15,23 @@ def warn_of_name(old: str, new: str, value: T) -> T:
     return value
 
 
-class Internal:
-    """The old name of a member that is internal now, and has an underscore."""
+class OldName:
+    """The old name of a member of a class.
+
+    Parameters
+    ----------
+    new : str
+        Its name now. Without one it is internal, and has the old name with an underscore.
+    """
+
+    def __init__(self, new: str = "") -> None:
+        self._new = new
 
     def __set_name__(self, owner: type, name: str) -> None:
-        self._name, self._old = f"_{name}", f"{owner.__name__}.{name}"
+        self._name = self._new or f"_{name}"
+        what = f"now {owner.__name__}.{self._new}" if self._new else "internal"
+        self._text = f"{owner.__name__}.{name} is {what}: the old name goes in 0.8"
 
     def __get__(self, instance: Any, owner: type) -> Any:
-        text = f"{self._old} is internal: it goes in 0.8"
-        warnings.warn(text, DeprecationWarning, stacklevel=2)
+        warnings.warn(self._text, DeprecationWarning, stacklevel=2)
         return getattr(owner if instance is None else instance, self._name)

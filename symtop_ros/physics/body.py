@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.deprecation import OldName
 from symtop_ros.base.refusals import Words, refuse, require, show_limit
 from symtop_ros.physics.dynamics import DEFAULT_GRAVITY, specific_force
 from symtop_ros.physics.kernel import door
@@ -55,7 +56,7 @@ class Body:
     Examples
     --------
     >>> from symtop_ros.physics import Body, Top
-    >>> body = Body.of(Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068))
+    >>> body = Body.from_top(Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068))
     >>> round(body.mass, 4), round(body.arm, 4)
     (0.4819, 0.0144)
     >>> Body(mass=15.0, arm=1.0, Ix=0.234375, Iz=0.46875, gravity=9.81).top
@@ -68,6 +69,9 @@ class Body:
     Iz: float
     gravity: float
 
+    of, of_parts = OldName("from_top"), OldName("from_parts")
+    disc, about_pivot = OldName("from_disc"), OldName("from_pivot_moments")
+
     def __post_init__(self) -> None:
         units = {"mass": "kg", "arm": "m", "Ix": "kg m^2", "Iz": "kg m^2", "gravity": "m/s^2"}
         for name, unit in units.items():
@@ -77,7 +81,7 @@ class Body:
         require(self.Iz <= most, "Iz", f"<= 2 Ix = {show_limit(most)} kg m^2", self.Iz)
 
     @property
-    def top(self) -> Top:
+    def top(self) -> Top[float]:
         """The top that moves as the body does: moments about the pivot, and Mgl.
 
         Raises
@@ -89,7 +93,7 @@ class Body:
         return Top(found.Ix, found.Iz, found.Mgl)
 
     @classmethod
-    def about_pivot(
+    def from_pivot_moments(
         cls, mass: float, arm: float, Ix: float, Iz: float, gravity: float = DEFAULT_GRAVITY
     ) -> "Body":
         """Return the body with these moments of inertia about the pivot.
@@ -111,7 +115,7 @@ class Body:
         Examples
         --------
         >>> from symtop_ros.physics import Body
-        >>> Body.about_pivot(mass=2.0, arm=0.5, Ix=1.5, Iz=0.25, gravity=10.0).Ix
+        >>> Body.from_pivot_moments(mass=2.0, arm=0.5, Ix=1.5, Iz=0.25, gravity=10.0).Ix
         1.0
         """
         mass, arm = validate_number("mass", mass, "kg"), validate_number("arm", arm, "m")
@@ -120,7 +124,7 @@ class Body:
         return cls(mass, arm, Ix - lost, Iz, gravity)
 
     @classmethod
-    def disc(
+    def from_disc(
         cls, mass: float, radius: float, distance: float, gravity: float = DEFAULT_GRAVITY
     ) -> "Body":
         """Return a flat disc on an axle without mass.
@@ -142,13 +146,13 @@ class Body:
         Examples
         --------
         >>> from symtop_ros.physics import Body
-        >>> Body.disc(mass=0.5, radius=0.25, distance=0.125, gravity=10.0).top
+        >>> Body.from_disc(mass=0.5, radius=0.25, distance=0.125, gravity=10.0).top
         Top(Ix=0.015625, Iz=0.015625, Mgl=0.625)
         """
-        return cls.of_parts([Part("disc", mass, distance, radius)], gravity)
+        return cls.from_parts([Part("disc", mass, distance, radius)], gravity)
 
     @classmethod
-    def of_parts(
+    def from_parts(
         cls,
         parts: Iterable[Part],
         gravity: float = DEFAULT_GRAVITY,
@@ -179,7 +183,7 @@ class Body:
 
         >>> from symtop_ros.physics import Body, Part
         >>> disc = Part("disc", mass=1.7, distance=0.141, size=0.128)
-        >>> body = Body.of_parts([disc, Part("point", mass=0.9, distance=-0.253, spins=False)])
+        >>> body = Body.from_parts([disc, Part("point", mass=0.9, distance=-0.253, spins=False)])
         >>> round(body.mass, 3), round(body.top.Mgl, 5)
         (2.6, 0.11772)
         """
@@ -194,10 +198,14 @@ class Body:
         found = door.find_body(kinds, numbers)
         if Ix is None:
             return cls(found.mass, found.arm, found.Ix, found.Iz if Iz is None else Iz, gravity)
-        return cls.about_pivot(found.mass, found.arm, Ix, found.Iz if Iz is None else Iz, gravity)
+        return cls.from_pivot_moments(
+            found.mass, found.arm, Ix, found.Iz if Iz is None else Iz, gravity
+        )
 
     @classmethod
-    def of(cls, top: Top, gravity: float = DEFAULT_GRAVITY, mass: float | None = None) -> "Body":
+    def from_top(
+        cls, top: Top[float], gravity: float = DEFAULT_GRAVITY, mass: float | None = None
+    ) -> "Body":
         """Return the body of a known mass that is a top, or else the body that is chosen for it.
 
         Parameters
@@ -217,13 +225,14 @@ class Body:
 
         Examples
         --------
+        >>> from symtop_ros.physics import Body, Top
         >>> article = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
-        >>> round(Body.of(article, mass=0.5).arm, 6)
+        >>> round(Body.from_top(article, mass=0.5).arm, 6)
         0.013863
-        >>> Body.of(article, mass=0.24)  # doctest: +ELLIPSIS
+        >>> Body.from_top(article, mass=0.24)  # doctest: +ELLIPSIS
         Traceback (most recent call last):
         symtop_ros.base.refusals.RefusedError: mass must be at least 0.24096... kg for this top, ...
-        >>> Body.of(Top(Ix=1.0, Iz=2.0, Mgl=1.0))  # doctest: +ELLIPSIS
+        >>> Body.from_top(Top(Ix=1.0, Iz=2.0, Mgl=1.0))  # doctest: +ELLIPSIS
         Traceback (most recent call last):
         symtop_ros.base.refusals.RefusedError: Iz must be < 2 Ix = 2 kg m^2 for a body with ...
         """
@@ -287,7 +296,7 @@ class Body:
         >>> from symtop_ros.physics import Body, Motion, State, Top
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
         >>> motion = Motion(top, State((1, 0, 0, 0), (0, 0, 200)))
-        >>> body = Body.of(top)
+        >>> body = Body.from_top(top)
         >>> force = body.pivot_force(motion, motion.start)
         >>> force.tolist() == [0, 0, body.mass * body.gravity]
         True

@@ -61,7 +61,8 @@ def _bound(
 ) -> Iterator[tuple[float, float]]:
     """Yield the bounds of the attitude and of the rates of each state."""
     try:
-        from symtop_ros.physics.reference import Inputs, balls, proved
+        from symtop_ros.physics.reference import balls, proved
+        from symtop_ros.physics.reference.series import Inputs
     except ModuleNotFoundError as error:
         remedy = name_remedy(error.name or "")
         raise RefusedError(f"a certificate needs {error.name}: {remedy}") from None

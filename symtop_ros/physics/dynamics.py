@@ -47,7 +47,7 @@ def angular_acceleration(motion: Motion, state: State) -> Real:
     --------
     A pendulum that is let go horizontally begins to fall at Mgl/Ix.
 
-    >>> from symtop_ros.physics import Motion, State, Top
+    >>> from symtop_ros.physics import Motion, State, Top, angular_acceleration
     >>> motion = Motion(Top(Ix=1.0, Iz=0.5, Mgl=3.0), State((0.5, 0.5, 0.5, 0.5), (0, 0, 0)))
     >>> angular_acceleration(motion, motion.start).tolist()
     [0.0, 3.0, 0.0]
@@ -91,7 +91,7 @@ def point_acceleration(motion: Motion, state: State, position: ArrayLike) -> Rea
     --------
     A point at a distance of 0.5 m from an axis at rest is pulled inwards by omega^2 r.
 
-    >>> from symtop_ros.physics import Motion, State, Top
+    >>> from symtop_ros.physics import Motion, State, Top, point_acceleration
     >>> motion = Motion(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State((1, 0, 0, 0), (0, 0, 4)))
     >>> point_acceleration(motion, motion.start, (0.5, 0, 0)).tolist()
     [-8.0, 0.0, 0.0]
@@ -137,7 +137,7 @@ def specific_force(
 
     Examples
     --------
-    >>> from symtop_ros.physics import Motion, State, Top
+    >>> from symtop_ros.physics import Motion, State, Top, specific_force
     >>> motion = Motion(Top(Ix=1.0, Iz=0.5, Mgl=0.0), State((1, 0, 0, 0), (0, 0, 0)))
     >>> specific_force(motion, motion.start, (0, 0, 1)).tolist()
     [0.0, 0.0, 9.81]

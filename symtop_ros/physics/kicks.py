@@ -3,12 +3,13 @@
 The formulas are in the kernel (`kernel/rule/kicks.hpp`).
 """
 
-from typing import Any, get_args
+from typing import Any, get_args, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.one_or_many import Many, N
 from symtop_ros.base.refusals import Words, refuse
 from symtop_ros.physics.kernel import door, records
 from symtop_ros.physics.kernel.records import Hold, KickKind
@@ -24,6 +25,14 @@ from symtop_ros.physics.values import (
 
 HOLDS: tuple[Hold, ...] = get_args(Hold)
 ANY_TOP = np.ones(3)  # a change of phi' asks for no top
+
+
+@overload
+def set_precession_rate(state: State[N], phi_dot: float, hold: Hold = "spin_rate") -> State[N]: ...
+
+
+@overload
+def set_precession_rate(state: State, phi_dot: Many, hold: Hold = "spin_rate") -> State[Real]: ...
 
 
 def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rate") -> State:
@@ -60,6 +69,14 @@ def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rat
     """
     rate, hold = validate_rate("phi_dot", phi_dot), validate_hold(hold)
     return _kick(ANY_TOP, state, "rate", hold, rate, "phi_dot")
+
+
+@overload
+def hurry(state: State[N], factor: float = 1.4, hold: Hold = "spin_rate") -> State[N]: ...
+
+
+@overload
+def hurry(state: State, factor: Many, hold: Hold = "spin_rate") -> State[Real]: ...
 
 
 def hurry(state: State, factor: ArrayLike = 1.4, hold: Hold = "spin_rate") -> State:
@@ -123,6 +140,18 @@ def apply_impulse(top: Top, state: State, impulse: ArrayLike) -> State:
     """
     J = validate_vectors("impulse", impulse, "N m s, world frame")
     return _kick(_stack_moments(top), state, "impulse", "spin_rate", J, "impulse")
+
+
+@overload
+def push_axle(top: Top[float], state: State[N], impulse: float) -> State[N]: ...
+
+
+@overload
+def push_axle(top: Top[Real], state: State, impulse: ArrayLike) -> State[Real]: ...
+
+
+@overload
+def push_axle(top: Top, state: State, impulse: Many) -> State[Real]: ...
 
 
 def push_axle(top: Top, state: State, impulse: ArrayLike) -> State:
@@ -208,7 +237,7 @@ def _spread(parts: tuple[Real, ...], axes: int) -> tuple[Real, ...]:
     )
 
 
-def precession_rate(state: State) -> Any:
+def precession_rate(state: State[N]) -> N:
     """Return phi' in rad/s, a float or (...).
 
     Parameters

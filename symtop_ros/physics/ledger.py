@@ -16,6 +16,7 @@ from typing import Literal
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.deprecation import OldName
 from symtop_ros.base.refusals import Words, refuse, require, show, show_limit
 from symtop_ros.physics.dynamics import find_fastest_rate
 from symtop_ros.physics.kernel.door import find_exchange
@@ -128,7 +129,7 @@ class Ledger:
     >>> from symtop_ros.physics import Ledger, Motion, State, Top
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
-    >>> fall = Ledger.of(motion, 0.0, motion.nutation_period / 2)
+    >>> fall = Ledger.from_times(motion, 0.0, motion.nutation_period / 2)
     >>> round(1e3 * fall.gravity.work, 2), round(1e3 * fall.gained.precession, 2)  # mJ
     (6.12, 6.12)
     >>> print(fall)
@@ -146,8 +147,10 @@ class Ledger:
     sizes: Energies
     momentum_size: float
 
+    of, between_turns = OldName("from_times"), OldName("from_turns")
+
     @classmethod
-    def of(cls, motion: Motion, begin: float, end: float) -> "Ledger":
+    def from_times(cls, motion: Motion, begin: float, end: float) -> "Ledger":
         """Return the ledger of a stretch between two times.
 
         Parameters
@@ -167,12 +170,13 @@ class Ledger:
         --------
         Nineteen pushes along the precession after the first one:
 
+        >>> from symtop_ros.physics import Ledger, Motion, State, Top
         >>> from symtop_ros.physics import Pushes, push_axle, regular_precession_rates
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
         >>> slow, _ = regular_precession_rates(top, 0.5, 200.0)
         >>> start = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
         >>> motion = Motion(top, push_axle(top, start, 5e-5), pushes=Pushes(5e-5, 20.0, 20))
-        >>> pushes = Ledger.of(motion, 0.0, 1.0).pushes
+        >>> pushes = Ledger.from_times(motion, 0.0, 1.0).pushes
         >>> round(pushes.vertical_momentum, 8), pushes.axial_momentum
         (0.00040678, 0.0)
         """
@@ -197,7 +201,7 @@ class Ledger:
         return cls(begin, end, gained, *causes, sizes, exchange.momentum_size)
 
     @classmethod
-    def between_turns(cls, motion: Motion, t: float) -> "Ledger":
+    def from_turns(cls, motion: Motion, t: float) -> "Ledger":
         """Return the ledger of the half nutation between the last two turning points up to a time.
 
         Parameters
@@ -214,9 +218,10 @@ class Ledger:
 
         Examples
         --------
+        >>> from symtop_ros.physics import Ledger, Motion, State, Top
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
         >>> motion = Motion(top, State.from_euler(theta=0.5, psi_dot=200.0))
-        >>> rise = Ledger.between_turns(motion, 0.2)
+        >>> rise = Ledger.from_turns(motion, 0.2)
         >>> round(rise.begin, 4), round(rise.end, 4), round(1e3 * rise.gained.weight, 2)
         (0.0798, 0.1595, 6.12)
         """
@@ -230,11 +235,11 @@ class Ledger:
                 "motion", "one whose theta turns", Words(f"a motion that is {motion.kind}")
             )
         last = _find_turn(motion, t, half)
-        return cls.of(motion, last - half, last)
+        return cls.from_times(motion, last - half, last)
 
     def __str__(self) -> str:
         """Return the exchange of energy, p_phi and p_psi in words."""
-        return str(Exchange.of(self))
+        return str(Exchange.from_ledger(self))
 
     @property
     def vertical_momentum(self) -> float:
@@ -297,8 +302,10 @@ class Exchange:
     shares: tuple[Share, ...]
     momenta: Momenta
 
+    of = OldName("from_ledger")
+
     @classmethod
-    def of(cls, ledger: Ledger) -> "Exchange":
+    def from_ledger(cls, ledger: Ledger) -> "Exchange":
         """Return the exchange of a ledger."""
         shares = sorted(_list_shares(ledger), key=lambda each: each.kind != "gave")
         gifts = tuple(_list_gifts(ledger))

@@ -1,7 +1,6 @@
 """The motion of a top from a start: the state at any time, and its constant properties."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
@@ -11,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.deprecation import Internal
+from symtop_ros.base.deprecation import OldName
+from symtop_ros.base.one_or_many import Many, N
 from symtop_ros.base.refusals import refuse, require
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
@@ -41,7 +41,7 @@ def find_period(rate: float) -> float: ...
 
 
 @overload
-def find_period(rate: Sequence[float] | Real) -> Real: ...
+def find_period(rate: Many) -> Real: ...
 
 
 def find_period(rate: ArrayLike) -> float | Real:
@@ -136,14 +136,14 @@ class Motion:
     (3, 4)
     """
 
-    packed_start, pack_with = Internal(), Internal()
-    fill, reach = Internal(), Internal()
+    packed_start, pack_with = OldName(), OldName()
+    fill, reach = OldName(), OldName()
 
     def __init__(
         self,
-        top: Top,
-        start: State,
-        friction: Friction = NO_FRICTION,
+        top: Top[float],
+        start: State[float],
+        friction: Friction[float] = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
         pushes: Pushes | None = None,
         clamped: bool = False,
@@ -167,7 +167,7 @@ class Motion:
         self._kernel = door.KernelMotion(self._packed_start, packed, self.clamped)
         self._piece: Piece | None = None  # the last one that was asked for
 
-    def restart(self, start: State) -> "Motion":
+    def restart(self, start: State[float]) -> "Motion":
         """Return the motion of the same top from another state, under the same friction and torque.
 
         It gets no pushes, and no clamp.
@@ -271,7 +271,7 @@ class Motion:
             torque = torque + self.clamp_torque(state)
         return np.asarray(state.to_world(torque) + self.applied_torque)
 
-    def euler_rates(self, state: State) -> Rates:
+    def euler_rates(self, state: State[N]) -> Rates[N]:
         """Return the rates of Euler's angles in states of this motion, in rad/s.
 
         They are those of `State.euler_rates`, but for a motion that a hand holds: there phi' is 0
@@ -300,8 +300,9 @@ class Motion:
         if not self.clamped:
             return rates
         spin = state.angular_velocity[..., 2]
-        held = 0.0 * abs(rates.theta_dot)
-        return Rates(held, rates.theta_dot, spin if np.ndim(spin) else float(spin))
+        theta_dot: Any = rates.theta_dot
+        held: Any = spin if np.ndim(spin) else float(spin)
+        return Rates(0.0 * abs(theta_dot), theta_dot, held)
 
     def clamp_torque(self, state: State) -> Real:
         """Return the torque of the hand that holds phi, in the body frame in N m.
@@ -329,6 +330,15 @@ class Motion:
         with friction or an applied torque Taylor series in time.
         """
         return self._kernel.engine
+
+    @overload
+    def at(self, t: float) -> State[float]: ...
+
+    @overload
+    def at(self, t: Many) -> State[Real]: ...
+
+    @overload
+    def at(self, t: ExactTimes) -> State: ...
 
     def at(self, t: ArrayLike | ExactTimes) -> State:
         """Return the state at one time, or the states at many.
@@ -437,7 +447,7 @@ class Motion:
             Its `motion`, which starts at the last push up to then (before the second one with the
             start of this motion), the time `begin` of that push in ns, and the `number` of pushes
             up to then. Without pushes that is this motion itself, 0 and 0. Its start is rounded to
-            doubles, where this motion has 32 digits: docs/accuracy.md, "Pushes", has what that does.
+            doubles, where this motion has 32 digits (docs/accuracy.md, "Pushes").
 
         Raises
         ------

@@ -136,7 +136,7 @@ class Motions:
     def _starts(self) -> Real:
         return list_starts(self.top, self.start, self.friction, self.applied_torque, self.shape)
 
-    def at(self, t: ArrayLike | ExactTimes) -> State:
+    def at(self, t: ArrayLike | ExactTimes) -> State[Real]:
         """Return the states at one time, or at many; the times are the same for all motions.
 
         Parameters
@@ -165,7 +165,7 @@ class Motions:
             self._find_member(n)._fill(flat, orientation[n], omega[n])
         return wrap_states(orientation, omega, (*self.shape, *shape))
 
-    def at_each(self, times: ArrayLike | ExactTimes) -> State:
+    def at_each(self, times: ArrayLike | ExactTimes) -> State[Real]:
         """Return the states of each motion at its own times.
 
         Parameters
@@ -315,7 +315,7 @@ class Motions:
         applied = applied.reshape(*self.shape, *axes, 3)
         return np.asarray(states.to_world(friction.torque(states)) + applied)
 
-    def euler_rates(self, states: State) -> Rates:
+    def euler_rates(self, states: State[Real]) -> Rates[Real]:
         """Return the rates of Euler's angles in states of these motions, each (..., m, ...).
 
         They are those of `State.euler_rates`: none of these motions is clamped.

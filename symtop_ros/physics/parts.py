@@ -37,6 +37,7 @@ class Part:
 
     Examples
     --------
+    >>> from symtop_ros.physics import Part
     >>> Part("disc", mass=1.7, distance=0.141, size=0.128).kind
     'disc'
     >>> Part("ball", mass=0.9, distance=-0.253, size=0.05, spins=False)  # doctest: +ELLIPSIS

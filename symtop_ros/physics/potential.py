@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.deprecation import OldName
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
@@ -34,19 +35,21 @@ class EffectivePotential:
     >>> from symtop_ros.physics import EffectivePotential, Motion, State, Top
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> start = State.from_euler(theta=0.5, psi_dot=200.0)
-    >>> potential = EffectivePotential.of(top, start)
+    >>> potential = EffectivePotential.from_state(top, start)
     >>> low, high = Motion(top, start).turning_angles
     >>> bool(abs(potential.at(high) - potential.energy) < 1e-15 * top.Mgl)
     True
     """
 
-    top: Top
+    top: Top[float]
     vertical_momentum: float
     axial_momentum: float
     energy: float
 
+    of = OldName("from_state")
+
     @classmethod
-    def of(cls, top: Top, state: State) -> "EffectivePotential":
+    def from_state(cls, top: Top[float], state: State[float]) -> "EffectivePotential":
         """Return the potential for the constants of motion of one state."""
         validate_one(top)
         validate_one(state, "state")
@@ -68,8 +71,10 @@ class EffectivePotential:
 
         Examples
         --------
+        >>> import math
+        >>> from symtop_ros.physics import EffectivePotential, Top
         >>> potential = EffectivePotential(Top(2.0, 1.0, 3.0), 2.0, 0.0, 1.0)
-        >>> potential.at([np.pi / 2, 0.0]).tolist()
+        >>> potential.at([math.pi / 2, 0.0]).tolist()
         [1.0000000000000002, inf]
         """
         theta = validate_array("theta", theta, unit="rad")
@@ -89,6 +94,7 @@ class EffectivePotential:
 
         Examples
         --------
+        >>> from symtop_ros.physics import EffectivePotential, Top
         >>> potential = EffectivePotential(Top(2.0, 1.0, 3.0), 2.0, 0.0, 1.0)
         >>> potential.cubic(0.0).item()
         0.0
@@ -111,7 +117,9 @@ class EffectivePotential:
 
         Examples
         --------
-        >>> EffectivePotential(Top(2.0, 1.0, 3.0), 0.0, 0.0, 3.0).find_third_root(0.0, np.pi)
+        >>> import math
+        >>> from symtop_ros.physics import EffectivePotential, Top
+        >>> EffectivePotential(Top(2.0, 1.0, 3.0), 0.0, 0.0, 3.0).find_third_root(0.0, math.pi)
         1.0
         """
         low, high = validate_number("low", low, "rad"), validate_number("high", high, "rad")

@@ -19,12 +19,13 @@ spin momentum    Ix cos(theta)           p_psi = Iz omega_z
 At the same state both give the same theta''.
 """
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.one_or_many import Many
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
@@ -36,7 +37,29 @@ from symtop_ros.physics.values import (
 )
 
 
-def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> tuple[Any, Any]:
+@overload
+def regular_precession_rates(
+    top: Top[float], theta: float, psi_dot: float
+) -> tuple[float, float]: ...
+
+
+@overload
+def regular_precession_rates(
+    top: Top[Real], theta: ArrayLike, psi_dot: ArrayLike
+) -> tuple[Real, Real]: ...
+
+
+@overload
+def regular_precession_rates(top: Top, theta: Many, psi_dot: ArrayLike) -> tuple[Real, Real]: ...
+
+
+@overload
+def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: Many) -> tuple[Real, Real]: ...
+
+
+def regular_precession_rates(
+    top: Top, theta: ArrayLike, psi_dot: ArrayLike
+) -> tuple[float | Real, float | Real]:
     """Return the rates phi' of regular precession at one tilt and spin rate.
 
     They are the roots of (Ix - Iz) cos(theta) p^2 - Iz psi' p + Mgl = 0, formed without
@@ -74,8 +97,8 @@ def regular_precession_rates(top: Top, theta: ArrayLike, psi_dot: ArrayLike) -> 
     >>> slow, fast = regular_precession_rates(top, theta=math.pi / 2, psi_dot=200.0)
     >>> round(slow, 2), fast
     (5.94, nan)
-    >>> slow, fast = regular_precession_rates(top, theta=0.5, psi_dot=[100.0, 200.0])
-    >>> slow.round(2).tolist(), fast.round(2).tolist()
+    >>> slows, fasts = regular_precession_rates(top, theta=0.5, psi_dot=[100.0, 200.0])
+    >>> slows.round(2).tolist(), fasts.round(2).tolist()
     ([nan, 6.5], [nan, 69.82])
     """
     theta, psi_dot = validate_together({"theta": theta, "psi_dot": psi_dot}, ("rad", "rad/s"))

@@ -56,7 +56,7 @@ class Solution:
     most: "Solution | None" = None
 
     @property
-    def state(self) -> State:
+    def state(self) -> State[float]:
         """The state of the start."""
         return State.from_euler(
             theta=self.theta,
@@ -67,7 +67,7 @@ class Solution:
 
 
 def solve_start(
-    top: Top, *, half_widths: Mapping[str, float] | None = None, **known: float
+    top: Top[float], *, half_widths: Mapping[str, float] | None = None, **known: float
 ) -> tuple[Solution, ...]:
     """Return all starts of a top that have what is known of its motion.
 
@@ -129,6 +129,7 @@ def solve_start(
 
     >>> seen = {"theta": math.pi / 2, "precession_period": 2.2}
     >>> first, _ = solve_start(top, half_widths={"precession_period": 0.05}, **seen)
+    >>> assert first.least and first.most
     >>> f"{first.least.psi_dot:.0f} to {first.most.psi_dot:.0f} rad/s"
     '184 to 193 rad/s'
     """

@@ -1,17 +1,18 @@
 """The state of the top: a unit quaternion and a body angular velocity, for one instant or many."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real, rotate, split, stack
-from symtop_ros.base.deprecation import Internal, warn_of_name
+from symtop_ros.base.deprecation import OldName, warn_of_name
+from symtop_ros.base.one_or_many import N
 from symtop_ros.base.refusals import Words, refuse, require, show
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.times import ExactTimes, to_seconds
@@ -46,7 +47,7 @@ COLUMNS = (
 )
 
 
-class Angles(NamedTuple):
+class Angles(NamedTuple, Generic[N]):
     """Euler angles z-x-z.
 
     Attributes
@@ -65,12 +66,12 @@ class Angles(NamedTuple):
     Angles(phi=0.0, theta=0.5, psi=0.0)
     """
 
-    phi: Any
-    theta: Any
-    psi: Any
+    phi: N
+    theta: N
+    psi: N
 
 
-class Rates(NamedTuple):
+class Rates(NamedTuple, Generic[N]):
     """Rates of Euler's angles z-x-z.
 
     Attributes
@@ -89,28 +90,28 @@ class Rates(NamedTuple):
     Rates(phi_dot=0.0, theta_dot=0.0, psi_dot=200.0)
     """
 
-    phi_dot: Any
-    theta_dot: Any
-    psi_dot: Any
+    phi_dot: N
+    theta_dot: N
+    psi_dot: N
 
     @property
-    def phi(self) -> Any:
+    def phi(self) -> N:
         """The old name of `phi_dot`, until 0.8."""
         return warn_of_name("Rates.phi", "phi_dot", self.phi_dot)
 
     @property
-    def theta(self) -> Any:
+    def theta(self) -> N:
         """The old name of `theta_dot`, until 0.8."""
         return warn_of_name("Rates.theta", "theta_dot", self.theta_dot)
 
     @property
-    def psi(self) -> Any:
+    def psi(self) -> N:
         """The old name of `psi_dot`, until 0.8."""
         return warn_of_name("Rates.psi", "psi_dot", self.psi_dot)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class State:
+class State(Generic[N]):
     """Orientation and angular velocity at one instant, or at many.
 
     A state is what was given: parts of many states, copies and kicks keep `given_orientation`, and
@@ -148,6 +149,21 @@ class State:
     angular_velocity: Real
     given_orientation: Real  # not normalised: a motion normalises it with 50 digits
 
+    @overload
+    def __init__(
+        self: "State[float]", orientation: Sequence[float], angular_velocity: Sequence[float]
+    ) -> None: ...
+
+    @overload
+    def __init__(
+        self: "State[Real]",
+        orientation: Sequence[Sequence[float]],
+        angular_velocity: Sequence[Sequence[float]],
+    ) -> None: ...
+
+    @overload
+    def __init__(self, orientation: ArrayLike, angular_velocity: ArrayLike) -> None: ...
+
     def __init__(self, orientation: ArrayLike, angular_velocity: ArrayLike) -> None:
         q = _flush_tiny(validate_array("orientation", orientation, 4))
         omega = _flush_tiny(validate_array("angular_velocity", angular_velocity, 3, "rad/s"))
@@ -162,7 +178,7 @@ class State:
             raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
         self._set(q, _normalize(q), omega)
 
-    wrap, of_given, parts = Internal(), Internal(), Internal()
+    wrap, of_given, parts = OldName(), OldName(), OldName()
 
     @classmethod
     def _wrap(
@@ -240,6 +256,32 @@ class State:
         """The arguments; what was done to them follows from them."""
         return self.given_orientation, self.angular_velocity
 
+    @overload
+    @classmethod
+    def from_euler(
+        cls,
+        *,
+        theta: float,
+        phi: float = 0.0,
+        psi: float = 0.0,
+        theta_dot: float = 0.0,
+        phi_dot: float = 0.0,
+        psi_dot: float = 0.0,
+    ) -> "State[float]": ...
+
+    @overload
+    @classmethod
+    def from_euler(
+        cls,
+        *,
+        theta: ArrayLike,
+        phi: ArrayLike = 0.0,
+        psi: ArrayLike = 0.0,
+        theta_dot: ArrayLike = 0.0,
+        phi_dot: ArrayLike = 0.0,
+        psi_dot: ArrayLike = 0.0,
+    ) -> "State[Real]": ...
+
     @classmethod
     def from_euler(
         cls,
@@ -310,12 +352,12 @@ class State:
         return w, x, y, z
 
     @property
-    def euler_angles(self) -> Angles:
+    def euler_angles(self) -> Angles[N]:
         """Angles (phi, theta, psi) in rad, with 0 <= theta <= pi; phi is 0 on the vertical."""
         return Angles(*split(door.find_angles(self.orientation)))
 
     @cached_property
-    def euler_rates(self) -> Rates:
+    def euler_rates(self) -> Rates[N]:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
         return Rates(*split(door.find_angle_rates(*self._parts)))
 

@@ -120,6 +120,8 @@ class ExactTimes:
 
         Examples
         --------
+        >>> from fractions import Fraction
+        >>> from symtop_ros.physics import ExactTimes
         >>> ExactTimes(0, factor=0.25, elapsed=Fraction(3)).advance(5)
         Fraction(17, 4)
         """

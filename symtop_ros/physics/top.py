@@ -2,13 +2,14 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, Generic, Self, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.base.arrays import Real, Vector, split, stack
-from symtop_ros.base.deprecation import Internal
+from symtop_ros.base.arrays import Real, split, stack
+from symtop_ros.base.deprecation import OldName
+from symtop_ros.base.one_or_many import Many, N
 from symtop_ros.base.refusals import Words, refuse, show_limit
 from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import FRICTION_KINDS
@@ -64,7 +65,7 @@ class _Numbers:
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False)
-class Top(_Numbers):
+class Top(_Numbers, Generic[N]):
     """A heavy symmetric top with a fixed pivot, or many of them.
 
     Parameters
@@ -93,9 +94,21 @@ class Top(_Numbers):
     (3,)
     """
 
-    Ix: float
-    Iz: float
-    Mgl: float
+    Ix: N
+    Iz: N
+    Mgl: N
+
+    @overload
+    def __init__(self: "Top[float]", Ix: float, Iz: float, Mgl: float) -> None: ...
+
+    @overload
+    def __init__(self: "Top[Real]", Ix: Many, Iz: ArrayLike, Mgl: ArrayLike) -> None: ...
+
+    @overload
+    def __init__(self: "Top[Real]", Ix: ArrayLike, Iz: Many, Mgl: ArrayLike) -> None: ...
+
+    @overload
+    def __init__(self: "Top[Real]", Ix: ArrayLike, Iz: ArrayLike, Mgl: Many) -> None: ...
 
     def __init__(self, Ix: ArrayLike, Iz: ArrayLike, Mgl: ArrayLike) -> None:
         given = {"Ix": Ix, "Iz": Iz, "Mgl": Mgl}
@@ -107,23 +120,25 @@ class Top(_Numbers):
             _validate_moments(*moments)
 
     @property
-    def moments(self) -> Vector:
+    def moments(self) -> tuple[N, N, N]:
         """(Ix, Iz, Mgl)."""
         return self.Ix, self.Iz, self.Mgl
 
     @property
     @door.compute_soundly
-    def critical_spin(self) -> Any:
+    def critical_spin(self) -> N:
         """Smallest |omega_z| in rad/s at which sleeping upright is stable; 0 for Mgl <= 0.
 
         Sleeping upright is stable if and only if p_psi^2 >= 4 Ix Mgl (Goldstein, section 5.7);
         for Mgl = 0, if and only if omega_z is not 0.
         """
-        spin = 2 * np.sqrt(self.Ix) * np.sqrt(np.maximum(self.Mgl, 0.0)) / self.Iz
-        return spin if self.shape else float(spin)
+        moments: Any = self.moments
+        Ix, Iz, Mgl = moments
+        spin: Any = 2 * np.sqrt(Ix) * np.sqrt(np.maximum(Mgl, 0.0)) / Iz
+        return spin if self.shape else cast(N, float(spin))
 
     @door.compute_soundly
-    def sleeping_is_stable(self, state: State) -> bool:
+    def sleeping_is_stable(self: "Top[float]", state: State[float]) -> bool:
         """Return True if an axis at rest on the vertical stays near it after a small kick.
 
         A centre of mass above the pivot needs p_psi^2 >= 4 Ix |Mgl|; below the pivot the axis is
@@ -170,16 +185,43 @@ class Top(_Numbers):
         x, y, z = split(state.to_world(stack(none, none, Mgl)))
         return stack(-y, x, 0.0 * abs(z))
 
+    @overload
+    def energy(self: "Top[float]", state: State[float]) -> float: ...
+
+    @overload
+    def energy(self: "Top[Real]", state: State) -> Real: ...
+
+    @overload
+    def energy(self, state: State[Real]) -> Real: ...
+
     @door.compute_soundly
     def energy(self, state: State) -> Any:
         """Return the kinetic and potential energy, (...), in J; the potential is Mgl cos(theta)."""
         kinetic = (self.body_angular_momentum(state) * state.angular_velocity).sum(axis=-1) / 2
         return kinetic + match(self.Mgl, state) * state.vertical[..., 2]
 
+    @overload
+    def axial_momentum(self: "Top[float]", state: State[float]) -> float: ...
+
+    @overload
+    def axial_momentum(self: "Top[Real]", state: State) -> Real: ...
+
+    @overload
+    def axial_momentum(self, state: State[Real]) -> Real: ...
+
     @door.compute_soundly
     def axial_momentum(self, state: State) -> Any:
         """Return L_z = p_psi = Iz omega_z, (...), in N m s; constant without friction."""
         return match(self.Iz, state) * state.angular_velocity[..., 2]
+
+    @overload
+    def vertical_momentum(self: "Top[float]", state: State[float]) -> float: ...
+
+    @overload
+    def vertical_momentum(self: "Top[Real]", state: State) -> Real: ...
+
+    @overload
+    def vertical_momentum(self, state: State[Real]) -> Real: ...
 
     @door.compute_soundly
     def vertical_momentum(self, state: State) -> Any:
@@ -212,7 +254,7 @@ def match(value: Any, state: State) -> Any:
 
 
 @dataclass(frozen=True, slots=True, init=False, eq=False)
-class Friction(_Numbers):
+class Friction(_Numbers, Generic[N]):
     """Friction in proportion to the angular velocity, at the pivot and in the air.
 
     The torque in the body frame is -axial omega_z along the axis and
@@ -237,10 +279,22 @@ class Friction(_Numbers):
     False
     """
 
-    axial: float
-    transverse: float
+    axial: N
+    transverse: N
 
-    find_decay = Internal()
+    find_decay = OldName()
+
+    @overload
+    def __init__(self: "Friction[float]", axial: float = 0.0, transverse: float = 0.0) -> None: ...
+
+    @overload
+    def __init__(self: "Friction[Real]", axial: Many, transverse: ArrayLike = 0.0) -> None: ...
+
+    @overload
+    def __init__(self: "Friction[Real]", axial: ArrayLike = 0.0, *, transverse: Many) -> None: ...
+
+    @overload
+    def __init__(self: "Friction[Real]", axial: ArrayLike, transverse: Many) -> None: ...
 
     def __init__(self, axial: ArrayLike = 0.0, transverse: ArrayLike = 0.0) -> None:
         given = {"friction.axial": axial, "friction.transverse": transverse}
@@ -252,14 +306,16 @@ class Friction(_Numbers):
 
     def __bool__(self) -> bool:
         """Return True if a coefficient is not zero."""
+        given: Any = self.coefficients
         if self.shape:
-            return any(map(np.any, self.coefficients))
-        return any(self.coefficients)  # asked of every motion
+            return any(map(np.any, given))
+        return any(given)  # asked of every motion
 
     @property
-    def coefficients(self) -> tuple[Any, ...]:
+    def coefficients(self) -> tuple[N, N]:
         """The coefficients in N m s, in the order of the kernel: (axial, transverse)."""
-        return tuple(getattr(self, name) for name in FRICTION_KINDS)
+        axial, transverse = (getattr(self, name) for name in FRICTION_KINDS)
+        return axial, transverse
 
     def _find_decay(self, top: Top) -> Any:
         """Return the fastest rate in 1/s, (...), at which friction slows a top."""

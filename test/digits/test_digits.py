@@ -6,7 +6,8 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.physics import State, Top
-from symtop_ros.physics.reference import Inputs, exact_constants, exact_state
+from symtop_ros.physics.reference import exact_constants, exact_state
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import ClosedForm, ExactState, Series
 from workshop.testset.exact import ReturningSeries, distance
 

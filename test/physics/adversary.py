@@ -40,7 +40,7 @@ from symtop_ros.physics import (
     regular_precession_rates,
     set_precession_rate,
 )
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import ClosedForm, Series
 
 EVALUATIONS = 20_000

@@ -6,7 +6,7 @@ import numpy as np
 from mpmath import mp, mpf
 from physics.tops import follow_exactly, multiply
 
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 
 DIGITS = 70
 FEW_DIGITS = 34  # enough in the first nutations: derivatives with some 20 digits

@@ -17,7 +17,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from symtop_ros.physics import Friction, Motion, State, Top
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import ClosedForm, ExactState, Series
 from workshop.testset.exact import distance
 

@@ -14,8 +14,8 @@ from flint import arb, ctx
 from physics.families import DRAWS, draw_motion
 
 from symtop_ros.physics import Motion
-from symtop_ros.physics.reference import Inputs
 from symtop_ros.physics.reference.proved import bound_errors, prove_state
+from symtop_ros.physics.reference.series import Inputs
 
 EPS = arb(2) ** -52
 COUNT = 5000  # of each family: 100 000 in all

@@ -71,7 +71,7 @@ def test_the_acceleration_of_a_point_is_the_second_derivative_of_its_place(drive
 
 def test_the_force_of_the_pivot_is_newtons_second_law():
     # Along the way of the article's top, with the momentum of the centre of mass from its place.
-    body = Body.of(ARTICLE)
+    body = Body.from_top(ARTICLE)
     motion = Motion(ARTICLE, CUSPS)
     followed = ClosedForm(Case(ARTICLE, CUSPS, 0.0).inputs, DIGITS)
     for t in (0.0, 0.03, 0.08, 7.0):
@@ -85,9 +85,9 @@ def test_the_force_of_the_pivot_is_newtons_second_law():
 @pytest.mark.parametrize("Mgl", [1e-100, -1e100, 0.0])
 def test_the_body_of_a_top_is_its_body_at_all_sizes(Mgl):
     top = Top(1.0, 0.25, Mgl)
-    assert Body.of(top).top.Ix == pytest.approx(1.0, rel=4 * EPS)  # half of it from a product
+    assert Body.from_top(top).top.Ix == pytest.approx(1.0, rel=4 * EPS)  # half of it from a product
     motion = Motion(top, State.from_euler(theta=0.5, psi_dot=1.0))
-    assert np.isfinite(Body.of(top).pivot_force(motion, motion.start)).all()
+    assert np.isfinite(Body.from_top(top).pivot_force(motion, motion.start)).all()
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -96,7 +96,7 @@ def test_a_body_has_the_tops_constants_and_could_be_built(sign):
     for _ in range(100):
         Ix = random.power(-6, 3)
         top = Top(Ix, Ix * random.uniform(1e-6, 1.999), sign * random.power(-6, 6))
-        body = Body.of(top, gravity=random.uniform(1, 25))
+        body = Body.from_top(top, gravity=random.uniform(1, 25))
         assert body.mass * body.gravity * body.arm == pytest.approx(top.Mgl, rel=4 * EPS)
         assert body.Ix + body.mass * body.arm**2 == pytest.approx(top.Ix, rel=4 * EPS)
         assert body.top.moments == pytest.approx(top.moments, rel=4 * EPS)
@@ -117,26 +117,26 @@ def test_the_largest_axial_moment_that_a_refusal_states_is_accepted(make):
 
 def test_a_weight_of_next_to_nothing_has_no_arm_of_kilometres():
     top = Top(Ix=1.0, Iz=0.5, Mgl=-1e-9)
-    body = Body.of(top)
+    body = Body.from_top(top)
     assert body.arm == -10.0
     assert body.top.moments == pytest.approx(top.moments, rel=4 * EPS)
 
 
 def test_a_top_without_weight_has_its_centre_in_the_pivot():
-    body = Body.of(Top(Ix=1.0, Iz=2.0, Mgl=0.0))
+    body = Body.from_top(Top(Ix=1.0, Iz=2.0, Mgl=0.0))
     assert (body.mass, body.arm, body.Ix, body.Iz) == (1.0, 0.0, 1.0, 2.0)
 
 
 def test_a_body_and_its_top_lead_to_each_other():
     body = Body(mass=15.0, arm=1.0, Ix=0.234375, Iz=0.46875, gravity=9.81)
-    assert Body.about_pivot(15.0, 1.0, body.top.Ix, body.top.Iz) == body
+    assert Body.from_pivot_moments(15.0, 1.0, body.top.Ix, body.top.Iz) == body
 
 
 def test_a_disc_leads_back_to_itself():
     numbers = Numbers(56)
     for _ in range(200):
         mass, radius, distance = (numbers.uniform(2.0**-6, 4.0) for _ in range(3))
-        top = Body.disc(mass, radius, distance).top
+        top = Body.from_disc(mass, radius, distance).top
         # Ix - Iz/2 loses the digits of Iz/2: those of (radius/(2 distance))^2
         lost = 8 * EPS * (1 + (radius / distance) ** 2)
         back = find_disc(top.moments)
@@ -191,7 +191,7 @@ def draw_parts(rng):
 @pytest.mark.parametrize("seed", seeds(200, 5000))
 def test_a_body_has_the_moments_of_its_parts_by_steiners_theorem(seed):
     parts = draw_parts(Numbers(f"parts {seed}"))
-    body = Body.of_parts(parts, gravity=9.80)
+    body = Body.from_parts(parts, gravity=9.80)
     with mp.workdps(40):
         mass = sum(mpf(each.mass) for each in parts)
         levers = [mpf(each.mass) * mpf(each.distance) for each in parts]
@@ -212,7 +212,7 @@ def test_a_body_has_the_moments_of_its_parts_by_steiners_theorem(seed):
 
 def test_bodies_of_the_classroom_are_tops():
     for parts in BODIES.values():
-        assert Body.of_parts(parts).top.Ix > 0
+        assert Body.from_parts(parts).top.Ix > 0
     disc, weight = BODIES["balanced_gyroscope"]
     assert (disc.spins, weight.spins) == (True, False)
 
@@ -230,7 +230,7 @@ def test_a_body_of_known_mass_has_the_arm_and_the_force_of_that_mass():
         gravity, arm = random.uniform(9.75, 9.85), random.uniform(-0.5, 0.5)
         mass, Ix = random.power(-3, 2), random.power(-6, 0)
         given = Body(mass, arm, Ix, Ix * random.uniform(0.01, 2), gravity)
-        found = Body.of(given.top, gravity, mass)
+        found = Body.from_top(given.top, gravity, mass)
         # Three roundings make Mgl, and two undo them.
         assert found.arm == pytest.approx(arm, rel=4 * EPS)
         # M r^2 is taken away from what it was added to: by some EPS of the sum.
@@ -244,16 +244,20 @@ def test_a_flat_disc_has_the_least_mass_of_its_top_and_a_lighter_body_is_refused
     random = Numbers(99)
     for _ in range(500):
         mass, radius = random.power(-3, 2), random.power(-2, 0)
-        disc = Body.disc(mass, radius, radius * random.power(-3, 2), random.uniform(9.75, 9.85))
+        disc = Body.from_disc(
+            mass, radius, radius * random.power(-3, 2), random.uniform(9.75, 9.85)
+        )
         top = disc.top
-        assert Body.of(top, disc.gravity, mass).Ix == pytest.approx(disc.Ix, abs=32 * EPS * top.Ix)
+        assert Body.from_top(top, disc.gravity, mass).Ix == pytest.approx(
+            disc.Ix, abs=32 * EPS * top.Ix
+        )
         # Lighter by so much that M r^2 exceeds Ix - Iz/2 by more than the rounding of Ix.
         lighter = mass / (1 + 64 * EPS * top.Ix / (top.Ix - top.Iz / 2))
         with pytest.raises(RefusedError, match=r"mass must be at least .* kg for this top, Mgl\^2"):
-            Body.of(top, disc.gravity, lighter)
+            Body.from_top(top, disc.gravity, lighter)
 
 
 def test_a_body_without_weight_about_its_pivot_may_have_any_mass():
     for mass in (2.0**-40, 1.0, 2.0**40):
-        body = Body.of(Top(Ix=1.0, Iz=2.0, Mgl=0.0), mass=mass)
+        body = Body.from_top(Top(Ix=1.0, Iz=2.0, Mgl=0.0), mass=mass)
         assert (body.mass, body.arm, body.Ix) == (mass, 0.0, 1.0)

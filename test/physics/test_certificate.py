@@ -11,8 +11,8 @@ from physics.tops import ARTICLE, CUSPS, EPS
 from programs import run_python
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, Pushes, State, Top
-from symtop_ros.physics.reference import Inputs
 from symtop_ros.physics.reference.proved import prove_state
+from symtop_ros.physics.reference.series import Inputs
 
 FRICTION = Friction(axial=2e-6, transverse=1e-5)
 

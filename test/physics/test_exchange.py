@@ -13,7 +13,7 @@ PUSHED = Motion(ARTICLE, push_axle(ARTICLE, precess(SLOW), 5e-5), pushes=Pushes(
 
 
 def tell(motion, end=0.05):
-    return str(Ledger.of(motion, 0.0, end))
+    return str(Ledger.from_times(motion, 0.0, end))
 
 
 def test_under_gravity_the_weight_gives_what_the_others_have():
@@ -31,7 +31,7 @@ def test_where_theta_stays_nothing_is_exchanged(start):
 def test_what_a_fast_top_exchanges_is_not_lost_beside_its_spin():
     """The spin has 2.9 GJ; the weight gives some 1e-12 J."""
     fast = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=1e7))
-    exchange = Exchange.of(Ledger.of(fast, 0.0, fast.nutation_period / 2))
+    exchange = Exchange.from_ledger(Ledger.from_times(fast, 0.0, fast.nutation_period / 2))
     assert [(each.kind, each.who) for each in exchange.shares] == [
         ("gave", "weight"),
         ("got", "precession"),
@@ -69,8 +69,8 @@ def test_friction_takes_from_both_momenta():
 def test_in_every_family_what_is_given_is_what_is_got(family):
     for number in range(30):
         motion, t = draw_motion(family, number)
-        ledger = Ledger.of(motion, *sorted((0.0, t)))
-        exchange, sizes = Exchange.of(ledger), ledger.sizes
+        ledger = Ledger.from_times(motion, *sorted((0.0, t)))
+        exchange, sizes = Exchange.from_ledger(ledger), ledger.sizes
         gave = sum(each.amount for each in exchange.shares if each.kind == "gave")
         got = sum(each.amount for each in exchange.shares if each.kind != "gave")
         # each of three parts may be left out, and their sum is off by rounding: 1e-12 of the sizes

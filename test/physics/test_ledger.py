@@ -61,7 +61,7 @@ def draw_stretch(family, number):
 def test_under_gravity_what_one_part_gains_the_others_lose(family, first):
     for number in range(50 * first, 50 * (first + 1)):
         motion, begin, end = draw_stretch(family, number)
-        found = Ledger.of(motion, begin, end)
+        found = Ledger.from_times(motion, begin, end)
         assert abs(found.gained.total) <= bound_energy(motion), number
         assert (found.work, found.vertical_momentum, found.axial_momentum) == (0, 0, 0)
         assert found.gravity.work == -found.gained.weight
@@ -76,7 +76,7 @@ def test_the_hand_of_a_clamp_does_no_work_and_gives_p_phi(family):
             continue
         motion = Motion(case.top, case.start, clamped=True)
         begin, end = sorted((case.t, -case.t / 3))
-        found, top = Ledger.of(motion, begin, end), case.top
+        found, top = Ledger.from_times(motion, begin, end), case.top
         assert abs(found.gained.total) <= bound_energy(motion), seed
         assert found.gained.precession <= bound_energy(motion)
         assert (found.clamp.work, found.axial_momentum) == (0, 0)
@@ -91,7 +91,7 @@ def test_the_impulse_of_the_clamp_is_its_torque_over_time():
     motion = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0), clamped=True)
     points, weights = np.polynomial.legendre.leggauss(40)
     states = motion.at(0.1 * (1 + points))
-    found = Ledger.of(motion, 0.0, 0.2)
+    found = Ledger.from_times(motion, 0.0, 0.2)
     for torque, impulse in (
         (motion.added_torque(states), found.clamp.angular_impulse),
         (ARTICLE.gravity_torque(states), found.gravity.angular_impulse),
@@ -120,7 +120,7 @@ def test_with_any_forces_what_is_gained_is_what_the_causes_gave(first):
     """Driven states are right to eps (4 + growth/10); the growth is about the turned angle."""
     for number in range(40 * first, 40 * (first + 1)):
         motion, begin, end = draw_driven(number)
-        top, found = motion.top, Ledger.of(motion, begin, end)
+        top, found = motion.top, Ledger.from_times(motion, begin, end)
         first_state, last = motion.at(begin), motion.at(end)
         rates = motion.at(np.linspace(begin, end, 200)).angular_velocity
         fastest = float(np.linalg.norm(rates, axis=-1).max())
@@ -137,7 +137,7 @@ def test_with_any_forces_what_is_gained_is_what_the_causes_gave(first):
 
 def test_friction_takes_and_gives_nothing_back():
     motion = Motion(ARTICLE, CUSPS, Friction(1e-6, 2e-6))
-    found = Ledger.of(motion, 0.0, 5.0)
+    found = Ledger.from_times(motion, 0.0, 5.0)
     assert found.friction.work < 0
     assert found.axial_momentum == found.friction.axial_momentum < 0
     assert (found.torque.work, found.pushes.work) == (0, 0)
@@ -145,7 +145,7 @@ def test_friction_takes_and_gives_nothing_back():
 
 def test_a_torque_gives_p_phi_in_proportion_to_its_time():
     motion = Motion(ARTICLE, CUSPS, torque=(1e-4, 0.0, 5e-4))
-    found = Ledger.of(motion, 0.25, 2.25).torque
+    found = Ledger.from_times(motion, 0.25, 2.25).torque
     assert found.vertical_momentum == pytest.approx(2 * 5e-4, rel=1e-14)
     assert found.angular_impulse == pytest.approx([2e-4, 0.0, 1e-3], rel=1e-14)
 
@@ -155,24 +155,24 @@ def test_each_push_gives_its_impulse_times_the_sine_of_the_tilt(rate):
     pushes = Pushes(5e-5, 20.0, 20)
     motion = Motion(ARTICLE, push_axle(ARTICLE, precess(rate), 5e-5), pushes=pushes)
     states = motion.at(np.arange(1, 20) / 20)
-    found = Ledger.of(motion, 0.0, 1.0)
+    found = Ledger.from_times(motion, 0.0, 1.0)
     given = 5e-5 * np.sin(states.euler_angles.theta).sum()
     assert found.pushes.vertical_momentum == pytest.approx(given, rel=1e-13)
     assert found.axial_momentum == 0
     assert found.gained.total == pytest.approx(found.pushes.work, abs=1e-14)
     # one after the other, a push at the end of a stretch belongs to it, and not to the next one
     edges = [*(k / 20 for k in range(19)), 1.0]
-    parts = [Ledger.of(motion, *each).pushes.work for each in pairwise(edges)]
+    parts = [Ledger.from_times(motion, *each).pushes.work for each in pairwise(edges)]
     assert sum(parts) == pytest.approx(found.pushes.work, rel=1e-13)
 
 
 def test_on_the_way_down_the_precession_has_what_the_weight_gave():
-    found = Ledger.of(FALL, 0.0, FALL.nutation_period / 2)
+    found = Ledger.from_times(FALL, 0.0, FALL.nutation_period / 2)
     assert f"{1e3 * found.gravity.work:.2f}" == f"{1e3 * found.gained.precession:.2f}" == "6.12"
     low, high = FALL.turning_angles
     drop = ARTICLE.Mgl * (math.cos(low) - math.cos(high))
     assert found.gravity.work == pytest.approx(drop, rel=1e-13)
-    potential = EffectivePotential.of(ARTICLE, CUSPS)
+    potential = EffectivePotential.from_state(ARTICLE, CUSPS)
     share = potential.at(high) - ARTICLE.Mgl * math.cos(high)
     assert found.gained.precession == pytest.approx(float(share), rel=1e-13)
     assert found.gravity.angular_impulse[2] == pytest.approx(0, abs=1e-17)
@@ -189,7 +189,7 @@ def test_heights_keep_their_digits_where_cosines_have_none(family):
             sines, cosines = ([q[a] ** 2 + q[b] ** 2 for q in parts] for a, b in ((1, 2), (0, 3)))
             small, sign = min((sines, -2), (cosines, 2), key=lambda each: sum(each[0]))
             exact = sign * motion.top.Mgl * (small[1] - small[0])
-            off = abs(mpf(Ledger.of(motion, begin, end).gained.weight) - exact)
+            off = abs(mpf(Ledger.from_times(motion, begin, end).gained.weight) - exact)
             assert off <= 16 * EPS * abs(motion.top.Mgl) * max(small), number
 
 
@@ -204,7 +204,7 @@ def test_between_its_turning_points_theta_goes_from_one_to_the_other(family):
         motion, t = draw_motion(family, number)
         if not turns(motion) or abs(t) > 1e4 * motion.nutation_period:
             continue
-        found = Ledger.between_turns(motion, t)
+        found = Ledger.from_turns(motion, t)
         half = motion.nutation_period / 2
         assert found.end <= t < found.end + half * (1 + 1e-6)
         ends = sorted(motion.at(each).euler_angles.theta for each in (found.begin, found.end))
@@ -216,14 +216,14 @@ def test_between_its_turning_points_theta_goes_from_one_to_the_other(family):
 
 def test_turning_points_of_a_clamped_axis_are_its_highest_and_its_lowest():
     motion = Motion(ARTICLE, precess(SLOW), clamped=True)
-    found = Ledger.between_turns(motion, motion.nutation_period)
+    found = Ledger.from_turns(motion, motion.nutation_period)
     angles = [motion.at(each).euler_angles.theta for each in (found.begin, found.end)]
     assert angles == pytest.approx([math.pi, 0.5], abs=1e-7)
 
 
 def test_an_axis_that_passes_the_vertical_has_no_precession_there():
     motion = Motion(ARTICLE, State((1.0, 0.0, 0.0, 0.0), (3.0, 4.0, 150.0)))
-    found = Ledger.of(motion, 0.0, motion.nutation_period / 2)
+    found = Ledger.from_times(motion, 0.0, motion.nutation_period / 2)
     assert found.gained.nutation == pytest.approx(-ARTICLE.Ix * 25 / 2, rel=1e-12)
 
 
@@ -237,14 +237,14 @@ def test_an_axis_that_passes_the_vertical_has_no_precession_there():
 )  # fmt: skip
 def test_turning_points_that_are_not_there_are_refused(motion, t, text):
     with pytest.raises(ValueError, match=text):
-        Ledger.between_turns(motion, t)
+        Ledger.from_turns(motion, t)
 
 
 def test_a_stretch_that_ends_before_it_begins_is_refused():
     with pytest.raises(ValueError, match="end must be at least begin = 2 s, got 1"):
-        Ledger.of(FALL, 2.0, 1.0)
+        Ledger.from_times(FALL, 2.0, 1.0)
 
 
 def test_a_stretch_that_is_too_long_for_its_quadrature_is_refused():
     with pytest.raises(ValueError, match=r"end must be at most 898\.\d+ s after begin, got 1000 s"):
-        Ledger.of(DAMPED, 1.0, 1001.0)
+        Ledger.from_times(DAMPED, 1.0, 1001.0)

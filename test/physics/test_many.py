@@ -12,7 +12,7 @@ from drawn import Numbers
 from physics.refusals import refused
 from physics.tops import ARTICLE, CUSPS, random_case
 
-from symtop_ros.base.deprecation import Internal
+from symtop_ros.base.deprecation import OldName
 from symtop_ros.physics import (
     HOLDS,
     ExactTimes,
@@ -57,7 +57,7 @@ def list_names(motion):
 
 
 def find_old_names(owner):
-    return {name for name, each in vars(owner).items() if isinstance(each, Internal)}
+    return {name for name, each in vars(owner).items() if isinstance(each, OldName)}
 
 
 def draw_motions():

@@ -135,7 +135,7 @@ def terms(top, potential):
 
 @everywhere
 def test_the_energy_line_meets_the_potential_at_the_turning_angles(top, start):
-    potential = EffectivePotential.of(top, start)
+    potential = EffectivePotential.from_state(top, start)
     for angle in Motion(top, start).turning_angles:
         if min(angle, math.pi - angle) > 1e-6:
             # near a pole the rounding of p_phi - p_psi is divided by sin^2
@@ -146,7 +146,7 @@ def test_the_energy_line_meets_the_potential_at_the_turning_angles(top, start):
 @everywhere
 def test_the_cubic_is_the_square_of_the_rate_of_u(top, start):
     motion = Motion(top, start)
-    potential = EffectivePotential.of(top, start)
+    potential = EffectivePotential.from_state(top, start)
     states = motion.at(np.linspace(0.0, 1.0, 50))
     rate = np.sin(states.euler_angles.theta) * states.euler_rates.theta_dot
     u = states.vertical[:, 2]
@@ -157,7 +157,7 @@ def test_the_cubic_is_the_square_of_the_rate_of_u(top, start):
 @everywhere
 def test_the_cubic_vanishes_at_its_three_roots(top, start):
     motion = Motion(top, start)
-    potential = EffectivePotential.of(top, start)
+    potential = EffectivePotential.from_state(top, start)
     low, high = motion.turning_angles
     third = potential.find_third_root(low, high)
     assert abs(third) >= 1 - 16 * EPS
@@ -170,4 +170,4 @@ def test_the_cubic_vanishes_at_its_three_roots(top, start):
 def test_a_top_without_weight_has_no_third_root():
     start = STARTS["looping"]
     top = Top(ARTICLE.Ix, ARTICLE.Iz, 0.0)
-    assert EffectivePotential.of(top, start).find_third_root(0.5, 1.0) == math.inf
+    assert EffectivePotential.from_state(top, start).find_third_root(0.5, 1.0) == math.inf

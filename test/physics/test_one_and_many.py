@@ -35,8 +35,8 @@ UPRIGHT = State((1, 0, 0, 0), (0, 0, 200.0))
 UPRIGHTS = State([(1, 0, 0, 0)] * COUNT, [(0, 0, 200.0)] * COUNT)
 MOTION, MOTIONS = Motion(ARTICLE, STATE), Motions(TOPS, STATE)
 PUSHED = Motion(ARTICLE, STATE, pushes=Pushes(5e-5, 20.0, 3))
-POTENTIAL = EffectivePotential.of(ARTICLE, STATE)
-BODY = Body.of(ARTICLE)
+POTENTIAL = EffectivePotential.from_state(ARTICLE, STATE)
+BODY = Body.from_top(ARTICLE)
 FRICTIONS = Friction(axial=[1e-6, 2e-6, 3e-6])
 
 
@@ -207,14 +207,17 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, Given]]] = {
     },
     "Friction.torque": (Friction(1e-6).torque, {"state": OF_STATES}),
     "Body": (Body, {"mass": KG, "arm": METRE, "Ix": MOMENT, "Iz": MOMENT, "gravity": GRAVITY}),
-    "Body.of": (Body.of, {"top": ONE_TOP, "gravity": GRAVITY, "mass": KG}),
-    "Body.about_pivot": (
-        Body.about_pivot,
+    "Body.from_top": (Body.from_top, {"top": ONE_TOP, "gravity": GRAVITY, "mass": KG}),
+    "Body.from_pivot_moments": (
+        Body.from_pivot_moments,
         {"mass": KG, "arm": METRE, "Ix": MOMENT, "Iz": refuses(1e-3), "gravity": GRAVITY},
     ),
-    "Body.disc": (Body.disc, {"mass": KG, "radius": METRE, "distance": METRE, "gravity": GRAVITY}),
-    "Body.of_parts": (
-        Body.of_parts,
+    "Body.from_disc": (
+        Body.from_disc,
+        {"mass": KG, "radius": METRE, "distance": METRE, "gravity": GRAVITY},
+    ),
+    "Body.from_parts": (
+        Body.from_parts,
         {"parts": refuses([Part("hoop", 1.0, 0.5, 0.25)], 1.0), "gravity": GRAVITY},
     ),
     "Body.centre_of_mass": (BODY.centre_of_mass, {"state": OF_STATES}),
@@ -229,15 +232,21 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, Given]]] = {
         },
     ),
     "Pushes": (Pushes, {"impulse": refuses(1e-5), "rate": refuses(20.0), "number": refuses(3)}),
-    "EffectivePotential.of": (EffectivePotential.of, {"top": ONE_TOP, "state": ONE_STATE}),
+    "EffectivePotential.from_state": (
+        EffectivePotential.from_state,
+        {"top": ONE_TOP, "state": ONE_STATE},
+    ),
     "EffectivePotential.at": (POTENTIAL.at, {"theta": TILT}),
     "EffectivePotential.cubic": (POTENTIAL.cubic, {"u": TILT}),
     "EffectivePotential.find_third_root": (
         POTENTIAL.find_third_root,
         {"low": refuses(0.5), "high": refuses(0.6)},
     ),
-    "Ledger.of": (Ledger.of, {"motion": ONE_MOTION, "begin": refuses(0.0), "end": refuses(0.25)}),
-    "Ledger.between_turns": (Ledger.between_turns, {"motion": ONE_MOTION, "t": refuses(0.5)}),
+    "Ledger.from_times": (
+        Ledger.from_times,
+        {"motion": ONE_MOTION, "begin": refuses(0.0), "end": refuses(0.25)},
+    ),
+    "Ledger.from_turns": (Ledger.from_turns, {"motion": ONE_MOTION, "t": refuses(0.5)}),
     "ExactTimes": (ExactTimes, {"nanoseconds": takes(5)}),
 }
 

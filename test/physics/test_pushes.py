@@ -24,7 +24,7 @@ from symtop_ros.physics import (
     push_axle,
     regular_precession_rates,
 )
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import Series
 
 pytestmark = pytest.mark.numbers

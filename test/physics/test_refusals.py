@@ -36,7 +36,7 @@ from symtop_ros.physics.reference import exact_state
 
 START = State.from_euler(theta=0.5, phi=0.3, psi=1.2, theta_dot=2.0, phi_dot=6.5, psi_dot=200.0)
 MOTION = Motion(ARTICLE, CUSPS)
-POTENTIAL = EffectivePotential.of(ARTICLE, CUSPS)
+POTENTIAL = EffectivePotential.from_state(ARTICLE, CUSPS)
 MANY = Motions(Top([1.0, 2.0], 1.0, 1.0), CUSPS)
 DISC = {"mass": 1.0, "radius": 0.5, "distance": 0.25, "gravity": 9.81}
 BODY = {"mass": 1.0, "arm": 0.1, "Ix": 1.0, "Iz": 1.0, "gravity": 9.81}
@@ -82,8 +82,8 @@ ODD = (NAN, INF, -INF)
 NO_RATES = (1e200, NAN, [1.0, INF])
 OF_ONE_TOP = (
     partial(MANY.top.sleeping_is_stable, CUSPS),
-    partial(EffectivePotential.of, MANY.top, CUSPS),
-    partial(Body.of, MANY.top),
+    partial(EffectivePotential.from_state, MANY.top, CUSPS),
+    partial(Body.from_top, MANY.top),
 )
 NO_NUMBERS = "a", None, [1.0, NAN], True
 NO_TIMES = "1", None, True, 1j, np.timedelta64(100, "ms"), 10**400
@@ -114,17 +114,24 @@ TOPS = [
     (partial(Friction, 0.0, True), "friction.transverse", f"{FINITE_NUMBER} (N m s)", "True"),
 ]
 BODIES = [
-    (partial(Body.of, Top(1.0, 2.0, -0.5)), "Iz", "< 2 Ix = 2 kg m^2 for a body with Mgl = -0.5"),
-    (partial(Body.of, ARTICLE, 0.0), "gravity", "> 0 m/s^2", "0"),
-    (partial(Body.of, ARTICLE, NAN), "gravity", FINITE_NUMBER),
-    (partial(Body.of, Top(1.0, 1.0, 5e-324)), "Mgl", "of a size for which the mass"),
+    (
+        partial(Body.from_top, Top(1.0, 2.0, -0.5)),
+        "Iz",
+        "< 2 Ix = 2 kg m^2 for a body with Mgl = -0.5",
+    ),
+    (partial(Body.from_top, ARTICLE, 0.0), "gravity", "> 0 m/s^2", "0"),
+    (partial(Body.from_top, ARTICLE, NAN), "gravity", FINITE_NUMBER),
+    (partial(Body.from_top, Top(1.0, 1.0, 5e-324)), "Mgl", "of a size for which the mass"),
     (partial(Body, **{**BODY, "mass": -1.0}), "mass", "> 0 kg"),
     (partial(Body, **{**BODY, "arm": NAN}), "arm", "a finite number (m)"),
     (partial(Body, **{**BODY, "Iz": 2.5}), "Iz", "<= 2 Ix = 2 kg m^2"),
     (partial(Body, **{**BODY, "gravity": 0.0}), "gravity", "> 0 m/s^2"),
-    (partial(Body.about_pivot, 15.0, 1.0, 15.0, 0.5), "Ix", "> mass arm^2 = 15 kg m^2"),
-    (partial(Body.about_pivot, 1.0, 1e200, 1.0, 1.0), "Ix", "> mass arm^2 = inf kg m^2"),
-    *((partial(Body.disc, **{**DISC, n: 0.0}), n, "> 0") for n in ("mass", "radius", "gravity")),
+    (partial(Body.from_pivot_moments, 15.0, 1.0, 15.0, 0.5), "Ix", "> mass arm^2 = 15 kg m^2"),
+    (partial(Body.from_pivot_moments, 1.0, 1e200, 1.0, 1.0), "Ix", "> mass arm^2 = inf kg m^2"),
+    *(
+        (partial(Body.from_disc, **{**DISC, n: 0.0}), n, "> 0")
+        for n in ("mass", "radius", "gravity")
+    ),
     (partial(Body(**BODY).pivot_force, MOTION, CUSPS), "motion.top", ", that of the body", "Top"),
 ]
 STATES = [

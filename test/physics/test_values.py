@@ -114,7 +114,7 @@ def test_nothing_underflows_into_an_error():
         upright.total_torque(states)
         states.table([360.0, 3600.0])
         compare_hurried(ARTICLE, [0, 1e-170, 0.5], [3, 3, 0], 200)
-        EffectivePotential.of(ARTICLE, CUSPS).at([0, 1e-170, 1e-160])
+        EffectivePotential.from_state(ARTICLE, CUSPS).at([0, 1e-170, 1e-160])
         theta_acceleration(ARTICLE, [1e-300, 1e-170], [1e-300, 3.0], 1e-200)
         hurry(State.from_euler(theta=[1e-90, 1.0], phi_dot=1e-200), [1e-300, 1.0])
         apply_impulse(ARTICLE, states, (1e-300, 0, 1e-320))

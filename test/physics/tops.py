@@ -12,7 +12,7 @@ from mpmath import mp, mpf
 from waiting import TIMEOUT
 
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import ClosedForm, ExactState, Series
 from workshop.testset.exact import DIGITS
 

@@ -7,7 +7,7 @@ import pytest
 from documents import ROOT
 
 from symtop_ros.physics import State, Top
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import closed_form
 
 pytestmark = pytest.mark.untraced

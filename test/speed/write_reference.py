@@ -10,7 +10,7 @@ from typing import Any
 
 from mpmath import mp
 
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import ClosedForm, Series
 from workshop.speed.reference import FILE, PARTS, read_entries
 from workshop.testset.exact import distance, perturb

@@ -198,7 +198,7 @@ def draw_same_accelerations() -> Figure:
 
 def plot_depth(axes: Axes, motion: Motion, theta: Real, **look: Any) -> None:
     """Plot the effective potential over E' against theta, with the turning angles."""
-    potential = EffectivePotential.of(motion.top, motion.start)
+    potential = EffectivePotential.from_state(motion.top, motion.start)
     axes.plot(theta, 1e3 * (potential.at(theta) - potential.energy), **look)
     axes.plot(motion.turning_angles, [0, 0], "o", color=look["color"], ms=5)
     axes.set(xlabel=r"$\theta$ (rad)", ylabel=r"$U_\mathrm{eff} - E'$ ($10^{-3}$ J)")

@@ -194,7 +194,7 @@ def momentum_is_smallest_when_highest(top: Top) -> Measured:
         square = (each.angular_momentum(states) ** 2).sum(axis=1)
         spin = each.axial_momentum(motion.start)
         height = states.vertical[:, 2]
-        energy = EffectivePotential.of(each, motion.start).energy
+        energy = EffectivePotential.from_state(each, motion.start).energy
         expected = spin**2 + 2 * each.Ix * (energy - each.Mgl * height)
         offs.append(float(np.abs(square / expected - 1).max()))
         extreme = square.argmin() if each.Mgl > 0 else square.argmax()

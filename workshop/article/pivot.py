@@ -22,14 +22,14 @@ MOST_HURRIED = 4.0  # a factor by which the article's top lifts
 
 def pivot_forces(motion: Motion, times: Real) -> tuple[Real, Real]:
     """Return the vertical and the horizontal force of the pivot on the top, (n,), in N."""
-    forces = Body.of(motion.top).pivot_force(motion, motion.at(times))
+    forces = Body.from_top(motion.top).pivot_force(motion, motion.at(times))
     return forces[:, 2], np.linalg.norm(forces[:, :2], axis=1)
 
 
 @claim()
 def force_accelerates_the_mass(top: Top) -> Measured:
     """Check the force against the acceleration of the centre of mass, found by differences."""
-    body = Body.of(top)
+    body = Body.from_top(top)
     motion = cusps(top)
     times = nutation_times(motion, SAMPLES)
 
@@ -47,7 +47,7 @@ def force_accelerates_the_mass(top: Top) -> Measured:
 @claim()
 def pivot_carries_the_weight(top: Top) -> Measured:
     """Check that the vertical force is the weight on average over a nutation."""
-    body = Body.of(top)
+    body = Body.from_top(top)
     motion = cusps(top)
     vertical, _ = pivot_forces(motion, nutation_times(motion, SAMPLES))
     weight = body.mass * body.gravity
@@ -61,7 +61,7 @@ def peg_slips(top: Top) -> Measured:
     """Check the friction that a peg needs on both roots of regular precession."""
     needed = []
     offs = []
-    body = Body.of(top)
+    body = Body.from_top(top)
     for rate in (SLOW, FAST):
         motion = Motion(top, start(rate))
         vertical, horizontal = pivot_forces(motion, nutation_times(motion, SAMPLES))
@@ -86,7 +86,7 @@ def peg_slips(top: Top) -> Measured:
 @claim()
 def peg_lifts(top: Top) -> Measured:
     """Check that a top hurried far enough from the fast root would lift its peg."""
-    weight = Body.of(top).mass * Body.of(top).gravity
+    weight = Body.from_top(top).mass * Body.from_top(top).gravity
     hurried = _least_force(top, 1.4)
     most = _least_force(top, MOST_HURRIED)
     factor = float(brentq(lambda each: _least_force(top, each), 1.4, MOST_HURRIED, xtol=1e-6))

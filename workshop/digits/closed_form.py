@@ -28,7 +28,7 @@ from mpmath import (
     sqrt,
 )
 
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits.state import ExactState, Number
 
 

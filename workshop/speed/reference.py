@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.physics.arguments import NO_TORQUE
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from symtop_ros.truth.testset.score import measure_angles, read_problems, split_decimals
 from workshop.digits import Series
 from workshop.speed.peers.peer import initial_values

@@ -8,7 +8,7 @@ from typing import Any
 
 from mpmath import mp, mpc
 
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from workshop.digits import ClosedForm, ExactState, Series
 
 DIGITS = 80

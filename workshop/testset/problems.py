@@ -33,7 +33,7 @@ class Setting:
     @property
     def body(self) -> Body:
         """The body that has a name here, or the one that the package chooses."""
-        return KNOWN.get(self.top) or Body.of(self.top)
+        return KNOWN.get(self.top) or Body.from_top(self.top)
 
     @property
     def times(self) -> list[float]:

@@ -17,7 +17,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from symtop_ros.physics import DEFAULT_GRAVITY
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from symtop_ros.truth.testset.score import FILE, VERSION, read_problems
 from symtop_ros.truth.testset.tables import FORCES, LIMITS, STATES, WORLD, complete, format_problems
 from workshop.digits import ClosedForm, ExactState, Series

@@ -68,6 +68,8 @@ class Motions:
     Examples
     --------
     >>> import cupy  # doctest: +SKIP
+    >>> from symtop_ros.physics import State  # doctest: +SKIP
+    >>> from symtop_ros.physics.gpu import Motions  # doctest: +SKIP
     >>> weight = cupy.linspace(0.05, 0.08, 1_000_000)  # doctest: +SKIP
     >>> top = (0.000228, 0.0000572, weight)  # doctest: +SKIP
     >>> motions = Motions(top, State.from_euler(theta=0.5, psi_dot=200.0))  # doctest: +SKIP

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from symtop_ros.physics.state import State
     from symtop_ros.physics.top import Friction, Top
 
-__all__ = ["Inputs", "ProvedConstants", "ProvedState", "exact_constants", "exact_state"]
+__all__ = ["ProvedConstants", "ProvedState", "exact_constants", "exact_state"]
 
 
 def exact_state(

@@ -59,7 +59,7 @@ def prove_state(
     Examples
     --------
     >>> from symtop_ros.physics import State, Top
-    >>> from symtop_ros.physics.reference import Inputs
+    >>> from symtop_ros.physics.reference.series import Inputs
     >>> from symtop_ros.physics.reference.proved import prove_state
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> cusps = State.from_euler(theta=0.5, psi_dot=200.0)

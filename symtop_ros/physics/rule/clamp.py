@@ -48,7 +48,7 @@ class ClampVerdict:
         return write("clamp", self)
 
 
-def clamp_verdict(top: Top, before: State) -> ClampVerdict:
+def clamp_verdict(top: Top[float], before: State[float]) -> ClampVerdict:
     """Return what follows if a hand holds the precession of a state.
 
     Parameters

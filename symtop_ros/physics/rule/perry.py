@@ -230,7 +230,7 @@ class KickVerdict:
         return write("kick", self)
 
 
-def kick_verdict(motion: Motion, before: State, hold: Hold | None) -> KickVerdict:
+def kick_verdict(motion: Motion, before: State[float], hold: Hold | None) -> KickVerdict:
     """Return what a kick changed: its consequences, and Perry's rule.
 
     Parameters

@@ -1,7 +1,6 @@
 """The consequences of a state: direction, turning angles and Perry's rule, as a record."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, overload
 
@@ -9,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.base.arrays import Real, split
+from symtop_ros.base.one_or_many import Many
 from symtop_ros.base.refusals import refuse
 from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, list_starts
 from symtop_ros.physics.kernel import door, records
@@ -124,14 +124,24 @@ class Verdicts:
 
 @overload
 def perrys_rule(
-    top: Top, state: State, factor: float = 1.4, hold: Hold = "spin_rate"
+    top: Top[float], state: State[float], factor: float = 1.4, hold: Hold = "spin_rate"
 ) -> Verdict: ...
 
 
 @overload
 def perrys_rule(
-    top: Top, state: State, factor: Sequence[float] | Real, hold: Hold = "spin_rate"
+    top: Top[Real], state: State, factor: ArrayLike = 1.4, hold: Hold = "spin_rate"
 ) -> Verdicts: ...
+
+
+@overload
+def perrys_rule(
+    top: Top, state: State[Real], factor: ArrayLike = 1.4, hold: Hold = "spin_rate"
+) -> Verdicts: ...
+
+
+@overload
+def perrys_rule(top: Top, state: State, factor: Many, hold: Hold = "spin_rate") -> Verdicts: ...
 
 
 def perrys_rule(

@@ -104,7 +104,7 @@ class PotentialView:
 
     def log_motion(self, motion: Motion) -> None:
         """Draw the curves of a motion from the current time on, and those before it in grey."""
-        potential = EffectivePotential.of(motion.top, motion.start)
+        potential = EffectivePotential.from_state(motion.top, motion.start)
         self._charts = frame_potential(motion, potential), frame_cubic(motion, potential)
         self._log_potential(motion, potential, self._charts[0])
         self._log_cubic(motion, potential, self._charts[1])

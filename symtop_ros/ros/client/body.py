@@ -49,7 +49,7 @@ def make_body(words: list[str]) -> "Body":
     measured = {name: parse_quantity(name, texts[name], MEASURED[name]) for name in texts}
     gravity = measured.pop("gravity", DEFAULT_GRAVITY)
     parts = [part for word in words if "=" not in word for part in read_parts(word)]
-    return Body.of_parts(parts, gravity, measured.get("Ix"), measured.get("Iz"))
+    return Body.from_parts(parts, gravity, measured.get("Ix"), measured.get("Iz"))
 
 
 def read_parts(word: str) -> "tuple[Part, ...]":

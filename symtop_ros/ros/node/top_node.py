@@ -38,6 +38,8 @@ from symtop_ros.run.simulation.simulation import Simulation
 from symtop_ros.run.simulation.topics import APPLIED_TORQUE, DEFAULT_NAME
 from symtop_ros.run.wire.layout import NANOSECONDS
 
+__all__ = ["TopNode"]
+
 SIM_TIME = "use_sim_time"
 CLOCK_WAIT = 2.0  # s between two checks that a simulated clock is there
 

@@ -24,7 +24,7 @@ def _write(options: argparse.Namespace) -> int:
     text = FORMATS[options.format](
         settings.top,
         initial_state(settings.top, settings.initial, {}),
-        Body.of(settings.top, settings.gravity, settings.mass or None),
+        Body.from_top(settings.top, settings.gravity, settings.mass or None),
     )
     if options.output:
         options.output.write_text(text, encoding="utf-8")

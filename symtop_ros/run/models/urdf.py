@@ -82,7 +82,7 @@ def robot_description(
 def describe_inertial(top: Top, body: Body | None, described: Description = PLAIN) -> str:
     """Return the inertia of the link, and the sentence that describes the body."""
     try:
-        body = body or Body.of(top)
+        body = body or Body.from_top(top)
     except ValueError as error:
         return f"<!-- No body moves like this top: {html.escape(str(error), quote=False)}. -->"
     inertia = _inertial(described.link(body)) if described.share else MASSLESS

@@ -220,7 +220,7 @@ def _say_exchange(segment: Segment, stamp: int) -> str:
     if is_integrated:
         return ""
     try:
-        return str(Ledger.of(motion, 0.0, segment.time_at(stamp)))
+        return str(Ledger.from_times(motion, 0.0, segment.time_at(stamp)))
     except RefusedError:  # the other facts of the state are answered without it
         return ""
 

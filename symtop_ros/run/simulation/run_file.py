@@ -233,7 +233,7 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
     motion = Motion(top, start, *acting)
     mass, gravity = values["mass"], values["gravity"]
     if mass:
-        Body.of(top, gravity, mass)  # refuses one that is too small
+        Body.from_top(top, gravity, mass)  # refuses one that is too small
     return RunEvent(kind, time, motion, name_pushes(pushes) if pushes else act, mass, gravity)
 
 

@@ -317,7 +317,7 @@ class Settings:
         except ValueError as error:  # of the moments together; a friction has its limits above
             raise RefusedError(f"top.{error}") from None
         if clean["mass"]:
-            Body.of(top, clean["gravity"], clean["mass"])  # refuses one that is too small
+            Body.from_top(top, clean["gravity"], clean["mass"])  # refuses one that is too small
         x, y, z = clean["steady_torque"] or NO_TORQUE
         plain = {name: value for name, value in clean.items() if "." not in name}
         return cls(

@@ -32,6 +32,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = ["Problem", "Score", "read_problems", "read_trajectory", "score_trajectory"]
+
 VERSION = "6.2"  # of the test set
 FILE = Path(__file__).with_name("problems.json")
 PACKED = ".json.xz"  # of the same file in the package, which writes the set from it

@@ -92,7 +92,7 @@ def draw_in_python(top, state):
     fastest = float(np.abs(state.angular_velocity).max())
     momentum = (top.Ix + top.Iz) * fastest
     energy = abs(top.Mgl) + momentum * fastest
-    potential = physics.EffectivePotential.of(top, state)
+    potential = physics.EffectivePotential.from_state(top, state)
     heights = potential.at([0.3, 1.0, 2.5]).tolist()
     return {
         "world": (state.to_world(state.angular_velocity).tolist(), 2 * fastest),

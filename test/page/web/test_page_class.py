@@ -33,7 +33,7 @@ def test_the_list_shows_the_disc_that_moves_as_the_top_does(opened):
     opened.open_tab("start")
     shown = opened.tab.locator("#parts .part input")
     numbers = [float(shown.nth(k).input_value()) for k in range(3)]
-    article = Body.disc(*numbers).top
+    article = Body.from_disc(*numbers).top
     assert article.moments == pytest.approx((0.000228, 0.0000572, 0.068), rel=1e-5)  # six digits
 
 
@@ -41,17 +41,17 @@ def test_a_body_of_parts_is_that_of_python(opened):
     opened.open_tab("start")
     fill_part(opened, 0, "disc", "170 g", "5.5cm", "0,105")
     opened.tab.click("#use-body")
-    assert read_top(opened) == list(Body.disc(0.17, 0.055, 0.105).top.moments)
+    assert read_top(opened) == list(Body.from_disc(0.17, 0.055, 0.105).top.moments)
     opened.tab.click("#add-part")
     fill_part(opened, 1, "point", "50 g", "-8 cm")
     opened.tab.click("#use-body")
     parts = [Part("disc", 0.17, 0.105, 0.055), Part("point", 0.05, -0.08)]
-    assert read_top(opened) == list(Body.of_parts(parts).top.moments)
+    assert read_top(opened) == list(Body.from_parts(parts).top.moments)
     assert (opened.read_events()[-1]["mass"], opened.read_run()["format"]) == (0.17 + 0.05, 4)
     wait_for_table(opened, "(0.22 kg)")
     opened.tab.locator("#parts .part button").nth(1).click()
     opened.tab.click("#use-body")
-    assert read_top(opened) == list(Body.disc(0.17, 0.055, 0.105).top.moments)
+    assert read_top(opened) == list(Body.from_disc(0.17, 0.055, 0.105).top.moments)
 
 
 def test_a_list_that_is_typed_is_not_said_to_move_as_the_top_does_until_it_is_used(opened):
@@ -90,7 +90,7 @@ def test_a_scene_that_says_a_mass_has_the_force_of_it(opened):
 def test_bodies_of_the_classroom_are_those_of_python(shared, name):
     shared.open_tab("start")
     shared.tab.select_option("#bodies", name)
-    assert read_top(shared) == list(Body.of_parts(BODIES[name]).top.moments)
+    assert read_top(shared) == list(Body.from_parts(BODIES[name]).top.moments)
     assert shared.tab.locator("#parts .part").count() == len(BODIES[name])
 
 

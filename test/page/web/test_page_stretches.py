@@ -67,7 +67,7 @@ def test_the_exchange_of_a_stretch_is_that_of_the_library(tab, count):
     cases = [draw_case(rng) for _ in range(count)]
     answers = tab.evaluate("findExchanges", [to_case(*each) for each in cases])
     for (motion, end), (found, text) in zip(cases, answers, strict=True):
-        wanted = Exchange.of(Ledger.of(motion, 0.0, end / 1e9))
+        wanted = Exchange.from_ledger(Ledger.from_times(motion, 0.0, end / 1e9))
         assert found["kind"] == wanted.kind
         assert found["momenta"]["kind"] == wanted.momenta.kind
         pairs = [*zip(found["shares"], wanted.shares, strict=True)]
@@ -90,7 +90,7 @@ def test_the_last_two_turning_points_are_those_of_the_library(tab, count):
             cases.append((motion, end))
     answers = tab.evaluate("findTurns", [to_case(*each) for each in cases])
     for (motion, end), found in zip(cases, answers, strict=True):
-        ledger = Ledger.between_turns(motion, end / 1e9)
+        ledger = Ledger.from_turns(motion, end / 1e9)
         half = motion.nutation_period / 2
         if ledger.begin < -2e-9:  # before the start
             assert found is None
@@ -108,7 +108,7 @@ def test_the_words_are_those_of_the_moment_that_is_shown(open_page):
     fall = Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0))
     for time in (0.05, 0.0797, 0.1):
         page.seek(time)
-        wanted = f"{Ledger.of(fall, 0.0, time)}"
+        wanted = f"{Ledger.from_times(fall, 0.0, time)}"
         page.until(lambda wanted=wanted: page.say("stretch-act") == wanted)
         has_turned = time > fall.nutation_period / 2
         turns = "In 0.0798 s the weight gave 6.12 mJ, the precession got 6.12 mJ; " + KEPT
@@ -139,7 +139,7 @@ def test_a_series_of_pushes_is_told_with_its_first_one(open_page):
     start = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
     first = push_axle(ARTICLE, start, 5e-5)
     motion = Motion(ARTICLE, first, pushes=Pushes(5e-5, 20.0, 20))
-    later = Ledger.of(motion, 0.0, 0.12).pushes
+    later = Ledger.from_times(motion, 0.0, 0.12).pushes
     given = later.vertical_momentum + 5e-5 * math.sin(0.5)
     page.until(lambda: f"the pushes gave {given:.3g} N m s to p_phi." in page.say("stretch-act"))
     speeds = (start.euler_rates.phi_dot + first.euler_rates.phi_dot) / 2 * math.sin(0.5)

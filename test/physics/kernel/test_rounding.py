@@ -14,7 +14,7 @@ UPWARD = {"Linux x86_64": 0x800, "Linux aarch64": 0x400000}.get(" ".join(platfor
 TOPS = physics.Top(ARTICLE.Ix, ARTICLE.Iz, [0.0625, 0.125])
 MOTION = physics.Motion(ARTICLE, CUSPS)
 DRIVEN = physics.Motion(ARTICLE, CUSPS, physics.Friction(axial=1e-6))
-POTENTIAL = physics.EffectivePotential.of(ARTICLE, CUSPS)
+POTENTIAL = physics.EffectivePotential.from_state(ARTICLE, CUSPS)
 # What is found once is kept: nothing of it is known before.
 FOUND = (
     "kind",
@@ -65,7 +65,7 @@ CALLS = {
     "critical spin": lambda: ARTICLE.critical_spin,
     "a norm": partial(physics.State, (1.0005, 0, 0, 0), (0, 0, 0)),
     "a matrix": partial(physics.State.from_matrix, CUSPS.matrix, (0, 0, 0)),
-    "a potential": partial(physics.EffectivePotential.of, ARTICLE, CUSPS),
+    "a potential": partial(physics.EffectivePotential.from_state, ARTICLE, CUSPS),
     "a potential at an angle": partial(POTENTIAL.at, 0.5),
     "a cubic": partial(POTENTIAL.cubic, 0.5),
     "a third root": partial(POTENTIAL.find_third_root, 0.5, 0.6),

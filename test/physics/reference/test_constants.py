@@ -15,9 +15,10 @@ from physics.tops import EPS
 from trials import trials
 
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.physics.reference import Inputs, ProvedConstants, exact_constants
+from symtop_ros.physics.reference import ProvedConstants, exact_constants
 from symtop_ros.physics.reference.constants import find_constants, prove_constants
 from symtop_ros.physics.reference.fall import Fall
+from symtop_ros.physics.reference.series import Inputs
 
 FALLS = [each for each in read_motions() if not each.motion.is_driven]
 STEPS = trials(10, 1)  # every tenth of them, or all

@@ -7,11 +7,10 @@ from flint import arb, ctx
 from physics.reference.cases import CASES
 from trials import choose
 
-from symtop_ros.physics.reference import Inputs
 from symtop_ros.physics.reference.balls import ProvedState, TooFewBitsError, to_ball
 from symtop_ros.physics.reference.enclosure import Enclosure, Field
 from symtop_ros.physics.reference.proved import prove_state, prove_states
-from symtop_ros.physics.reference.series import Series
+from symtop_ros.physics.reference.series import Inputs, Series
 
 DRIVES = {
     "friction": ((0.03, 0.02), (0.0, 0.0, 0.0)),

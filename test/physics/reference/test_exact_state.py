@@ -12,9 +12,10 @@ from physics.tops import ARTICLE, CUSPS, EPS
 from programs import run_python
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top, reference
-from symtop_ros.physics.reference import Inputs, exact_constants, exact_state
+from symtop_ros.physics.reference import exact_constants, exact_state
 from symtop_ros.physics.reference.balls import norm
 from symtop_ros.physics.reference.proved import prove_state
+from symtop_ros.physics.reference.series import Inputs
 
 pytestmark = pytest.mark.untraced
 SOURCES = sorted(Path(reference.__file__).parent.glob("*.py"))

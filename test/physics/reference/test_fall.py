@@ -10,11 +10,11 @@ from physics.families import DRAWS, draw_motion
 from physics.reference.cases import CASES
 from trials import choose, trials
 
-from symtop_ros.physics.reference import Inputs
 from symtop_ros.physics.reference.balls import ProvedState
 from symtop_ros.physics.reference.enclosure import Enclosure
 from symtop_ros.physics.reference.fall import Fall, Nutation, find_fall
 from symtop_ros.physics.reference.proved import prove_state
+from symtop_ros.physics.reference.series import Inputs
 
 MANY = 1500  # bits
 FEW = (53, 64, 80, 110, 160, 240)  # bits

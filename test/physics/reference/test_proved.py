@@ -9,9 +9,9 @@ from physics.reference.cases import ASYMPTOTIC, CASES, PENDULUM
 from trials import choose
 
 from symtop_ros.physics import Motion
-from symtop_ros.physics.reference import Inputs
 from symtop_ros.physics.reference.balls import ProvedState, TooFewBitsError
 from symtop_ros.physics.reference.proved import bound_errors, prove_state
+from symtop_ros.physics.reference.series import Inputs
 
 
 def test_an_attitude_next_to_the_separatrix_is_proved_within_the_promise() -> None:

@@ -25,7 +25,7 @@ MOTIONS = {
 
 @pytest.mark.parametrize("motion", MOTIONS.values(), ids=MOTIONS)
 def test_turning_angles_energy_and_the_roots_that_are_angles_are_inside_the_charts(motion):
-    potential = EffectivePotential.of(motion.top, motion.start)
+    potential = EffectivePotential.from_state(motion.top, motion.start)
     chart = frame_potential(motion, potential)
     assert chart.left <= motion.turning_angles[0] <= motion.turning_angles[1] <= chart.right
     assert chart.bottom < potential.energy < chart.top

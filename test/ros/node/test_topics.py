@@ -35,7 +35,7 @@ def compute(motion, state):
     """Messages of a state of a motion by the library, by the topic."""
     top = motion.top
     omega = state.to_world(state.angular_velocity)
-    force = Body.of(top).pivot_force(motion, state)
+    force = Body.from_top(top).pivot_force(motion, state)
     return {
         "orientation": state.orientation.tolist(),
         "angular_velocity": [omega.tolist(), [0.0, 0.0, 0.0]],

@@ -28,7 +28,7 @@ def read_scene(name):
 
 
 def write(form, top, start):
-    return FORMATS[form](top, start, Body.of(top))
+    return FORMATS[form](top, start, Body.from_top(top))
 
 
 def open_in_mujoco(form, scene):
@@ -136,7 +136,7 @@ def test_usd_core_validates_every_stage_and_reads_its_numbers(name, tmp_path):
     validators = validation.ValidationRegistry().GetOrLoadAllValidators()
     for scene in SCENES:
         top, start = read_scene(scene)
-        body = Body.of(top)
+        body = Body.from_top(top)
         described = describe(name, body) if name else PLAIN
         for form in ("usd", "free.usd"):
             write = {**FORMATS, **FREE_FORMATS}[form]

@@ -20,7 +20,7 @@ from symtop_ros.run.simulation.run_file import read_run, record_run, write_run
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS, Samples
 
-WHEEL = Body.of_parts(BODIES["balanced_gyroscope"], gravity=9.80)
+WHEEL = Body.from_parts(BODIES["balanced_gyroscope"], gravity=9.80)
 MOMENTS = {"top.Ix": WHEEL.top.Ix, "top.Iz": WHEEL.top.Iz, "top.Mgl": WHEEL.top.Mgl}
 WEIGHED = {**MOMENTS, "mass": WHEEL.mass, "gravity": WHEEL.gravity}
 
@@ -107,7 +107,7 @@ def test_an_event_without_a_mass_means_an_assumed_one():
     assert event.values["mass"] == "0.5"
     older = {name: text for name, text in event.values.items() if name != "mass"}
     segment = Event(event.stamp, event.name, event.verdict, older).segment()
-    assert segment.rig.find_body(segment.motion.top) == Body.of(segment.motion.top)
+    assert segment.rig.find_body(segment.motion.top) == Body.from_top(segment.motion.top)
     assert "mass" not in Run("cusps").sink.events[0].values
 
 

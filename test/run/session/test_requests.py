@@ -296,7 +296,7 @@ def test_the_state_says_what_gave_energy_and_momentum_since_the_last_event(chang
     run = Run("cusps", **changes)
     run.advance(0.08)
     segment, stamp = run.simulation.segment, run.simulation.stamp
-    ledger = Ledger.of(segment.motion, 0.0, segment.time_at(stamp))
+    ledger = Ledger.from_times(segment.motion, 0.0, segment.time_at(stamp))
     assert summarize_state(segment, stamp)["exchange"] == str(ledger)
 
 

@@ -14,7 +14,7 @@ from physics.tops import EPS, attitude_error, error, exact_euler, turn
 from run.simulation.runs import SECOND, ListSink, Run
 from trials import choose, trials
 
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from symtop_ros.run.simulation.topics import STATE_TOPICS
 from workshop.digits import ClosedForm
 

@@ -56,7 +56,7 @@ def test_every_scene_starts_the_motion_that_its_name_promises():
 
 def test_what_a_class_has_at_hand_is_computed_from_its_mass_and_size():
     gyroscope, wheel = (motion_of(name) for name in ("toy_gyroscope", "bicycle_wheel"))
-    disc = Body.disc(mass=0.06, radius=0.026, distance=0.035).top
+    disc = Body.from_disc(mass=0.06, radius=0.026, distance=0.035).top
     rim = 1.5 * 0.3**2  # its moment about the axle; a diameter has half of it
     ring = Body(mass=1.5, arm=0.15, Ix=rim / 2, Iz=rim, gravity=DEFAULT_GRAVITY).top
     assert gyroscope.top.moments == pytest.approx(disc.moments, rel=8 * EPS)

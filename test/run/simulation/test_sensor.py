@@ -66,7 +66,7 @@ def test_odometry_is_the_motion_of_the_centre_of_mass():
     segment = segment_of()
     step = 1000  # ns
     numbers = measured("odometry", segment)
-    body, state = Body.of(ARTICLE), segment.state_at(STAMPS)
+    body, state = Body.from_top(ARTICLE), segment.state_at(STAMPS)
     assert np.abs(numbers[:, :3] - body.centre_of_mass(state)).max() < 2 * EPS * body.arm
     later, before = (measured("odometry", segment, STAMPS + sign * step)[:, :3] for sign in (1, -1))
     velocity = (later - before) / (2 * step * 1e-9)

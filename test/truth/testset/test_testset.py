@@ -13,7 +13,7 @@ from programs import run_python
 from truth.testset.trajectories import make_table, write
 
 from symtop_ros.physics import Motion, State, Top, point_acceleration
-from symtop_ros.physics.reference import Inputs
+from symtop_ros.physics.reference.series import Inputs
 from symtop_ros.truth.testset.score import main, read_problems
 from symtop_ros.truth.testset.tables import FORCES, STATES, WORLD
 from workshop.digits import ClosedForm

@@ -100,7 +100,7 @@ def constants_decide(top: Top) -> Measured:
     offs, words = [], []
     for rate in (0.0, SLOW + FAST):
         motion = Motion(top, start(rate))
-        potential = EffectivePotential.of(top, motion.start)
+        potential = EffectivePotential.from_state(top, motion.start)
         reached = motion.at([0.0, motion.nutation_period / 2]).euler_angles.theta
         size = np.abs(potential.at(reached)).max()
         offs.append(float(np.abs(potential.at(reached) - potential.energy).max() / size))

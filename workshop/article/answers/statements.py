@@ -46,7 +46,7 @@ def line_of_nodes_is_principal(top: Top) -> Measured:
     tangent = (top.Ix - top.Iz) * np.sin(THETA) * np.cos(THETA)
     tangent /= top.Ix * np.sin(THETA) ** 2 + top.Iz * np.cos(THETA) ** 2
     missed = abs(angle - float(np.arctan(tangent)))
-    body = Body.of(top)
+    body = Body.from_top(top)
     force = body.pivot_force(Motion(top, tilting), tilting) @ tilting.to_world([0.0, 0.0, 1.0])
     needed = body.mass * body.gravity * np.cos(THETA) - float(force)
     holds = (

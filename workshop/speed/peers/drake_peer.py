@@ -124,7 +124,7 @@ def _build_ball_joint(task: Motion) -> tuple[Any, Any]:
     """Return the body of the SDF of `top_model`, turned back to where the angles are zero."""
     upright = State((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     plant = MultibodyPlant(time_step=0.0)
-    Parser(plant).AddModelsFromString(format_sdf(task.top, upright, Body.of(task.top)), "sdf")
+    Parser(plant).AddModelsFromString(format_sdf(task.top, upright, Body.from_top(task.top)), "sdf")
     plant.Finalize()
     return plant, plant.GetJointByName("pivot")
 

@@ -18,7 +18,9 @@ mujoco.set_mju_user_warning(lambda _: None)
 
 def prepare(method: str, task: Motion, step: float) -> Solution:
     """Compile the model; each solution starts anew."""
-    model = mujoco.MjModel.from_xml_string(format_mjcf(task.top, task.start, Body.of(task.top)))
+    model = mujoco.MjModel.from_xml_string(
+        format_mjcf(task.top, task.start, Body.from_top(task.top))
+    )
     model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{method.upper()}")
     model.opt.timestep = step
     data = mujoco.MjData(model)

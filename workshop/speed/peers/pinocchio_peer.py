@@ -56,7 +56,7 @@ def prepare(task: Motion, step: float) -> Solution:
 
 def _build_model(task: Motion) -> pinocchio.Model:
     """Return the body of the URDF of `top_model`, on a spherical joint for its three joints."""
-    chain = pinocchio.buildModelFromXML(format_urdf(task.top, task.start, Body.of(task.top)))
+    chain = pinocchio.buildModelFromXML(format_urdf(task.top, task.start, Body.from_top(task.top)))
     model = pinocchio.Model()
     model.gravity.linear = chain.gravity.linear
     fixed = pinocchio.SE3.Identity()

@@ -59,8 +59,9 @@ class Magnetometer:
     Examples
     --------
     >>> from symtop_ros.truth.imu import Imu, Magnetometer
-    >>> Imu(magnetometer=Magnetometer(vector=(0, 2e-5, -4.5e-5))).magnetometer.seed
-    0
+    >>> seen = Magnetometer(vector=(0, 2e-5, -4.5e-5))
+    >>> Imu(magnetometer=seen).magnetometer == seen
+    True
     """
 
     vector: Vector = EARTH
@@ -291,6 +292,6 @@ def _read_magnetometer(values: Mapping[str, str]) -> Magnetometer:
 def find_body(top: Top, gravity: float, mass: float = 0.0) -> Body | None:
     """Return the body of a top: of its mass, or the chosen one; None if no body can be it."""
     try:
-        return Body.of(top, gravity, mass or None)
+        return Body.from_top(top, gravity, mass or None)
     except ValueError:
         return None
