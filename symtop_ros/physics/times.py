@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import Words, refuse
 from symtop_ros.physics.values import ignore_underflow, validate_number
 
@@ -74,7 +75,7 @@ class ExactTimes:
         return () if isinstance(self.nanoseconds, int) else self.nanoseconds.shape
 
     @cached_property
-    def seconds(self) -> Any:
+    def seconds(self) -> float | Real:
         """The nearest doubles in s, a float or (n,)."""
         ticks, parts = self.factor.as_integer_ratio()
         elapsed, pieces = self.elapsed.as_integer_ratio()
