@@ -126,7 +126,9 @@ class ExactTimes:
         >>> ExactTimes(0, factor=0.25, elapsed=Fraction(3)).advance(5)
         Fraction(17, 4)
         """
-        return self.elapsed + Fraction(self.factor) * nanoseconds
+        if not isinstance(nanoseconds, int | np.integer):
+            raise refuse("nanoseconds", "one whole number (ns)", nanoseconds)
+        return self.elapsed + Fraction(self.factor) * int(nanoseconds)
 
     @property
     @ignore_underflow
