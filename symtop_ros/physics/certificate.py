@@ -4,12 +4,13 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Generic
 
 import numpy as np
 
 from symtop_ros.base.arrays import Vector
 from symtop_ros.base.missing import name_remedy
+from symtop_ros.base.one_or_many import N
 from symtop_ros.base.refusals import RefusedError, Words, refuse
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import SECOND, ExactTimes
@@ -19,7 +20,7 @@ Drive = tuple[tuple[float, float], Vector]  # coefficients of friction, and a to
 
 
 @dataclass(frozen=True)
-class Certificate:
+class Certificate(Generic[N]):
     """Bounds of the errors of states that `Motion.at` gives, each with a proof.
 
     Attributes
@@ -30,8 +31,8 @@ class Certificate:
         At least the length of the error of the angular velocity, in rad/s.
     """
 
-    attitude: Any
-    angular_velocity: Any
+    attitude: N
+    angular_velocity: N
 
 
 def certify(

@@ -582,6 +582,15 @@ class Motion:
         require(not self.clamped, "clamped", "False for derivatives", self.clamped)
         return differentiate(self, times.ravel()).reshape(*times.shape, 6, 9)
 
+    @overload
+    def certify(self, t: float) -> Certificate[float]: ...
+
+    @overload
+    def certify(self, t: Many) -> Certificate[Real]: ...
+
+    @overload
+    def certify(self, t: ExactTimes) -> Certificate: ...
+
     def certify(self, t: ArrayLike | ExactTimes) -> Certificate:
         """Return proved bounds of the errors of the states that `at` gives.
 

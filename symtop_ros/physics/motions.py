@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.one_or_many import Many
 from symtop_ros.base.refusals import Words, require
 from symtop_ros.physics.arguments import (
     NO_FRICTION,
@@ -323,7 +324,7 @@ class Motions:
         self._spread(states)
         return states.euler_rates
 
-    def certify(self, t: ArrayLike | ExactTimes) -> Certificate:
+    def certify(self, t: float | Many | ExactTimes) -> Certificate[Real]:
         """Return proved bounds of the errors of the states, as `Motion.certify` does.
 
         Parameters

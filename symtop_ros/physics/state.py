@@ -10,7 +10,7 @@ from typing import Any, Generic, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symtop_ros.base.arrays import Real, rotate, split, stack
+from symtop_ros.base.arrays import Mask, Real, rotate, split, stack
 from symtop_ros.base.deprecation import OldName, warn_of_name
 from symtop_ros.base.one_or_many import N
 from symtop_ros.base.refusals import Words, refuse, require, show
@@ -342,9 +342,10 @@ class State(Generic[N]):
         return up
 
     @property
-    def is_vertical(self) -> Any:
+    def is_vertical(self) -> np.bool_ | Mask:
         """True where the axis is exactly vertical and phi' is undefined, (...)."""
-        return (self.vertical[..., 0] == 0) & (self.vertical[..., 1] == 0)
+        is_vertical: np.bool_ | Mask = (self.vertical[..., 0] == 0) & (self.vertical[..., 1] == 0)
+        return is_vertical
 
     @cached_property
     def _components(self) -> tuple[Any, Any, Any, Any]:

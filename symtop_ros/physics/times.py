@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import Words, refuse
 from symtop_ros.physics.values import ignore_underflow, validate_number
 
@@ -74,7 +75,7 @@ class ExactTimes:
         return () if isinstance(self.nanoseconds, int) else self.nanoseconds.shape
 
     @cached_property
-    def seconds(self) -> Any:
+    def seconds(self) -> float | Real:
         """The nearest doubles in s, a float or (n,)."""
         ticks, parts = self.factor.as_integer_ratio()
         elapsed, pieces = self.elapsed.as_integer_ratio()
@@ -125,7 +126,9 @@ class ExactTimes:
         >>> ExactTimes(0, factor=0.25, elapsed=Fraction(3)).advance(5)
         Fraction(17, 4)
         """
-        return self.elapsed + Fraction(self.factor) * nanoseconds
+        if not isinstance(nanoseconds, int | np.integer):
+            raise refuse("nanoseconds", "one whole number (ns)", nanoseconds)
+        return self.elapsed + Fraction(self.factor) * int(nanoseconds)
 
     @property
     @ignore_underflow
