@@ -46,6 +46,7 @@ def test_a_replayed_log_shows_every_view_without_errors(name, tmp_path):
     assert len(np.unique(drawn.reshape(-1, 3), axis=0)) > 500  # shaded bodies, not an empty view
 
 
+@pytest.mark.slow
 def test_rerun_shows_the_turning_top_of_a_log_by_itself(tmp_path):
     path = Run(described=True).write(tmp_path)
     shots = []

@@ -69,6 +69,7 @@ def test_the_taylor_series_are_as_good_as_promised(facts):
     assert largest <= benchmarks.LARGEST_DRIVEN_ERROR
 
 
+@pytest.mark.slow
 def test_every_peer_is_the_same_top_and_every_curve_has_points(facts, report):
     peers, missing = find_peers()
     chosen = [peer for peer in peers if benchmarks.SMALL.includes(peer, 0)]

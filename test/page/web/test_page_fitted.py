@@ -193,6 +193,7 @@ def read_rms(text):
     return [float(size) for size in re.findall(r"([\d.e-]+)(?: px)? in [xyzuv]", text)]
 
 
+@pytest.mark.slow
 def test_the_sentence_on_the_model_has_the_noise(tab):
     show(tab, make_given(CUSPS, "pixels"))
     # of 240 rows less a dozen parameters: a twentieth, three deviations of which are 0.15
