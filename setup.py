@@ -196,7 +196,8 @@ setup(
         # scenes, the SROS2 policy, profiles for Fast DDS, layouts of viewers
         (f"share/{NAME}/config", sorted(glob("config/*.*"))),
         (f"share/{NAME}/launch", sorted(glob("launch/*.launch.py"))),
-        # `ros2 run` looks here; pip installs console scripts into bin only
+        # `ros2 run` looks here. pip installs console scripts into bin only, and reads no setup.cfg;
+        # colcon writes them to this folder as well (setup.cfg), over files that do the same.
         (f"lib/{NAME}", sorted(glob("resource/top_*"))),
     ],
     zip_safe=False,

@@ -78,7 +78,7 @@ def declare_parameters(node: Node) -> Settings:
     validate_names(scene, PARAMETERS, f"parameter in scene {name}")
     # /tf is shared by all tops, of other names or namespaces.
     defaults = {"top_frame": node.get_fully_qualified_name().lstrip("/"), **scene}
-    overrides = node._parameter_overrides.items()
+    overrides = _list_overrides(node).items()
     given = {
         key: each.value for key, each in overrides if key in PARAMETERS and each.value is not None
     }
@@ -87,6 +87,18 @@ def declare_parameters(node: Node) -> Settings:
         _declare(node, _typed(key, settings.values[key]))
     _check_unknown_names(node)
     return settings
+
+
+def _list_overrides(node: Node) -> dict[str, Parameter]:
+    """Return what the command line, files and the constructor give, by name; declared or not.
+
+    rclpy (7 and 9) has no public way: `declare_parameter` uses an override, of whatever type, only
+    if its parameter is declared, so that an unknown name and one that a scene depends on would not
+    be seen. With `automatically_declare_parameters_from_overrides` all of them would be declared,
+    those of other nodes too, before they are validated.
+    """
+    overrides: dict[str, Parameter] = node._parameter_overrides
+    return overrides
 
 
 def _declare(node: Node, parameter: Parameter) -> None:
@@ -119,7 +131,7 @@ def _check_unknown_names(node: Node) -> None:
     """
     unknown = [
         name
-        for name in node._parameter_overrides
+        for name in _list_overrides(node)
         if not (name in KNOWN or node.has_parameter(name) or name.startswith(QOS))
     ]
     for name in unknown:
@@ -136,7 +148,7 @@ def _refuse_name(name: str, known: Sequence[str]) -> RefusedError:
 
 def warn_of_unused_qos(node: Node) -> None:
     """Warn about overrides of QoS for topics that there are not; call it when all are there."""
-    overrides = (name for name in node._parameter_overrides if name.startswith(QOS))
+    overrides = (name for name in _list_overrides(node) if name.startswith(QOS))
     unused = [name for name in overrides if not node.has_parameter(name)]
     _warn_of_unused(node, unused, _list_qos(node))
 
