@@ -4,12 +4,17 @@
 public ones.
 """
 
+from pathlib import Path
 from typing import assert_type
 
 import numpy as np
 
 from symtop_ros import physics as p
 from symtop_ros.base.arrays import Real
+from symtop_ros.physics import gpu, reference
+from symtop_ros.ros.node import top_node
+from symtop_ros.truth import imu
+from symtop_ros.truth.testset import score
 
 ONE = p.Top(Ix=1.0, Iz=0.5, Mgl=2.0)
 MANY = p.Top(Ix=1.0, Iz=0.5, Mgl=[1.0, 2.0])
@@ -132,3 +137,39 @@ def see_verdicts() -> None:
     assert_type(verdict.highest, p.Lift)
     assert_type(p.clamp_verdict(ONE, START), p.ClampVerdict)
     assert_type(p.compare_hurried(ONE, 0.5, 3.0, 9.0), p.HurryEffect)
+
+
+def see_references() -> None:
+    """Any number of digits, and the same motions on a GPU."""
+    assert_type(reference.exact_state(ONE, START, 1.0), reference.ProvedState)
+    assert_type(reference.exact_constants(ONE, START), reference.ProvedConstants)
+    assert_type(reference.exact_constants(ONE, START).kind, str)
+    motions = gpu.Motions(MANY, START)
+    assert_type(motions.at(ARRAY), gpu.States)
+    assert_type(motions.at_each(ARRAY), gpu.States)
+    assert_type(motions[0], p.Motion)
+    assert_type(gpu.DeviceError("no GPU"), gpu.DeviceError)
+
+
+def see_sensors() -> None:
+    """A sensor that is fixed to the body."""
+    sensor = imu.Imu(rate=100.0)
+    assert_type(sensor, imu.Imu)
+    record = imu.record_imu(MOTION, sensor, 1.0)
+    assert_type(record, imu.ImuRecord)
+    assert_type(record.attitudes, Real)
+    assert_type(imu.Magnetometer(), imu.Magnetometer)
+    assert_type(imu.CONSUMER, imu.Imu)
+
+
+def see_scores() -> None:
+    """The scorer of the test set."""
+    problem = score.read_problems()["cusps"]
+    assert_type(problem, score.Problem)
+    assert_type(score.read_trajectory(Path("t.csv"), problem), tuple[Real, Real | None])
+    assert_type(score.score_trajectory(Path("t.csv"), problem), score.Score)
+
+
+def see_nodes() -> None:
+    """A top in the process of a program."""
+    assert_type(top_node.TopNode(), top_node.TopNode)

@@ -13,8 +13,6 @@ import pytest
 from documents import PAGES, ROOT, blocks
 from types_of_examples import list_examples, write_page
 
-from symtop_ros import physics
-
 API = (ROOT / "docs/site/api.md").read_text()
 DECLARED = (ROOT / "QUALITY_DECLARATION.md").read_text().partition("## Public API")[2]
 MODULES = re.findall(r"^- `(symtop_ros[\w.]+)`$", DECLARED.partition("\n## ")[0], re.M)
@@ -54,11 +52,13 @@ def test_documents_import_public_names_alone(page):
             assert module in MODULES
 
 
-def test_the_types_of_each_public_name_of_the_physics_are_asserted():
+@pytest.mark.parametrize("name", MODULES)
+def test_the_types_of_each_public_name_are_asserted(name):
     tree = ast.parse((ROOT / "test/public_types.py").read_text())
     nodes = [node for node in ast.walk(tree) if isinstance(node, ast.Attribute)]
-    seen = {node.attr for node in nodes if ast.unparse(node.value) == "p"}
-    assert seen == set(physics.__all__)
+    called = "p" if name == "symtop_ros.physics" else name.rpartition(".")[2]
+    seen = {node.attr for node in nodes if ast.unparse(node.value) == called}
+    assert seen == set(importlib.import_module(name).__all__)
 
 
 def test_examples_stand_at_their_lines_when_types_are_checked():
