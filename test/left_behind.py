@@ -12,7 +12,7 @@ LEFT = pytest.StashKey[list]()
 
 
 def pytest_configure(config):
-    if not hasattr(config, "workerinput"):  # a process that tests for another one
+    if not hasattr(config, "workerinput"):  # not in a worker of pytest-xdist
         config.stash[TRACES] = Traces()
         # pytest keeps the folders of the last runs where it always does, also within a run
         os.environ |= {"PYTEST_DEBUG_TEMPROOT": tempfile.gettempdir(), **os.environ}

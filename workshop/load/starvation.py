@@ -124,7 +124,7 @@ def starving(loops: int) -> Iterator[None]:
 
 
 class Trial:
-    """What was sent and said, and what of it is false."""
+    """Compares the numbers that a node said with the samples that it sent."""
 
     def __init__(self, client: Client, warnings: list[str], logs: list[Path]) -> None:
         self.read: Counter[str] = Counter()  # numbers, by where they stand
