@@ -1,8 +1,8 @@
 """Find files that tests leave outside the environment: none is allowed.
 
 The user's other programs work meanwhile, and what is new may be theirs. The temporary folder of the
-run is its own. In shared memory the ports of Fast DDS count, in domains that the run has claimed; it
-is not known which program made other files. In the home only names count that the tests, or the
+run is its own. In shared memory the ports of Fast DDS count, in domains that the run has claimed;
+which program made other files is not known. In the home only names count that the tests, or the
 programs that they start, may write.
 """
 
