@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import rclpy
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from documents import PAGES, ROOT, blocks, broken_links, commands, console, names, rows, same
@@ -75,6 +76,7 @@ def own_domain(monkeypatch, signals_as_before):
     domain = claim_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     yield
+    rclpy.try_shutdown()  # a page that fails would keep all others from beginning
     release_domain(domain)
 
 
