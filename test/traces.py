@@ -47,6 +47,19 @@ def may_be_of_tests(path: Path) -> bool:
     return path.parent == SHARED or any(part in path.name.lower() for part in OF_TESTS)
 
 
+def find_domain(path: Path) -> int:
+    """Return the domain of a port of Fast DDS in shared memory; -1 for another file."""
+    found = PORT.fullmatch(path.name)
+    return (int(found[1]) - FIRST_PORT) // PORTS if found else -1
+
+
+def remove_ports(domain: int) -> None:
+    """Remove what a killed program keeps: the ports of readers to which it had sent."""
+    for path in SHARED.iterdir() if SHARED.is_dir() else ():
+        if find_domain(path) == domain:
+            path.unlink(missing_ok=True)
+
+
 def list_used() -> set[str]:
     """Return the names of the shared memory that this process has mapped; it removes it later."""
     maps = Path("/proc/self/maps")
@@ -82,8 +95,7 @@ class Traces:
 
     def _is_own_port(self, path: Path) -> bool:
         """Return True for a port that was made in a domain while this run had it."""
-        found = PORT.fullmatch(path.name)
-        domain = (int(found[1]) - FIRST_PORT) // PORTS if found else -1
+        domain = find_domain(path)
         with contextlib.suppress(FileNotFoundError):  # another program has just removed it
             return is_of_run(self.folder, domain, path.stat().st_ctime)
         return False

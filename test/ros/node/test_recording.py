@@ -15,6 +15,7 @@ from machine_time import measuring
 from programs import PATIENT, command, environment, execute, set_parameters
 from ros.node.listener import Listener
 from ros.node.running_top import LATCHED, stamp_of, torque_of
+from traces import remove_ports
 from trials import choose, trials
 from waiting import until
 
@@ -123,6 +124,7 @@ def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attemp
             node.communicate()
             listener.spin(0.1)  # what it had sent
         execute(REMOVE_SEGMENTS, check=True, env={**os.environ, "PATH": PROGRAMS})
+        remove_ports(DOMAIN)
         assert_exact(path)
         file = McapFile(path)
         latest = max(message.log_time for chunk in file.chunks() for message in chunk)
