@@ -1,4 +1,4 @@
-"""What the machine gives: a bare loop that waits and works for some ms, again and again.
+"""Measure the machine by a bare loop that waits and works for some ms, again and again.
 
 A test of real time runs it in the same seconds, and is skipped if the loop itself came too late.
 """

@@ -149,7 +149,7 @@ class TopNode(Node):
 
     @property
     def failure(self) -> Failure | None:
-        """What has ended the top, if anything has; the other nodes of its executor continue."""
+        """Failure that ended the top, or None; the other nodes of its executor continue."""
         return self.simulation.failure
 
     def close(self) -> None:

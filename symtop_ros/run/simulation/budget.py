@@ -2,7 +2,7 @@
 
 A `StepBudget` limits the steps that are taken for one request or one log. A `ComputeBudget` limits
 the CPU time of a run, and says how fast the motion can be followed. The time on the wall is no
-measure of work: on a busy machine the thread may get a tenth of a core.
+measure of work: on a busy machine the thread may get 10 % CPU (one core).
 """
 
 import time
