@@ -86,3 +86,10 @@ def test_only_names_that_tests_may_write_are_looked_for_in_the_home(found, tmp_p
     for name in ("notes.txt", ".viminfo", ".rerun", ".ros"):
         (tmp_path / "home" / name).touch()
     assert [path.name for path in found.find()] == [".rerun", ".ros"]
+
+
+def test_shared_memory_of_a_browser_process_that_was_ended_is_not_blamed_on_tests(found):
+    (found.folder / ".org.chromium.Chromium.ffeps5").write_bytes(bytes(4096))
+    (found.folder / "left").touch()
+    assert [path.name for path in found.find()] == ["left"]
+    (found.folder / "left").unlink()

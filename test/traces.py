@@ -19,8 +19,9 @@ SHARED = Path("/dev/shm")
 # What fetches packages writes its cache into the home, and tracing of ROS, if it is installed,
 # keeps a lock in shared memory.
 ALLOWED = ("pip", ".npm", ".cache", "lttng-ust-wait")
-# Empty folders that viewer and browser make and do not remove, and an empty file, which a process
-# of a browser leaves if it ends while it makes shared memory; all go with the temporary folder.
+# Folders that viewer and browser make and do not remove; and shared memory of the browser, which
+# Chromium makes as a file of that name and unlinks only when it has its size, so that a process
+# that is ended in between leaves it. All go with the temporary folder.
 OF_OTHERS = ("rerun-data-", "org.chromium.")
 # Parts of the names that the tests and their programs could write in the home: this package, ROS,
 # Rerun, browsers, and the tools of Python and of documents.
@@ -68,9 +69,8 @@ def list_used() -> set[str]:
 
 
 def is_of_others(path: Path) -> bool:
-    """Return True for what viewer and browser leave: a folder, or an empty file."""
-    is_named = path.name.lstrip(".").startswith(OF_OTHERS)
-    return is_named and (path.is_dir() or path.stat().st_size == 0)
+    """Return True for what viewer and browser leave, by its name."""
+    return path.name.lstrip(".").startswith(OF_OTHERS)
 
 
 class Traces:
