@@ -51,7 +51,7 @@ def test_hurry_prints_the_verdict(ctl):
     assert ctl("start").returncode == 0
     result = run("top_ctl", *PATIENT, "hurry", domain=DOMAIN)
     assert result.returncode == 0
-    assert "Precession 6.50 -> 9.10 rad/s, spin rate held. The top rises" in result.stdout
+    assert "precession 6.50 -> 9.10 rad/s, spin rate held; the axis moves up." in result.stdout
     assert result.stderr == ""
 
 
