@@ -300,9 +300,10 @@ class CauseFinder {
   // What is seen is then the nutation, and not the way round: in loops, where the axle goes back in
   // each, and where it nods further than it advances, at the middle of its tilts.
   bool is_wider_than_its_advance() const {
+    const double width = angles_[1] - angles_[0];
+    if (width <= SURE) return false;
     if (verdict_.motion == SYMTOP_LOOPING) return true;
-    const double sine = cosine_and_sine((angles_[0] + angles_[1]) / 2).y;
-    return angles_[1] - angles_[0] > advance_ * sine;
+    return width > advance_ * cosine_and_sine((angles_[0] + angles_[1]) / 2).y;
   }
 
   // |L| over Ix at a turning point, in rad/s: omega without its part along the axle, and p_psi/Ix.
