@@ -38,9 +38,8 @@ def find_outcome(verdicts: Verdicts) -> Any:
     """Return the place of each verdict among the `OUTCOMES`."""
     says = verdicts.rule_applies & (verdicts.sense != "") & (verdicts.mean_height != "unchanged")
     in_mean = (verdicts.sense == "along") == (verdicts.mean_height == "higher")
-    named = np.select(
-        [verdicts.rule_holds & in_mean, verdicts.rule_holds, in_mean], [BOTH, INSTANT, MEAN], NEITHER
-    )
+    holds = verdicts.rule_holds
+    named = np.select([holds & in_mean, holds, in_mean], [BOTH, INSTANT, MEAN], NEITHER)
     return np.where(says, named, SILENT)
 
 

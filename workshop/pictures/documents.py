@@ -22,8 +22,8 @@ from symtop_ros.replay.viewer import create_recording
 from symtop_ros.run.simulation.changes.outcomes import Start
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.truth.judge.look import GREY, RED
-from workshop.article.figures import FIGURES
 from workshop.article import means
+from workshop.article.figures import FIGURES
 from workshop.article.maps import draw_map, make_map
 from workshop.article.motions import PSI_DOT, SLOW, THETA, TOP
 from workshop.article.recordings import sample, six_rates, write_scene

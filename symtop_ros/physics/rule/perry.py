@@ -23,10 +23,10 @@ Slow and fast are meant with that held which the kick holds. Since |s| < |f|, a 
 slow root raises the centre of mass of every top, and lowers the axis if and only if Mgl < 0. A
 hurry on the fast root raises the centre of mass if and only if Mgl a < 0, where a = (Ix - Iz)
 cos(theta) if the spin rate is held and Ix cos(theta) if the spin momentum is. docs/derivation.md
-has the derivation. Elsewhere the axis may move up although the rule fails, and the reverse: the rule
-is about theta'' at the instant of the kick. The answer to a kick has three parts: at this instant,
-from now on, and compared with no kick. The formulas are in the kernel (`kernel/rule/tilt.hpp` and
-`verdict.hpp`).
+has the derivation. Elsewhere the axis may move up although the rule fails, and the reverse: the
+rule is about theta'' at the instant of the kick. The answer to a kick has three parts: at this
+instant, from now on, and compared with no kick. The formulas are in the kernel
+(`kernel/rule/tilt.hpp` and `verdict.hpp`).
 """
 
 import math

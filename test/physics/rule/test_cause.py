@@ -190,7 +190,7 @@ def nods_further_than_it_advances(seen):
 
 
 def circles(seen, _):
-    """The axle goes once round L in a nutation, and L moves by less than a right angle meanwhile."""
+    """The axle goes once round L in a nutation; L moves by less than a right angle meanwhile."""
     pole = seen.L / seen.size[:, None]
     level = np.array([0.0, 0.0, 1.0]) - pole[:, 2:] * pole
     beside = np.cross(pole, level)

@@ -296,7 +296,7 @@ def test_of_an_unstable_rest_it_is_said_how_far_the_least_disturbance_leads(top,
     verdict = perrys_rule(top, start)
     assert f"The least disturbance lets it go as far as theta = {reached:.3f} rad." in str(verdict)
     if top.Mgl:
-        touched = State(start.orientation, start.angular_velocity + [1e-9, 0.0, 0.0])
+        touched = State(start.orientation, (1e-9, 0.0, start.angular_velocity[2]))
         low, high = Motion(top, touched).turning_angles
         farthest = high if start.vertical[2] > 0 else low
         assert verdict.reason.disturbed_to == pytest.approx(farthest, abs=1e-6)

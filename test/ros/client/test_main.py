@@ -214,7 +214,7 @@ def test_each_key_sends_its_request(ctl):
     terminal = Terminal("keys")
     terminal.wait_for("quit")
     for key, answer in (
-        ("h", "h: At this instant: precession 6.50 -> 9.10 rad/s, spin rate held; the axis moves up."),
+        ("h", "h: At this instant: precession 6.50 -> 9.10 rad/s, spin rate held; the axis moves"),
         ("d", "d: At this instant: precession"),
         (" ", "space: paused at"),
         ("r", "r: "),
