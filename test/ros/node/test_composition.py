@@ -218,6 +218,9 @@ def test_a_top_that_fails_says_so_and_the_others_continue(kind, break_it, contex
         log = TopLog(open_run([*folders[0].iterdir()]))
         assert check_run(log).mismatches == []
         assert log.account.problems == ()
+        event = log.account.events[-1]
+        assert (event.name, event.verdict, event.number) == ("failure", reason, number)
+        assert (event.stamp > last, event.segment().running) == (True, False)
     finally:
         executor.shutdown()
         for node in (user, asker, ill, well):
