@@ -28,7 +28,7 @@ from symtop_ros.ros.client.body import set_body
 from symtop_ros.ros.client.connection import Connection, UnreachableError
 from symtop_ros.ros.client.options import make_parser
 from symtop_ros.ros.client.spread import describe_spread
-from symtop_ros.run.session.services import SERVICES, Response
+from symtop_ros.run.session.services import SERVICES, Response, insert_before_event
 
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
@@ -98,7 +98,7 @@ def carry_out(options: argparse.Namespace, values: dict[str, Any], top: Connecti
     arguments = {"named": values, "switch": on, "plain": None}
     granted, text = top.request(service, arguments[SERVICES[service].kind])
     if options.command == "start" and granted:
-        text = f"{text} {describe_spread(top, options.values, values)}".rstrip()
+        text = insert_before_event(text, describe_spread(top, options.values, values))
     if options.command == "state" and granted and not options.json:
         text = _readable(_join_stamp(json.loads(text)))
     return granted, text
