@@ -144,7 +144,7 @@ def test_a_link_to_the_environment_of_another_checkout_is_replaced_and_the_other
 
 def test_a_program_that_pip_has_installed_is_left_alone(checkout):
     program = checkout / ".venv/bin/top_panel"
-    assert 'exec' in program.read_text()  # of the set-up of the page
+    assert "exec" in program.read_text()  # of the set-up of the page
     program.write_text("of pip")
     (checkout / ".venv/set-up/panel.json").unlink()
     assert set_up(checkout, "panel")[0] == 0

@@ -227,7 +227,9 @@ def _write_program(name: str) -> None:
     path = HOME / "bin" / name
     if path.exists():
         return
-    path.write_text(PROGRAM.format(python=shlex.quote(str(HOME / "bin/python")), root=str(ROOT), name=name))
+    path.write_text(
+        PROGRAM.format(python=shlex.quote(str(HOME / "bin/python")), root=str(ROOT), name=name)
+    )
     path.chmod(0o755)
 
 
