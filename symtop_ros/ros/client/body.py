@@ -69,8 +69,8 @@ def read_parts(word: str) -> "tuple[Part, ...]":
     texts = text.split(",")
     if kind not in (*SIZES, "point") or len(texts) != len(names):
         kinds = f"point:MASS,DISTANCE or {', '.join(SIZES)}:MASS,SIZE,DISTANCE"
-        names = (*SIZES, "point") if ":" in word else BODIES
-        nearest = "" if kind in names else find_nearest(kind, names)
+        known = [*SIZES, "point"] if ":" in word else [*BODIES]
+        nearest = "" if kind in known else find_nearest(kind, known)
         hint = f" (the nearest is {nearest})" if nearest else ""
         raise refuse("part", f"{kinds} or one of {', '.join(BODIES)}{hint}", word)
     numbers = {
