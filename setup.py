@@ -137,8 +137,25 @@ if bdist_wheel:
     COMMANDS["bdist_wheel"] = BuildWheel
 
 
+def remove_others(folder: str, files: list[str]) -> None:
+    """Remove what an earlier build left of the package: modules that are gone would be found.
+
+    The compiled kernel stays where it is built: it is compiled anew if its sources have changed.
+    """
+    kept = {Path(each) for each in files}
+    for path in Path(folder, NAME).rglob("*"):
+        if path.is_file() and path not in kept and path.stem != "libsymtop":
+            path.unlink()
+
+
 class BuildPython(build_py):
     """Builds in silence if Python may write no bytecode, as colcon asks."""
+
+    def run(self) -> None:
+        """Build, and remove what is gone."""
+        super().run()
+        if not self.editable_mode:
+            remove_others(self.build_lib, self.get_outputs())
 
     def byte_compile(self, files: list[str]) -> None:
         if not sys.dont_write_bytecode:
@@ -146,7 +163,12 @@ class BuildPython(build_py):
 
 
 class InstallPython(install_lib):
-    """The same for the installed files."""
+    """The same for the installed files: colcon installs over those of before."""
+
+    def run(self) -> None:
+        """Install, and remove what is gone."""
+        super().run()
+        remove_others(self.install_dir, self.get_outputs())
 
     def byte_compile(self, files: list[str]) -> None:
         if not sys.dont_write_bytecode:

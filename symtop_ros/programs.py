@@ -1,4 +1,4 @@
-"""Entry points of the programs. If a package is missing they name it in one line."""
+"""Entry points of the programs. What is missing they name in one line."""
 
 import gc
 import importlib
@@ -52,6 +52,9 @@ def run(name: str, package: str, interruptible: bool = False) -> int:
     except ModuleNotFoundError as error:
         missing = find_package(str(error.name)) or str(error.name).partition(".")[0]
         print(f"{name}: {missing} is missing: {name_remedy(str(error.name))}", file=sys.stderr)
+        return 1
+    except ImportError as error:  # the compiled kernel, or a library that does not fit the machine
+        print(f"{name}: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return INTERRUPTED

@@ -11,6 +11,7 @@ from documents import ROOT
 from programs import execute
 from trials import choose
 
+from symtop_ros import __version__
 from symtop_ros.page.web.join import write_file
 
 README = ROOT / "README.md"
@@ -139,6 +140,15 @@ def test_a_link_to_the_environment_of_another_checkout_is_replaced_and_the_other
     assert is_anew(set_up(other)[1], f"was made in {checkout}")
     assert not (other / ".venv").is_symlink()
     assert set_up(checkout) == (0, [], [])
+
+
+def test_a_program_that_pip_has_installed_is_left_alone(checkout):
+    program = checkout / ".venv/bin/top_panel"
+    assert "exec" in program.read_text()  # of the set-up of the page
+    program.write_text("of pip")
+    (checkout / ".venv/set-up/panel.json").unlink()
+    assert set_up(checkout, "panel")[0] == 0
+    assert program.read_text() == "of pip"
 
 
 def test_one_extra_more_has_those_before(checkout):
@@ -286,3 +296,6 @@ def test_the_page_needs_no_compiler_and_no_compiled_kernel(checkout):
     made = execute(words, cwd=checkout, env=path, timeout=300)
     assert (made.returncode, made.stdout) == (0, "wrote top.html, open it in a browser\n"), made
     assert (checkout / "top.html").read_text() == write_file()
+    words = [checkout / ".venv/bin/top_panel", "--version"]  # in a folder with a blank
+    done = execute(words, cwd="/", env={"PATH": "/usr/bin:/bin"})
+    assert (done.returncode, done.stdout) == (0, f"top_panel {__version__}\n"), done.stderr

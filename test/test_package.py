@@ -94,6 +94,14 @@ def test_colcon_build_with_links_leads_to_the_sources(workspace):
     assert "Failed" not in printed
 
 
+def write_compiler(folder):
+    """Write a compiler that has compiled the kernel already, as the set-up did; return its path."""
+    compiler = folder / "compiler"
+    compiler.write_text(f'#!/bin/sh\nfor target; do :; done\ncp "{ROOT / LIBRARY}" "$target"\n')
+    compiler.chmod(0o755)
+    return str(compiler)
+
+
 def build_extension(workspace, variables):
     words = [sys.executable, "setup.py", "-q", "build_ext", "--inplace"]
     execute(words, cwd=workspace / "src/symtop_ros", check=True, env=variables)
@@ -118,10 +126,7 @@ def test_a_build_without_a_compiler_ends_with_a_line_that_names_one(workspace, b
 
 @pytest.mark.slow
 def test_colcon_build_installs_what_ros2_run_looks_for(workspace):
-    compiler = workspace / "compiler"  # which has compiled the kernel already, as the set-up did
-    compiler.write_text(f'#!/bin/sh\nfor target; do :; done\ncp "{ROOT / LIBRARY}" "$target"\n')
-    compiler.chmod(0o755)
-    prefix, printed = build(workspace, CXX=str(compiler))
+    prefix, printed = build(workspace, CXX=write_compiler(workspace))
     assert "stderr" not in printed
     assert_tree(prefix, prefix / "lib/symtop_ros")
     site = next(prefix.glob("lib/python*/site-packages"))
@@ -162,6 +167,35 @@ def test_every_file_of_the_package_is_installed(sources, tmp_path):
     needed, found = (list_files(folder / "symtop_ros", "") for folder in (sources, tmp_path))
     # the digest is for those who build the module anew
     assert needed - found == {"page/web/kernel.sha256"}
+
+
+@pytest.mark.slow
+def test_a_module_that_is_gone_after_an_upgrade_is_not_installed(workspace):
+    """By pip, which installs what setuptools has in its folder build, and by colcon."""
+    folder = workspace / "src/symtop_ros"
+    compiler = write_compiler(workspace)
+    variables = {**os.environ, "CXX": compiler}
+    prefix = workspace / "of pip"
+    prefix.mkdir()
+    (prefix / "COLCON_IGNORE").touch()
+    words = [sys.executable, "setup.py", "-q", "install", "--single-version-externally-managed"]
+    words += ["--prefix", str(prefix), "--record", str(workspace / "record")]
+    (moved := folder / "symtop_ros/base/moved.py").touch()
+
+    def list_installed():
+        execute(words, cwd=folder, check=True, env=variables)
+        colcon, _ = build(workspace, CXX=compiler)
+        (built,) = folder.glob("build/lib*/symtop_ros")
+        places = [built]
+        for each in (prefix, colcon):
+            places += each.glob("lib*/python*/site-packages/symtop_ros")
+        assert all((each / "physics/kernel/libsymtop.so").is_file() for each in places)
+        return [list_files(each, "") for each in places]
+
+    assert all("base/moved.py" in each for each in list_installed())
+    moved.unlink()
+    needed = list_files(folder / "symtop_ros", "") - {"page/web/kernel.sha256"}
+    assert list_installed() == [needed] * 3
 
 
 @pytest.mark.slow

@@ -14,6 +14,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -46,6 +47,18 @@ SETUPTOOLS = "setuptools>=70.1"
 TOOLS = ("pytest", "hypothesis", "mpmath", "python-flint", "rosbags", "coverage")
 IDENTIFY = "import os, sys; print(f'Python {sys.version_info[0]}.{sys.version_info[1]}"
 IDENTIFY += "{sys.abiflags} in {os.path.realpath(sys.base_prefix)}')"
+# By a shell, as pip has it: a path with a blank cannot follow `#!`. To Python the lines are a text.
+PROGRAM = """\
+#!/bin/sh
+'''exec' {python} "$0" "$@"
+' '''
+import sys
+
+sys.path.insert(0, {root!r})
+from symtop_ros.programs import {name}
+
+sys.exit({name}())
+"""
 PERIOD = 10.0  # s between two lines: pip may be silent for minutes
 
 
@@ -56,6 +69,7 @@ class SetUp:
     what: str  # said while it is fetched
     extras: tuple[str, ...] = ()  # of setup.py, with which the package is installed
     packages: tuple[str, ...] = ()  # of PyPI
+    programs: tuple[str, ...] = ()  # that run from the checkout, without an installation
     script: tuple[str, ...] = ()  # a command in the checkout
     made_of: tuple[str, ...] = ()  # files that decide what the script makes
     place: str = ""  # folder of a separate environment in .venv
@@ -71,7 +85,9 @@ SET_UPS = {
     PYTHON: SetUp("Python"),
     # The page has the kernel as WebAssembly: it needs no compiler, and runs from the checkout.
     "panel": SetUp(
-        "NumPy and PyYAML (about 100 MB, once)", packages=("numpy>=1.24", "pyyaml>=6.0")
+        "NumPy and PyYAML (about 100 MB, once)",
+        packages=("numpy>=1.24", "pyyaml>=6.0"),
+        programs=("top_panel",),  # all others need the compiled kernel, or ROS
     ),
     # What build_kernel.py imports; from Python 3.12 on an environment is made without it.
     "setuptools": SetUp("setuptools (once)", packages=(SETUPTOOLS,)),
@@ -199,9 +215,22 @@ def _make(name: str, set_up: SetUp) -> None:
         _write(_package_of(set_up.place))
     elif set_up.packages:
         _install(set_up.place, *set_up.packages)
+    for program in set_up.programs:
+        _write_program(program)
     _write(name)
     for other in _list_contained(set_up):
         _write(other)
+
+
+def _write_program(name: str) -> None:
+    """Write a program that runs from the checkout, unless pip has installed it."""
+    path = HOME / "bin" / name
+    if path.exists():
+        return
+    path.write_text(
+        PROGRAM.format(python=shlex.quote(str(HOME / "bin/python")), root=str(ROOT), name=name)
+    )
+    path.chmod(0o755)
 
 
 def _list_contained(set_up: SetUp) -> list[str]:
@@ -314,7 +343,8 @@ def _stamp(name: str) -> dict[str, str]:
     digest = hashlib.sha256()
     if name in SET_UPS:
         set_up = SET_UPS[name]
-        digest.update(repr((set_up.extras, set_up.packages, set_up.script)).encode())
+        decides = (set_up.extras, set_up.packages, set_up.script, *set_up.programs)
+        digest.update(repr(decides).encode())
         patterns = (*set_up.made_of, *(["setup.py"] if set_up.extras else []))
     else:
         patterns = BUILT_OF

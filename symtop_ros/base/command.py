@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NoReturn
 
 from symtop_ros import __version__
-from symtop_ros.base.refusals import MAX_SHOWN, one_line, plain
+from symtop_ros.base.refusals import find_nearest, one_line, plain
 
 
 def tell_failures(name: str, act: Callable[[], int]) -> int:
@@ -41,7 +41,9 @@ class Parser(argparse.ArgumentParser):
 
 def _suggest(message: str, options: Iterable[str], forms: Mapping[str, str]) -> str:
     """Return what may have been meant by an unknown argument or choice, or nothing."""
-    if found := re.match(r"unrecognized arguments: -*([^\s:=]+)", message):
+    if found := re.match(r"unrecognized arguments: -*([^\s:=]+)(?::?=(\S+))?", message):
+        if nearest := find_nearest(found[2] or "", forms):
+            return f" (nearest: {forms[nearest]})"
         known = {**forms, **{option.lstrip("-"): option for option in options}}
     elif found := re.search(r"invalid choice: '([^']+)' \(choose from (.*)\)", message):
         known = {word: word for word in re.findall(r"[\w-]+", found[2])}
@@ -49,20 +51,6 @@ def _suggest(message: str, options: Iterable[str], forms: Mapping[str, str]) -> 
         return ""
     nearest = find_nearest(found[1], known)
     return f" (nearest: {known[nearest]})" if nearest else ""
-
-
-def find_nearest(word: str, known: Iterable[str], likeness: float = 0.6) -> str:
-    """Return the known word that is most like a word; empty if no known word is like it enough.
-
-    Examples
-    --------
-    >>> find_nearest("hury", ["hurry", "delay"])
-    'hurry'
-    """
-    import difflib  # noqa: PLC0415 - few runs need it
-
-    found = difflib.get_close_matches(word[:MAX_SHOWN], list(known), n=1, cutoff=likeness)
-    return found[0] if found else ""
 
 
 def new_parser(name: str, description: str, **more: Any) -> Parser:

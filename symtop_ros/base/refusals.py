@@ -7,11 +7,12 @@ in `physics/values.py`. What is refused is a ValueError everywhere, whose text i
 import math
 import re
 from array import array
-from collections.abc import Callable, Collection, Mapping, Sequence, Sized
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence, Sized
 from numbers import Real
 from typing import Any, TypeVar
 
 MAX_SHOWN = 60  # characters of a value in a message
+MAX_LIST = 250  # characters of a list of names in a message
 MAX_SENTENCE = 400  # characters of a text from another program or a file
 # YAML 1.1 takes 2e-06, without a point, as text, in scene files and in `ros2 service call`. It is
 # accepted as a number.
@@ -89,13 +90,44 @@ def show_limit(limit: float) -> str:
     return text if float(text) == limit else show(limit)
 
 
+def find_nearest(word: str, known: Iterable[str], likeness: float = 0.6) -> str:
+    """Return the known word that is most like a word; empty if no known word is like it enough.
+
+    Examples
+    --------
+    >>> find_nearest("hury", ["hurry", "delay"])
+    'hurry'
+    """
+    import difflib  # noqa: PLC0415 - few runs need it
+
+    found = difflib.get_close_matches(word[:MAX_SHOWN], list(known), n=1, cutoff=likeness)
+    return found[0] if found else ""
+
+
+def list_names(names: Collection[str], word: object) -> str:
+    """Return the condition to be one of some names, with the one that a word is most like.
+
+    Of a list that is too long for a line there is then no need.
+
+    Examples
+    --------
+    >>> list_names(("slow", "fast"), "fsat")
+    'one of slow, fast (the nearest is fast)'
+    """
+    listed = f"one of {', '.join(names)}"
+    nearest = find_nearest(word, names) if isinstance(word, str) else ""
+    if not nearest:
+        return listed
+    return f"{listed if len(listed) < MAX_LIST else 'known'} (the nearest is {nearest})"
+
+
 def validate_names(
     values: Mapping[str, Any], names: Collection[str], what: str = "field name"
 ) -> None:
     """Refuse a mapping with a name that is not one of `names`."""
     for name in values:
         if name not in names:
-            raise refuse(what, f"one of {', '.join(names)}", name)
+            raise refuse(what, list_names(names, name), name)
 
 
 def is_real(value: Any) -> bool:

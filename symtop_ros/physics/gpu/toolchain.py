@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import door, library
 
 # Orientations, angular velocities, and 0 for each state that is there.
 States = tuple[Any, Any, Any]
@@ -118,11 +118,11 @@ def _open(_: int) -> Functions:
 
 def list_options() -> tuple[str, ...]:
     """Return the options of NVRTC. By the digest CuPy's cache knows a changed header."""
-    folders = (SHIM, SOURCES, door.FOLDER)
+    folders = (SHIM, SOURCES, library.FOLDER)
     digest = hashlib.sha256()
     for folder in folders:
         for path in sorted(each for each in folder.rglob("*") if each.is_file()):
-            if path.suffix in ("", *door.SOURCES):
+            if path.suffix in ("", *library.SOURCES):
                 digest.update(path.read_bytes())
     return (
         *OPTIONS,

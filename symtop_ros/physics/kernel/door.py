@@ -6,12 +6,10 @@ that threads may use one motion together. The library is loaded when it is first
 """
 
 import ctypes
-import hashlib
 import sys
 from collections.abc import Callable, Container, Iterable, Sequence
 from ctypes import byref, c_double, c_size_t, c_uint8
 from functools import cache, wraps
-from pathlib import Path
 from struct import Struct
 from types import SimpleNamespace
 from typing import Any, ParamSpec, TypeVar
@@ -21,6 +19,7 @@ from numpy.typing import NDArray
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import RefusedError, refuse
+from symtop_ros.physics.kernel.library import load_library
 from symtop_ros.physics.kernel.records import (
     BAD_ANGULAR_VELOCITY,
     BAD_ARITHMETIC,
@@ -53,11 +52,6 @@ from symtop_ros.physics.values import LARGEST_ANGULAR_VELOCITY
 
 P = ParamSpec("P")
 T = TypeVar("T")
-
-FOLDER = Path(__file__).parent
-FILE = FOLDER / f"libsymtop{ {'win32': '.dll', 'darwin': '.dylib'}.get(sys.platform, '.so') }"
-SOURCES = (".cpp", ".hpp", ".h")
-AGAIN = "install symtop_ros again, from a checkout by `pip install --editable .`"
 
 STATE = 7  # numbers of an orientation and an angular velocity
 BEFORE_STATE = StartRecord.orientation.offset
@@ -97,23 +91,8 @@ LONG = {
 
 @cache
 def _load() -> ctypes.CDLL:
-    """Return the library.
-
-    Raises
-    ------
-    ImportError
-        If it is missing, was built from other sources, or has a record of another size.
-    """
-    digest = f"symtop {digest_sources()}".encode()
-    try:
-        library = ctypes.CDLL(str(FILE))
-        is_own = (ctypes.c_char * len(digest)).in_dll(library, "symtop_digest").value == digest
-    except OSError:
-        raise ImportError(f"the compiled kernel {FILE.name} cannot be loaded: {AGAIN}") from None
-    except ValueError:  # it has no such variable
-        is_own = False
-    if not is_own:
-        raise ImportError(f"the compiled kernel is of another version: {AGAIN}")
+    """Return the library, whose records are laid out as those of ctypes."""
+    library = load_library()
     demand_sizes((ctypes.c_uint32 * len(RECORDS)).in_dll(library, "symtop_sizes"))
     return library
 
@@ -126,14 +105,6 @@ def demand_sizes(sizes: Iterable[int]) -> None:
                 f"{record.__name__} must have the {size} bytes of the compiled kernel, got "
                 f"{ctypes.sizeof(record)}: run `python -m workshop.twins` if symtop.h has changed"
             )
-
-
-def digest_sources() -> str:
-    """Return the digest of the kernel's sources, as build_kernel.py finds it."""
-    digest = hashlib.sha256()
-    for path in sorted(each for each in FOLDER.rglob("*") if each.suffix in SOURCES):
-        digest.update(f"{path.relative_to(FOLDER).as_posix()}\0".encode() + path.read_bytes())
-    return digest.hexdigest()[:32]
 
 
 @cache
@@ -154,7 +125,7 @@ def open_door_of_one() -> SimpleNamespace:
 def _make_door(releasing: Container[str]) -> SimpleNamespace:
     """Return the functions, of which some release the interpreter's lock in their calls."""
     released = _load()
-    locked = ctypes.PyDLL(str(FILE))
+    locked = ctypes.PyDLL(released._name)
     door = SimpleNamespace()
     for name, (result, arguments) in FUNCTIONS.items():
         # By index: a function object that belongs to this door alone.

@@ -5,7 +5,7 @@ The library is imported where it is needed, so that other commands start without
 
 from typing import TYPE_CHECKING
 
-from symtop_ros.base.refusals import RefusedError, refuse, validate_names
+from symtop_ros.base.refusals import RefusedError, find_nearest, refuse, validate_names
 from symtop_ros.base.units import parse_quantity
 from symtop_ros.ros.client.connection import Connection
 from symtop_ros.run.session.services import Response
@@ -69,7 +69,10 @@ def read_parts(word: str) -> "tuple[Part, ...]":
     texts = text.split(",")
     if kind not in (*SIZES, "point") or len(texts) != len(names):
         kinds = f"point:MASS,DISTANCE or {', '.join(SIZES)}:MASS,SIZE,DISTANCE"
-        raise refuse("part", f"{kinds} or one of {', '.join(BODIES)}", word)
+        known = [*SIZES, "point"] if ":" in word else [*BODIES]
+        nearest = "" if kind in known else find_nearest(kind, known)
+        hint = f" (the nearest is {nearest})" if nearest else ""
+        raise refuse("part", f"{kinds} or one of {', '.join(BODIES)}{hint}", word)
     numbers = {
         name: parse_quantity(name, each, UNITS[name])
         for name, each in zip(names, texts, strict=True)

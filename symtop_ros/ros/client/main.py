@@ -20,21 +20,21 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.utilities import remove_ros_args
 from sensor_msgs.msg import JointState
 
-from symtop_ros.base.command import find_nearest
-from symtop_ros.base.refusals import MAX_SHOWN, one_line, plain, refuse
+from symtop_ros.base.refusals import MAX_SHOWN, one_line, plain, refuse, validate_names
 from symtop_ros.base.shutdown import describe_failure, ros_context
 from symtop_ros.base.units import read_value
 from symtop_ros.ros.client.body import set_body
 from symtop_ros.ros.client.connection import Connection, UnreachableError
 from symtop_ros.ros.client.options import make_parser
 from symtop_ros.ros.client.spread import describe_spread
-from symtop_ros.run.session.services import SERVICES, Response
+from symtop_ros.run.session.services import SERVICES, Response, insert_before_event
 
 BY_COMMAND = {service.command: name for name, service in SERVICES.items()}
 UNTIL_INTERRUPTED = ("watch", "keys")  # Ctrl-C is the usual end of these
 FACTOR = "precession_rate_factor"
 DELAY = {FACTOR: 1 / 1.4}  # undoes a hurry with the default hurry_factor
 LARGE = 1e6  # whose last digits count: a stamp in s
+DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+[^,]*$")  # no list of two numbers is asked for
 PUSH = 1.0  # rad/s by which an arrow changes a rate
 WAIT = 0.1  # s between two checks that ROS is running
 UPDATE_PERIOD = 0.1  # s
@@ -98,7 +98,7 @@ def carry_out(options: argparse.Namespace, values: dict[str, Any], top: Connecti
     arguments = {"named": values, "switch": on, "plain": None}
     granted, text = top.request(service, arguments[SERVICES[service].kind])
     if options.command == "start" and granted:
-        text = f"{text} {describe_spread(top, options.values, values)}".rstrip()
+        text = insert_before_event(text, describe_spread(top, options.values, values))
     if options.command == "state" and granted and not options.json:
         text = _readable(_join_stamp(json.loads(text)))
     return granted, text
@@ -151,21 +151,17 @@ def parse_values(words: Iterable[str]) -> dict[str, Any]:
     return values
 
 
-def check_start(values: Iterable[str]) -> None:
+def check_start(values: Mapping[str, Any]) -> None:
     """Refuse names that no start has, before a node is looked for."""
     from symtop_ros.run.simulation.changes.requests import ALL_START_FIELDS  # takes a while
 
-    for name in values:
-        if name not in ALL_START_FIELDS:
-            nearest = find_nearest(name, ALL_START_FIELDS)
-            condition = f"one of {', '.join(ALL_START_FIELDS)}"
-            if nearest:
-                condition += f" (the nearest is {nearest})"
-            raise refuse("field name", condition, name)
+    validate_names(values, ALL_START_FIELDS)
 
 
 def _value(name: str, text: str) -> Any:
     """Return a number in SI units, a list of numbers, or else the text itself."""
+    if DECIMAL_COMMA.match(text):
+        raise refuse(name, "a number with a decimal point", text)
     if not (text.startswith("[") or "," in text):
         return read_value(name, text)
     try:

@@ -38,8 +38,8 @@ def main(args: list[str] | None = None) -> int:
 
 def _run(words: Sequence[str], options: argparse.Namespace, listen: Callable[[], None]) -> int:
     """Spin until shutdown or a failure of the top; return 1 if it or the recording failed."""
-    # Not rclpy's EventsExecutor, under which no request is answered (rclpy 7.1 and 9.1). With 7.1 a
-    # plain node of one service, next to a thread of Python, did not answer either.
+    # Not rclpy's EventsExecutor, whose `spin` handles nothing in the wheels (docs/ros.md says why).
+    # By `spin_once` with a time-out it gains nothing: the samples come from another thread.
     # The executor is created before a signal can shut ROS down, as the node.
     if fault := find_fault(words, options.scene):
         raise RefusedError(fault)

@@ -42,9 +42,15 @@ def find_fault(words: Sequence[str], scene: str | None = None) -> str:
 
     `scene:=NAME`, as `ros2 launch` has it, is a remapping to ROS, which then does nothing.
     """
+    is_of_ros = False
     for before, word in pairwise(["", *words]):
+        is_of_ros = word == "--ros-args" or (is_of_ros and word != "--")
         found = ASSIGNED.fullmatch(word)
-        if not found or found[1] not in (*PARAMETERS, SCENE):
+        if not found:
+            continue
+        if before in PARAMETER_OPTIONS and not is_of_ros:
+            return f"{before} must come after --ros-args (--ros-args {before} {word}), got none"
+        if found[1] not in (*PARAMETERS, SCENE):
             continue
         if before not in PARAMETER_OPTIONS:
             right = f"--ros-args -p {word}"

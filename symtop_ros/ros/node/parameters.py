@@ -24,8 +24,14 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 from std_srvs.srv import SetBool, Trigger
 
-from symtop_ros.base.command import find_nearest
-from symtop_ros.base.refusals import RefusedError, attempt, refuse, show, validate_names
+from symtop_ros.base.refusals import (
+    RefusedError,
+    attempt,
+    find_nearest,
+    refuse,
+    show,
+    validate_names,
+)
 from symtop_ros.run.session.services import ServiceKind
 from symtop_ros.run.simulation.changes.requests import NOT_NUMBERS
 from symtop_ros.run.simulation.presets import load_scene, scene_names

@@ -1,4 +1,4 @@
-"""The services of the top: one record for each. A method of `Requests` of its name carries it out.
+"""The services of the top, and the form of their answers. A method of `Requests` of its name acts.
 
 The node offers what this table says, the page and `top_ctl` call it. It imports nothing, so that
 `top_ctl` starts without the library.
@@ -39,3 +39,20 @@ SERVICES: dict[str, Service] = {
     "record": Service("switch", "record", "start or stop a log"),
     "get_state": Service("plain", "state", "full state, constants and verdict"),
 }
+
+
+def end_with_event(text: str, number: int) -> str:
+    """Return an answer that ends with the number of its event."""
+    return f"{text} [event {number}]"
+
+
+def insert_before_event(answer: str, sentence: str) -> str:
+    """Return an answer with one more sentence, which still ends with the number of its event.
+
+    Examples
+    --------
+    >>> insert_before_event("The top rises. [event 2]", "It nods.")
+    'The top rises. It nods. [event 2]'
+    """
+    text, bracket, number = answer.rpartition(" [event ")
+    return f"{text} {sentence}{bracket}{number}" if sentence else answer

@@ -30,7 +30,7 @@ from symtop_ros.run.session.diagnostics import (
     summarize_state,
 )
 from symtop_ros.run.session.outputs import OutputHost, Outputs
-from symtop_ros.run.session.services import SERVICES, Response
+from symtop_ros.run.session.services import SERVICES, Response, end_with_event
 from symtop_ros.run.simulation.budget import StepBudget
 from symtop_ros.run.simulation.changes.follow import Act
 from symtop_ros.run.simulation.changes.outcomes import Failure, Record
@@ -93,7 +93,7 @@ class Session:
         text = act()
         # A step in the time of the run is followed by other events.
         number = min(latest + 1, self.simulation.event_number)
-        return f"{text} [event {number}]"
+        return end_with_event(text, number)
 
     def log_torque(self, data: bytes) -> None:
         """Log the bytes of an applied torque, accepted or not."""

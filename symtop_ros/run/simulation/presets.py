@@ -9,7 +9,7 @@ from typing import Any
 
 import yaml
 
-from symtop_ros.base.refusals import RefusedError, one_line, refuse, show
+from symtop_ros.base.refusals import RefusedError, list_names, one_line, refuse, show
 
 CONFIG = Path("share", "symtop_ros", "config")
 # Limits of a file that is read. YAML with aliases can grow without bound ("billion laughs"), and
@@ -49,7 +49,7 @@ def load_scene(name: object) -> dict[str, Any]:
     """Return the parameters that a scene sets, by their full names."""
     names = scene_names()
     if name not in names:
-        raise refuse("scene", f"one of {', '.join(names)}", name)
+        raise refuse("scene", list_names(names, name), name)
     path = config_folder() / f"{name}.yaml"
     try:
         _refuse_bombs(path)

@@ -6,6 +6,7 @@ takes effect, and what is published.
 """
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import TypeVar
 
@@ -101,7 +102,8 @@ class Simulation:
 
         An unexpected exception becomes a failure, which is reported as an error and as an event,
         once until the action `name` succeeds again; the motion keeps running. A request that may
-        be refused is an action of `attempt`. An exception outside the action ends the run.
+        be refused is an action of `attempt`. An exception outside the action ends the run, with a
+        last event.
         """
         with self.turns:
             return self._protect(name, partial(self._act, name, act))
@@ -116,7 +118,14 @@ class Simulation:
             text = f"{one_line(error)} ({HOW_TO_CONTINUE})"
             self.failure = Failure(name, type(error).__name__, text)
             self.host.fail(self.failure)
+            self._announce_end(self.failure)
             return self.failure
+
+    def _announce_end(self, failure: Failure) -> None:
+        """Announce a failure that has ended the run; what failed may be what an event needs."""
+        if self.host.is_open:  # else ROS is shutting down
+            with suppress(Exception):
+                self.apply(self.timeline.end(self.stamp, failure))
 
     def _act(self, name: str, act: Callable[[], T]) -> T | Failure:
         self._follow_jump()

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.command import decimal, find_nearest, positive
+from symtop_ros.base.command import decimal, positive
 from symtop_ros.base.counts import write_count
-from symtop_ros.base.refusals import RefusedError, one_line, refuse
+from symtop_ros.base.refusals import RefusedError, find_nearest, one_line, refuse
 from symtop_ros.physics import Motion
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.settings import PARAMETERS, Settings

@@ -13,7 +13,7 @@ from physics.kernel.motions import encode, expect, list_many, list_samples, norm
 from programs import execute
 from trials import choose
 
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import library
 
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parents[2]
@@ -27,7 +27,7 @@ needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ comp
 pytestmark = needs_compiler
 
 
-LIBRARY = door.FILE, f"-Wl,-rpath,{door.FILE.parent}"  # that of Python
+LIBRARY = library.FILE, f"-Wl,-rpath,{library.FILE.parent}"  # that of Python
 
 
 def compile_kernel(folder, *options, **keywords):

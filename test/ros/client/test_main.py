@@ -3,6 +3,7 @@
 import json
 import os
 import pty
+import re
 import select
 import signal
 import subprocess
@@ -65,6 +66,16 @@ def test_start_kick_and_state_work_together(ctl):
     assert abs(state["euler_rates"]["phi"] - 20.0) < 1e-12  # rounding of psi' = 150 rad/s
     assert ctl("step", "duration=0.5").returncode == 0
     assert ctl("resume").returncode == 0
+
+
+def test_a_state_has_its_stamp_to_the_nanosecond(ctl):
+    def ask():
+        state = json.loads(ctl("state", "--json").stdout)
+        return state["sec"] * 10**9 + state["nanosec"]
+
+    before = ask()
+    shown = re.search(r"^stamp +(\d+)\.(\d{9})$", ctl("state").stdout, re.MULTILINE)
+    assert before < int(shown[1] + shown[2]) < ask()
 
 
 @pytest.mark.slow

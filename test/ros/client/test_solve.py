@@ -74,7 +74,9 @@ def test_an_answer_says_how_far_the_start_moves_for_the_last_digits_that_were_ty
     assert ctl("body bicycle_wheel").returncode == 0
     wheel = Top(**read(ctl)["top"])
     answer = ctl("start theta=90.0deg precession_period=57.6s").stdout
-    found = re.search(r"Within the last digits typed: .*psi' (\S+) to (\S+) rad/s\.", answer)
+    found = re.search(
+        r"Within the last digits typed: .*psi' (\S+) to (\S+) rad/s\. \[event \d+\]\n$", answer
+    )
     tilts = (math.pi / 180 * each for each in (89.95, 90.05))
     corners = [
         solve_start(wheel, theta=theta, precession_period=period)[0].psi_dot
@@ -94,7 +96,7 @@ def test_what_has_no_last_digit_is_not_said_to_move(ctl):
     least = 2 * math.sqrt((top.Ix - top.Iz) * math.cos(0.5) * top.Mgl) / top.Iz
     typed = math.ceil(10 * least) / 10  # half a unit of its last digit below there is no start
     answer = ctl(f"start theta=0.5 psi_dot={typed:.1f} solution=1").stdout
-    assert answer.rstrip().endswith("there may be more or fewer such starts.")
+    assert re.search(r"there may be more or fewer such starts\. \[event \d+\]\n$", answer)
 
 
 def test_the_mass_and_the_gravity_of_a_body_are_kept(ctl):
@@ -138,6 +140,7 @@ def test_all_solutions_are_listed_and_one_is_started(ctl):
         ),
         ("start theta=9rpm", "theta must be a number in rad, °, deg or degrees, got '9rpm'"),
         ("body wheel", "part must be point:MASS,DISTANCE or rod, hoop, disc, ball:MASS,SIZE,"),
+        ("body disk:170g,5cm,9cm", "part must be point:MASS,DISTANCE or rod, hoop, disc, ball:"),
         ("body disc:1kg,0,1m", "radius must be > 0 m, got 0"),
         ("body point:1kg,1m", "Ix must be > 0 kg m^2, got 0"),
         (

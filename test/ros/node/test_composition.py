@@ -17,6 +17,7 @@ from geometry_msgs.msg import QuaternionStamped
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.experimental.events_executor import EventsExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from ros.node.running_top import status_of
@@ -83,8 +84,13 @@ def _context():
 
 
 # As many threads as the machine has processors would be one on some, of which rclpy warns.
-EXECUTORS = [SingleThreadedExecutor, partial(MultiThreadedExecutor, num_threads=2)]
-KINDS = ["one thread", "two threads"]
+# An EventsExecutor works by `spin_once` with a time-out: docs/ros.md says why.
+EXECUTORS = [
+    SingleThreadedExecutor,
+    partial(MultiThreadedExecutor, num_threads=2),
+    EventsExecutor,
+]
+KINDS = ["one thread", "two threads", "events"]
 
 
 @pytest.mark.parametrize("kind", EXECUTORS, ids=KINDS)
@@ -218,6 +224,9 @@ def test_a_top_that_fails_says_so_and_the_others_continue(kind, break_it, contex
         log = TopLog(open_run([*folders[0].iterdir()]))
         assert check_run(log).mismatches == []
         assert log.account.problems == ()
+        event = log.account.events[-1]
+        assert (event.name, event.verdict, event.number) == ("failure", reason, number)
+        assert (event.stamp > last, event.segment().running) == (True, False)
     finally:
         executor.shutdown()
         for node in (user, asker, ill, well):

@@ -45,7 +45,15 @@ WRONG_FORMS = [
         "--scene disc --ros-args -p scene:=free",
         "scene must be given once, got --scene disc and -p ",
     ),
-    ("--scene cups", "scene must be one of above_fast_root, "),
+    ("--scene cups", "scene must be known (the nearest is cusps), got 'cups'"),
+    (
+        "-p scene:=hurry_slow",
+        "-p must come after --ros-args (--ros-args -p scene:=hurry_slow), got none",
+    ),
+    (
+        "--ros-args -r a:=b -- --param other:=1",
+        "--param must come after --ros-args (--ros-args --param other:=1), got none",
+    ),
 ]
 
 

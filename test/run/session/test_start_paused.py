@@ -84,3 +84,12 @@ def test_it_runs_from_its_start_when_it_is_resumed(own, tmp_path):
         advance(session, clock, 0.005)
     assert 0.24 < find_state(session)["time"] < 0.26
     assert close(session)[0] == ["start", "pause", "resume"]
+
+
+def test_in_its_own_time_steps_have_the_samples_of_their_multiples(tmp_path):
+    session, clock = begin(tmp_path, publish_clock=True)
+    for wait in (0.5, 0.0, 0.25):
+        advance(session, clock, wait)
+        assert session.answer("step", lambda: {"duration": 0.01})[0]
+    _, batch = close(session)
+    assert batch.columns["orientation"].stamps.tolist() == [0, 10 * MS, 20 * MS, 30 * MS]

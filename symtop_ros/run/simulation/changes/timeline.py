@@ -138,3 +138,8 @@ class Timeline:
         """Report an action that failed, whatever it has left of the segment before."""
         act = Act("failure", stamp, {}, told=failure, left=self.segment)
         return replace(self, change=follow(before, act))
+
+    def end(self, stamp: int, failure: Failure) -> "Timeline":
+        """Report a failure that ends the run: the motion stands still."""
+        act = Act("failure", stamp, {}, told=failure, left=self.segment.pause(stamp))
+        return replace(self, change=follow(self.segment, act))

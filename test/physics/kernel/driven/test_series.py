@@ -26,7 +26,7 @@ from physics.tops import (
 from trials import choose, seeds
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import library
 
 pytestmark = pytest.mark.untraced
 FRICTION = Friction(2e-6, 1e-5)
@@ -153,7 +153,7 @@ def test_reach_goes_as_far_as_its_steps_and_then_the_rest(t):
 @pytest.mark.skipif(not shutil.which("g++"), reason="no C++ compiler")
 def test_products_by_halves_lose_the_doubles_that_fused_products_lose(tmp_path):
     program, source = tmp_path / "products", Path(__file__).with_name("products.cpp")
-    options = ("-std=c++17", "-O2", "-ffp-contract=off", "-Wno-psabi", "-I", door.FILE.parent)
+    options = ("-std=c++17", "-O2", "-ffp-contract=off", "-Wno-psabi", "-I", library.FILE.parent)
     subprocess.run(["g++", *options, source, "-o", program], check=True)
     printed = subprocess.check_output([program], text=True)
     assert printed == "0 wrong, 1000000 taken, others refused\n"
