@@ -135,6 +135,7 @@ def see_verdicts() -> None:
     verdict = p.kick_verdict(MOTION, START, "spin_rate")
     assert_type(verdict, p.KickVerdict)
     assert_type(verdict.highest, p.Lift)
+    assert_type(verdict.means, p.MeanChange | None)
     assert_type(p.clamp_verdict(ONE, START), p.ClampVerdict)
     assert_type(p.compare_hurried(ONE, 0.5, 3.0, 9.0), p.HurryEffect)
 

@@ -21,7 +21,7 @@ def test_a_twin_is_current(path):
 def test_every_enum_record_and_function_of_the_header_is_there():
     text = twins.HEADER.read_text(encoding="utf-8")
     assert len(HEADER.enums) == len(re.findall(r"^typedef enum", text, re.MULTILINE)) == 23
-    assert len(HEADER.records) == len(re.findall(r"^typedef struct {", text, re.MULTILINE)) == 22
+    assert len(HEADER.records) == len(re.findall(r"^typedef struct {", text, re.MULTILINE)) == 23
     own = {"make", "read", "check_arithmetic"}  # of the library alone
     assert HEADER.functions.keys() == {*EXPORTED} | own
 
