@@ -96,9 +96,10 @@ def running_firefox() -> Iterator[Any]:
         lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});" for k, v in preferences.items()]
         Path(profile, "user.js").write_text("\n".join(lines))
         command = [program, "--marionette", "--no-remote", "--profile", profile]
-        with running_screen() as screen, running(
-            command, 0, **silent({**screen, "HOME": profile})
-        ) as process:
+        with (
+            running_screen() as screen,
+            running(command, 0, **silent({**screen, "HOME": profile})) as process,
+        ):
             wait_for_port(port)
             client = module.Marionette(host="127.0.0.1", port=port)
             client.start_session()

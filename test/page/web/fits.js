@@ -158,5 +158,8 @@ window.searchFrom = async ([given, reference, all, effort]) => {
     const model = new Model(many, part, reference);
     return all.map((named) => ({ model, x: model.fill(named) }));
   });
-  return { parts, found: found.map(({ model, x, cost }) => ({ rows: model.record.count, x, cost })) };
+  return {
+    parts,
+    found: found.map(({ model, x, cost }) => ({ rows: model.record.count, x, cost })),
+  };
 };

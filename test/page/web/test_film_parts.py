@@ -131,9 +131,7 @@ def write_index(steps, shifts=(), edits=(), version=0, kind=b"vide", usual=0, is
     track = box("trak", full("tkhd", dates, version=version), *edts, media)
     sound = box("trak", full("tkhd", bytes(12)), box("mdia", full("hdlr", bytes(4), b"soun")))
     extends = box("mvex", full("trex", struct.pack(">IIIII", TRACK, 1, usual, 0, 0)))
-    return box(
-        "moov", write_header("mvhd", 600, version), sound, track, extends, is_long=is_long
-    )
+    return box("moov", write_header("mvhd", 600, version), sound, track, extends, is_long=is_long)
 
 
 TRACK = 7
@@ -154,7 +152,10 @@ def test_an_mp4_film_has_the_times_of_its_tables(tab):
         # a track that begins half a second late, and one whose first frames are not shown
         (write_index(STEPS, edits=[(300, -1), (0, 0)]), [0.5 + each for each in PLAIN]),
         (write_index(STEPS, edits=[(300, -1), (0, 0)], version=1), [0.5 + each for each in PLAIN]),
-        (write_index(STEPS, SHIFTS, edits=[(0, 3000)]), [(each - 3000) / 90_000 for each in shifted]),
+        (
+            write_index(STEPS, SHIFTS, edits=[(0, 3000)]),
+            [(each - 3000) / 90_000 for each in shifted],
+        ),
         (write_index(STEPS, edits=[(0, 4500)]), [0, 1500 / 90_000, 7500 / 90_000]),
         (write_index(STEPS, kind=b"soun"), []),
     ]
@@ -233,7 +234,11 @@ def test_clicks_are_kept_moved_and_taken_back(tab):
     assert marks == [["pivot", [5, 6]], ["length", [3, 3]], ["ball", [7, 7]]]
     place = [0.5, 0.25]
     balls = [[4, [9, 8]], [5, place]]
-    assert moved == [{**kept, "pivot": place}, {**kept, "length": [place]}, {**kept, "balls": balls}]
+    assert moved == [
+        {**kept, "pivot": place},
+        {**kept, "length": [place]},
+        {**kept, "balls": balls},
+    ]
     assert undone == {**kept, "balls": [[4, [9, 8]]]}
 
 

@@ -1,5 +1,4 @@
-"""What is drawn in a frame: passed time, the states of the last seconds, and pictures for a lesson."""
-
+"""What a frame is made of: passed time, states of the last seconds, and pictures for a lesson."""
 
 import numpy as np
 import pytest
@@ -124,7 +123,8 @@ SMALL = """async ([width, height]) => {
   const picture = drawSmall();
   canvas.remove();
   const { data } = picture.getContext("2d").getImageData(0, 0, picture.width, 1);
-  const columns = Array.from({ length: picture.width }, (_, k) => data[4 * k] + 256 * data[4 * k + 1]);
+  const read = (_, k) => data[4 * k] + 256 * data[4 * k + 1];
+  const columns = Array.from({ length: picture.width }, read);
   return [picture.width, picture.height, columns];
 }"""
 

@@ -73,9 +73,7 @@ def test_a_pose_sizes_turns_and_moves(tab):
     ]
     calls = [["createPose", *(each.tolist() for each in case)] for case in cases]
     points = np.array([[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0], [0.3, -0.4, 0.5]])
-    for numbers, (q, size, place) in zip(
-        call(tab, "scene/matrices", calls), cases, strict=True
-    ):
+    for numbers, (q, size, place) in zip(call(tab, "scene/matrices", calls), cases, strict=True):
         for point in points:
             found = to_matrix(numbers) @ [*point, 1.0]
             assert found[3] == 1.0
