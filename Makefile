@@ -22,6 +22,11 @@ SET_UP = @python='$(PYTHON)'; \
 PYTEST := $(BIN)/python -m pytest -q
 TOGETHER := -n 3 --dist loadfile
 UNTIMED := not realtime and not long
+# A hold, the question, a clamp, a pull, a step of the lesson and a fit, on pages that are slowed down.
+SLOWED := holds.py first_minute.py clamp.py \
+  charts.py::test_the_axle_of_a_top_that_waits_sets_its_tilt_and_of_one_that_runs_is_pushed \
+  lesson.py::test_a_keyboard_does_a_step_on_a_phone \
+  fit.py::test_the_page_fits_in_a_thread_and_its_motion_runs_meanwhile
 
 .NOTPARALLEL:  # two runs of pip would meet in one environment
 .PHONY: help demo panel test test-all test-rest test-slow test-old-processor test-without-ros test-realtime test-long test-keys test-elsewhere test-newcomer test-ubuntu test-kilted test-cyclone lint style types docs wheels kernel-wasm clean
@@ -72,7 +77,7 @@ test-long: test-keys test-elsewhere test-newcomer test-ubuntu test-kilted  ## tr
 	$(SET_UP) peers docs aarch64 wine zig gpu
 	@$(MAKE) --no-print-directory -C workshop coverage matrix
 	@$(PYTEST) -m long test
-	@SLOWED_PAGES=20 $(PYTEST) -m "$(UNTIMED)" $(foreach each,holds first_minute clamp,test/page/web/test_page_$(each).py)
+	@SLOWED_PAGES=20 $(PYTEST) -m "$(UNTIMED)" $(foreach each,$(SLOWED),test/page/web/test_page_$(each))
 
 test-keys:  ## tests of all but wording, every template replaced by its key
 	$(SET_UP) test

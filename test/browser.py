@@ -15,9 +15,8 @@ from workshop.browser import launch
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
+SLOWED = "SLOWED_PAGES"  # a variable: how many times slower than the processor pages are
 # Software takes all the time of a processor for sixty frames a second; a test needs few: four.
-# A variable: how many times slower than the processor pages are.
-SLOWED = "SLOWED_PAGES"
 FEW_FRAMES = """
 window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 250);
 window.cancelAnimationFrame = clearTimeout;
@@ -40,17 +39,40 @@ def running_browser() -> Iterator[Browser]:
         def open_page(**options: Any) -> Page:
             tab = new_page(**{"locale": "en-US", **options})  # else that of the machine
             tab.add_init_script(FEW_FRAMES)
-            if rate := os.environ.get(SLOWED):
-                session = tab.context.new_cdp_session(tab)
-                session.send("Emulation.setCPUThrottlingRate", {"rate": float(rate)})
             return tab
 
         browser.new_page = open_page  # type: ignore[method-assign]
+        if rate := os.environ.get(SLOWED):
+            _slow(browser, float(rate))
         try:
             with _counting(browser) if page_coverage.FOLDER else contextlib.nullcontext():
                 yield browser
         finally:
             browser.close()
+
+
+def _slow(browser: Browser, rate: float) -> None:
+    """Slow down the tabs that a browser opens, and those of its contexts."""
+    new_context = browser.new_context
+
+    def watch(owner: Any) -> None:
+        new_page = owner.new_page
+
+        def open_page(**options: Any) -> Page:
+            tab = new_page(**options)
+            session = tab.context.new_cdp_session(tab)
+            session.send("Emulation.setCPUThrottlingRate", {"rate": rate})
+            return tab
+
+        owner.new_page = open_page
+
+    def open_context(**options: Any) -> Any:
+        context = new_context(**options)
+        watch(context)
+        return context
+
+    watch(browser)
+    browser.new_context = open_context  # type: ignore[method-assign]
 
 
 _RUNNING: list[Any] = []

@@ -8,6 +8,7 @@ import shutil
 import socket
 import subprocess
 import tempfile
+import threading
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,6 +19,7 @@ import waiting
 from programs import running
 
 TIMEOUT = 120.0  # s; ends a test that hangs, and is never waited for
+STUMBLE = 0.05  # s
 HELP = "sh test/get_browsers.sh, as root"
 # The scene is drawn by software, and Firefox makes no request.
 ON = ("webgl.force-enabled", "gfx.webrender.software", "security.fileuri.strict_origin_policy")
@@ -60,8 +62,8 @@ def unwrap(answer: Any) -> Any:
 class Firefox:
     """Firefox, by Marionette."""
 
-    def __init__(self, client: Any) -> None:
-        self.client = client
+    def __init__(self, client: Any, process: int) -> None:
+        self.client, self.process = client, process
 
     def open(self, url: str) -> None:
         self.client.navigate(url)
@@ -94,13 +96,16 @@ def running_firefox() -> Iterator[Any]:
         lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});" for k, v in preferences.items()]
         Path(profile, "user.js").write_text("\n".join(lines))
         command = [program, "--marionette", "--no-remote", "--profile", profile]
-        with running_screen() as screen, running(command, 0, **silent(screen)):
+        with (
+            running_screen() as screen,
+            running(command, 0, **silent({**screen, "HOME": profile})) as process,
+        ):
             wait_for_port(port)
             client = module.Marionette(host="127.0.0.1", port=port)
             client.start_session()
             client.timeout.script = TIMEOUT
             try:
-                yield Firefox(client)
+                yield Firefox(client, process.pid)
             finally:
                 client.delete_session()
 
@@ -108,7 +113,8 @@ def running_firefox() -> Iterator[Any]:
 class WebKit:
     """WebKit's MiniBrowser, by the protocol of WebDriver."""
 
-    def __init__(self, port: int) -> None:
+    def __init__(self, port: int, process: int) -> None:
+        self.process = process
         self.address = f"http://127.0.0.1:{port}/session"
         binary = next(Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser"))
         options = {"binary": str(binary), "args": ["--automation"]}
@@ -148,13 +154,38 @@ def running_webkit() -> Iterator[Any]:
         pytest.skip(f"no WebKit: {HELP}")
     port = find_port()
     driver_command = ["WebKitWebDriver", f"--port={port}"]
-    with running_screen() as screen, running(driver_command, 0, **silent(screen)):
+    with running_screen() as screen, running(driver_command, 0, **silent(screen)) as process:
         wait_for_port(port)
-        driver = WebKit(port)
+        driver = WebKit(port, process.pid)
         try:
             yield driver
         finally:
             driver.close()
+
+
+@contextlib.contextmanager
+def stumbling(driver: Any) -> Iterator[None]:
+    """Stop the processes of a browser every 50 ms for 50 ms, as next to other programs."""
+    psutil = pytest.importorskip("psutil", reason="no psutil: pip install -e '.[test]'")
+    own = psutil.Process(driver.process)
+    ended = threading.Event()
+
+    def stumble() -> None:
+        while not ended.wait(STUMBLE):
+            all_ = [own, *own.children(recursive=True)]
+            for act in (psutil.Process.suspend, psutil.Process.resume):
+                for each in all_:
+                    with contextlib.suppress(psutil.NoSuchProcess):
+                        act(each)
+                ended.wait(STUMBLE)
+
+    thread = threading.Thread(target=stumble)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
+        thread.join()
 
 
 def silent(variables: dict[str, str]) -> dict[str, Any]:

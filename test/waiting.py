@@ -4,7 +4,9 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-TIMEOUT = 300.0  # s; ends a test that hangs, with many busy programs, too
+# s; ends a test that hangs. On one core that a run shares with busy programs, and on a page that is
+# slowed down twenty times, a start of some seconds takes more than a minute.
+TIMEOUT = 300.0
 
 
 Act = Callable[[], Any]

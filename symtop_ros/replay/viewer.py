@@ -15,6 +15,7 @@ import subprocess
 import sys
 import threading
 from pathlib import Path
+from typing import Any
 
 import rerun as rr
 import rerun_cli
@@ -121,9 +122,17 @@ def serve_page(page: int, data: int) -> int:
 
     `data` is the port of the recording, the only other one that the page may connect to.
     """
-    server = http.server.ThreadingHTTPServer((HOST, 0), _handler(page, data))
+    server = _Server((HOST, 0), _handler(page, data))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     return server.server_port
+
+
+class _Server(http.server.ThreadingHTTPServer):
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Report an unexpected exception in one line, but not a page that was closed."""
+        error = sys.exc_info()[1]
+        if not isinstance(error, OSError):
+            print(f"the page of the viewer was not sent: {error!r}", file=sys.stderr)
 
 
 def _handler(page: int, data: int) -> type[http.server.BaseHTTPRequestHandler]:
@@ -140,7 +149,8 @@ def _handler(page: int, data: int) -> type[http.server.BaseHTTPRequestHandler]:
                 source.request("GET", self.path)
                 answer = source.getresponse()
                 content = answer.read()
-            except OSError:  # Rerun is starting or has ended
+            # Rerun is starting, has ended, or ends within its answer
+            except (OSError, http.client.HTTPException):
                 self.send_error(503)
                 return
             finally:

@@ -1,10 +1,12 @@
 """The Rerun viewer: it leaves the home of the user unchanged."""
 
 import errno
+import http.client
 import os
 import re
 import socket
 import sys
+import threading
 from urllib.parse import urlsplit
 
 import pytest
@@ -80,6 +82,40 @@ def test_the_page_asks_no_other_host(capsys, browser):
     finally:
         process.terminate()
         process.wait(timeout=TIMEOUT)
+
+
+def serve_once(listening, answer):
+    """Send an answer to one connection, and close it."""
+    connection, _ = listening.accept()
+    with connection:
+        connection.recv(1000)
+        connection.sendall(answer)
+
+
+def test_a_viewer_that_ends_within_its_answer_is_not_there(capsys):
+    with socket.create_server((viewer.HOST, 0)) as ending:
+        answer = b"HTTP/1.1 200 OK\r\nContent-Length: 1000\r\n\r\n<!doc"
+        thread = threading.Thread(target=serve_once, args=(ending, answer))
+        thread.start()
+        port = viewer.serve_page(ending.getsockname()[1], data=1)
+        page = http.client.HTTPConnection(viewer.HOST, port, timeout=TIMEOUT)
+        page.request("GET", "/")
+        assert page.getresponse().status == 503
+        page.close()
+        thread.join(TIMEOUT)
+    assert capsys.readouterr().err == ""
+
+
+def test_a_page_that_was_closed_is_no_error_and_a_bug_is_one_line(capsys):
+    server = viewer._Server((viewer.HOST, 0), None)
+    for error in (BrokenPipeError(), RuntimeError("a bug")):
+        try:
+            raise error
+        except Exception:  # as the thread of a request reports it
+            server.handle_error(None, None)
+    server.server_close()
+    said = "the page of the viewer was not sent: RuntimeError('a bug')\n"
+    assert capsys.readouterr().err == said
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere a port is not kept")

@@ -20,7 +20,7 @@ from symtop_ros.ros.client.connection import Connection, UnreachableError
 from workshop.load.bare import LATCHED
 from workshop.load.processes import domain
 
-TIMEOUT = 30.0  # s for a node to start, and to answer
+TIMEOUT = 300.0  # s; ends what hangs: on a core that busy programs share a start may take a minute
 DEPTH = 5000  # samples in the queue while the follower is busy
 SUBSCRIBED_RATE = 200.0  # Hz, of the top that `subscribe` follows
 CALLS: tuple[tuple[str, Any], ...] = (

@@ -5,6 +5,8 @@ numbers of warnings, answers and diagnostics are read as a person would read the
 the stamps of all samples, which are those of the logs and those that the client received.
 """
 
+from __future__ import annotations
+
 import argparse
 import os
 import random
@@ -17,7 +19,7 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -30,6 +32,7 @@ from workshop.load.bare import LATCHED
 from workshop.load.follower import DEPTH, Subscriber, read_stamp, to_nanoseconds
 from workshop.load.processes import domain, program, run_program, top_node
 
+SAMPLES = "/top/orientation"
 RATE = 500.0  # Hz
 PERIOD = round(1e9 / RATE)  # ns
 LOOPS = 4
@@ -59,15 +62,24 @@ LACKS = re.compile(
     r"lacks CPU time: gets (?P<got>[\d.e+-]+) % CPU, needs (?P<needed>[\d.e+-]+) % \(one core\): "
     r"real-time factor (?P<before>[\d.e-]+) -> (?P<after>[\d.e-]+)"
 )
-TOO_FAST = re.compile(r"too fast for the compute budget")
+# Without a number of the node: a slower motion, and a torque during a clamp.
+OTHERS = re.compile("too fast for the compute budget|must come while the precession is free")
 
 
 class Gap(NamedTuple):
-    """Samples of a grid that were not sent: the stamps on both sides in ns, and their number."""
+    """Samples of a grid that were not sent: the stamps on both sides in ns, and their number.
+
+    Of a gap that no log spans the client is the only witness, which may have lost the samples.
+    """
 
     last: int
     next: int
     missed: int
+    is_certain: bool
+
+    def cut(self, end: int) -> Gap:
+        """Return the part of the gap up to a stamp."""
+        return self._replace(missed=min(self.missed, max((end - self.last) // PERIOD, 0)))
 
 
 class Client(Subscriber):
@@ -148,11 +160,13 @@ class Trial:
 
     def _read_logs(self) -> None:
         """Read the diagnostics of all logs, whose own check reads what they say of the motion."""
-        messages = [each for path in self._logs for each in _list_messages(path)]
-        stamps = {stamp for name, stamp, _ in messages if name == "/top/orientation"}
+        logs = [_list_messages(path) for path in self._logs]
+        messages = [each for log in logs for each in log]
+        recorded = [[stamp for name, stamp, _ in log if name == SAMPLES] for log in logs]
         # the first sample of a run has the stamp of its first event
         before_all = to_nanoseconds(self._client.events[0].header.stamp) - PERIOD
-        self._gaps = _find_gaps(sorted(stamps.union(self._client.stamps, [before_all])))
+        stamps = {before_all, *self._client.stamps, *chain(*recorded)}
+        self._gaps = _find_gaps(sorted(stamps), [(min(log), max(log)) for log in recorded if log])
         self._texts = {status.message for each in self._client.events for status in each.status}
         for path in self._logs:
             command = program("top_replay", str(path), "--check")
@@ -160,16 +174,16 @@ class Trial:
             self._note("logs", done.returncode == 0, f"{path.name}: {done.stdout[-300:]}")
         last = 0
         for name, stamp, data in messages:
-            last = max(last, stamp) if name == "/top/orientation" else last
+            last = max(last, stamp) if name == SAMPLES else last
             if name == "/diagnostics":
                 self._read_diagnostics(deserialize_message(data, DiagnosticArray), last)
 
     def _read_diagnostics(self, message: DiagnosticArray, last: int) -> None:
         """Hold the counts against the gaps: those before `last` are known, later ones may be."""
         until = to_nanoseconds(message.header.stamp)
-        known, all_ = (
-            [gap for gap in self._gaps if gap.next <= end] for end in (last, until + PERIOD)
-        )
+        known = [gap for gap in self._gaps if gap.is_certain and gap.next <= last]
+        cut = [gap.cut(until + PERIOD) for gap in self._gaps]
+        all_ = [gap for gap in cut if gap.missed]
         (facts,) = (
             {pair.key: pair.value for pair in status.values}
             for status in message.status
@@ -196,7 +210,7 @@ class Trial:
                 # two digits of got and needed, three of the factors
                 is_true = abs(after * needed * 2 / (before * got) - 1) < 0.11
                 self._note("warnings", got < needed and is_true, line)
-            elif not TOO_FAST.search(line):
+            elif not OTHERS.search(line):
                 self._note("warnings", False, f"of an unknown form: {line}")
 
 
@@ -209,11 +223,15 @@ def _list_messages(path: Path) -> list[tuple[str, int, bytes]]:
     ]
 
 
-def _find_gaps(stamps: list[int]) -> list[Gap]:
-    pairs = (
-        (before, after, round((after - before) / PERIOD) - 1) for before, after in pairwise(stamps)
-    )
-    return [Gap(*each) for each in pairs if each[2] > 0]
+def _find_gaps(stamps: list[int], spans: list[tuple[int, int]]) -> list[Gap]:
+    """Return the gaps between some stamps, of which logs span some."""
+    found = []
+    for before, after in pairwise(stamps):
+        missed = round((after - before) / PERIOD) - 1
+        is_certain = any(first <= before and after <= last for first, last in spans)
+        if missed > 0:
+            found.append(Gap(before, after, missed, is_certain))
+    return found
 
 
 def _count(gaps: list[Gap]) -> int:

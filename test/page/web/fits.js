@@ -5,7 +5,7 @@ const toNumbers = (rows) => Array.from(rows, Number);
 /** Open the modules of the fit, with a kernel. */
 const openFit = async () => {
   const names = ["answer", "fitting", "lasting", "linear", "many", "model", "projection", "record"];
-  const more = ["refine", "statistics", "twins"];
+  const more = ["refine", "statistics", "twins", "noise", "search", "starts", "least_squares"];
   const found = await Promise.all([...names, ...more].map((name) => import(`/fit/${name}.js`)));
   const modules = Object.assign({}, ...found);
   return { ...modules, many: new modules.Many(kernel) };
@@ -88,4 +88,78 @@ window.showTwins = async ([motion, camera, times]) => {
     const [axes] = many.findAxes([each.motion], Float64Array.from(times));
     return toNumbers(project(axes, each.camera, new Float64Array(2 * times.length)));
   });
+};
+
+/** The least squares of a linear problem with this matrix and these right sides, and limits. */
+window.minimiseLinear = async ([rows, rights, start, isSoft, [low, high]]) => {
+  const { minimise } = await openFit();
+  const problem = {
+    find: (x) =>
+      Float64Array.from(rows, (row, k) => row.reduce((a, b, j) => a + b * x[j], -rights[k])),
+    derive: () => start.map((_, j) => Float64Array.from(rows, (row) => row[j])),
+    clip: (x) => x.map((each) => Math.min(Math.max(each, low), high)),
+    isSoft,
+  };
+  return minimise(problem, start, 100, 1e-15);
+};
+
+/** What a record keeps of what it was given. */
+window.describeRecord = async (given) => {
+  const record = (await openFit()).makeRecord(given);
+  const { times, values, hasLength, width, count, step, seconds, follows, spreads } = record;
+  const { rounding, fixed, smooth } = record;
+  const cut = record.cut(13).count;
+  const more = { rounding, fixed, smooth: smooth.values, cut, times: toNumbers(times) };
+  return { values, hasLength, width, count, step, seconds, follows, spreads, ...more };
+};
+
+/** The noise of rows that a model leaves, if its record has this rounding; and the rows in deviations. */
+window.findNoise = async ([rows, { rounding, fixed, follows, values }, lasts]) => {
+  const { findNoise, whiten } = await openFit();
+  const flat = Float64Array.from(rows.flat());
+  const record = { width: rows[0].length, flat: values.flat(), rounding, fixed, follows };
+  const noise = findNoise({ record, findResiduals: () => flat }, [1, 2, 3], lasts);
+  return { kept: noise.kept, sigma: noise.sigma, white: toNumbers(whiten(noise, flat)) };
+};
+
+/** The frequencies that starts are looked for at; and which shapes are taken that have some costs. */
+window.askStarts = async ([given, costs]) => {
+  const { Starts, many, makeRecord } = await openFit();
+  const starts = new Starts(many);
+  const compareAll = (all) => all.map((_, k) => (k in costs ? { cost: costs[k] } : null));
+  const shapes = starts.choose({ compareAll }, 7).map((y) => y);
+  const rates = [];
+  starts.choose = (_, rate) => {
+    rates.push(rate);
+    return [];
+  };
+  const parts = [];
+  starts.list(makeRecord(given), (part) => parts.push(part));
+  const all = starts.shapes.map(({ y, own }) => [y, own]);
+  return { rates, parts, shapes, all };
+};
+
+/** The parameters of motions that are shown by linear maps, and what they leave of a record. */
+window.fillStarts = async (cases) => {
+  const { Starts, many, makeRecord } = await openFit();
+  const starts = new Starts(many);
+  return cases.map(([given, y, maps]) => {
+    const { model, x } = starts.fill(makeRecord(given), y, maps);
+    return { left: toNumbers(model.findResiduals(x)), x, names: model.names };
+  });
+};
+
+/** The motions that a search finds from some starts, and the parts for which they are asked. */
+window.searchFrom = async ([given, reference, all, effort]) => {
+  const { Model, makeRecord, many, search } = await openFit();
+  const parts = [];
+  const found = search(makeRecord(given), effort, (part) => {
+    parts.push(part.count);
+    const model = new Model(many, part, reference);
+    return all.map((named) => ({ model, x: model.fill(named) }));
+  });
+  return {
+    parts,
+    found: found.map(({ model, x, cost }) => ({ rows: model.record.count, x, cost })),
+  };
 };

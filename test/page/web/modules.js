@@ -4,9 +4,16 @@
 const toRecord = (value) => {
   if (typeof value === "number") return Number.isFinite(value) ? value : null;
   if (value === null || typeof value !== "object") return value;
+  if (ArrayBuffer.isView(value)) return toRecord(Array.from(value));
   if (Array.isArray(value)) return value.map((each) => toRecord(each) ?? null);
   const known = Object.entries(value).filter(([, each]) => each !== undefined);
   return Object.fromEntries(known.map(([name, each]) => [name, toRecord(each)]));
+};
+
+/** What functions of a module give: each of some names, with a list of arguments. */
+window.callAll = async ([module, calls]) => {
+  const found = await import(`/${module}.js`);
+  return calls.map(([name, ...given]) => toRecord(found[name](...given)));
 };
 
 /** Keep the kernel of these bytes, in base 64, and the texts of a language. */

@@ -6,6 +6,31 @@ window.patches = {
     window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now() - 300), 50);
   },
 
+  /** Let `asleep(ms)` hide the page for so long by its clocks: meanwhile it gets no frame. */
+  letSleep() {
+    const requestFrame = window.requestAnimationFrame.bind(window);
+    const clocks = [
+      [performance, performance.now.bind(performance)],
+      [Date, Date.now.bind(Date)],
+    ];
+    let [passed, isHidden] = [0, false];
+    let waiting = [];
+    const draw = (each) => requestFrame((now) => each(now + passed));
+    window.requestAnimationFrame = (each) => (isHidden ? waiting.push(each) : draw(each));
+    for (const [owner, read] of clocks) owner.now = () => read() + passed;
+    Object.defineProperty(document, "hidden", { get: () => isHidden });
+    const tell = () => document.dispatchEvent(new Event("visibilitychange"));
+    window.asleep = (milliseconds) => {
+      isHidden = true;
+      tell();
+      passed += milliseconds;
+      isHidden = false;
+      for (const each of waiting) draw(each);
+      waiting = [];
+      tell();
+    };
+  },
+
   /** Count the frames, of which there are fewer than the browser would draw. */
   countFrames() {
     const requestFrame = window.requestAnimationFrame.bind(window);

@@ -159,6 +159,45 @@ def test_a_state_has_the_doubles_that_the_kernel_takes(tab):
         assert to_json(found) == to_json(wanted), q
 
 
+KICKED = """async ([top, states, kinds]) => {
+  const { State } = await import("/physics/state.js");
+  const kick = (state, kind, amount) => {
+    try {
+      return state.kick(top, kind, amount, "spin_rate").isVertical;
+    } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      return error.message;
+    }
+  };
+  return states.map(([orientation, omega]) => {
+    const state = new State(kernel, orientation, omega);
+    return [state.isVertical, state.vertical, kinds.map((each) => kick(state, ...each))];
+  });
+}"""
+KINDS_OF_KICKS = [["rate", [2.0]], ["change", [1.0]], ["factor", [1.5]]]
+
+
+def test_a_vertical_axis_is_kicked_by_an_impulse_only(tab):
+    # half turns about the horizontal are exact
+    quaternions = [(1.0, 0.0, 0.0, 0.0), (0.6, 0.0, 0.0, 0.8), (0.0, 0.6, 0.8, 0.0)]
+    quaternions += [(0.8, 0.6, 0.0, 0.0), (0.8, 0.0, -0.6, 0.0), (1.0, 1e-9, 0.0, 0.0)]
+    states = [(q, (0.0, 0.0, 50.0)) for q in quaternions]
+    kinds = [*KINDS_OF_KICKS, ["impulse", [0.0, 1e-5, 0.0]]]
+    found = tab.evaluate(KICKED, [ARTICLE, states, kinds])
+    for (is_vertical, vertical, kicked), (q, omega), theta in zip(
+        found, states, ["0", "0", "pi", None, None, None], strict=True
+    ):
+        up = [physics.State(q, omega).to_world(each)[2] for each in np.eye(3)]
+        np.testing.assert_allclose(vertical, up, rtol=0, atol=4 * EPS)
+        assert is_vertical == (theta is not None)
+        *others, impulse = kicked
+        assert impulse in (True, False)
+        if theta is None:
+            assert others == [False] * 3
+        else:
+            assert all(str(each).endswith(f", got theta = {theta}") for each in others)
+
+
 def test_a_state_without_norm_1_is_refused(tab):
     with pytest.raises(Exception, match="orientation must be a quaternion of norm 1"):
         tab.evaluate("takeStates", [((0.9, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0))])

@@ -6,7 +6,7 @@ import io
 import numpy as np
 import pytest
 from films import draw_balls, write_film
-from other_browsers import running_firefox, running_webkit, until
+from other_browsers import running_firefox, running_webkit, stumbling, until
 from page.web.opened import find_time, read_motion
 from page.web.page_words import write_as_page
 from physics.kernel.motions import NAMES, encode, expect, list_samples, normalize
@@ -133,6 +133,82 @@ def test_a_hold_is_one_act_where_frames_are_slow(driver, path, hold):
     driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow")
     until(driver, "document.querySelector('#headline')?.textContent")
     assert driver.run(HOLD, hold) == HELD[hold]
+
+
+# A hand holds a button, or pulls the ball to the right, for some frames; a visitor answers.
+PAUSE = """
+const wait = async (frames) => {
+  for (let k = 0; k < frames; k += 1) await new Promise(requestAnimationFrame);
+};
+const count = window.symtop.run().events.length;
+const list = () => window.symtop.run().events.slice(count);
+"""
+HOLD_LONG = f"""{PAUSE}
+const button = document.querySelector(`[data-hold=${{given[0]}}]`);
+button.dispatchEvent(new PointerEvent("pointerdown"));
+await wait(20);
+button.dispatchEvent(new PointerEvent("pointerup"));
+await wait(5);
+return list().map(({{ kind }}) => kind);
+"""
+PULL = f"""{PAUSE}
+const canvas = document.querySelector("#picture");
+const {{ left, top, width, height }} = canvas.getBoundingClientRect();
+canvas.setPointerCapture = () => {{}};
+const send = (name, x, y) => canvas.dispatchEvent(new PointerEvent(name,
+  {{ pointerId: 1, clientX: left + x, clientY: top + y, bubbles: true, cancelable: true }}));
+const pull = async (x, y) => {{
+  for (let k = 1; k <= 8; k += 1) {{
+    send("pointermove", x + 5 * k, y);
+    await wait(1);
+  }}
+  send("pointerup", x + 40, y);
+}};
+// The page keeps a press on the ball for itself; another one turns the camera.
+let isTaken = false;
+for (let y = 10; y < height && !isTaken; y += 20)
+  for (let x = 10; x < width && !isTaken; x += 20) {{
+    isTaken = !send("pointerdown", x, y);
+    if (isTaken) await pull(x, y);
+    else send("pointerup", x, y);
+  }}
+await wait(5);
+return list().map(({{ kind, made_by: maker }}) => [kind, maker?.kind]);
+"""
+ANSWER = """
+document.querySelector("[data-answer=rises]").click();
+while (document.querySelector("#compared").hidden) await new Promise(requestAnimationFrame);
+return [document.querySelector("#compared").textContent,
+  window.symtop.run().events.map(({ kind }) => kind)];
+"""
+
+
+@pytest.mark.parametrize("hold", HELD)
+def test_a_hold_is_one_act_in_a_browser_that_stumbles(driver, path, hold):
+    driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow")
+    until(driver, "document.querySelector('#headline')?.textContent")
+    with stumbling(driver):
+        assert driver.run(HOLD_LONG, hold) == HELD[hold]
+
+
+def test_a_pull_is_one_push_in_a_browser_that_stumbles(driver, path):
+    driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow")
+    until(driver, "document.querySelector('#headline')?.textContent")
+    with stumbling(driver):
+        assert driver.run(PULL) == [["kick", "pull"]]
+
+
+def test_the_question_is_answered_once_in_a_browser_that_stumbles(driver, path):
+    driver.open(path.as_uri() + "#lang=en")
+    until(driver, "document.querySelector('#headline')")
+    driver.run("localStorage.clear();")
+    driver.open("about:blank")
+    driver.open(path.as_uri() + "#lang=en")
+    until(driver, "document.body?.dataset.asked === 'ask'")
+    with stumbling(driver):
+        said, kinds = driver.run(ANSWER)
+    assert said == "You were right: it rose."
+    assert kinds == ["start", "kick"]
 
 
 DISC = "#scene=perry_fails&theta=0.5&psi_dot=-25&precession=fast"

@@ -212,3 +212,28 @@ def test_a_sleep_of_the_computer_loses_nothing(open_page):
     assert page.read_events() == events
     assert before < after < before + 0.05  # s: in each frame at most a tenth of 0.1 s
     page.wait_for_time(after)
+
+
+# Ten minutes by the clocks of the page.
+HIDE = """async () => {
+  const before = window.symtop.run().end;
+  window.asleep(600_000);
+  await window.acts.waitForFrames(3);
+  return [before, window.symtop.run().end];
+}"""
+
+
+def test_in_a_tab_that_is_hidden_the_motion_waits_and_a_hand_lets_go(open_page):
+    page = open_page(script=USUAL + "patches.letSleep();")
+    page.tab.click("#hurry")
+    page.open_tab("push")
+    page.tab.dispatch_event("[data-hold=grasp]", "pointerdown")
+    page.until(lambda: page.read_events()[-1]["kind"] == "clamp")
+    events = page.read_events()
+    before, after = page.tab.evaluate(HIDE)
+    *held, let_go = page.read_events()
+    assert held == events
+    assert let_go["kind"] == "unclamp"
+    assert let_go["time"] == before  # when it was hidden
+    assert before < after < before + 0.05  # s: in each frame at most a tenth of 0.1 s
+    page.wait_for_time(after)

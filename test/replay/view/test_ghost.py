@@ -93,3 +93,18 @@ def test_a_motion_that_is_too_long_to_integrate_has_no_ghost():
     assert len(ghost.states_at(np.array([SECOND]))[0]) == 1
     assert len(ghost.states_at(np.array([year]))[0]) == 0
     assert ghost.segment is None
+
+
+def test_its_body_is_drawn_for_each_top_once():
+    stream = Mock()
+    ghost = GhostView(stream)
+    after = kicked(BEGIN, SECOND)
+    ghost.follow("start", None, BEGIN)
+    ghost.follow("kick", BEGIN, after)
+    assert stream.log_mesh.call_count == 1
+    again = kicked(after, 2 * SECOND)
+    ghost.follow("kick", after, again)
+    assert stream.log_mesh.call_count == 1  # the same top
+    heavier = again.change(3 * SECOND, again.state_at(3 * SECOND), top=Top(0.001, 0.002, 0.1))
+    ghost.follow("parameters", again, heavier)
+    assert stream.log_mesh.call_count == 2

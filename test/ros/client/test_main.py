@@ -42,8 +42,8 @@ def ctl(capsys, monkeypatch):
 
 @pytest.fixture(scope="module", autouse=True)
 def node():
-    with running_node(DOMAIN, "scene:=hurry_slow"):
-        yield
+    with running_node(DOMAIN, "scene:=hurry_slow") as process:
+        yield process
 
 
 @pytest.mark.slow
@@ -213,10 +213,32 @@ class Terminal:
         self.seen += read
         return read
 
+    def skip(self):
+        """Read all that was written until now."""
+        while select.select([self._descriptor], [], [], 0)[0]:
+            os.read(self._descriptor, 4096)
+
     def end(self):
         status = self.process.wait(timeout=TIMEOUT)
         os.close(self._descriptor)
         return status
+
+
+@pytest.mark.slow
+def test_watch_waits_while_the_node_is_stopped_unless_that_is_too_long_for_it(node, ctl):
+    terminal = Terminal("watch")
+    terminal.wait_for("theta")
+    node.send_signal(signal.SIGSTOP)
+    try:
+        left = ctl("--timeout", "3", "watch")
+        terminal.skip()
+    finally:
+        node.send_signal(signal.SIGCONT)
+    assert (left.returncode, left.stdout) == (1, "")
+    assert left.stderr == "top_ctl: no samples from /top within 3 s\n"
+    terminal.wait_for("theta")  # it shows what comes then
+    terminal.process.send_signal(signal.SIGINT)
+    assert terminal.end() == 0
 
 
 @pytest.mark.wording

@@ -6,6 +6,7 @@ import pytest
 from odd_values import assert_one_sentence
 
 from symtop_ros.base.refusals import MAX_SENTENCE, RefusedError, one_line
+from symtop_ros.run.simulation.changes.requests import initial_state
 from symtop_ros.run.simulation.settings import PARAMETERS, Settings
 
 RANGED = [name for name, parameter in PARAMETERS.items() if parameter.limits]
@@ -177,3 +178,10 @@ def test_a_rate_that_is_given_ends_the_regular_precession_of_a_scene():
 
 def test_a_condition_is_written_in_round_numbers():
     assert PARAMETERS["top.Ix"].condition == "1e-30 to 1e+30 kg m^2"
+
+
+def test_an_orientation_without_an_angular_velocity_starts_at_rest():
+    settings = Settings.from_values({"initial.orientation": [0.6, 0.0, 0.0, 0.8]})
+    state = initial_state(settings.top, settings.initial, {})
+    assert state.orientation.tolist() == [0.8, 0.6, 0.0, 0.0]
+    assert state.angular_velocity.tolist() == [0.0, 0.0, 0.0]

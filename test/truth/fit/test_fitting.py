@@ -8,9 +8,11 @@ from truth.fit.cases import CUSPS, SIGMA, TIMES, make_axis, make_noisy
 from symtop_ros.physics import Friction, Motion, State, Top, regular_precession_rates
 from symtop_ros.truth.fit import fit_motion, make_record
 from symtop_ros.truth.fit.camera import project
-from symtop_ros.truth.fit.check import FAILS, HOLDS, Check
-from symtop_ros.truth.fit.model import find_axis
+from symtop_ros.truth.fit.check import FAILS, HOLDS, Check, find_half
+from symtop_ros.truth.fit.model import Model, find_axis, name_parameters
+from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.report import Report
+from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.values import list_values
 from workshop.fit.records import draw_sample
 
@@ -237,3 +239,20 @@ def test_flicker_is_allowed_for_and_said():
     found = fit_motion(draw_sample("axis", "flicker", 0).record)
     assert found.noise.is_flicker
     assert "(flicker) is allowed for" in Report("record", 392, found, {}).write_verdict()
+
+
+@pytest.mark.parametrize("late", [False, True])
+def test_a_half_of_a_record_shows_its_numbers_with_larger_deviations(late):
+    record = make_record(TIMES, make_axis(), "axis")
+    model = Model(record, CUSPS.start.orientation)
+    fit = refine(model, fill(model, name_parameters(CUSPS)))
+    half = find_half(fit, late)
+    rows = fit.columns[120:] if late else fit.columns[:120]
+    slopes = rows.reshape(-1, len(fit.x))
+    deviations = np.sqrt(np.diag(np.linalg.inv(slopes.T @ slopes)))
+    # noise that is white by drawing may seem to last a little
+    assert (half.deviations >= 0.9 * deviations).all()
+    assert (half.deviations <= 1.3 * deviations).all()
+    assert (half.deviations > np.sqrt(np.diag(fit.covariance))).all()
+    truth = fill(model, name_parameters(CUSPS))
+    assert (np.abs(half.x - truth) < FAR * half.deviations).all()

@@ -10,7 +10,7 @@ from truth.fit.cases import CUSPS, TIMES, make_axis, write_table
 
 from symtop_ros import __version__
 from symtop_ros.physics import Motion, apply_impulse, specific_force
-from symtop_ros.truth.fit.main import Progress, main
+from symtop_ros.truth.fit.main import Progress, find_camera, main, make_parser
 from symtop_ros.truth.imu.main import main as imu_main
 from workshop.fit.records import see
 
@@ -189,3 +189,12 @@ def test_what_was_clicked_is_known_to_its_deviation(tmp_path, capsys):
     assert wide["scale"]["value"] == pytest.approx(free["scale"]["value"], rel=1e-3)
     assert main([str(path), "--scale-deviation", "1"]) == 1
     assert "--scale-deviation must have a --scale, got none" in capsys.readouterr().err
+
+
+def test_what_is_known_of_a_camera_is_in_the_numbers_of_the_model():
+    words = ["a.csv", "--pivot", "300", "200", "--scale", "250", "--distance", "8"]
+    options = make_parser().parse_args([*words, "--elevation", "30"])
+    known = {"u": 300.0, "v": 200.0, "log_scale": np.log(250.0), "nearness": 0.125}
+    assert find_camera(options) == known | {"elevation": pytest.approx(np.pi / 6)}
+    clicked = make_parser().parse_args([*words[:6], "--pivot-deviation", "1"])
+    assert find_camera(clicked) == {"log_scale": np.log(250.0)}

@@ -7,7 +7,7 @@ from truth.judge.cases import SOME, encode, write_rows
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.messages import TRANSFORM
-from symtop_ros.truth.judge.estimates import FORMATS, decode_estimates
+from symtop_ros.truth.judge.estimates import FORMATS, Estimates, decode_estimates
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.judge.tables import read_table
 
@@ -212,3 +212,13 @@ def test_transforms_of_several_frames_need_a_name():
         decode_estimates(TRANSFORM.type, data)
     assert decode_estimates(TRANSFORM.type, data, "b").stamps.tolist() == [9]
     assert len(decode_estimates(TRANSFORM.type, data, "c")) == 0
+
+
+@pytest.mark.parametrize(("count", "kept"), [(1000, 100), (199, 199), (200, 100), (250, 125)])
+def test_of_many_estimates_some_of_each_part_of_the_run_are_kept_and_the_first(count, kept):
+    estimates = Estimates.of(range(count), [(1.0, 0.0, 0.0, 0.0)] * count)
+    stamps = estimates.thin(100).stamps
+    assert len(stamps) == kept
+    assert stamps[0] == 0  # drifts count from it
+    width = count // 100
+    assert (stamps // width).tolist() == list(range(kept))

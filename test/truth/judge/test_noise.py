@@ -246,3 +246,12 @@ def test_white_noise_is_white_whatever_its_axes(axes, seed):
     assert remainder.has_shape_of_noise
     # the squares of 2000 correlations add up to 0.7 +- 0.03 at most, of which one is taken away
     assert remainder.independent > 2000 / 1.5
+
+
+@pytest.mark.parametrize(("size", "is_white"), [(0.0, True), (0.6, False)])
+def test_a_wave_that_only_means_of_eight_show_is_no_white_noise(size, is_white):
+    """400 rows are enough for means of eight: 50 of them."""
+    rows = np.arange(400)
+    wave = size * np.sin(2 * np.pi * rows / 160)
+    left = np.random.default_rng(2).normal(size=(400, 3)) + wave[:, np.newaxis] * [1, 0, 0]
+    assert Remainder((left, left), 10.0).is_white == is_white
