@@ -1,3 +1,3 @@
 """The heavy symmetric top: closed-form physics and a ROS 2 node."""
 
-__version__ = "0.6.0"
+__version__ = "0.7.0.dev0"
