@@ -65,7 +65,9 @@ def test_each_way_that_is_said_is_that_of_the_sampled_motions(tab, count):
 def find_first(top, state):
     """Return the way of the axis as soon as its tilt differs by more than 1e-7 rad: 1 is up."""
     motion = Motion(Top(**top), State(*state))
-    times = np.exp2(np.arange(-1200, 600) / 30) * math.sqrt(top["Ix"] / (abs(top["Mgl"]) or top["Ix"]))
+    times = np.exp2(np.arange(-1200, 600) / 30) * math.sqrt(
+        top["Ix"] / (abs(top["Mgl"]) or top["Ix"])
+    )
     tilts = find_tilts(motion, times)
     now = find_tilts(motion, np.array([0.0]))[0]
     (left,) = np.nonzero(np.abs(tilts - now) > 1e-7)
