@@ -50,6 +50,7 @@ from symtop_ros.physics.precession import (
 from symtop_ros.physics.pushes import MOST_PUSHES, PUSH_RATES, Pushes
 from symtop_ros.physics.rule.cause import Cause
 from symtop_ros.physics.rule.clamp import ClampVerdict, clamp_verdict
+from symtop_ros.physics.rule.means import MeanChange
 from symtop_ros.physics.rule.perry import KickVerdict, Lift, kick_verdict
 from symtop_ros.physics.rule.perry_map import HurryEffect, compare_hurried
 from symtop_ros.physics.rule.verdict import Verdict, Verdicts, perrys_rule
@@ -86,6 +87,7 @@ __all__ = [
     "Kind",
     "Ledger",
     "Lift",
+    "MeanChange",
     "Motion",
     "Motions",
     "Part",

@@ -662,10 +662,13 @@ class Motion:
     def mean_precession_rate(self) -> float:
         """Mean phi' over a nutation in rad/s.
 
-        It is 0 while a hand holds it (`clamped`), and nan for an axis that rests on the vertical,
-        and for a free one that passes through a pole: there phi jumps by half a turn, to the left
-        or to the right as rounding will have it.
+        It is 0 while a hand holds it (`clamped`). It is nan under friction or an applied torque,
+        which change it from nutation to nutation; for an axis that rests on the vertical; and for a
+        free one that passes through a pole: there phi jumps by half a turn, to the left or to the
+        right by the rounding of the start.
         """
+        if self.is_driven:
+            return math.nan
         return 0.0 if self.clamped else float(self._rates.mean_precession_rate)
 
     @property

@@ -408,8 +408,8 @@ class Motions:
 
     @property
     def mean_precession_rate(self) -> Real:
-        """Mean phi' in rad/s, as in `Motion.mean_precession_rate`."""
-        return self._find_rates("mean_precession_rate")
+        """Mean phi' in rad/s, as in `Motion.mean_precession_rate`: nan where `is_driven`."""
+        return np.where(self.is_driven, np.nan, self._find_rates("mean_precession_rate"))
 
     @property
     def precession_period(self) -> Real:

@@ -24,14 +24,15 @@ A placeholder without text takes the space before it along. A variant (`degrees`
 the key `KEY@VARIANT`.
 
 The number is the exact value of its double. It is rounded to the nearest decimal with the given
-digits; of two that are equally near the one with the even last digit is taken. A number that is
-rounded to zero has no sign. Python's own formatting keeps this rule but for the sign; `toFixed` and
-`toPrecision` of JavaScript round halves away from zero.
+digits; of two that are equally near the one with the even last digit is taken. Only zero reads as
+zero: a number with fewer decimals than it takes to see it is written with significant digits. Zero
+has no sign. Python's own formatting keeps the first rule alone; `toFixed` and `toPrecision` of
+JavaScript round halves away from zero.
 
 ===========  ======================================================================================
 form         text
 ===========  ======================================================================================
-``3f``       3 decimals
+``3f``       3 decimals, or ``3g`` if all of them would be zeros
 ``3g``       3 significant digits without trailing zeros, as %g of C: with an exponent of at least
              two digits if it is below -4 or not below the number of digits
 ``2r``       a rate: ``2f`` for zero and from 0.1 to 1e5, ``3g`` below and above
@@ -187,7 +188,7 @@ def write_number(value: float, form: str, more: int = 0) -> str:
     --------
     >>> from symtop_ros.words.templates import write_number
     >>> write_number(0.125, "2f"), write_number(0.375, "2f"), write_number(-0.0004, "3f")
-    ('0.12', '0.38', '0.000')
+    ('0.12', '0.38', '-0.0004')
     >>> write_number(-49.66, "3g"), write_number(1e-5, "3g"), write_number(0.5, "1fdeg")
     ('-49.7', '1e-05', '28.6')
     >>> write_number(0.5, "3to7f"), write_number(0.5, "3to7f", 2)
@@ -201,7 +202,9 @@ def write_number(value: float, form: str, more: int = 0) -> str:
         plain = value == 0 or SMALLEST_RATE <= abs(value) < LARGEST_RATE
         letter, digits = ("f", digits) if plain else ("g", digits + 1)
     text = f"{value:.{digits}{letter}}"
-    return text.lstrip("-") if float(text) == 0 else text
+    if value == 0:
+        return text.lstrip("-")
+    return text if float(text) != 0 else f"{value:.{max(digits, 1)}g}"
 
 
 @lru_cache(None)

@@ -72,6 +72,8 @@ NAMES = {
     "theta_ddot": "acceleration",
     "theta_ddot_without": "acceleration",
     "mean_cosine": "height",
+    "rates": "precession",
+    "cosines": "height",
 }
 # Of these the name alone does not say it.
 PLACES = {
@@ -79,7 +81,7 @@ PLACES = {
     "average.rate": "precession",
     "clamp.rate": "speed",
 }
-ANGLES = ("turning_angles", "angles_without", "theta")
+ANGLES = ("turning_angles", "angles_without", "theta", "disturbed_to")
 OF_CAUSE = (
     "torque_from_perpendicular",
     "momentum_from_axle",
@@ -92,13 +94,11 @@ OPPOSITES = (
     ("up", "down"),
     ("top", "axis"),
     ("higher", "lower"),
-    ("highest_lower", "lowest_higher"),
-    ("highest_higher", "lowest_lower"),
     (True, False),
 )
 # Words of which a world that is turned over has the opposite.
 OVER = {word: other for pair in OPPOSITES for word, other in (pair, pair[::-1])}
-TURNED_OVER = ("direction", "rule", "rule_holds", "effect", "subject", "facts")
+TURNED_OVER = ("direction", "rule", "rule_holds", "effect", "subject", "height")
 BESIDE = {"above": "below", "below": "above"}  # of a rate that changes its sign
 
 
@@ -293,6 +293,8 @@ def are_opposite(value: Any, other: Any) -> bool:
     """Return whether angles have the sum pi, each right to 2 EPS."""
     if isinstance(value, tuple):
         return all(map(are_opposite, value, reversed(other)))
+    if value is None or other is None:
+        return value is other
     return abs(value + other - math.pi) <= 2 * EPS * (value + other)
 
 

@@ -86,7 +86,7 @@ def test_two_numbers_that_differ_read_differently(nearness, hold):
         for verdict in (perrys_rule(ARTICLE, before, factor, hold), kicked):
             if verdict.reason.kind in ("hurried", "if_hurried"):
                 pairs = re.findall(PAIRS, str(verdict))
-                assert len(pairs) == 2
+                assert len(pairs) >= 2
                 assert all(a != b for a, b in pairs), pairs
             if verdict.reason.place.kind in ("between", "outside"):
                 assert len(set(read_numbers(write("place", verdict.reason.place)))) == 3
@@ -97,7 +97,8 @@ def test_a_top_that_moves_is_not_said_to_stay(off):
     verdict = perrys_rule(ARTICLE, precess(SLOW + off))
     assert verdict.direction in ("rises", "falls")
     for variant in ("radians", "degrees"):
-        low, high = read_numbers(write("verdict", verdict, variant).partition(". ")[0])
+        (span,) = re.findall("stay between .*?[.] ", write("verdict", verdict, variant))
+        low, high = read_numbers(span)
         assert low < high
 
 

@@ -22,6 +22,7 @@ from symtop_ros.replay.viewer import create_recording
 from symtop_ros.run.simulation.changes.outcomes import Start
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.truth.judge.look import GREY, RED
+from workshop.article import means
 from workshop.article.figures import FIGURES
 from workshop.article.maps import draw_map, make_map
 from workshop.article.motions import PSI_DOT, SLOW, THETA, TOP
@@ -57,6 +58,9 @@ def write_pictures(folder: Path) -> int:
     draw_map(make_map("spin"), drawn)
     (folder / "perry.png").write_bytes(pack(drawn, MAP_COLORS))
     print(f"wrote {folder / 'perry.png'}")
+    drawn = io.BytesIO()
+    means.draw_map(drawn)
+    (folder / "perry_in_the_mean.png").write_bytes(pack(drawn, MAP_COLORS))
     try:
         write_replays(folder)
     except SkipTest as reason:  # no program that renders without a screen

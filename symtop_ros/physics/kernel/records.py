@@ -155,6 +155,7 @@ Explanation = Literal[
     "no_spin",
     "about_momentum",
     "with_momentum",
+    "circles",
     "swings",
 ]
 EXPLANATIONS: tuple[Explanation | None, ...] = (
@@ -167,6 +168,7 @@ EXPLANATIONS: tuple[Explanation | None, ...] = (
     "no_spin",
     "about_momentum",
     "with_momentum",
+    "circles",
     "swings",
 )
 
@@ -182,8 +184,8 @@ PARTS: tuple[Part, ...] = get_args(Part)
 LiftKind = Literal["unchanged", "higher", "lower"]
 LIFT_KINDS: tuple[LiftKind, ...] = get_args(LiftKind)
 
-Fact = Literal["rises", "falls", "highest_higher", "highest_lower", "lowest_higher", "lowest_lower"]
-FACTS: tuple[Fact, ...] = get_args(Fact)
+Sense = Literal["along", "against"]
+SENSES: tuple[Sense | None, ...] = (None, "along", "against")
 
 HeldKind = Literal["falls", "swings", "rises", "turns", "rests"]
 HELD_KINDS: tuple[HeldKind, ...] = get_args(HeldKind)
@@ -353,6 +355,17 @@ class LiftRecord(Structure):
     _fields_: ClassVar = [("kind", c_int), ("amount", c_double)]
 
 
+class MeansRecord(Structure):
+    """`symtop_means`."""
+
+    _fields_: ClassVar = [
+        ("sense", c_int),
+        ("height", c_int),
+        ("rates", c_double * 2),
+        ("cosines", c_double * 2),
+    ]
+
+
 class VerdictRecord(Structure):
     """`symtop_verdict`."""
 
@@ -365,9 +378,10 @@ class VerdictRecord(Structure):
         ("average", AverageRecord),
         ("cause", CauseRecord),
         ("factor", c_double),
+        ("means", MeansRecord),
+        ("disturbed_to", c_double),
         ("highest", LiftRecord),
         ("lowest", LiftRecord),
-        ("contrary_facts", c_uint),
     ]
 
 
@@ -434,6 +448,7 @@ RECORDS: tuple[type[Structure], ...] = (
     AverageRecord,
     CauseRecord,
     LiftRecord,
+    MeansRecord,
     VerdictRecord,
     HeldRecord,
     PresentRecord,

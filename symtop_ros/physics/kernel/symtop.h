@@ -490,8 +490,12 @@ typedef enum {
   SYMTOP_EXPLANATION_PLANE,   /* L is along the torque: a plane pendulum */
   SYMTOP_EXPLANATION_NO_SPIN, /* p_psi = 0: L is perpendicular to the axle, a spherical pendulum */
   SYMTOP_EXPLANATION_ABOUT_MOMENTUM, /* L stays within 10 degrees of the vertical: the axle goes round L */
-  SYMTOP_EXPLANATION_WITH_MOMENTUM,  /* L stays within 30 degrees of the axle: the axle goes round with L */
-  SYMTOP_EXPLANATION_SWINGS   /* the torque comes more than 30 degrees from perpendicular to L */
+  SYMTOP_EXPLANATION_WITH_MOMENTUM,  /* L stays within 30 degrees of the axle: the axle goes round with L,
+                                        and advances further in a nutation than it nods */
+  SYMTOP_EXPLANATION_CIRCLES, /* the axle turns about L, faster than the torque can turn L: loops, and
+                                 nutations that are wider than their advance */
+  SYMTOP_EXPLANATION_SWINGS   /* the torque comes more than 30 degrees from perpendicular to L, whose size
+                                 changes by more than 5 % */
 } symtop_explanation;
 
 /* phi' compared with the rate at which gravity's torque would turn L, for an axis that leaves its tilt
@@ -545,15 +549,23 @@ typedef struct {
   double amount; /* rad */
 } symtop_lift;
 
-/* Facts after a kick that are contrary to the direction in which theta'' changed. */
+/* The sense of a push, or of one that is considered, compared with the mean precession. */
 typedef enum {
-  SYMTOP_FACT_RISES = 1,
-  SYMTOP_FACT_FALLS = 2,
-  SYMTOP_FACT_HIGHEST_HIGHER = 4,
-  SYMTOP_FACT_HIGHEST_LOWER = 8,
-  SYMTOP_FACT_LOWEST_HIGHER = 16,
-  SYMTOP_FACT_LOWEST_LOWER = 32
-} symtop_fact;
+  SYMTOP_SENSE_UNSAID,  /* "": nothing is said */
+  SYMTOP_SENSE_ALONG,   /* phi' changes in the direction of the mean precession: hurried in the mean */
+  SYMTOP_SENSE_AGAINST  /* delayed in the mean */
+} symtop_sense;
+
+/* What a change of phi' does to the means of a motion. Means are NaN where they are undefined, and where
+ * more than gravity acts. */
+typedef struct {
+  symtop_sense sense; /* unsaid if phi' does not change, or theta' and the spin momentum change otherwise
+                         than by it; without weight; and if a mean phi' is undefined, zero within its
+                         error, or of the other sign with the push */
+  symtop_lift_kind height; /* of the mean of cos(theta): of the axis */
+  double rates[2];    /* mean phi' in rad/s, without the push and with it */
+  double cosines[2];  /* mean of cos(theta) */
+} symtop_means;
 
 typedef struct {
   symtop_subject subject;
@@ -564,9 +576,11 @@ typedef struct {
   symtop_average average; /* NaN for a driven motion */
   symtop_cause cause;
   double factor;          /* of phi'; NaN for an angular impulse and on the vertical */
+  symtop_means means;     /* compared with no kick */
+  double disturbed_to;    /* rad: the tilt that the axis reaches after the least disturbance, where it rests
+                             on the vertical and is unstable; NaN elsewhere */
   /* after a kick, compared with none: */
   symtop_lift highest, lowest;
-  unsigned contrary_facts; /* the sum of symtop_fact */
 } symtop_verdict;
 
 /* What follows from each start under gravity alone, and Perry's rule for multiplying phi' by a

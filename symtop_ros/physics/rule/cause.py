@@ -37,8 +37,10 @@ class Cause:
         torque turns L as fast as the axle goes round. "plane": L is along the torque. "no_spin":
         L is perpendicular to the axle. "about_momentum": L stays within 10 degrees of the
         vertical, and the axle goes round it. "with_momentum": L stays within 30 degrees of the
-        line of the axle, and the axle goes round with it. "swings": the torque comes more than 30
-        degrees from perpendicular to L.
+        line of the axle, and the axle goes round with it, further in a nutation than it nods.
+        "circles": the axle goes round L, at least four times as fast as the torque turns L; in
+        loops, and if it nods further than it advances. "swings": the torque comes more than 30
+        degrees from perpendicular to L, whose size changes by more than 5 %.
     turn : {"faster", "slower", "rests", "vertical", "against"} or None
         phi' compared with the rate at which gravity's torque would turn L, if the axis leaves its
         tilt with theta' = 0: the weight rises if phi' is faster, and falls in the other cases.
@@ -72,8 +74,8 @@ class Cause:
     Gravity's torque turns the angular momentum round, which stays near the axle: so the axle goes
     round as well. The torque stays within 0.064 rad of perpendicular to L, L within 0.14 rad of the
     line of the axle, and the angular velocity omega within 0.037 rad. The axle does not go round:
-    all of gravity's torque is left, so the axle falls. As it does so, the axle goes round faster
-    and faster.
+    all of gravity's torque is left, so the axle accelerates downwards. On its way the axle goes
+    round faster and faster.
     """
 
     explanation: Explanation | None

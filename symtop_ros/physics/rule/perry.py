@@ -19,12 +19,14 @@ of a p^2 - b p + Mgl = 0, Ix theta''/sin(theta) after a kick by k is
 
     (k - 1) Mgl (k s/f - 1)  from the slow root,    (k - 1) a f^2 (k - s/f)  from the fast one.
 
-Slow and fast are meant with that held which the kick holds. Since |s| < |f|, a small hurry on the
+Slow and fast are meant with that held which the kick holds. Since |s| < |f|, a small hurry on that
 slow root raises the centre of mass of every top, and lowers the axis if and only if Mgl < 0. A
 hurry on the fast root raises the centre of mass if and only if Mgl a < 0, where a = (Ix - Iz)
 cos(theta) if the spin rate is held and Ix cos(theta) if the spin momentum is. docs/derivation.md
-has the derivation. Elsewhere the top may rise although the rule fails, and the reverse. The answer
-to a kick says so. The formulas are in the kernel (`kernel/rule/tilt.hpp` and `verdict.hpp`).
+has the derivation. Elsewhere the axis may move up although the rule fails, and the reverse: the
+rule is about theta'' at the instant of the kick. The answer to a kick has three parts: at this
+instant, from now on, and compared with no kick. The formulas are in the kernel
+(`kernel/rule/tilt.hpp` and `verdict.hpp`).
 """
 
 import math
@@ -35,7 +37,6 @@ from symtop_ros.physics.kernel import door
 from symtop_ros.physics.kernel.records import (
     DIRECTIONS,
     EFFECTS,
-    FACTS,
     HOLDS,
     KINDS,
     LIFT_KINDS,
@@ -46,7 +47,6 @@ from symtop_ros.physics.kernel.records import (
     AverageRecord,
     Direction,
     Effect,
-    Fact,
     Hold,
     Kind,
     LiftKind,
@@ -59,6 +59,7 @@ from symtop_ros.physics.kernel.records import (
 from symtop_ros.physics.kicks import validate_hold
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.rule.cause import Cause, read_cause
+from symtop_ros.physics.rule.means import MeanChange, read_means
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import validate_one
 from symtop_ros.words import write
@@ -113,6 +114,9 @@ class Reason:
         zero or has the sign of its change, and if the rule says nothing.
     place : Place or None
         Place of phi' with a kick, or of the present phi' for a verdict; None on the vertical.
+    disturbed_to : float or None
+        Tilt in rad that the axis reaches after the least disturbance, if it rests on the vertical
+        and is unstable there.
     """
 
     kind: ReasonKind
@@ -124,6 +128,7 @@ class Reason:
     theta_ddot: float | None = None
     effect: Effect | None = None
     place: Place | None = None
+    disturbed_to: float | None = None
 
     def __str__(self) -> str:
         """Return the sentence on Perry's rule."""
@@ -168,15 +173,6 @@ class Lift:
 
 
 @dataclass(frozen=True, slots=True)
-class Contradiction:
-    """Facts after a kick that are contrary to the direction in which theta'' changed."""
-
-    rule: Rule
-    subject: Subject
-    facts: tuple[Fact, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class KickVerdict:
     """Changes by a kick, and the motion that follows.
 
@@ -200,8 +196,8 @@ class KickVerdict:
         Perry's rule for the kick.
     highest, lowest : Lift
         Rise of the highest and of the lowest point, compared with no kick.
-    contradiction : Contradiction or None
-        Facts that are contrary to the change of theta''; None if there are none.
+    means : MeanChange or None
+        The means, compared with no kick; None if they are undefined, and for a driven motion.
     average : Average or None
         As in `Verdict`; None for a driven motion too.
     cause : Cause
@@ -221,12 +217,12 @@ class KickVerdict:
     reason: Reason
     highest: Lift
     lowest: Lift
-    contradiction: Contradiction | None
+    means: MeanChange | None
     average: Average | None
     cause: Cause
 
     def __str__(self) -> str:
-        """Return the change, its consequences and Perry's rule, in sentences."""
+        """Return what holds at this instant, from now on, and compared with no kick."""
         return write("kick", self)
 
 
@@ -257,12 +253,13 @@ def kick_verdict(motion: Motion, before: State[float], hold: Hold | None) -> Kic
     >>> before = State.from_euler(theta=0.5, phi_dot=slow, psi_dot=200.0)
     >>> answer = kick_verdict(Motion(top, hurry(before)), before, "spin_rate")
     >>> print(answer)  # doctest: +NORMALIZE_WHITESPACE
-    Precession 6.50 -> 9.10 rad/s, spin rate held. The top rises: theta will stay between 0.437 and
-    0.500 rad. Perry's rule holds: hurried, theta'' is -49.7 instead of 0 rad/s^2 (9.10 rad/s lies
-    between the regular rates 6.50 and 69.82 rad/s at this spin rate). Compared with no kick, the
-    highest point is 0.063 rad higher and the lowest point unchanged. On average phi' is 6.41 rad/s
-    (one turn in 0.98 s), 0.157 turns per nutation (slow precession of a fast top: Mgl/p_psi = 5.72
-    rad/s).
+    At this instant: precession 6.50 -> 9.10 rad/s, spin rate held; the axis moves up. Perry's rule
+    holds: hurried, theta'' is -49.7 instead of 0 rad/s^2 (9.10 rad/s lies between the regular rates
+    6.50 and 69.82 rad/s at this spin rate). From now on: theta will stay between 0.437 and 0.500
+    rad. On average phi' is 6.41 rad/s (one turn in 0.98 s), 0.157 turns per nutation (slow
+    precession of a fast top: Mgl/p_psi = 5.72 rad/s). Compared with no kick: the highest point is
+    0.063 rad higher, the lowest point is unchanged, and the mean height rises (mean of cos(theta):
+    0.892 instead of 0.878). The kick is along the mean precession (6.50 rad/s without the kick).
     """
     validate_one(motion, "motion")
     held = HOLDS.index(hold if hold is None else validate_hold(hold))
@@ -283,7 +280,7 @@ def kick_verdict(motion: Motion, before: State[float], hold: Hold | None) -> Kic
         reason=reason,
         highest=Lift(LIFT_KINDS[found.highest.kind], found.highest.amount),
         lowest=Lift(LIFT_KINDS[found.lowest.kind], found.lowest.amount),
-        contradiction=_read_contradiction(found.contrary_facts, reason),
+        means=read_means(found.means, SUBJECTS[found.subject]),
         average=read_average(found.average),
         cause=read_cause(found.cause, SUBJECTS[found.subject]),
     )
@@ -298,7 +295,8 @@ def read_reason(verdict: VerdictRecord, hold: Hold | None) -> Reason:
     found = verdict.reason
     kind, rule, subject = REASON_KINDS[found.kind], RULES[found.rule], SUBJECTS[verdict.subject]
     if found.kind >= VERTICAL:
-        return Reason(kind, rule, subject)
+        reach = verdict.disturbed_to
+        return Reason(kind, rule, subject, disturbed_to=None if math.isnan(reach) else reach)
     slow, fast = found.place.regular_rates
     held = hold or ("spin_rate" if kind == "angular_impulse" else "spin_momentum")
     return Reason(
@@ -326,8 +324,3 @@ def read_average(found: AverageRecord) -> Average | None:
         found.fast_top_rate,
         bool(found.spin_reverses),
     )
-
-
-def _read_contradiction(bits: int, reason: Reason) -> Contradiction | None:
-    facts = tuple(fact for place, fact in enumerate(FACTS) if bits >> place & 1)
-    return Contradiction(reason.rule, reason.subject, facts) if facts and reason.rule else None

@@ -14,6 +14,8 @@ from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, list_starts
 from symtop_ros.physics.kernel import door, records
 from symtop_ros.physics.kernel.records import (
     DIRECTIONS,
+    LIFT_KINDS,
+    SENSES,
     SUBJECTS,
     Direction,
     Hold,
@@ -22,6 +24,7 @@ from symtop_ros.physics.kernel.records import (
 )
 from symtop_ros.physics.kicks import HOLDS, validate_hold
 from symtop_ros.physics.rule.cause import Cause, read_cause
+from symtop_ros.physics.rule.means import MeanChange, read_means
 from symtop_ros.physics.rule.perry import VERTICAL, Average, Reason, read_average, read_reason
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
@@ -59,6 +62,10 @@ class Verdict:
         The reason: theta'' with the kick and without it.
     average : Average or None
         Mean precession and its fast-top approximation; None if the mean precession is undefined.
+    means : MeanChange or None
+        Means of the motion with the kick that is considered, compared with no kick: the sense of
+        the kick against the mean precession, and the mean height. None if they are undefined, and
+        for a kick that changes nothing.
     cause : Cause
         Why the axis moves as it does.
 
@@ -68,11 +75,12 @@ class Verdict:
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> verdict = perrys_rule(top, State.from_euler(theta=0.5, phi_dot=9.0, psi_dot=200.0))
     >>> print(verdict)  # doctest: +NORMALIZE_WHITESPACE
-    The top rises: theta will stay between 0.439 and 0.500 rad. Perry's rule holds: hurried from
-    9.00 to 12.60 rad/s, theta'' would be -110 instead of -48 rad/s^2 (9.00 rad/s lies between
-    the regular rates 6.50 and 69.82 rad/s at this spin rate). On average phi' is 6.42 rad/s (one
-    turn in 0.979 s), 0.157 turns per nutation (slow precession of a fast top: Mgl/p_psi = 5.72
-    rad/s).
+    At this instant: the axis moves up. Perry's rule holds: hurried from 9.00 to 12.60 rad/s,
+    theta'' would be -110 instead of -48 rad/s^2 (9.00 rad/s lies between the regular rates 6.50
+    and 69.82 rad/s at this spin rate). From now on: theta will stay between 0.439 and 0.500 rad. On
+    average phi' is 6.42 rad/s (one turn in 0.979 s), 0.157 turns per nutation (slow precession of a
+    fast top: Mgl/p_psi = 5.72 rad/s). Such a kick would be along the mean precession, and the mean
+    height would rise (mean of cos(theta): 0.908 instead of 0.891).
     """
 
     subject: Subject
@@ -82,10 +90,11 @@ class Verdict:
     rule_holds: bool | None
     reason: Reason
     average: Average | None
+    means: MeanChange | None
     cause: Cause
 
     def __str__(self) -> str:
-        """Return direction, turning angles, reason and averages, in sentences."""
+        """Return what holds at this instant, from now on, and in the mean, in sentences."""
         return write("verdict", self)
 
 
@@ -105,6 +114,11 @@ class Verdicts:
         False where Perry's rule says nothing.
     rule_holds : ndarray (...) of bool
         True where it holds.
+    sense : ndarray (...) of str
+        "along" or "against" the mean precession, "" where nothing is said, as in `MeanChange`.
+    mean_height : ndarray (...) of str
+        Change of the mean height of the axis: "higher", "lower" or "unchanged"; "" where the means
+        are undefined.
 
     Examples
     --------
@@ -120,6 +134,8 @@ class Verdicts:
     regular_rates: tuple[Real, Real]
     rule_applies: NDArray[np.bool_]
     rule_holds: NDArray[np.bool_]
+    sense: NDArray[np.str_]
+    mean_height: NDArray[np.str_]
 
 
 @overload
@@ -217,6 +233,7 @@ def _read(found: VerdictRecord, hold: Hold) -> Verdict:
         rule_holds=None if reason.rule is None else reason.rule == "holds",
         reason=reason,
         average=read_average(found.average),
+        means=read_means(found.means, SUBJECTS[found.subject]),
         cause=read_cause(found.cause, SUBJECTS[found.subject]),
     )
 
@@ -232,10 +249,14 @@ def _judge_each(top: Top, state: State, factors: Real, hold: Hold) -> Verdicts:
     is_tilted = (reasons["kind"] < VERTICAL)[..., None]
     slow, fast = split(np.where(is_tilted, reasons["place"]["regular_rates"], np.nan))
     low, high = split(found["turning_angles"])
+    means = found["means"]
+    has_means = ~np.isnan(means["cosines"][..., 0])
     return Verdicts(
         direction=np.take(DIRECTIONS, found["direction"]),
         turning_angles=(low.copy(), high.copy()),
         regular_rates=(slow.copy(), fast.copy()),
         rule_applies=reasons["rule"] != 0,
         rule_holds=reasons["rule"] == 1,
+        sense=np.take([name or "" for name in SENSES], means["sense"]),
+        mean_height=np.where(has_means, np.take(LIFT_KINDS, means["height"]), ""),
     )

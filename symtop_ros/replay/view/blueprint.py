@@ -46,8 +46,8 @@ class Framing:
     def of(cls, segment: Segment) -> "Framing":
         """Return the framing of a motion."""
         motion = segment.final_motion
-        rate, nutation = motion.mean_precession_rate, motion.nutation_period
-        turn = 2 * math.pi / abs(rate) if rate else math.inf
+        free = Motion(motion.top, motion.start) if motion.is_driven else motion
+        turn, nutation = free.precession_period, free.nutation_period
         return cls(
             trace=_clip(0.2, min(turn, TRACE_NUTATIONS * nutation) / segment.factor, 30.0),
             window=_clip(2.0, PLOT_NUTATIONS * nutation / segment.factor, 60.0),

@@ -155,6 +155,8 @@ def _name_condition(segment: Segment) -> str:
 
 
 def _list_rates(motion: Motion, state: State) -> dict[str, str]:
+    if motion.is_driven:  # the table says that these are without what drives it
+        motion = Motion(motion.top, motion.start)
     found = perrys_rule(motion.top, state).regular_rates
     rates = ", ".join(f"{rate:.4g}" for rate in found if not math.isnan(rate))
     return {

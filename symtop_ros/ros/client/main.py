@@ -231,7 +231,7 @@ class Key(NamedTuple):
 
 # By the bytes that a terminal sends.
 KEYS = {
-    "h": Key("h", "hurry: multiply phi' by the parameter hurry_factor", _ask("hurry_precession")),
+    "h": Key("h", "hurry: phi' times hurry_factor, spin rate held", _ask("hurry_precession")),
     "d": Key("d", "delay: divide phi' by 1.4", _ask("kick", DELAY)),
     "c": Key("c", "clamp the precession, or let it go", _toggle_clamp),
     " ": Key("space", "pause or resume", _toggle_pause),

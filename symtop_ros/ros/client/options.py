@@ -32,7 +32,10 @@ def make_parser() -> argparse.ArgumentParser:
         parsers[command].add_argument("switch", choices=("on", "off"))
     parsers["state"].add_argument("--json", action="store_true", help="as JSON in one line")
     parsers["hurry"].add_argument(
-        "factor", nargs="?", type=decimal, help="of phi' (default: the parameter hurry_factor)"
+        "factor",
+        nargs="?",
+        type=decimal,
+        help="of phi'; the spin rate is held (default: the parameter hurry_factor)",
     )
     commands.add_parser("delay", help="divide the precession rate, by 1.4 or FACTOR").add_argument(
         "factor", nargs="?", type=positive, default=1.4, help="by which phi' is divided"

@@ -32,7 +32,7 @@ SERVICES: dict[str, Service] = {
     "release": Service("plain", "release", "end a series of pushes that is under way"),
     "clamp": Service("switch", "clamp", "hold the precession by hand, or let it go"),
     "hurry_precession": Service(
-        "plain", "hurry", "multiply the precession rate by the parameter hurry_factor"
+        "plain", "hurry", "multiply phi' by the parameter hurry_factor, spin rate held"
     ),
     "reset": Service("plain", "reset", "back to the last initial conditions"),
     "pause": Service("switch", "pause", "stop the motion; `resume` continues it"),

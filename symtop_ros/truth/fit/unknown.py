@@ -231,7 +231,8 @@ def find_rest(fit: Fit) -> tuple[float, float]:
     """
 
     def find(x: Real) -> float:
-        turning = float(fit.model.find_motion(x).mean_precession_rate)
+        motion = fit.model.find_motion(x)
+        turning = Motion(motion.top, motion.start).mean_precession_rate  # friction has none
         return float(x[fit.model.place["Mgl/Ix"]]) - turning * find_momentum(fit.model, x)
 
     return find(fit.x), fit.find_deviation(find_slope(fit, find))

@@ -108,6 +108,21 @@ window.sayKicks = async (cases) => {
   });
 };
 
+/** All sentences that the page shows together of kicks. */
+window.sayAll = async (cases) => {
+  const { Course } = await import("/physics/course.js");
+  const { State } = await import("/physics/state.js");
+  const { findOutcome } = await import("/words/headline.js");
+  return cases.map(({ top, angles, rates, kick: { kind, value, hold } }) => {
+    const before = State.fromEuler(kernel, angles, rates);
+    const course = new Course(kernel, top, before.kick(top, kind, [value].flat(), hold));
+    const moment = { kind: "kick", time: 0, asked: { hold }, course, before };
+    const { headline, name, outcome, because } = findOutcome(moment, course);
+    const said = [phrase("headline", headline), phrase(name, outcome)];
+    return because ? [...said, phrase("because", because), phrase("in_numbers", because)] : said;
+  });
+};
+
 /** The impulses of starts since them: at times, and the texts that the page shows at half a nutation. */
 window.findImpulses = async (cases) => {
   const { Course } = await import("/physics/course.js");

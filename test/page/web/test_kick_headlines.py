@@ -119,9 +119,10 @@ SAYS = {
 }
 PARTS = "|".join(SAYS.values())
 HEADLINE = re.compile(
-    r"The (top|axis)(?: (rises|falls) at first, but)? "
+    r"The (top|axis)(?: moves (up|down) at first, but)? "
     rf"((?:{PARTS})(?: and (?:{PARTS}))?) than without the push(?:, and no longer (rises|falls))?\."
 )
+WAYS = {"up": "rises", "down": "falls", None: None}  # by what it is called if it goes far
 LOST = re.compile(r"The (top|axis) no longer (rises|falls|rises or falls)\.")
 SAME = re.compile(
     r"(To the eye, t|T)he (top|axis) reaches the same highest and lowest points as .*\."
@@ -133,7 +134,7 @@ def read(headline):
     if found := HEADLINE.fullmatch(headline):
         subject, first, parts, *_ = found.groups()
         lost = [found.groups()[-1]] if found.groups()[-1] else []
-        return subject, first, dict(read_part(each) for each in parts.split(" and ")), lost
+        return subject, WAYS[first], dict(read_part(each) for each in parts.split(" and ")), lost
     if found := LOST.fullmatch(headline):
         return found[1], None, {}, found[2].split(" or ")
     found = SAME.fullmatch(headline)

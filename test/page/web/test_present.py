@@ -13,8 +13,8 @@ from trials import trials
 from symtop_ros.page.web.join import LANGUAGES
 from symtop_ros.physics import Motion, State, Top
 
-EFFECTS = ("falls faster", "falls more and more slowly", "rises faster")
-EFFECTS += ("rises more and more slowly", "turns up", "turns down")
+EFFECTS = ("moves down faster", "moves down more and more slowly", "moves up faster")
+EFFECTS += ("moves up more and more slowly", "begins to move up", "begins to move down")
 NEEDS = {"only a part": (0.05, 1.0), "more than": (1.0, math.inf), "hardly any": (-0.05, 0.05)}
 NEEDS |= {"a torque against": (-math.inf, -0.05)}
 # Of the torque: its parts are sums of products of doubles, the largest perhaps 1e4 times it.
@@ -78,11 +78,11 @@ def check_effect(effect, motion, period, sign):
     def fall(time):
         return sign * motion.at(time).euler_rates.theta_dot
 
-    if "turns" in effect:
+    if "begins" in effect:
         before, after = fall(-NEAR * period), fall(NEAR * period)
-        assert (before > 0 > after) if effect == "turns up" else (before < 0 < after)
+        assert (before > 0 > after) if effect.endswith("up") else (before < 0 < after)
         return
-    assert (fall(0.0) > 0) == ("falls" in effect)
+    assert (fall(0.0) > 0) == ("down" in effect)
     before, after = abs(fall(-SHORT * period)), abs(fall(SHORT * period))
     assert (after > before) == ("faster" in effect)
 

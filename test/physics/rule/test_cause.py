@@ -174,6 +174,33 @@ def goes_about(seen, cause):
     return bool(near and one_way and around)
 
 
+def nods_further_than_it_advances(seen):
+    """True of loops, and where the tilt spans more than the way round at the middle of its ends.
+
+    None next to the vertical, where phi' has a spike between two samples.
+    """
+    if seen.sine.min() < 1e-2 * seen.sine.max():
+        return None
+    least, most = seen.phi_dot.min(), seen.phi_dot.max()
+    if least * most < 0 and min(-least, most) > TINY * max(-least, most):  # else rounding of a cusp
+        return True
+    tilts = np.arctan2(seen.sine, seen.axle[:, 2])
+    advance = np.ptp(azimuth(seen.axle)) * np.sin((tilts.min() + tilts.max()) / 2)
+    return bool(np.ptp(tilts) > advance)
+
+
+def circles(seen, _):
+    """The axle goes once round L in a nutation; L moves by less than a right angle meanwhile."""
+    pole = seen.L / seen.size[:, None]
+    level = np.array([0.0, 0.0, 1.0]) - pole[:, 2:] * pole
+    beside = np.cross(pole, level)
+    place = np.arctan2(np.sum(seen.axle * beside, 1), np.sum(seen.axle * level, 1))
+    once = abs(np.unwrap(place)[-1] - place[0])
+    is_slow = 4 * np.linalg.norm(seen.torque, axis=1) / seen.size < seen.size / seen.top.Ix
+    is_round = abs(once - 2 * PI) < 1e-3
+    return bool(is_round and is_slow.all()) and nods_further_than_it_advances(seen) is not False
+
+
 def goes_with(seen, cause):
     tilts = from_line(seen.L, seen.axle), from_line(seen.omega, seen.axle)
     near = tilts[0].max() <= cause.momentum_from_axle[2] + TINY <= PI / 6 + 2 * TINY
@@ -185,7 +212,8 @@ def goes_with(seen, cause):
     line = np.sign(np.sum(seen.L * seen.axle, axis=1))[:, None] * seen.L
     # always within a quarter of a turn of L: in the long run both turn as often
     apart = np.abs((azimuth(line) - azimuth(seen.axle) + PI) % (2 * PI) - PI)
-    return bool(near and is_turned and one_way and apart.max() < PI / 2)
+    is_followed = bool(near and is_turned and one_way and apart.max() < PI / 2)
+    return is_followed and not nods_further_than_it_advances(seen)
 
 
 def swings(seen, cause):
@@ -194,7 +222,8 @@ def swings(seen, cause):
     lower = -np.diff(seen.weight)
     rounding = TINY * np.maximum(np.abs(longer).max(), 1e-300)
     agree = np.sign(longer) == np.sign(lower)
-    return bool(np.all(agree | (np.abs(longer) <= rounding))) and off.max() > PI / 6 - 0.02
+    is_along = bool(np.all(agree | (np.abs(longer) <= rounding))) and off.max() > PI / 6 - 0.02
+    return is_along and np.ptp(seen.size) > 0.049 * seen.size.max()
 
 
 CLAIMS = {
@@ -206,6 +235,7 @@ CLAIMS = {
     "no_spin": is_without_spin,
     "about_momentum": goes_about,
     "with_momentum": goes_with,
+    "circles": circles,
     "swings": swings,
 }
 

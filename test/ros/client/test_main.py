@@ -52,7 +52,7 @@ def test_hurry_prints_the_verdict(ctl):
     assert ctl("start").returncode == 0
     result = run("top_ctl", *PATIENT, "hurry", domain=DOMAIN)
     assert result.returncode == 0
-    assert "Precession 6.50 -> 9.10 rad/s, spin rate held. The top rises" in result.stdout
+    assert "precession 6.50 -> 9.10 rad/s, spin rate held; the axis moves up." in result.stdout
     assert result.stderr == ""
 
 
@@ -225,13 +225,13 @@ def test_each_key_sends_its_request(ctl):
     terminal = Terminal("keys")
     terminal.wait_for("quit")
     for key, answer in (
-        ("h", "h: Precession 6.50 -> 9.10 rad/s, spin rate held. The top rises"),
-        ("d", "d: Precession"),
+        ("h", "h: At this instant: precession 6.50 -> 9.10 rad/s, spin rate held; the axis moves"),
+        ("d", "d: At this instant: precession"),
         (" ", "space: paused at"),
         ("r", "r: "),
         ("\x1b[A", "up: "),
-        ("\x1b[C", "right: Precession 6.50 -> 7.50 rad/s"),
-        ("\x1b[D", "left: Precession 7.50 -> 6.50 rad/s"),
+        ("\x1b[C", "right: At this instant: precession 6.50 -> 7.50 rad/s"),
+        ("\x1b[D", "left: At this instant: precession 7.50 -> 6.50 rad/s"),
         ("\x1b[B", "down: "),
         (" ", "space: resumed at"),
     ):

@@ -21,7 +21,8 @@ const uint32_t symtop_sizes[] = {sizeof(symtop_start),   sizeof(symtop_pushes),
                                  sizeof(symtop_solutions), sizeof(symtop_spreads), sizeof(symtop_place),
                                  sizeof(symtop_reason),  sizeof(symtop_average),
                                  sizeof(symtop_cause),   sizeof(symtop_lift),
-                                 sizeof(symtop_verdict), sizeof(symtop_held), sizeof(symtop_present),
+                                 sizeof(symtop_means),   sizeof(symtop_verdict), sizeof(symtop_held),
+                                 sizeof(symtop_present),
                                  sizeof(symtop_energies), sizeof(symtop_exchange)};
 
 // symtop_new and symtop_state in the fewest arguments, each of which costs such a caller a quarter

@@ -190,8 +190,10 @@ symtop_status symtop_judge(const symtop_start* starts, const double* factors, si
     symtop_start s = starts[i];
     const symtop_status status = find_refusal({held, accept(s)});
     if (status != SYMTOP_OK) return status;
-    GravityMotion motion(to_start(s));
-    return judge(s, motion, factors[i], hold, verdicts[i]) ? SYMTOP_OK : SYMTOP_BAD_KICK;
+    const symtop_start kicked = consider_kick(s, factors[i], hold);
+    GravityMotion motion(to_start(s)), with(to_start(kicked));
+    return judge(s, kicked, motion, with, factors[i], hold, verdicts[i]) ? SYMTOP_OK
+                                                                         : SYMTOP_BAD_KICK;
   });
 }
 

@@ -16,8 +16,11 @@ namespace symtop {
 // Sentences say how large an angle is; beyond these limits they are not made. The torque that stays
 // within 30 degrees of perpendicular to L changes its direction more than its length.
 const double NEAR_PERPENDICULAR = PI / 6, NEAR_THE_AXLE = PI / 6, NEAR_THE_VERTICAL = PI / 18;
-// The change of a rate that one sees, as a share of the larger one.
+// The change of a rate, or of |L|, that one sees, as a share of the larger one.
 const double SEEN_CHANGE = 0.05;
+// By so much the axle turns about L faster than L is turned: L moves by less than a right angle while
+// the axle goes round once.
+const double MUCH_FASTER = 4;
 // The share of its terms below which a sum in doubles has no sign. The turning angles are some EPS
 // of 1, or the square root of it where two roots nearly meet.
 const double SURE = 1e-7;
@@ -199,6 +202,7 @@ class CauseFinder {
       : now_(now), verdict_(verdict), L_(now) {
     motion.find_turning_angles(angles_);
     motion.find_rates_at_ends(across_, level_);
+    advance_ = 2 * PI * std::fabs(motion.find_rates().precession_per_nutation);
   }
 
   symtop_cause find() const {
@@ -218,6 +222,7 @@ class CauseFinder {
   const Momentum L_;
   // theta, |omega_xy| and the horizontal part of L over Ix at the turning points
   double angles_[2], across_[2], level_[2];
+  double advance_;  // rad, of phi in a nutation; NaN where it has none
 
   bool is_zero(double rate) const { return std::fabs(rate) <= START_ROUNDING; }  // in L_.unit
   bool is_at_rest() const { return L_.size_now() == 0; }
@@ -264,9 +269,11 @@ class CauseFinder {
     if (is_zero(L_.a) && std::fabs(L_.a) <= SURE * std::fabs(L_.b))
       return SYMTOP_EXPLANATION_NO_SPIN;
     if (goes_about_L(cause)) return SYMTOP_EXPLANATION_ABOUT_MOMENTUM;
-    if (goes_with_L(cause)) return SYMTOP_EXPLANATION_WITH_MOMENTUM;
+    const bool is_wide = is_wider_than_its_advance();
+    if (!is_wide && goes_with_L(cause)) return SYMTOP_EXPLANATION_WITH_MOMENTUM;
+    if (is_wide && circles_about_L()) return SYMTOP_EXPLANATION_CIRCLES;
     const bool swings = cause.torque_from_perpendicular[1] > NEAR_PERPENDICULAR &&
-                        angles_[1] - angles_[0] > SURE;
+                        angles_[1] - angles_[0] > SURE && changes_size_of_L();
     return swings ? SYMTOP_EXPLANATION_SWINGS : SYMTOP_EXPLANATION_UNSAID;
   }
 
@@ -288,6 +295,35 @@ class CauseFinder {
     const double last = L_.a - L_.b * cosine_and_sine(angles_[1]).x;
     return most <= NEAR_THE_AXLE && most < margin &&
            cause.torque_from_perpendicular[1] <= NEAR_PERPENDICULAR && have_one_sign(first, last);
+  }
+
+  // What is seen is then the nutation, and not the way round: in loops, where the axle goes back in
+  // each, and where it nods further than it advances, at the middle of its tilts.
+  bool is_wider_than_its_advance() const {
+    const double width = angles_[1] - angles_[0];
+    if (width <= SURE) return false;
+    if (verdict_.motion == SYMTOP_LOOPING) return true;
+    return width > advance_ * cosine_and_sine((angles_[0] + angles_[1]) / 2).y;
+  }
+
+  // |L| over Ix at a turning point, in rad/s: omega without its part along the axle, and p_psi/Ix.
+  double size_at(int end) const { return find_modulus({across_[end], L_.a * L_.unit}); }
+
+  // The axle turns about L at |L|/Ix, as it would without a torque; the torque turns L at no more than
+  // |Mgl| sin(theta)/|L|. So the axle goes round on a circle that moves along (Butikov, section 4). |L|
+  // is monotone in the height.
+  bool circles_about_L() const {
+    const bool reaches_horizontal = angles_[0] < PI / 2 && angles_[1] > PI / 2;
+    const double most = reaches_horizontal ? 1.0
+                                           : std::fmax(cosine_and_sine(angles_[0]).y,
+                                                       cosine_and_sine(angles_[1]).y);
+    const double least = std::fmin(size_at(0), size_at(1)) / L_.unit;
+    return least * least > MUCH_FASTER * std::fabs(L_.beta) / 2 * most;
+  }
+
+  bool changes_size_of_L() const {
+    const double sizes[] = {size_at(0), size_at(1)};
+    return std::fabs(sizes[1] - sizes[0]) > SEEN_CHANGE * std::fmax(sizes[0], sizes[1]);
   }
 
   unsigned find_constant() const {

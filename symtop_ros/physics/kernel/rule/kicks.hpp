@@ -88,4 +88,11 @@ inline bool kick(const symtop_top& top, const double q[4], symtop_kick_kind kind
   return true;
 }
 
+// A start after a kick by a factor that is only considered; on the vertical it is the start itself.
+inline symtop_start consider_kick(symtop_start s, double factor, symtop_hold hold) {
+  const symtop_top top = {s.Ix, s.Iz, s.Mgl};
+  kick(top, s.orientation, SYMTOP_FACTOR_OF_RATE, hold, &factor, s.angular_velocity);
+  return s;
+}
+
 }  // namespace symtop

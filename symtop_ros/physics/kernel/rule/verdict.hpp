@@ -12,6 +12,7 @@
 
 #include "../gravity.hpp"
 #include "cause.hpp"
+#include "means.hpp"
 #include "tilt.hpp"
 
 namespace symtop {
@@ -61,6 +62,17 @@ inline bool is_sleeping_stable(const Instant& now) {
   // double is rounded.
   const double least = 2 * std::sqrt(now.top.Ix) * std::sqrt(weight);
   return std::fabs(now.top.Iz * now.start.angular_velocity[2]) >= (1 - 8 * EPS) * least;
+}
+
+// The tilt to which the least disturbance lets an axis go that rests on the vertical and is unstable:
+// with p_phi = p_psi the cubic leaves 1 + u = p_psi^2/(2 Ix Mgl) (Goldstein, section 5.7), so that the
+// cosine of half the way is the spin over the critical one.
+inline double find_disturbed(const Instant& now) {
+  const double critical = 2 * std::sqrt(now.top.Ix) * std::sqrt(std::fabs(now.top.Mgl));
+  const double share =
+      critical > 0 ? std::fabs(now.top.Iz * now.start.angular_velocity[2]) / critical : 0.0;
+  const double way = 2 * arc_tangent(std::sqrt((1 - share) * (1 + share)), share);
+  return now.vertical.z > 0 ? way : PI - way;
 }
 
 inline symtop_reason explain_vertical(const Instant& now) {
@@ -177,10 +189,14 @@ inline symtop_verdict describe_course(const Instant& now, GravityMotion& motion)
   return verdict;
 }
 
-// The verdict on a start, and on a kick by a factor that is only considered; false if that would
-// lead to a rate beyond the largest.
-inline bool judge(const symtop_start& s, GravityMotion& motion, double factor, symtop_hold hold,
-                  symtop_verdict& verdict) {
+inline double find_disturbed_to(const Instant& now, const symtop_reason& reason) {
+  return reason.kind == SYMTOP_VERTICAL_UNSTABLE ? find_disturbed(now) : NAN;
+}
+
+// The verdict on a start, and on a kick by a factor that is only considered: `kicked` is the start after
+// it, and `with` its motion. False if that would lead to a rate beyond the largest.
+inline bool judge(const symtop_start& s, const symtop_start& kicked, GravityMotion& motion,
+                  GravityMotion& with, double factor, symtop_hold hold, symtop_verdict& verdict) {
   const Instant now(s);
   const bool is_vertical = now.vertical.is_of_vertical_axis();
   const double rate = is_vertical ? 0.0 : find_exact_rates(s).phi_dot, after = factor * rate;
@@ -192,6 +208,10 @@ inline bool judge(const symtop_start& s, GravityMotion& motion, double factor, s
   verdict.reason = is_vertical ? explain_vertical(now)
                                : explain_change(TiltAcceleration(now, hold),
                                                 {rate, after, factor, false, s.Mgl != 0});
+  verdict.disturbed_to = find_disturbed_to(now, verdict.reason);
+  // On the vertical and at rest in phi there is nothing to multiply.
+  verdict.means = after == rate ? leave_means()
+                                : compare_means(after - rate, now, Instant(kicked), motion, with);
   return true;
 }
 
@@ -200,22 +220,6 @@ inline symtop_lift find_lift(double was, double now) {
   const double change = std::fabs(was - now) > SAME_ANGLE ? was - now : 0.0;
   return {change == 0 ? SYMTOP_AS_HIGH : change > 0 ? SYMTOP_HIGHER : SYMTOP_LOWER,
           std::fabs(change)};
-}
-
-// Facts after a kick that are contrary to the direction in which theta'' changed.
-inline unsigned find_contrary_facts(const symtop_verdict& v) {
-  if (v.reason.rule == SYMTOP_RULE_SAYS_NOTHING) return 0;
-  const bool is_raised =
-      (v.reason.rule == SYMTOP_RULE_HOLDS) == (v.reason.kind == SYMTOP_HURRIED);
-  const symtop_lift_kind contrary = is_raised ? SYMTOP_LOWER : SYMTOP_HIGHER;
-  unsigned facts = 0;
-  if (v.direction == (is_raised ? SYMTOP_FALLS : SYMTOP_RISES))
-    facts |= is_raised ? SYMTOP_FACT_FALLS : SYMTOP_FACT_RISES;
-  if (v.highest.kind == contrary)
-    facts |= is_raised ? SYMTOP_FACT_HIGHEST_LOWER : SYMTOP_FACT_HIGHEST_HIGHER;
-  if (v.lowest.kind == contrary)
-    facts |= is_raised ? SYMTOP_FACT_LOWEST_LOWER : SYMTOP_FACT_LOWEST_HIGHER;
-  return facts;
 }
 
 // The verdict on a kick that was made; the motions are those without it and with it.
@@ -230,6 +234,7 @@ inline symtop_verdict judge_kick(const symtop_start& before, const symtop_start&
   verdict.cause = is_driven ? leave_cause() : find_cause(now, verdict, with);
   if (is_driven) verdict.motion = SYMTOP_DRIVEN;
   verdict.factor = NAN;
+  double of_rate = 0.0;  // the change of phi', if the kick is one
   if (was.vertical.is_of_vertical_axis()) {
     verdict.reason = explain_vertical(now);
   } else {
@@ -239,12 +244,14 @@ inline symtop_verdict judge_kick(const symtop_start& before, const symtop_start&
     const PrecessionChange change = find_change(was, now, hold);
     verdict.reason = explain_change(tilt, change);
     verdict.factor = change.factor;
+    if (hold != SYMTOP_NOTHING) of_rate = change.after - change.before;
   }
+  verdict.disturbed_to = find_disturbed_to(now, verdict.reason);
+  verdict.means = is_driven ? leave_means() : compare_means(of_rate, was, now, without, with);
   double angles[2];
   without.find_turning_angles(angles);
   verdict.highest = find_lift(angles[0], verdict.turning_angles[0]);
   verdict.lowest = find_lift(angles[1], verdict.turning_angles[1]);
-  verdict.contrary_facts = find_contrary_facts(verdict);
   return verdict;
 }
 

@@ -162,7 +162,7 @@ export const describeMotion = (run, time, free) => {
     table: listRates(free, (forces ? time : moment.time) / NANO, apart),
     apart,
     turning: findTurning(free),
-    seen: name === "kick" && "seen" in headline ? headline.seen : null,
+    seen: !headline.forces && "seen" in headline ? headline.seen : null,
   };
 };
 

@@ -123,6 +123,15 @@ const findMoves = ({ motion: { kind }, top, start }, turning_angles, reason) => 
 };
 
 /**
+ * The headline of what is no kick: by what acts, by the rest on the vertical, or by what was done.
+ * @param {import("../run/run.js").Kind} kind @param {Forces} forces @param {{kind: string}} reason
+ */
+const findKind = (kind, forces, reason) => {
+  if (forces) return "driven";
+  return reason.kind === "unstable" ? "unstable" : (KINDS[kind] ?? "start");
+};
+
+/**
  * The record of the headline, that of its reason with the name of its template, and why the axis
  * moves so, null if nothing can be said. Motions are those under gravity alone, from the state of now; the headline says so where more acts.
  * @param {Moment} moment @param {Course} free the motion that would follow
@@ -138,9 +147,7 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
     // What the kick began says enough; what holds for the motion is said if there is no more.
     const { cause } = outcome;
     const because = cause.turn ? { ...cause, explanation: null } : cause;
-    return forces
-      ? { headline: kicked, name: "after_kick", outcome: { verdict: outcome }, because }
-      : { headline: kicked, name: "kick", outcome, because };
+    return { headline: kicked, name: "kick", outcome, because };
   }
   if (course.clamped) {
     const held = judgeClamp(course);
@@ -158,7 +165,8 @@ export const findOutcome = ({ kind, asked, course, before }, free) => {
     headline: {
       ...headline,
       turning_angles,
-      kind: forces ? "driven" : (KINDS[kind] ?? "start"),
+      disturbed_to: verdict.reason.disturbed_to,
+      kind: findKind(kind, forces, verdict.reason),
       motion: findMoves(free, turning_angles, verdict.reason.kind),
     },
     name: forces ? "driven" : "start",

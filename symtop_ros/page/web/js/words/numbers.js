@@ -80,8 +80,12 @@ export const MOST_DIGITS = 17; // which tell any two doubles apart
 const writePlain = (value, digits, letter) => {
   if (Number.isNaN(value)) return "nan";
   if (!Number.isFinite(value)) return value < 0 ? "-inf" : "inf";
-  const text = WRITERS[/** @type {"f" | "g" | "e"} */ (letter)](Math.abs(value), digits);
-  return localize(value < 0 && Number(text) !== 0 ? `-${text}` : text);
+  const size = Math.abs(value);
+  const text = WRITERS[/** @type {"f" | "g" | "e"} */ (letter)](size, digits);
+  const isSeen = size === 0 || Number(text) !== 0;
+  return localize(
+    (value < 0 ? "-" : "") + (isSeen ? text : writeGeneral(size, Math.max(digits, 1))),
+  );
 };
 
 /**

@@ -13,14 +13,18 @@ export const nameSubject = ({ Mgl }) => (Mgl < 0 ? "axis" : "top");
 const keepDefined = (rates) => rates.filter((rate) => !Number.isNaN(rate));
 
 /** Why Perry's rule holds, fails or says nothing. @param {Found} verdict @param {Hold} held */
-const readReason = ({ subject, reason: { kind, rule, place, ...found } }, held) => {
+const readReason = (
+  { subject, disturbed_to: reach, reason: { kind, rule, place, ...found } },
+  held,
+) => {
+  const disturbed_to = Number.isNaN(reach) ? null : reach;
   if (!ON_THE_VERTICAL.includes(kind)) {
     const regular_rates = keepDefined(place.regular_rates);
-    return { kind, rule, subject, ...found, place: { ...place, regular_rates, held } };
+    return { kind, rule, subject, ...found, place: { ...place, regular_rates, held }, disturbed_to };
   }
   const numbers = { before: null, after: null, theta_ddot_without: null, theta_ddot: null };
   const nothing = { ...numbers, effect: null };
-  return { kind, rule, subject, ...nothing, place: null };
+  return { kind, rule, subject, ...nothing, place: null, disturbed_to };
 };
 
 /** @param {Found} average */
@@ -28,6 +32,12 @@ const readAverage = ({ is_fast, precession_period, ...average }) => {
   if (!Number.isFinite(average.turns)) return null;
   const turn = Number.isFinite(precession_period) ? precession_period : null;
   return { ...average, precession_period: turn, speed: is_fast ? "fast" : "slow" };
+};
+
+/** The means with a kick, compared with none; null where they are undefined. @param {Found} verdict */
+const readMeans = ({ subject, means: { rates, cosines, ...said } }) => {
+  if (Number.isNaN(cosines[0])) return null;
+  return { ...said, rates: rates.some(Number.isNaN) ? null : rates, cosines, subject };
 };
 
 /** Why the axis moves as it does; without numbers for a driven motion. @param {Found} cause @param {string} subject */
@@ -59,6 +69,7 @@ export const judge = ({ kernel, free }, factor = 1.4, hold = "spin_momentum") =>
     rule_holds: reason.rule && reason.rule === "holds",
     reason,
     average: readAverage(found.average),
+    means: readMeans(found),
     cause: readCause(found.cause, found.subject),
   };
 };
@@ -78,12 +89,11 @@ export const judgeClamp = ({ kernel, packed }) => {
 export const judgeKick = (course, before, hold) => {
   const { kernel, packed, isDriven } = course;
   const found = kernel.judgeKick(course.continueFree(before).packed, packed, hold);
-  const { factor, contrary_facts: facts, reason: _, average, cause, ...others } = found;
+  const { factor, disturbed_to: _to, reason: _, average, means: _means, cause, ...others } = found;
   // A push along the precession holds the spin momentum; after any other angular impulse the kernel
   // finds the rates at the spin rate that it left.
   const isPush = found.reason.kind !== "angular_impulse";
   const reason = readReason(found, hold ?? (isPush ? "spin_momentum" : "spin_rate"));
-  const { rule, subject } = reason;
   return {
     ...{
       direction: /** @type {Direction} */ (found.direction),
@@ -99,8 +109,8 @@ export const judgeKick = (course, before, hold) => {
     after: reason.after,
     driven: isDriven,
     reason,
-    contradiction: facts.length && rule ? { rule, subject, facts } : null,
     average: readAverage(average),
+    means: readMeans(found),
     cause: readCause(cause, others.subject),
   };
 };
