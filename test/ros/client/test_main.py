@@ -110,7 +110,7 @@ def test_a_hand_holds_the_precession_and_lets_it_go(ctl):
         "top_ctl: kick must come while the precession is free, got it held: "
     )
     assert json.loads(ctl("state", "--json").stdout)["clamped"]
-    assert ctl("clamp", "off").stdout.startswith("Let go (")
+    assert ctl("clamp", "off").stdout.startswith("Let go. ")
 
 
 @pytest.mark.slow

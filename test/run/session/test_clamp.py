@@ -46,7 +46,7 @@ def test_let_go_it_goes_on_without_precession(held):
     state = held.simulation.state
     granted, answer = held.ask("clamp", False)
     assert (granted, find_motion(held).kind) == (True, "looping")
-    assert answer == f"Let go (looping): {perrys_rule(ARTICLE, state)}"
+    assert answer == f"Let go. Kind of motion: looping. {perrys_rule(ARTICLE, state)}"
     assert held.simulation.state == state
 
 
@@ -153,7 +153,10 @@ def test_a_start_lets_go(held, service):
 def test_a_scene_may_begin_held_and_a_reset_holds_it_again():
     run = Run("cusps", initial__clamped=True)
     (start,) = run.sink.events
-    assert start.verdict == f"clamped: {clamp_verdict(ARTICLE, find_motion(run).start)}"
+    assert (
+        start.verdict
+        == f"Kind of motion: clamped. {clamp_verdict(ARTICLE, find_motion(run).start)}"
+    )
     run.ask("clamp", False)
     run.advance(0.1)
     run.ask("reset")
