@@ -18,7 +18,7 @@ from documents import ROOT, blocks, names, rows, same
 from programs import execute
 
 from symtop_ros import __version__
-from symtop_ros.physics.kernel.library import FILE
+from symtop_ros.physics.kernel.library import load_library
 
 pytestmark = [pytest.mark.slow, pytest.mark.untraced]
 README, GUIDE = ROOT / "README.md", ROOT / "docs/README.md"
@@ -39,7 +39,9 @@ class Checkout:
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.folder / name)
         compiler = place / "compiler"
-        compiler.write_text(f'#!/bin/sh\nfor target; do :; done\ncp "{FILE}" "$target"\n')
+        compiler.write_text(
+            f'#!/bin/sh\nfor target; do :; done\ncp "{load_library()._name}" "$target"\n'
+        )
         compiler.chmod(0o755)
         self.bin = place / "venv/bin"
         self.variables = {
