@@ -70,7 +70,7 @@ def test_in_any_window_hurry_is_in_reach_and_a_refusal_in_sight(open_page, size)
     for name in ("#psi_dot", "#constants"):
         page.until(lambda name=name: is_in_sight(scroll_to(page, name), size))
     page.until(lambda: abs(find_box(page, "#hurry")["y"] - hurry["y"]) <= 1)  # stays in reach
-    for name in ("Delay", "Pause", "Step", "Reset"):
+    for name in ("Delay by a push", "Pause", "Step", "Reset"):
         page.tab.get_by_role("button", name=name, exact=True).scroll_into_view_if_needed()
     page.enter("theta", "9")
     page.until(lambda: is_inside(find_box(page, "#refusal"), size))

@@ -1,6 +1,6 @@
 // Twin of base/measured.py: a number with its standard deviation; both end at the same decimal place.
 
-import { writeNumber } from "./numbers.js";
+import { writeNumber, writeRounded } from "./numbers.js";
 
 const DIGITS = 2; // of a deviation: the Guide to the Expression of Uncertainty in Measurement, 7.2.6
 const [SMALLEST, LARGEST] = [-5, 9]; // exponents; beyond them a power of ten is easier to read
@@ -20,8 +20,8 @@ const roundTo = (value, last) => {
 
 /** Rounded to 10^last, in a power of ten. @param {number} value @param {number} last @param {number} power */
 const round = (value, last, power) => {
-  if (power < last) return writeNumber(roundTo(value, last), "0f");
-  return writeNumber(power ? value / Number(`1e${power}`) : value, `${power - last}f`);
+  if (power < last) return writeRounded(roundTo(value, last), 0);
+  return writeRounded(power ? value / Number(`1e${power}`) : value, power - last);
 };
 
 /**

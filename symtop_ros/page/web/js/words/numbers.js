@@ -76,6 +76,12 @@ const WRITERS = { f: writeFixed, g: writeGeneral, e: writeScientific };
 const FORM = /^(\d+)(?:to(\d+))?([fger])(deg)?$/;
 export const MOST_DIGITS = 17; // which tell any two doubles apart
 
+/** Rounded to some decimals, also to zero, as next to a deviation. @param {number} value @param {number} decimals */
+export const writeRounded = (value, decimals) => {
+  const text = writeFixed(Math.abs(value), decimals);
+  return localize(value < 0 && Number(text) !== 0 ? `-${text}` : text);
+};
+
 /** @param {number} value @param {number} digits @param {string} letter */
 const writePlain = (value, digits, letter) => {
   if (Number.isNaN(value)) return "nan";
