@@ -1,4 +1,4 @@
-"""Ring and stand of a gimbal: by the momentum about the vertical, and by the torque left."""
+"""Ring and stand of a gimbal: by the momentum about the vertical, and by what is left of K."""
 
 import math
 

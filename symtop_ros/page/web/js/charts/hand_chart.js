@@ -1,34 +1,35 @@
-// What the hand feels: bars of the outer ring and of the stand.
+// What a hand feels: bars of the outer ring and of the stand.
 
-import { find, say } from "../controls/document.js";
+import { say } from "../controls/document.js";
 import { shorten } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
-import { draw, LEFT, RIGHT, WIDE } from "./plot.js";
+import { draw, LEFT, WIDE } from "./plot.js";
 
 /** @import { Hand } from "../words/hand.js" */
 
 const HEIGHT = 74;
-const [UPPER, APART, THICK] = [14, 30, 12]; // of the first bar, between bars, of each
+const [UPPER, APART, THICK] = [16, 34, 12]; // of the first bar, from bar to bar, of each
+const LONGEST = WIDE - 2 * LEFT;
 /** @type {[name: "ring" | "stand", color: string][]} */
 const BARS = [
   ["ring", "var(--phi)"],
   ["stand", "var(--grey)"],
 ];
 
-/** @param {Hand | null} hand @param {boolean} isSeen whether the drawing is in sight */
-export const drawHand = (hand, isSeen = true) => {
-  find("hand-chart").hidden = !hand;
+/** @param {Hand | null} hand */
+export const drawHand = (hand) => {
   if (!hand) return;
-  const sentence = phrase("hand", hand);
-  say("hand-text", sentence);
-  if (!isSeen) return;
-  const most = Math.max(Math.abs(hand.ring), hand.stand) || 1;
+  const sizes = BARS.map(([name]) => Math.abs(hand[name]));
+  const unit = hand.kind === "push" ? "N m s" : "N m";
+  const texts = BARS.map(
+    ([name], k) => `${phrase(`hand.${name}`)}: ${shorten(sizes[k], 3)} ${unit}`,
+  );
   const bars = BARS.map(([name, color], k) => {
-    const size = Math.abs(hand[name]);
-    const [y, width] = [UPPER + APART * k, (size / most) * (WIDE - LEFT - RIGHT)];
-    const text = `${phrase(`hand.${name}`)}: ${shorten(size, 3)} ${phrase(`hand.unit_${hand.kind}`)}`;
-    return `<text class="tick" x="${LEFT}" y="${y - 3}">${text}</text>
-      <rect id="hand-${name}" x="${LEFT}" y="${y}" width="${width.toFixed(1)}" height="${THICK}" fill="${color}"/>`;
+    const [y, width] = [UPPER + APART * k, ((sizes[k] / (hand.most || 1)) * LONGEST).toFixed(1)];
+    return `<text class="tick" x="${LEFT}" y="${y - 4}">${texts[k]}</text>
+      <rect id="hand-${name}" x="${LEFT}" y="${y}" width="${width}" height="${THICK}" fill="${color}"/>`;
   });
-  draw("hand", HEIGHT, bars.join(""), sentence);
+  const sentence = phrase(`hand.${hand.kind}`);
+  draw("hand", HEIGHT, bars.join(""), `${sentence} ${texts.join("; ")}`);
+  say("hand-text", sentence);
 };
