@@ -45,6 +45,11 @@ def examples_of(count):
     return settings(max_examples=count, suppress_health_check=list(HealthCheck))
 
 
+def assert_one_answer(text):
+    """Assert it of an answer to a start or kick: the longest of 18 000 random ones has 874."""
+    assert_one_sentence(text, longest=1000)
+
+
 def assert_one_sentence(text, longest=700):
     """Assert that a text is a printable line of limited length."""
     assert text

@@ -35,7 +35,7 @@ TABLE = {
     # the page as one file
     "page/web": "__init__ physics run/simulation words | yaml",
     # of session the log that a node would have written of a run of the page
-    "replay": "base/command page/web physics run/check run/log run/session run/simulation | "
+    "replay": "base/command page/web physics run/check run/log run/session run/simulation words | "
     "numpy rerun rerun_cli",
     "ros/node": "__init__ base/command base/shutdown physics run/session run/simulation run/wire | "
     "geometry_msgs numpy rcl_interfaces rclpy re2 simulation_interfaces std_srvs",

@@ -86,6 +86,7 @@ CALLS: dict[str, tuple[Callable[..., Any], dict[str, Given]]] = {
     "clamp_verdict": (physics.clamp_verdict, {"top": ONE_TOP, "before": ONE_STATE}),
     "compare_hurried": (physics.compare_hurried, {"top": TOP, **RATES, "factor": refuses(1.4)}),
     "find_period": (physics.find_period, {"rate": RATE}),
+    "gimbal_shares": (physics.gimbal_shares, {"torque": VECTOR}),
     "hurry": (physics.hurry, {"state": OF_STATES, "factor": FACTOR}),
     "kick_verdict": (
         physics.kick_verdict,

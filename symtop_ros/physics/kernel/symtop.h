@@ -37,7 +37,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define SYMTOP_VERSION "0.7.0"
+#define SYMTOP_VERSION "0.7.0.dev0"
 
 /* Of a shared library, the functions below are exported. */
 #ifndef SYMTOP_API

@@ -11,7 +11,15 @@ from exact_log import assert_no_deviation, compare_samples
 from geometry_msgs.msg import QuaternionStamped, WrenchStamped
 from hypothesis import given
 from hypothesis import strategies as st
-from odd_values import CONTROL, NUMBERS, SIZES, TEXTS, assert_one_sentence, examples_of
+from odd_values import (
+    CONTROL,
+    NUMBERS,
+    SIZES,
+    TEXTS,
+    assert_one_answer,
+    assert_one_sentence,
+    examples_of,
+)
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from ros.node.running_top import RunningTop, stamp_of, torque_of
 from trials import trials
@@ -120,6 +128,8 @@ def act(run, name, argument):
         for granted, reason in run.send(name, argument):
             if name.startswith("set_parameters") and granted:
                 assert reason == ""
+            elif granted:
+                assert_one_answer(reason)
             else:
                 assert_one_sentence(reason)
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from odd_values import SIZES, VALUES, assert_one_sentence, examples_of
+from odd_values import SIZES, VALUES, assert_one_answer, assert_one_sentence, examples_of
 from run.simulation.runs import Run
 from trials import trials
 
@@ -69,7 +69,7 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
             assert_one_sentence(str(refused))
             return
         motion = Motion(settings.top, start, settings.friction, settings.steady_torque)
-        assert_one_sentence(str(perrys_rule(motion.top, start)))
+        assert_one_answer(str(perrys_rule(motion.top, start)))
         # A run is paused before a motion has no further states.
         reached = motion._reach(min(t, motion.farthest_time / 2), 100)
         segment = Segment(motion, 0, to_nanoseconds(reached), 1.0, running=False)
@@ -87,7 +87,7 @@ def test_a_granted_request_gives_a_sound_motion_with_a_verdict(examples):
         except RefusedError as refused:
             assert_one_sentence(str(refused))
         else:
-            assert_one_sentence(str(kick_verdict(after, state, hold)))
+            assert_one_answer(str(kick_verdict(after, state, hold)))
 
     check()
 
