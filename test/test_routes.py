@@ -97,7 +97,7 @@ def test_pip_in_the_checkout(form, checkout):
     checkout.assert_python_of_readme()
     checkout.assert_programs([each for each in PROGRAMS if each not in NEED_ROS])
     told = checkout.type("python", "-m", "symtop_ros").stdout
-    assert re.search(r"^kernel +\d+\.\d+\.\d+, sources ", told, re.MULTILINE)
+    assert re.search(rf"^kernel +{re.escape(__version__)}, sources ", told, re.MULTILINE)
     assert f"({checkout.folder / 'symtop_ros'})" in told
 
 
