@@ -16,6 +16,11 @@ const FAST = "fast_precession"; // the scene of the second question
 /** What was answered, by this visitor or an earlier one of the browser. @returns {string | null} */
 export const readAnswer = () => read(KEPT);
 
+/** A button that a key has pressed disappears: what is said is next. @param {MouseEvent} event */
+const keepFocus = ({ detail }) => {
+  if (!detail) find("strip").focus();
+};
+
 export class Question {
   /** @param {() => void} push @param {(scene: string) => void} start */
   constructor(push, start) {
@@ -29,13 +34,15 @@ export class Question {
     /** Regular rates of the motions that were pushed, the first one and the second. @type {number[][]} */
     this.roots = [];
     for (const button of findAll("[data-answer]")) {
-      button.addEventListener("click", () => {
+      button.addEventListener("click", (event) => {
+        keepFocus(event);
         this.answer = button.dataset.answer ?? "";
         if (!this.isSecond) keep(KEPT, this.answer);
         push();
       });
     }
-    find("second").addEventListener("click", () => {
+    find("second").addEventListener("click", (event) => {
+      keepFocus(event);
       this.leave();
       this.isStarting = this.isSecond = true;
       start(FAST);

@@ -1,6 +1,6 @@
 // The slider over the time of the run, with the time beside it and a mark at each act.
 
-import { find, make, whenReleased } from "./document.js";
+import { find, make, moveByKeys, whenReleased } from "./document.js";
 import { phrase } from "../words/wording.js";
 import { writeNumber } from "../words/numbers.js";
 
@@ -18,6 +18,7 @@ export class Timeline {
     whenReleased(this.line, () => {
       this.isDragged = false;
     });
+    moveByKeys(this.line);
   }
 
   /** @param {number} time s of the run @param {number} end s */
