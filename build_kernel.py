@@ -116,6 +116,8 @@ class BuildKernel(build_ext):
         with TemporaryDirectory(dir=target.parent) as folder:
             part = Path(folder, target.name)
             # From this folder, so that no path of this machine gets into the library.
+            if self.verbose:  # seen by `pip -v`
+                print(f"symtop_ros: compiling the kernel with {shlex.join(compiler)}", flush=True)
             command = [*compiler, *flags, f'-DSYMTOP_DIGEST="{built_of}"', SOURCE, "-o", str(part)]
             try:
                 subprocess.run(command, cwd=KERNEL, check=True)

@@ -138,6 +138,7 @@ def see_verdicts() -> None:
     assert_type(verdict.means, p.MeanChange | None)
     assert_type(p.clamp_verdict(ONE, START), p.ClampVerdict)
     assert_type(p.compare_hurried(ONE, 0.5, 3.0, 9.0), p.HurryEffect)
+    assert_type(p.gimbal_shares((1e-3, 0.0, 2e-3)), p.GimbalShares)
 
 
 def see_references() -> None:

@@ -15,6 +15,7 @@ from symtop_ros.physics import (
     Motion,
     Pushes,
     State,
+    gimbal_shares,
     hurry,
     precessing_frame_torques,
     push_axle,
@@ -249,8 +250,11 @@ def find_bottom(motion):
 
 
 def held():
-    half = Motion(TOP, SLOW_STATE, clamped=True).nutation_period / 2
-    return [f"{half:.2f}", f"{10 * half:.1f}"]
+    motion = Motion(TOP, SLOW_STATE, clamped=True)
+    half = motion.nutation_period / 2
+    shares = gimbal_shares(motion.added_torque(motion.at(half)))
+    assert abs(shares.ring) < 1e-9  # the hand feels nothing
+    return [f"{half:.2f}", f"{10 * half:.1f}", f"{shares.stand:.3f}"]
 
 
 @cache

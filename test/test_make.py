@@ -4,13 +4,19 @@ import json
 import os
 import re
 import shutil
+import signal
+import subprocess
+import sys
 import sysconfig
+from collections import namedtuple
 
 import pytest
 from documents import ROOT
 from programs import execute
 from trials import choose
+from waiting import until
 
+import workshop.set_up
 from symtop_ros import __version__
 from symtop_ros.page.web.join import write_file
 
@@ -244,6 +250,44 @@ def test_a_python_without_venv_leads_to_its_package(fresh):
         done = make(fresh, "set-up-python")
         assert done.returncode == 2
         assert "apt install python3-venv" in done.stdout
+
+
+def test_ctrl_c_ends_the_set_up_and_what_it_has_started_without_a_traceback(fresh):
+    (fresh / "venv.py").write_text(
+        "import pathlib, time\npathlib.Path('begun').touch()\ntime.sleep(600)\n"
+    )
+    words = [sys.executable, "-S", "workshop/set_up.py", "ros"]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    with subprocess.Popen(words, cwd=fresh, start_new_session=True, **pipes) as process:
+        until((fresh / "begun").exists)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+        printed, _ = process.communicate(timeout=60)  # else what was started keeps the pipe open
+    assert (process.returncode, printed) == (130, "Setting up .venv: Python ...\n")
+
+
+def make_read_only(monkeypatch):
+    """Root may write to all folders but those of a read-only disk."""
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    return f"; {workshop.set_up.ROOT} may not be written to"
+
+
+def fill_the_disk(monkeypatch):
+    usage = namedtuple("Usage", "total used free")(10**10, 10**10 - 5 * 10**6, 5 * 10**6)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage)
+    return f"; only 5 MB are free in {workshop.set_up.ROOT}"
+
+
+@pytest.mark.parametrize("spoil", [make_read_only, fill_the_disk])
+def test_what_a_place_lacks_follows_the_reason_of_a_failure(spoil, monkeypatch, capsys):
+    lack = spoil(monkeypatch)
+
+    def fail(_):
+        raise workshop.set_up.FailedError("pip failed")
+
+    monkeypatch.setattr(workshop.set_up, "keep", fail)
+    monkeypatch.setattr(workshop.set_up, "_keep_environment", lambda _: None)
+    assert workshop.set_up.main(["ros"]) == 1
+    assert capsys.readouterr().out == f"make: pip failed{lack}\n"
 
 
 def test_a_python_that_is_missing_or_old_is_named(fresh, tmp_path):

@@ -16,8 +16,10 @@ import os
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
+import tempfile
 import threading
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -59,6 +61,7 @@ from symtop_ros.programs import {name}
 
 sys.exit({name}())
 """
+LITTLE = 1e9  # bytes of a disk that may be too few
 PERIOD = 10.0  # s between two lines: pip may be silent for minutes
 
 
@@ -180,11 +183,25 @@ def main(words: list[str]) -> int:
         for name in names:
             keep(name)
     except FailedError as error:
-        _say(str(error))
+        _say(f"{error}{_find_lack()}")
+        return 1
+    except OSError as error:
+        _say(f"{error.filename}: {error.strerror}{_find_lack()}")
         return 1
     except KeyboardInterrupt:
         return 130
     return 0
+
+
+def _find_lack() -> str:
+    """Return what a place lacks that pip and venv write to, as a part of a sentence."""
+    for folder in (ROOT, Path(tempfile.gettempdir())):
+        if not os.access(folder, os.W_OK):
+            return f"; {folder} may not be written to"
+        free = shutil.disk_usage(folder).free
+        if free < LITTLE:
+            return f"; only {free / 1e6:.0f} MB are free in {folder}"
+    return ""
 
 
 def keep(name: str) -> None:
@@ -288,6 +305,8 @@ def _make_environment(folder: Path) -> None:
     base = Path(getattr(sys, "_base_executable", sys.executable))
     python = str(base if base.exists() else Path(sys.executable).resolve())
     advice = f"{python} -m venv failed (Debian and Ubuntu: apt install python3-venv)"
+    if not os.access(ROOT, os.W_OK):
+        raise FailedError("the environment cannot be made")
     if folder.is_symlink():  # to the environment of another checkout, which is left alone
         folder.unlink()
     shutil.rmtree(folder, ignore_errors=True)
@@ -315,8 +334,15 @@ def _has_compiler(python: str) -> bool:
 
 def _run(words: tuple[str, ...], advice: str) -> None:
     with _ticking():
-        done = subprocess.run(words, cwd=ROOT, env=_environment(), check=False)
-    if done.returncode:
+        # A session of its own: Ctrl-C would have each Python of it print a traceback.
+        process = subprocess.Popen(words, cwd=ROOT, env=_environment(), start_new_session=True)
+        try:
+            status = process.wait()
+        except KeyboardInterrupt:
+            os.killpg(process.pid, signal.SIGTERM)
+            process.wait()
+            raise
+    if status:
         raise FailedError(advice)
 
 

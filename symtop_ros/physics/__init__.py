@@ -24,6 +24,7 @@ from symtop_ros.physics.dynamics import (
     point_acceleration,
     specific_force,
 )
+from symtop_ros.physics.gimbal import GimbalShares, gimbal_shares
 from symtop_ros.physics.kernel.door import kernel_version
 from symtop_ros.physics.kernel.records import QUESTIONS, Direction, Hold, Kind
 from symtop_ros.physics.kicks import (
@@ -81,6 +82,7 @@ __all__ = [
     "Exchange",
     "FrameTorques",
     "Friction",
+    "GimbalShares",
     "Hold",
     "HurryEffect",
     "KickVerdict",
@@ -105,6 +107,7 @@ __all__ = [
     "clamp_verdict",
     "compare_hurried",
     "find_period",
+    "gimbal_shares",
     "hurry",
     "kernel_version",
     "kick_verdict",

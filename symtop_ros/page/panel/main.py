@@ -7,7 +7,7 @@ import sys
 import threading
 import time
 import webbrowser
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 
 from symtop_ros.base.command import has_screen, new_parser, port, tell_failures
@@ -85,10 +85,15 @@ def _write(path: Path, page: str) -> None:
     """Write the page."""
     if path.suffix != ".html" or not path.parent.is_dir():
         raise ValueError(f"--write must be a name that ends in .html in a folder, got {path}")
+    part = path.resolve().with_suffix(".part")  # what was there stays, if the disk is full
     try:
-        path.write_text(page, encoding="utf-8")
+        part.write_text(page, encoding="utf-8")
+        part.replace(path.resolve())
     except OSError as error:
         raise ValueError(f"cannot write {path}: {error.strerror}") from None
+    finally:
+        with suppress(OSError):
+            part.unlink()
 
 
 def _open_file(options: argparse.Namespace, page: str) -> int:

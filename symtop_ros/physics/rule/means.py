@@ -48,7 +48,8 @@ class MeanChange:
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
     >>> at_the_top_of_a_loop = State.from_euler(theta=0.5, phi_dot=-20.0, psi_dot=200.0)
     >>> verdict = perrys_rule(top, at_the_top_of_a_loop, factor=0.5, hold="spin_momentum")
-    >>> verdict.rule_holds, verdict.means.sense, verdict.means.height
+    >>> means = verdict.means
+    >>> verdict.rule_holds, means and means.sense, means and means.height
     (False, 'along', 'higher')
     """
 

@@ -15,6 +15,7 @@ from symtop_ros.replay.view.torques import Torques
 from symtop_ros.run.log.batch import Columns
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
+from symtop_ros.words.templates import write_number
 
 RATE_OF_DOTS = 125.0  # positions per s of the clock
 DRIFT_INTERVAL = 100_000_000  # ns between two curves of a potential that drifts
@@ -133,7 +134,7 @@ def describe_motion(
     facts = {
         "motion": f"{motion.kind}, {f'speed {segment.factor:g}' if segment.running else 'paused'}",
         **({"angles and rates": condition} if condition else {}),
-        "theta": f"{low:.4f} .. {high:.4f} rad",
+        "theta": f"{write_number(low, '4f')} .. {write_number(high, '4f')} rad",
         **({"precession": "held by hand"} if motion.clamped else _list_rates(motion, state)),
         "Ix, Iz; Mgl": f"{top.Ix:g}, {top.Iz:g} kg m\u00b2; {top.Mgl:g} J",
         **_added_torques(motion),

@@ -12,6 +12,7 @@ import rerun as rr
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import EffectivePotential, Motion
 from symtop_ros.replay.view import entities
+from symtop_ros.words.templates import write_number
 
 WIDTH, HEIGHT = 2.0, 1.0  # of the box in scene units; y points down
 TILTS = np.linspace(1e-4, np.pi - 1e-4, 4001)
@@ -156,7 +157,8 @@ class PotentialView:
             entities.GOLD,
         )
         self._log_lines(entities.POTENTIAL, "frame", [FRAME], entities.GREY, 1.0)
-        marks = {f"{low:.3f} rad": low, f"{high:.3f}": high} if high > low else {f"{low:.3f}": low}
+        first, last = (write_number(angle, "3f") for angle in (low, high))
+        marks = {f"{first} rad": low, last: high} if high > low else {first: low}
         self._log_marks(entities.POTENTIAL, chart, marks, chart.bottom)
 
     def _log_cubic(self, motion: Motion, potential: EffectivePotential, chart: Chart) -> None:
@@ -171,10 +173,10 @@ class PotentialView:
         poles = [chart.place(end, np.array([chart.bottom, chart.top])) for end in (-1.0, 1.0)]
         zero = chart.place(chart.sides, 0.0)
         self._log_lines(entities.CUBIC, "frame", [zero, *poles], entities.GREY, 1.0)
-        roots = {f"u1 = {u1:.3f}": u1, f"u2 = {u2:.3f}": u2}
+        roots = {_name_root(1, u1): u1, _name_root(2, u2): u2}
         third = potential.find_third_root(*motion.turning_angles)
         if chart.left < third < chart.right:
-            roots[f"u3 = {third:.3f}"] = third
+            roots[_name_root(3, third)] = third
         self._log_marks(entities.CUBIC, chart, roots, 0.0)
 
     def _log_curve(
@@ -226,3 +228,7 @@ class PotentialView:
 def _join(strips: list[Real]) -> Real:
     """Return the longest strip, or a point."""
     return max(strips, key=len, default=np.zeros((1, 2)))
+
+
+def _name_root(number: int, root: float) -> str:
+    return f"u{number} = {write_number(root, '3f')}"

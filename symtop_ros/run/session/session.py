@@ -73,8 +73,7 @@ class Session:
             self.recording.begin()
         if settings.start_paused:
             self.simulation.begin_paused()
-        kind, _, sentence = verdict.partition(": ")
-        host.inform(f"scene {scene} (motion: {kind}). {sentence}")
+        host.inform(f"scene {scene}. {verdict}")
 
     def answer(self, service: str, read: Callable[[], Any]) -> Response:
         """Carry out a request; `read` returns its argument, or raises RefusedError.

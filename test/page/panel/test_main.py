@@ -10,6 +10,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from disks import mounted
 from documents import ROOT
 from programs import command, running
 from run.simulation.page_runs import change as page_run
@@ -139,3 +140,14 @@ def test_a_screen_is_found(platform, display, expected, monkeypatch):
     monkeypatch.setenv("DISPLAY", display)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
     assert module.has_screen() is expected
+
+
+def test_a_full_disk_leaves_no_part_of_a_page_and_the_page_that_was_there(tmp_path, capsys):
+    with mounted(tmp_path / "small", "size=300k") as folder:
+        (old := folder / "old.html").write_text("a page")
+        for name in ("old.html", "new.html"):
+            assert module.main(["--write", str(folder / name)]) == 1
+            said = f"top_panel: cannot write {folder / name}: No space left on device\n"
+            assert capsys.readouterr().err == said
+        assert [*folder.iterdir()] == [old]
+        assert old.read_text() == "a page"

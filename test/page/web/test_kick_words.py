@@ -58,17 +58,19 @@ def test_each_way_that_is_said_is_that_of_the_sampled_motions(tab, count):
         for name, change in changes.items():
             if name in facts and abs(change) > off:
                 assert facts[name] == (1 if change > 0 else -1), (name, change, text)
-        if facts.get("axis"):
+        if facts.get("axis") and with_it.range > 5e-7:  # 1e-7 rad is not seen
             assert facts["axis"] == find_first(case["top"], pair[1]), text
 
 
 def find_first(top, state):
-    """Return the way of the axis as soon as its tilt differs by more than 2e-7 rad: 1 is up."""
+    """Return the way of the axis as soon as its tilt differs by more than 1e-7 rad: 1 is up."""
     motion = Motion(Top(**top), State(*state))
-    times = np.exp2(np.arange(-120, 4) / 3) * math.sqrt(top["Ix"] / (abs(top["Mgl"]) or top["Ix"]))
+    times = np.exp2(np.arange(-1200, 600) / 30) * math.sqrt(
+        top["Ix"] / (abs(top["Mgl"]) or top["Ix"])
+    )
     tilts = find_tilts(motion, times)
     now = find_tilts(motion, np.array([0.0]))[0]
-    (left,) = np.nonzero(np.abs(tilts - now) > 2e-7)
+    (left,) = np.nonzero(np.abs(tilts - now) > 1e-7)
     return 1 if tilts[left[0]] < now else -1
 
 

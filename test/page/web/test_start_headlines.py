@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from drawn import Numbers
+from drawn import PI, Numbers
 from physics.tops import find_roots
 from trials import trials
 
@@ -84,3 +84,19 @@ def check_move(name, rates, theta):
         assert share > SEEN_RATE - SAMPLED
     else:
         assert share < SEEN_RATE + SAMPLED
+
+
+@pytest.mark.wording
+@pytest.mark.parametrize(("Mgl", "theta", "name"), [(0.068, 0.0, "top"), (-0.068, PI, "axis")])
+def test_an_unstable_rest_on_the_vertical_is_said_with_how_far_it_may_go(tab, Mgl, theta, name):
+    top = {"Ix": 0.000228, "Iz": 0.0000572, "Mgl": Mgl}
+    starts = [{"top": top, "theta": theta, "phi_dot": 0.0, "psi_dot": spin} for spin in (130, 140)]
+    (falls, *_), (sleeps, *_) = tab.evaluate("sayStarts", starts)
+    touched = State.from_euler(theta=abs(theta - 1e-7), psi_dot=130.0)
+    low, high = Motion(Top(**top), touched).turning_angles
+    reached = high if Mgl > 0 else low
+    words = (
+        f"The {name} sleeps on the vertical and is unstable there: the least disturbance lets it"
+    )
+    assert falls == f"{words} go as far as theta = {reached:.3f} rad."
+    assert "unstable" not in sleeps

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from symtop_ros.physics.gpu import toolchain
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel.library import FOLDER
 
 HOST = Path(__file__).with_name("host.cpp")
 # SYMTOP_NO_LANES: states one by one, as on the device.
@@ -21,7 +21,7 @@ MEMORY = 2**30  # bytes of the device
 def compile_host(folder):
     """Compile the device's source for the host; return its functions."""
     library = folder / "libhost.so"
-    includes = (f"-I{toolchain.SOURCES}", f"-I{door.FOLDER}")
+    includes = (f"-I{toolchain.SOURCES}", f"-I{FOLDER}")
     subprocess.run(["g++", *OPTIONS, *includes, str(HOST), "-o", str(library)], check=True)
     return ctypes.CDLL(str(library))
 

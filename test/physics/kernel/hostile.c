@@ -447,7 +447,9 @@ static void hash_verdict(const symtop_verdict* v) {
   add_numbers(&v->cause.torque_share, 1), add_numbers(v->cause.torque_from_perpendicular, 2);
   add_numbers(v->cause.momentum_from_axle, 3), add_numbers(v->cause.momentum_from_vertical, 3);
   add_to_hash(v->cause.constant + 10u * (unsigned)v->cause.explanation);
-  add_to_hash(v->contrary_facts + 100u * (unsigned)v->direction + 1000u * (unsigned)v->reason.kind);
+  add_numbers(v->means.rates, 2), add_numbers(v->means.cosines, 2), add_numbers(&v->disturbed_to, 1);
+  add_to_hash((unsigned)v->means.sense + 10u * (unsigned)v->means.height);
+  add_to_hash((unsigned)v->direction + 1000u * (unsigned)v->reason.kind);
   if (!are_finite(v->turning_angles, 2) || v->motion > SYMTOP_DRIVEN) fault = fault ? fault : __LINE__;
 }
 

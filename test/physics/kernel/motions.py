@@ -40,7 +40,7 @@ NAMES = {
     "parts": records.PARTS,
     "reasons": records.REASON_KINDS,
     "lifts": records.LIFT_KINDS,
-    "facts": records.FACTS,
+    "senses": records.SENSES,
 }
 FACTOR_OF_RATE = records.KICK_KINDS.index("factor")
 

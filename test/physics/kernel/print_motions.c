@@ -111,8 +111,9 @@ static void print_verdict(const symtop_verdict* v) {
       c->rate_about_momentum, c->torque_from_perpendicular[0], c->torque_from_perpendicular[1],
       c->momentum_from_axle[0], c->momentum_from_axle[1], c->momentum_from_axle[2], c->omega_from_axle[0],
       c->omega_from_axle[1], c->omega_from_axle[2], c->momentum_from_vertical[0], c->momentum_from_vertical[1],
-      c->momentum_from_vertical[2], c->constant, v->factor, v->highest.kind, v->highest.amount, v->lowest.kind,
-      v->lowest.amount, v->contrary_facts};
+      c->momentum_from_vertical[2], c->constant, v->factor, v->means.sense, v->means.height, v->means.rates[0],
+      v->means.rates[1], v->means.cosines[0], v->means.cosines[1], v->disturbed_to, v->highest.kind,
+      v->highest.amount, v->lowest.kind, v->lowest.amount};
   write_all(numbers, sizeof numbers / sizeof numbers[0]);
 }
 

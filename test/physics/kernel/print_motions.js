@@ -38,8 +38,8 @@ function* list_rows({ orientation, angular_velocity }) {
 function* flatten(names, record) {
   const lists = { subject: "subjects", direction: "directions", motion: "kinds", rule: "rules" };
   Object.assign(lists, { explanation: "explanations", turn: "turns", pace: "paces" });
-  lists.effect = "effects";
-  const bits = { contrary_facts: "facts", constant: "parts" };
+  Object.assign(lists, { effect: "effects", sense: "senses", height: "lifts" });
+  const bits = { constant: "parts" };
   for (const [field, value] of Object.entries(record)) {
     if (field in bits) {
       yield names[bits[field]].reduce((sum, each, bit) => sum + (value.includes(each) << bit), 0);

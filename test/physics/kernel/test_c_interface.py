@@ -13,7 +13,7 @@ from physics.kernel.motions import encode, expect, list_many, list_samples, norm
 from programs import execute
 from trials import choose
 
-from symtop_ros.physics.kernel import library
+from symtop_ros.physics.kernel.library import load_library
 
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parents[2]
@@ -27,7 +27,8 @@ needs_compiler = pytest.mark.skipif(not shutil.which("g++"), reason="no C++ comp
 pytestmark = needs_compiler
 
 
-LIBRARY = library.FILE, f"-Wl,-rpath,{library.FILE.parent}"  # that of Python
+LOADED = Path(load_library()._name)  # that of Python
+LIBRARY = LOADED, f"-Wl,-rpath,{LOADED.parent}"
 
 
 def compile_kernel(folder, *options, **keywords):

@@ -2,15 +2,17 @@
 
 import shutil
 import sys
+from pathlib import Path
 
 import pytest
 from documents import ROOT
 from programs import execute
 
-from symtop_ros.physics.kernel.library import FILE
+from symtop_ros.physics.kernel.library import FILE, load_library
 
 TYPED = "from symtop_ros.physics import Motion, State, Top; print(Motion.__module__)"
 PLACE = FILE.relative_to(ROOT)
+BUILT = Path(load_library()._name)  # after colcon in another folder
 
 
 @pytest.fixture(name="checkout")
@@ -46,7 +48,7 @@ def type_there(folder, *others):
 def install(folder):
     """Copy the package with its compiled kernel."""
     copy(folder)
-    shutil.copy(FILE, folder / PLACE)
+    shutil.copy(BUILT, folder / PLACE)
     return folder
 
 
@@ -81,7 +83,7 @@ def test_where_nothing_was_built_that_is_what_is_said(checkout):
 
 
 def test_a_kernel_of_other_sources_is_refused_in_its_own_folder(checkout):
-    shutil.copy(FILE, checkout / PLACE)
+    shutil.copy(BUILT, checkout / PLACE)
     change(checkout)
     status, line = type_there(checkout)
     assert status == 1
@@ -93,7 +95,7 @@ def test_a_kernel_of_other_sources_is_refused_in_its_own_folder(checkout):
 
 def test_an_installed_kernel_that_is_damaged_is_installed_again(tmp_path):
     site = copy(tmp_path / "site")
-    (site / PLACE).write_bytes(FILE.read_bytes()[:100])
+    (site / PLACE).write_bytes(BUILT.read_bytes()[:100])
     status, line = type_there(site)
     assert status == 1
     assert line.startswith(f"ImportError: the compiled kernel {site / PLACE} cannot be loaded (")

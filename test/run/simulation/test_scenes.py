@@ -310,8 +310,7 @@ def test_the_second_cusp_is_a_cusp_at_its_highest_point():
 
 CAUSES = {  # scenes under gravity alone, by what explains their motion
     "circles": "backward_start looping",
-    "with_momentum": "below_slow_root closed_cusps cusps disc hanging "
-    "second_cusp unidirectional",
+    "with_momentum": "below_slow_root closed_cusps cusps disc hanging second_cusp unidirectional",
     "about_momentum": "below_fast_root above_fast_root",
     "steady": "bicycle_wheel conical_pendulum fast_precession hurry_fast hurry_slow perry_fails "
     "regular_precession toy_gyroscope",

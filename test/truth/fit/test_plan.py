@@ -126,7 +126,7 @@ def test_a_scene_with_friction_says_when_the_spin_is_half(capsys):
 REFUSED = {
     "cusps initial.phi_dott=1": "--plan must have SCENE NAME=VALUE, got initial.phi_dott=1 "
     "(nearest: initial.phi_dot)",
-    "cusp": "scene must be one of ",
+    "cusp": "scene must be known (the nearest is cusps), got 'cusp'",
     "friction": "--friction must be given for a scene with friction, got none",
     "sleeping": "--plan must have a tilted axis at the start, got a vertical one",
     "perry_clamped": "--plan must have a top that gravity and friction move, got a driven one",

@@ -247,6 +247,7 @@ export class Page {
     say("impulses-title", facts.impulses);
     for (const [name, text] of Object.entries(facts.outlooks)) say(`outlook-${name}`, text);
     showLedger(facts.ledger, facts.energies);
+    find("hand-chart").hidden = !facts.hasHand;
   }
 
   /** @param {Facts} facts */

@@ -6,8 +6,10 @@ import { showConstants } from "./constants_table.js";
 import { findAll } from "../controls/document.js";
 import { guard } from "../controls/notices.js";
 import { FreeChart } from "./free_chart.js";
+import { drawHand } from "./hand_chart.js";
 import { drawImpulses } from "./impulses_chart.js";
 import { NANO } from "../physics/course.js";
+import { findHand } from "../words/hand.js";
 import { drawRule } from "./rule_chart.js";
 import { drawOneSeries } from "./series_charts.js";
 import { drawWell } from "./well_chart.js";
@@ -37,6 +39,10 @@ export class Charts {
       impulses: ({ began }, samples) => {
         const { course, time } = last(samples);
         if (!course.clamped) drawImpulses(course, time / NANO - began);
+      },
+      hand: ({ pusher }, samples) => {
+        const { course, state } = last(samples);
+        drawHand(findHand(course, state, pusher));
       },
       free: (_, samples, __, marks) => {
         if (this.marks) free.draw(samples, marks, this.marks);

@@ -41,6 +41,22 @@ export const findConstants = ({ Ix, Iz, Mgl }, state) => {
   };
 };
 
+/** L in the world, in N m s. @param {Top} top @param {State} state */
+export const findAngularMomentum = ({ Ix, Iz }, state) => {
+  const [x, y, z] = state.omega;
+  return state.toWorld([Ix * x, Ix * y, Iz * z]);
+};
+
+/**
+ * The torque of a hand that holds phi, in the world, in N m: p_psi times the velocity of the end of the
+ * axle (derivation, section 11).
+ * @param {Top} top @param {State} state
+ */
+export const findClampTorque = ({ Iz }, state) => {
+  const [x, y, z] = state.omega;
+  return state.toWorld([Iz * z * y, -Iz * z * x, 0]);
+};
+
 /**
  * phi' where the axis of a motion has a tilt, from the state at another one: sin^2(theta) phi' changes by
  * p_psi/Ix times the change of height, which is a product.

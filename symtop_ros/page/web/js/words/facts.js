@@ -3,6 +3,7 @@
 import { NANO } from "../physics/course.js";
 import { findForces, findOutcome } from "./headline.js";
 import { listHistory } from "./history.js";
+import { findHand, findPusher } from "./hand.js";
 import { findLedger, nameLedger } from "./ledger.js";
 import { describeOutlooks } from "./outlooks.js";
 import { describePushes } from "./pushes.js";
@@ -162,7 +163,7 @@ export const describeMotion = (run, time, free) => {
     table: listRates(free, (forces ? time : moment.time) / NANO, apart),
     apart,
     turning: findTurning(free),
-    seen: !headline.forces && "seen" in headline ? headline.seen : null,
+    seen: !forces && "seen" in headline ? headline.seen : null,
   };
 };
 
@@ -183,6 +184,7 @@ export const describe = (run, time) => {
   const announced = findAnnounced(run, time);
   const first = run.findFirstNutation(time);
   const { roots, ...start } = describeNow(course, course.start);
+  const pusher = findPusher(announced);
   return {
     histories: { radians: listHistory(run, "radians"), degrees: listHistory(run, "degrees") },
     top: course.parameters,
@@ -199,6 +201,8 @@ export const describe = (run, time) => {
     link: writeLink(course),
     ledger: findLedger(announced),
     energies: phrase("ledger", nameLedger(announced)),
+    pusher,
+    hasHand: findHand(course, course.start, pusher) !== null,
     body: course.top,
     weighed: course.weighed,
     impulses: phrase("impulses", { kind: nameHalf(course), subject: nameSubject(course.top) }),

@@ -20,7 +20,8 @@ const readReason = (
   const disturbed_to = Number.isNaN(reach) ? null : reach;
   if (!ON_THE_VERTICAL.includes(kind)) {
     const regular_rates = keepDefined(place.regular_rates);
-    return { kind, rule, subject, ...found, place: { ...place, regular_rates, held }, disturbed_to };
+    const among = { ...place, regular_rates, held };
+    return { kind, rule, subject, ...found, place: among, disturbed_to };
   }
   const numbers = { before: null, after: null, theta_ddot_without: null, theta_ddot: null };
   const nothing = { ...numbers, effect: null };
