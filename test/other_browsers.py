@@ -75,6 +75,10 @@ class Firefox:
         )
         return unwrap(answer)
 
+    def press(self, key: str) -> None:
+        """Press a key, as a person does."""
+        self.client.actions.sequence("key", "keys").key_down(key).key_up(key).perform()
+
     def take_picture(self) -> bytes:
         """Return the window as PNG."""
         return base64.b64decode(self.client.screenshot(full=False))
@@ -84,15 +88,15 @@ class Firefox:
 
 
 @contextlib.contextmanager
-def running_firefox() -> Iterator[Any]:
-    """Run Firefox; the test is skipped without it."""
+def running_firefox(**others: Any) -> Iterator[Any]:
+    """Run Firefox, with other preferences as well; the test is skipped without it."""
     module = pytest.importorskip("marionette_driver.marionette", reason=f"no Marionette: {HELP}")
     program = shutil.which("firefox-esr") or shutil.which("firefox")
     if not program or not shutil.which("Xvfb"):
         pytest.skip(f"no Firefox: {HELP}")
     port = find_port()
     with tempfile.TemporaryDirectory() as profile:
-        preferences = {**FIREFOX_PREFERENCES, "marionette.port": port}
+        preferences = {**FIREFOX_PREFERENCES, "marionette.port": port, **others}
         lines = [f"user_pref({json.dumps(k)}, {json.dumps(v)});" for k, v in preferences.items()]
         Path(profile, "user.js").write_text("\n".join(lines))
         command = [program, "--marionette", "--no-remote", "--profile", profile]
@@ -135,6 +139,11 @@ class WebKit:
     def run(self, script: str, *arguments: Any) -> Any:
         body = {"script": wrap(script), "args": [script, list(arguments)]}
         return unwrap(self.ask("/execute/async", body))
+
+    def press(self, key: str) -> None:
+        """Press a key, as a person does."""
+        presses = [{"type": name, "value": key} for name in ("keyDown", "keyUp")]
+        self.ask("/actions", {"actions": [{"type": "key", "id": "keys", "actions": presses}]})
 
     def reload(self) -> None:
         self.ask("/refresh", {})

@@ -101,8 +101,9 @@ def read_lesson() -> tuple[LessonStep, ...]:
 def _read_step(step: Mapping[str, Any], texts: Mapping[str, str]) -> LessonStep:
     key = f"lesson.{step['name']}"
     acts = [LessonAct(texts[f"{key}.act_{k}"], **act) for k, act in enumerate(step["acts"], 1)]
-    said = {name: texts[f"{key}.{name}"] for name in TEXTS}
-    compute = texts.get(f"{key}.compute", "")  # not in every step
+    # the page marks letters of formulas within sentences: $u$
+    said = {name: texts[f"{key}.{name}"].replace("$", "") for name in TEXTS}
+    compute = texts.get(f"{key}.compute", "").replace("$", "")  # not in every step
     table = _read_table(step["table"], key, texts) if "table" in step else None
     return LessonStep(**{**step, **said, "acts": tuple(acts), "compute": compute, "table": table})
 

@@ -195,6 +195,7 @@ def read_text(text):
     """Return a formula of a text as an expression of Python."""
     units = "|".join(re.escape(each.replace("²", "^2")) for each in UNITS)
     number = re.compile(rf"(\d) ({units})(?![\w/^])")
+    text = text.replace("$", "")  # of a letter in a sentence
     text = number.sub(lambda m: f"{m[1]}*{UNITS[m[2].replace('^2', '²')]}", text)
     text = text.replace(" x ", "*cross*").replace(" . ", "*dot*").replace("^", "**")
     greek = "|".join(GREEK.values())

@@ -211,6 +211,70 @@ def test_the_question_is_answered_once_in_a_browser_that_stumbles(driver, path):
     assert kinds == ["start", "kick"]
 
 
+LEFT, ESCAPE, SPACE = "\ue012", "\ue00c", " "  # of WebDriver
+FOCUS = """
+const [selector] = given;
+const [each, first] = [selector, "#pause"].map((one) => document.querySelector(one));
+first.click();
+each.closest("details")?.setAttribute("open", "");
+each.focus();
+"""
+READ = "return ['value', 'max'].map((name) => Number(document.querySelector(given[0])[name]));"
+
+
+@pytest.mark.parametrize("slider", ["#timeline", "#free-place"])
+def test_an_arrow_key_moves_a_slider_by_a_hundredth(driver, path, slider):
+    driver.open("about:blank")
+    driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow")
+    until(driver, "Number(document.querySelector('#timeline')?.max) > 0.1")
+    driver.run(FOCUS, slider)
+    before, end = driver.run(READ, slider)
+    driver.press(LEFT)
+    until(driver, f"Number(document.querySelector('{slider}').value) < {before}")
+    after, _ = driver.run(READ, slider)
+    assert (before - after) / end == pytest.approx(0.01, abs=1e-6)  # a time is one of whole ns
+
+
+def test_space_holds_a_button_and_escape_closes_its_panel(driver, path):
+    open_page(driver, path)
+    driver.run("document.querySelector('#tab-push').click();")
+    driver.run("document.querySelector('[data-hold=grasp]').focus();")
+    driver.press(SPACE)
+    kinds = driver.run("return window.symtop.run().events.slice(-2).map(({ kind }) => kind);")
+    assert kinds == ["clamp", "unclamp"]
+    driver.press(ESCAPE)
+    assert driver.run("return document.querySelector('#push').hidden;")
+
+
+def count_inked(picture, box):
+    """Return the part of a place that is not of its ground, in each row and column."""
+    left, top, width, height = (round(each) for each in box)
+    pixels = np.asarray(Image.open(io.BytesIO(picture)).convert("L")).astype(int)
+    place = pixels[top : top + height, left : left + width]
+    inked = abs(place - place[0, 0]) > 60
+    return inked.mean(axis=1), inked.mean(axis=0)
+
+
+BOX = """
+const { left, top, width, height } = document.querySelector(given[0]).getBoundingClientRect();
+return [left, top, width, height];
+"""
+
+
+def test_forced_colours_leave_sliders_and_formulas_whole_in_firefox(path):
+    with running_firefox(**{"browser.display.document_color_use": 2}) as driver:
+        open_page(driver, path)
+        assert driver.run("return matchMedia('(forced-colors: active)').matches;")
+        driver.run("document.querySelector('#pause').click();")
+        driver.run("document.querySelector('#tab-start').click();")
+        slider = driver.run(BOX, "[data-field=psi_dot] input[type=range]")
+        rows, _ = count_inked(driver.take_picture(), slider)
+        assert max(rows) > 0.9  # its track goes from one end to the other
+        driver.run(SHOW, "label[for=field-phi_dot] math")
+        picture = driver.take_picture()
+        assert len(list_gaps(picture)) == 1  # the dot, and the letter below it in one piece
+
+
 DISC = "#scene=perry_fails&theta=0.5&psi_dot=-25&precession=fast"
 PRESS = """
 const followed = new Promise((done) => addEventListener("hashchange", done, { once: true }));

@@ -67,6 +67,67 @@ def test_a_keyboard_reaches_the_tabs_and_gives_no_key_away_with_caps_lock_either
     assert "higher" in opened.say("headline")
 
 
+@pytest.mark.parametrize("key", ["Space", "Enter"])
+def test_a_key_holds_a_button_as_a_pointer_does(opened, key):
+    opened.open_tab("push")
+    opened.tab.focus("[data-hold=grasp]")
+    opened.tab.keyboard.down(key)
+    assert [each["kind"] for each in opened.read_events()] == ["start", "clamp"]
+    opened.tab.keyboard.up(key)
+    assert [each["kind"] for each in opened.read_events()] == ["start", "clamp", "unclamp"]
+
+
+def test_escape_puts_a_refusal_away_and_then_closes_the_panel(opened):
+    opened.enter("theta", "9")
+    opened.tab.focus("#scenes")
+    opened.tab.keyboard.press("Escape")
+    assert not opened.tab.is_visible("#refusal")
+    assert opened.tab.is_visible("#start")
+    opened.tab.keyboard.press("Escape")
+    assert not opened.tab.is_visible("#start")
+    assert opened.tab.evaluate("document.activeElement.id") == "tab-start"
+
+
+def test_escape_in_a_field_takes_back_what_was_typed_and_closes_nothing(opened):
+    opened.open_tab("start")
+    opened.tab.fill("#field-theta", "9")
+    opened.tab.press("#field-theta", "Escape")
+    assert opened.tab.is_visible("#start")
+
+
+def test_the_focus_is_on_what_is_said_when_a_key_has_answered(open_page):
+    page = open_page(known="")
+    page.tab.focus("[data-answer=falls]")
+    page.tab.keyboard.press("Enter")
+    assert page.tab.evaluate("document.activeElement.id") == "strip"
+
+
+@pytest.mark.parametrize("name", ["measure", "push"])
+def test_a_panel_of_a_phone_opens_at_its_beginning(open_page, name):
+    page = open_page(viewport={"width": 390, "height": 844})
+    page.open_charts()
+    page.tab.evaluate("() => { document.querySelector('#rest').scrollTop = 1e4; }")
+    page.open_tab(name)
+    assert page.tab.evaluate("document.querySelector('#rest').scrollTop") == 0
+
+
+@pytest.mark.parametrize(("key", "steps"), [("ArrowLeft", -1), ("ArrowUp", 1), ("PageDown", -10)])
+def test_keys_move_the_sliders_of_a_run_and_a_chart_by_hundredths(opened, key, steps):
+    opened.wait_for_time(0.1)
+    opened.press("Space")
+    opened.open_charts("free")
+    opened.seek(0.05)
+    opened.tab.evaluate("acts.change", ["free-place", 0.5])
+    opened.wait_for_frames()
+    for name in ("timeline", "free-place"):
+        slider = opened.tab.locator(f"#{name}")
+        opened.tab.focus(f"#{name}")
+        before, end = slider.evaluate("each => [Number(each.value), Number(each.max)]")
+        opened.tab.keyboard.press(key)
+        after = slider.evaluate("each => Number(each.value)")
+        assert (after - before) / end == pytest.approx(steps / 100, abs=1e-6)  # ns of a run
+
+
 def test_symbols_are_formulas_and_explained_at_their_first_place(opened):
     opened.tab.click("#hurry")
     opened.tab.click("#reason summary")

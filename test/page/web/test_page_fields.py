@@ -39,13 +39,41 @@ def test_a_refusal_says_what_was_wrong_and_loses_nothing(shared):
     for field, text, refusal in (
         ("theta", "4", "tilt theta must be 0 to 3.1415 rad, got 4"),
         ("theta", "abc", "tilt theta must be a number, got abc"),
-        ("top.Iz", "1", "Ix, Iz and Mgl must be finite"),
+        ("top.Iz", "1", "Iz, about the axis (kg m²) must be at most 0.000456 kg m^2 (2 Ix), got 1"),
+        (
+            "top.Ix",
+            "1e-5",
+            "Ix, across the axis (kg m²) must be at least 0.0000286 kg m^2 (Iz/2), got",
+        ),
+        ("top.Ix", "1e-200", "Ix, across the axis (kg m²) must be at least 1e-100 kg m^2, got"),
+        ("top.Mgl", "-1e101", "Mgl, moment of gravity (J) must be at most 1e+100 J in size, got"),
+        ("psi_dot", "1e101", "spin rate psi' (rad/s) must be at most 1e+100 rad/s in size, got"),
         ("top.Ix", "0", "Ix, across the axis (kg m²) must be positive, got 0"),
         ("friction.axial", "-1", "friction, axial (N m s) must be 0 or more, got -1"),
     ):
         shared.enter(field, text)
         assert shared.say("refusal").startswith(refusal)
     assert shared.read_events() == events
+
+
+def test_a_bound_that_is_typed_in_again_is_granted(opened):
+    events = opened.read_events()
+    for field, wrong in (("top.Ix", "1e-5"), ("top.Iz", "1")):
+        opened.enter(field, wrong)
+        bound = opened.say("refusal").split("kg m^2")[0].split()[-1]
+        opened.enter(field, bound)
+        assert opened.say("refusal") == ""
+        opened.enter(field, {"top.Ix": "0.000228", "top.Iz": "0.0000572"}[field])
+    assert len(opened.read_events()) == len(events) + 4
+
+
+def test_all_numbers_of_a_refusal_have_one_notation(opened):
+    for typed in ("1e101", "-1e+101"):
+        opened.enter("top.Mgl", typed)
+        shown = opened.tab.inner_text("#refusal")
+        assert "at most 1\u00b710\u00b9\u2070\u2070 J in size, got" in shown
+        assert "1\u00b710\u00b9\u2070\u00b9" in shown
+        assert "e" not in shown.split("got")[1]
 
 
 def test_the_slider_reaches_the_lower_vertical(opened):
@@ -123,8 +151,9 @@ def test_a_moment_is_understood_with_the_unit_of_its_field_and_no_other(opened):
         opened.enter("top.Ix", text)
         assert opened.say("refusal") == ""
         assert opened.read_events()[-1]["top"][0] == 3e-4
-    opened.enter("top.Mgl", "0.05 J")
-    assert opened.read_events()[-1]["top"][2] == 0.05
+    for text, weight in (("0.05 J", 0.05), ("0.068 N m", 0.068), ("70 mJ", 0.07)):
+        opened.enter("top.Mgl", text)
+        assert opened.read_events()[-1]["top"][2] == weight
     for text in ("3e-4 kg", "3e-4 J", "3 rad"):
         opened.enter("top.Ix", text)
         assert opened.say("refusal").endswith(f"must be a number, got {text}")

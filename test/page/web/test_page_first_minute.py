@@ -51,6 +51,24 @@ def test_a_push_is_predicted_seen_and_compared(new):
 
 
 @pytest.mark.slow
+def test_an_answer_is_compared_after_a_reload_in_slow_motion(new):
+    new.tab.click("text=It will fall")
+    _, motion, time = read_kick(new)
+    new.reload()
+    assert new.tab.evaluate("document.body.dataset.asked") == "watch"
+    assert not new.tab.is_visible("#compared")
+    new.wait_for_time(time + motion.nutation_period / 2)
+    new.tab.wait_for_selector("#compared")
+    assert new.say("compared") == "You: it falls. Seen: it rose."
+    assert new.tab.is_visible("#second")
+    new.reload()
+    new.tab.wait_for_selector("#compared")  # it is still read
+    new.tab.click("#hurry")
+    new.reload()
+    assert not new.tab.is_visible("#compared")
+
+
+@pytest.mark.slow
 @pytest.mark.wording
 def test_the_same_is_asked_at_the_fast_precession_and_the_same_push_lowers_it(new):
     new.tab.click("text=It will rise")

@@ -1,12 +1,15 @@
 """The lesson on the page: a class presses through all steps."""
 
+import math
 import re
 
+import numpy as np
 import pytest
 from page.web.opened import FEW_FRAMES, read_motion
 from trials import choose
 
 from symtop_ros.page.web.join import LANGUAGES, read_texts
+from symtop_ros.physics import Top, regular_precession_rates
 from workshop.lesson.steps import read_lesson
 
 SECRET = "it falls, I think"
@@ -233,3 +236,111 @@ def test_the_sheets_are_those_of_the_page_and_only_the_teacher_has_answers(open_
     assert page.read_events() == run["events"]
     page.tab.click("#hurry")  # the page keeps running
     assert len(page.read_events()) == len(run["events"]) + 1
+
+
+def test_the_timeline_marks_the_acts_since_the_last_start_and_older_ones_when_asked(open_page):
+    page = open_page("#lesson=9")
+    button = page.tab.locator("#lesson-acts button").first
+    for k in range(3):
+        button.click()
+        page.wait_for_time(0.1 * (k + 1))
+    page.tab.click("#hurry")
+    page.press("Space")
+    page.wait_for_frames()
+    count = page.tab.locator("#marks i").count
+    assert count() == 2
+    kept = len(page.read_events())
+    assert page.tab.inner_text("#older") == f"+{kept - 2}"
+    page.tab.click("#older")
+    page.wait_for_frames()
+    assert count() == kept
+    page.tab.click("#older")
+    page.wait_for_frames()
+    assert count() == 2
+
+
+def test_the_title_of_a_step_that_its_list_cuts_is_read_below(open_page):
+    page = open_page("#lesson=10", locale="tr")
+    title = page.tab.locator("#lesson-title")
+    assert page.tab.input_value("#steps").endswith(title.inner_text())
+    assert title.evaluate("each => each.scrollWidth <= each.clientWidth")
+
+
+def test_letters_of_a_sentence_about_a_formula_are_set_as_in_it(open_page):
+    for language in ("en", "de", "es", "fr", "tr"):
+        page = open_page("#lesson=3", locale=language)
+        letters = page.tab.locator("#lesson-compute math").all_text_contents()
+        assert "u" in [each.strip(".,") for each in letters]
+        assert "$" not in page.tab.inner_text("#lesson")
+
+
+# What is written on a picture: the box of each text in it, as shares of its width and height.
+WRITTEN = """() => {
+  window.print = () => {};
+  const found = [];
+  const { fillText } = CanvasRenderingContext2D.prototype;
+  CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+    const { width, actualBoundingBoxAscent: up, actualBoundingBoxDescent: down } =
+      this.measureText(text);
+    const { a, d, e, f } = this.getTransform();
+    found.push([this.canvas, text, a * x + e, d * (y - up) + f, a * (x + width) + e,
+      d * (y + down) + f]);
+    return fillText.call(this, text, x, y);
+  };
+  document.querySelector("#print-teacher").click();
+  CanvasRenderingContext2D.prototype.fillText = fillText;
+  const [{ width, height }] = document.querySelectorAll("#sheets canvas");
+  const canvases = [...new Set(found.map(([canvas]) => canvas))];
+  return canvases.map((own) => found.filter(([canvas]) => canvas === own).map(
+    ([canvas, text, left, up, right, down]) => {
+      const begin = (canvas.width - width) / 2;
+      return [text, (left - begin) / width, up / height, (right - begin) / width, down / height];
+    }));
+}"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("size", [(1280, 720), (390, 844)])
+def test_labels_of_printed_pictures_are_inside_and_apart(open_page, language, size):
+    page = open_page(locale=language, viewport={"width": size[0], "height": size[1]})
+    pictures = page.tab.evaluate(WRITTEN)
+    assert len(pictures) > 5
+    assert max(map(len, pictures)) >= 3
+    for labels in pictures:
+        for k, (text, left, up, right, down) in enumerate(labels):
+            assert min(left, up) >= 0, text
+            assert max(right, down) <= 1, text
+            for other, its_left, its_up, its_right, its_down in labels[:k]:
+                is_beside = right <= its_left or its_right <= left
+                assert is_beside or down <= its_up or its_down <= up, (text, other)
+
+
+def follow_by_hand(precession_rate):
+    """Follow the sheet of step 13: two rounds of pushes, each with its tilt, in full digits."""
+    top, theta = Top(0.000228, 0.0000572, 0.068), 0.5
+    spin = top.Iz * (200 + precession_rate * math.cos(theta))
+    turn = top.Ix * precession_rate
+    before = spin * math.cos(theta) + turn * math.sin(theta) ** 2
+    rounds, taken = [], theta
+    for _ in range(2):
+        added = 20 * 0.00005 * math.sin(taken)
+        roots = np.roots([-turn, spin, turn - before - added])
+        tilts = [math.acos(u) for u in roots if abs(u) <= 1]
+        found = min(tilts, key=lambda tilt: abs(tilt - theta))
+        rounds.append((added, found))
+        taken = (theta + found) / 2
+    return spin, before, rounds
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_numbers_by_hand_of_step_13_are_those_of_who_follows_the_sheet(language):
+    text = read_texts(language)["lesson.pushes.seen"].replace(",", ".")
+    slow, fast = regular_precession_rates(Top(0.000228, 0.0000572, 0.068), 0.5, 200.0)
+    spin, before, rounds = follow_by_hand(slow)
+    told = [f"p_psi = {spin:.5f}", f"p_phi = {before:.5f}"]
+    told += [part for added, tilt in rounds for part in (f"{added:.6f} N m s", f"{tilt:.4f} rad")]
+    told.append(f"{follow_by_hand(fast)[2][1][1]:.3f} rad")
+    places = [text.find(each) for each in told]
+    assert min(places) > 0, told
+    assert places == sorted(places)

@@ -95,3 +95,8 @@ def test_labels_do_not_cover_each_other(open_page):
                 apart_x = max(a["x"], b["x"]) - min(a["x"] + a["width"], b["x"] + b["width"])
                 apart_y = max(a["y"], b["y"]) - min(a["y"] + a["height"], b["y"] + b["height"])
                 assert apart_x >= -1 or apart_y >= -1
+
+
+def test_at_a_zoom_of_200_percent_the_scene_has_half_of_the_window(open_page):
+    page = open_page(viewport={"width": 640, "height": 360})
+    assert settle(page, "#scene")["height"] >= 180

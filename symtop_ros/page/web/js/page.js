@@ -185,7 +185,8 @@ export class Page {
     const isReloaded = !node && Boolean(recall().run);
     if (!node && (isCalm || (run && !isReloaded))) this.top?.take({ act: "rest" });
     const isPlain = /^(#(lang=[^&]*)?)?$/.test(location.hash); // a language starts nothing
-    if (!node && !run && !isReloaded && isPlain && !opening) this.question.ask();
+    if (isReloaded && this.facts) this.question.resume(this.facts);
+    else if (!node && !run && isPlain && !opening) this.question.ask();
     addEventListener("hashchange", () => {
       refuse("");
       this.followAddress(true);
@@ -237,7 +238,7 @@ export class Page {
     this.showMotion(facts, true);
     say("pause", phrase(facts.running ? "page.pause" : "page.run"));
     say("record", phrase(facts.recording ? "page.end_record" : "page.record"));
-    this.timeline.acts = facts.acts;
+    Object.assign(this.timeline, { acts: facts.acts, since: facts.since });
     this.speeds.show(facts.factor);
     showLink(`${location.href.split("#")[0]}#${facts.link}`);
     this.showHistory(facts.histories[inDegrees() ? "degrees" : "radians"]);

@@ -3,7 +3,7 @@
 
 import { nameQuantity, QUANTITIES } from "./axes_list.js";
 import { keepChoice } from "../controls/choices.js";
-import { find, make, write } from "../controls/document.js";
+import { find, make, moveByKeys, write } from "../controls/document.js";
 import { draw, findSpan, Frame, WIDE } from "./plot.js";
 import { drawMarks, placeMarks } from "./seen_points.js";
 import { nameUnit, shorten, toUnit } from "../words/quantities.js";
@@ -40,6 +40,7 @@ export class FreeChart {
     this.x = this.offer("free-x", "theta");
     this.y = this.offer("free-y", "theta_dot");
     this.place = find("free-place", HTMLInputElement);
+    moveByKeys(this.place);
     /** Points of the present curve in units of the drawing. @type {Pair[]} */
     this.points = [];
     this.isKept = false;

@@ -57,6 +57,38 @@ export const whenReleased = (slider, act) => {
   for (const end of ["change", "pointerup", "blur"]) slider.addEventListener(end, act);
 };
 
+/** @type {{[key: string]: number}} */
+const STEPS = {
+  ArrowRight: 1,
+  ArrowUp: 1,
+  ArrowLeft: -1,
+  ArrowDown: -1,
+  PageUp: 10,
+  PageDown: -10,
+};
+
+/**
+ * Keys move a slider by steps. With step="any" a browser has none of its own: Firefox jumps to the ends.
+ * @param {HTMLInputElement} slider @param {(steps: number) => void} move
+ */
+export const stepByKeys = (slider, move) => {
+  slider.addEventListener("keydown", (event) => {
+    const steps = STEPS[event.key];
+    if (!steps || event.shiftKey || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    move(steps);
+  });
+};
+
+/** Keys move a slider by hundredths of its length. @param {HTMLInputElement} slider */
+export const moveByKeys = (slider) => {
+  stepByKeys(slider, (steps) => {
+    const [low, high] = [Number(slider.min), Number(slider.max)];
+    slider.value = String(Number(slider.value) + (steps * (high - low)) / 100);
+    for (const name of ["input", "change"]) slider.dispatchEvent(new Event(name));
+  });
+};
+
 /** @param {string} id @param {string} text */
 export const say = (id, text) => write(find(id), text);
 

@@ -4,7 +4,7 @@
 // types these digits again means it.
 
 import { NAMES } from "../physics/records.js";
-import { findAll, make, whenReleased, write } from "./document.js";
+import { findAll, make, stepByKeys, whenReleased, write } from "./document.js";
 import { acceptField, refuse, refuseField } from "./notices.js";
 import {
   addUnit,
@@ -37,12 +37,30 @@ const FIELDS = {
   "top.Mgl": {},
   ...Object.fromEntries(FRICTION.map((name) => [`friction.${name}`, { isNotNegative: true }])),
 };
-/** @type {{[key: string]: number}} */
-const SIGNS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 };
 const DIGITS = 6; // of a field
 const ROOT_DIGITS = 4; // of a regular rate on its button
 const BETWEEN = 100; // ms; of the moves of a slider the last one in this time is sent
 const REFUSED = 1000; // ms that a refused text stays after its field is left
+
+const [SMALLEST, LARGEST] = [1e-100, 1e100]; // of what the kernel takes
+
+/**
+ * The bound of a top that a value breaks; no body has more about one axis than about the other two together.
+ * @param {string} name @param {number} value @param {{[name: string]: number}} values of the other fields
+ */
+const checkTop = (name, value, { "top.Ix": Ix, "top.Iz": Iz }) => {
+  const unit = name === "top.Mgl" ? "J" : "kg m^2";
+  const least = (/** @type {number} */ limit) => writeLimit(limit, 1, unit);
+  const most = (/** @type {number} */ limit) => writeLimit(limit, -1, unit);
+  if (Math.abs(value) > LARGEST) return { kind: "size", most: most(LARGEST) };
+  if (name === "top.Mgl") return null;
+  if (value < SMALLEST) return { kind: "least", least: least(SMALLEST) };
+  if (name === "top.Ix" && value < Iz / 2)
+    return { kind: "least", least: least(Iz / 2), bound: "(Iz/2)" };
+  if (name === "top.Iz" && value > 2 * Ix)
+    return { kind: "at_most", most: most(2 * Ix), bound: "(2 Ix)" };
+  return null;
+};
 
 /** A field in the page, with its text and its slider. */
 class Entry {
@@ -87,9 +105,11 @@ class Entry {
   }
 
   followText() {
-    this.text.addEventListener("keydown", ({ key }) => {
-      if (key === "Enter") this.commit();
-      if (key === "Escape") this.cancel();
+    this.text.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") this.commit();
+      if (event.key !== "Escape") return;
+      event.preventDefault();
+      this.cancel();
     });
     this.text.addEventListener("input", () => {
       this.isTyped = true;
@@ -135,12 +155,15 @@ class Entry {
 
   /** What a value must be, if it is not; otherwise null. @param {number} value */
   check(value) {
-    const { isAngle, isPositive, isNotNegative } = this.field;
+    const { isAngle, isRate, isPositive, isNotNegative } = this.field;
     if (!Number.isFinite(value)) return { kind: "number" };
     if (isAngle && !(value >= 0 && value <= Math.PI))
       return { kind: "angle", most: writeLimit(Math.PI, -1, "rad") };
     if (isPositive && !(value > 0)) return { kind: "positive" };
-    return isNotNegative && value < 0 ? { kind: "not_negative" } : null;
+    if (isNotNegative && value < 0) return { kind: "not_negative" };
+    if (isRate && Math.abs(value) > LARGEST)
+      return { kind: "size", most: writeLimit(LARGEST, -1, "rad/s") };
+    return this.name.startsWith("top.") ? checkTop(this.name, value, this.fields.values) : null;
   }
 
   /** @param {HTMLElement} place */
@@ -154,7 +177,7 @@ class Entry {
       "aria-label": speakText(this.title),
     });
     this.slider = slider;
-    slider.addEventListener("keydown", (event) => this.moveByKey(event));
+    stepByKeys(slider, (steps) => this.move(steps));
     slider.addEventListener("input", () => this.drag());
     whenReleased(slider, () => {
       this.isDragged = false;
@@ -162,14 +185,12 @@ class Entry {
     place.append(slider);
   }
 
-  /** @param {KeyboardEvent} event */
-  moveByKey(event) {
-    const sign = SIGNS[event.key];
-    if (!sign || !this.slider) return;
-    event.preventDefault();
+  /** @param {number} steps of the slider */
+  move(steps) {
+    if (!this.slider) return;
     const { min, max } = this.slider;
     const value = Number(
-      (this.fields.values[this.name] + sign * (this.field.step ?? 1)).toPrecision(12),
+      (this.fields.values[this.name] + steps * (this.field.step ?? 1)).toPrecision(12),
     );
     this.fields.change(this.name, Math.min(Math.max(value, Number(min)), Number(max)));
   }

@@ -107,7 +107,7 @@ export const actWhileHeld = (button, begin, end) => {
     start();
   });
   button.addEventListener("keydown", (event) => {
-    if (event.key === "Enter" && !event.repeat) start();
+    if ((event.key === "Enter" || event.key === " ") && !event.repeat) start();
   });
   for (const name of ENDS) button.addEventListener(name, stop);
   for (const name of ["blur", "pagehide"]) addEventListener(name, stop);

@@ -96,7 +96,7 @@ export const checkNumber = (ask, typed) => {
 /** How near a number is to be, in the unit of the page: what is written is what holds. @param {Ask} ask */
 const writeWithin = ({ within }) => writeLimit(within, -1, "rad", WITHIN_DIGITS);
 
-const TEXTS = ["predict", "compute", "look", "seen", "question", "answer"];
+const TEXTS = ["title", "predict", "compute", "look", "seen", "question", "answer"];
 
 export class Lesson {
   /** @param {Step[]} steps @param {Send} send @param {(step: Step) => void} prepare what a step shows */

@@ -34,8 +34,10 @@ export const acceptField = (field) => {
 /** A refusal can be put away. */
 export const dismissRefusals = () => {
   find("refusal").addEventListener("click", () => refuse(""));
-  document.addEventListener("keydown", ({ key }) => {
-    if (key === "Escape") refuse("");
+  document.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || find("refusal").hidden) return;
+    refuse("");
+    event.preventDefault(); // the key has done its work, and closes no panel
   });
 };
 

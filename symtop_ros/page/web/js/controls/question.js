@@ -3,6 +3,7 @@
 
 import { keep, read } from "./choices.js";
 import { find, findAll, say } from "./document.js";
+import { recall, remember } from "../run/memory.js";
 import { writeNumber } from "../words/numbers.js";
 import { phrase } from "../words/wording.js";
 
@@ -15,6 +16,11 @@ const FAST = "fast_precession"; // the scene of the second question
 
 /** What was answered, by this visitor or an earlier one of the browser. @returns {string | null} */
 export const readAnswer = () => read(KEPT);
+
+/** A button that a key has pressed disappears: what is said is next. @param {MouseEvent} event */
+const keepFocus = ({ detail }) => {
+  if (!detail) find("strip").focus();
+};
 
 export class Question {
   /** @param {() => void} push @param {(scene: string) => void} start */
@@ -29,13 +35,15 @@ export class Question {
     /** Regular rates of the motions that were pushed, the first one and the second. @type {number[][]} */
     this.roots = [];
     for (const button of findAll("[data-answer]")) {
-      button.addEventListener("click", () => {
+      button.addEventListener("click", (event) => {
+        keepFocus(event);
         this.answer = button.dataset.answer ?? "";
         if (!this.isSecond) keep(KEPT, this.answer);
         push();
       });
     }
-    find("second").addEventListener("click", () => {
+    find("second").addEventListener("click", (event) => {
+      keepFocus(event);
       this.leave();
       this.isStarting = this.isSecond = true;
       start(FAST);
@@ -68,13 +76,31 @@ export class Question {
     if (this.answer === null || half === null || this.end < Infinity) this.leave();
     else {
       if (!this.isSecond) this.roots = [roots];
-      this.end = half;
-      const [meant, opposite] = MEANT[this.answer];
-      const isRight = seen?.includes(meant) && !seen.includes(opposite);
-      const kind = isRight ? "right" : "other";
-      say("compared", phrase("guess", { kind, answer: this.answer, seen }));
-      this.enter("watch");
+      this.watch(this.answer, half, seen);
     }
+  }
+
+  /**
+   * Have the visitor watch what follows the answer; a reload of the page loses neither.
+   * @param {string} answer @param {number} end s of the run @param {string[] | null} seen
+   */
+  watch(answer, end, seen) {
+    this.end = end;
+    const [meant, opposite] = MEANT[answer];
+    const isRight = seen?.includes(meant) && !seen.includes(opposite);
+    const kind = isRight ? "right" : "other";
+    say("compared", phrase("guess", { kind, answer, seen }));
+    this.enter("watch");
+    const { isSecond, roots } = this;
+    remember({ question: { answer, isSecond, roots } });
+  }
+
+  /** Continue after a reload of the page. @param {Facts} facts */
+  resume({ half, seen }) {
+    const { question } = recall();
+    if (!question || half === null) return;
+    Object.assign(this, question);
+    this.watch(question.answer, half, seen);
   }
 
   leave() {
@@ -82,6 +108,7 @@ export class Question {
     this.end = Infinity;
     this.enter("");
     this.isSecond = false;
+    if (recall().question) remember({ question: null });
     for (const name of ["compared", "second", "between"]) find(name).hidden = true;
   }
 

@@ -3,9 +3,11 @@
 
 /**
  * The step of the lesson that has started a motion, with its link; the language that was chosen; the run
- * as in run.json, the speed of its top, and whether it runs.
+ * as in run.json, the speed of its top, and whether it runs; what was answered to the question
+ * whose answer is seen.
  * @typedef {{begun?: {step: number, link: string}, language?: string,
- *   run?: any | null, speed?: number, isRunning?: boolean}} Memory
+ *   run?: any | null, speed?: number, isRunning?: boolean,
+ *   question?: {answer: string, isSecond: boolean, roots: number[][]} | null}} Memory
  */
 
 /** @type {Memory} */

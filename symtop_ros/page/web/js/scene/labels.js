@@ -12,6 +12,42 @@ import { make, write } from "../controls/document.js";
 const GAP = 2; // px between labels
 const NEAR = 8; // px; so near a label needs no line
 
+/** A label by its middle and its size, in px. @typedef {{x: number, y: number, width: number, height: number}} Box */
+
+/** Move each label down, from the highest on, until it covers none above it. @param {Box[]} boxes */
+const separate = (boxes) => {
+  /** @type {Box[]} */
+  const done = [];
+  for (const box of boxes.sort((a, b) => a.y - b.y)) {
+    for (const other of done) {
+      const isBeside = Math.abs(other.x - box.x) * 2 >= box.width + other.width;
+      if (!isBeside) box.y = Math.max(box.y, other.y + (box.height + other.height) / 2 + GAP);
+    }
+    done.push(box);
+  }
+};
+
+/**
+ * Move labels into a picture, and apart: what was moved below its lower edge goes up again.
+ * @param {Box[]} boxes @param {{width: number, height: number}} size of the picture in px
+ */
+export const arrange = (boxes, { width, height }) => {
+  const clip = (
+    /** @type {number} */ middle,
+    /** @type {number} */ long,
+    /** @type {number} */ all,
+  ) => Math.max(Math.min(middle, all - long / 2), long / 2);
+  for (const box of boxes) {
+    box.x = clip(box.x, box.width, width);
+    box.y = clip(box.y, box.height, height);
+  }
+  separate(boxes);
+  for (const box of boxes) box.y = height - box.y;
+  for (const box of boxes) box.y = clip(box.y, box.height, height);
+  separate(boxes);
+  for (const box of boxes) box.y = height - box.y;
+};
+
 export class Labels {
   /** @param {HTMLElement} place @param {import("./camera.js").Camera} camera */
   constructor(place, camera) {
@@ -85,17 +121,13 @@ export class Labels {
     }
   }
 
-  /** Move each label down, from the highest on, until it covers none above it. */
   separate() {
-    const done = [];
-    for (const [name, place] of [...this.shown].sort(([, a], [, b]) => a.y - b.y)) {
+    const boxes = [...this.shown].map(([name, place]) => {
       const [width, height] = this.measure(name);
-      for (const other of done) {
-        const isBeside = Math.abs(other.x - place.x) * 2 >= width + other.width;
-        if (!isBeside) place.y = Math.max(place.y, other.y + (height + other.height) / 2 + GAP);
-      }
-      done.push({ ...place, width, height });
-    }
+      return { x: place.x, y: place.y, width, height, place };
+    });
+    separate(boxes);
+    for (const { y, place } of boxes) place.y = y;
   }
 
   /** None leaves the picture, and gives way to an arrow that ends there. @param {string} name @param {Place} place */
@@ -106,6 +138,10 @@ export class Labels {
     const aside = Math.abs(y - place.y) > NEAR ? width / 2 + 2 * NEAR : 0;
     place.x = Math.max(Math.min(place.x + aside, size.width - width / 2), width / 2);
     place.y = y;
+    const { at } = place;
+    const isCovered =
+      Math.abs(place.x - at.x) < width / 2 + NEAR && Math.abs(y - at.y) < height / 2;
+    if (isCovered && place.lead) place.y = Math.max(at.y - height / 2 - 2 * NEAR, height / 2);
   }
 
   /** Place the labels of this picture, and hide the others. */

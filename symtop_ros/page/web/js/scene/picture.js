@@ -1,10 +1,11 @@
 // The scene as a picture for a report: with its sentence, and its labels and words as on the page.
 
 import { find, findAll } from "../controls/document.js";
+import { arrange } from "./labels.js";
 
 const EDGE = 3; // px between a text and its frame
 const LINE = 26; // px of the sentence
-const LARGER = 2; // labels on a small picture
+const [WIDTH, LARGE] = [300, 1]; // px of a small picture whose labels are as large as on the page
 const WIDE = 1.3; // its shape
 const LABELS = ".label:not([hidden])";
 const SHOWN = `${LABELS}, #legend [aria-pressed=true], #legend li:not([hidden]) > i`;
@@ -54,22 +55,39 @@ const compose = (texts, strip) => {
 /** The scene with its labels. */
 export const drawScene = () => compose(LABELS, 0).picture;
 
+/**
+ * The labels of the scene as large as they are on paper, inside the picture and apart: where they stand in
+ * a picture that begins so far from the left of the scene, and is so large. @param {DOMRect} scene
+ * @param {number} begin px @param {{width: number, height: number}} size px @param {number} larger times
+ */
+const placeLabels = (scene, begin, size, larger) => {
+  const boxes = findAll(LABELS).map((element) => {
+    const { left, top, width, height } = element.getBoundingClientRect();
+    const [x, y] = [left + width / 2 - scene.left, top + height / 2 - scene.top];
+    const from = { x, y };
+    return { element, from, x: x - begin, y, width: larger * width, height: larger * height };
+  });
+  arrange(boxes, size);
+  return boxes;
+};
+
 /** The middle of the scene, with labels that can be read where it is small. */
 export const drawSmall = () => {
   const { picture: whole, context, scene, ratio } = compose("", 0);
-  for (const each of findAll(LABELS)) {
-    const { left, top, width, height } = each.getBoundingClientRect();
-    const [x, y] = [left + width / 2 - scene.left, top + height / 2 - scene.top];
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.translate(x, y);
-    context.scale(LARGER, LARGER);
-    context.translate(-x, -y);
-    drawText(context, each, scene);
-  }
   const { height } = whole;
   const width = Math.min(whole.width, Math.round(WIDE * height));
-  const picture = Object.assign(document.createElement("canvas"), { width, height });
   const begin = (whole.width - width) / 2;
+  const size = { width: width / ratio, height: height / ratio };
+  const widest = Math.max(...findAll(LABELS).map(({ offsetWidth }) => offsetWidth), 1);
+  const larger = Math.min((LARGE * size.width) / WIDTH, size.width / widest);
+  for (const { element, from, x, y } of placeLabels(scene, begin / ratio, size, larger)) {
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.translate(x + begin / ratio, y);
+    context.scale(larger, larger);
+    context.translate(-from.x, -from.y);
+    drawText(context, element, scene);
+  }
+  const picture = Object.assign(document.createElement("canvas"), { width, height });
   picture.getContext("2d")?.drawImage(whole, -begin, 0);
   return picture;
 };

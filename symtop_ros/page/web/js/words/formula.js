@@ -2,7 +2,8 @@
 
 /**
  * What a formula consists of. A derivative of an angle by time has primes, as in texts.
- * @typedef {{kind: "symbol", name: string, index: string, primes: number}} Symbol_
+ * @typedef {{kind: "symbol", name: string, index: string, primes: number,
+ *   isMarked?: boolean}} Symbol_
  * @typedef {{kind: "number", text: string, unit: string}} Number_
  * @typedef {{kind: "call", name: string, argument: Term[]}} Call
  * @typedef {{kind: "group", terms: Term[]}} Group
@@ -27,6 +28,8 @@ export const LETTERS = {
 // is a symbol with an index, a power or next to an operator only.
 const SYMBOL =
   /(?<![\p{L}\d_])(theta|phi|psi|omega|lambda|alpha|torque(?=_)|Mgl|dL|dt|Ix|Iy|Iz|p|L|U|u|E|J|z)(?:_(phi|psi|eff|[xyz0]))?('{0,2})(?![\p{L}\d_'\u2019])/uy;
+// Where a sentence speaks of such a letter it is marked: $u$.
+const MARKED = /\$([uz])\$/y;
 const NUMBER = /\d+(?:[.,]\d+)?(?![\p{L}\d\u00b0%])/uy;
 const UNIT = / (rad\/s\^2|rad\/s|rad|kg m\^2|N m s|N m|mJ|J|ms|s)(?![\p{L}\d/^])/uy;
 const CALL = /(?<![\p{L}\d_])(sin|cos|sqrt)\(/uy;
@@ -167,6 +170,8 @@ class Reader {
 
   /** A symbol, or a function of that name. @returns {Node_ | null} */
   readSymbol() {
+    const [, marked] = this.match(MARKED) ?? [];
+    if (marked) return { kind: "symbol", name: marked, index: "", primes: 0, isMarked: true };
     const [, name, index = "", { length: primes } = ""] = this.match(SYMBOL) ?? [];
     if (!name) return null;
     /** @type {Node_} */
@@ -188,7 +193,8 @@ class Reader {
 const simplify = (product) => (product.factors.length === 1 ? product.factors[0] : product);
 
 /** Whether a symbol alone is one, and not a word of one letter. @param {Symbol_} symbol */
-const isSymbol = ({ name, index, primes }) =>
+const isSymbol = ({ name, index, primes, isMarked }) =>
+  isMarked ||
   name === "L" ||
   index !== "" ||
   (name.length > 1 ? name !== "dt" : primes > 0 && /[Ez]/.test(name));
@@ -221,7 +227,7 @@ const isFormula = (terms) => {
   return node.kind !== "group" && hasSymbol(node);
 };
 
-const BEGIN = /(?<![\p{L}\d_.,'\u2019])[\p{L}\d(-]/gu;
+const BEGIN = /(?<![\p{L}\d_.,'\u2019])[\p{L}\d($-]/gu;
 
 /**
  * A text in parts: what is said, and formulas with their terms.

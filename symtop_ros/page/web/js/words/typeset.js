@@ -186,7 +186,7 @@ const createFormula = (terms, before, after) => {
 const setProse = (text) =>
   text
     .replaceAll("->", "\u2192")
-    .replace(/(\d)e([+-])0*(\d+)/g, (_, digit, sign, size) => {
+    .replace(/(\d)e([+-]?)0*(\d+)(?![\p{L}\d])/gu, (_, digit, sign, size) => {
       const exponent = raise(sign === "-" ? `-${size}` : size);
       return `${digit}\u00b710${exponent}`;
     })
