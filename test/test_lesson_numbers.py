@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from by_hand import follow_by_hand
 from scipy.optimize import brentq, minimize_scalar
 
 from symtop_ros.base.measured import write_measured
@@ -234,12 +235,14 @@ def pushed_along():
         numbers += [f"{angle:.3f}" for angle in (*found.turning_angles, THETA)]
         numbers += [f"{found.work:.3g}", f"{found.weight.amount:.2f}"]
         added = TOP.vertical_momentum(last.start) - TOP.vertical_momentum(state)
-        numbers += [f"{added:.8f}", f"{find_bottom(last):.4f}"]
+        numbers += [f"{added:.6f}", f"{find_bottom(last):.4f}"]
         numbers += [f"{rate:{form}}" for rate in (found.means.before, found.means.after)]
         if state is SLOW_STATE:
             nutation = last.at(np.arange(256) / 256 * last.nutation_period)
             numbers.append(f"{precession_energy(nutation).mean():.2f}")
-    return numbers
+    for sum_of_pushes, tilt in follow_by_hand(SLOW)[2]:
+        numbers += [f"{sum_of_pushes:.6f}", f"{tilt:.4f}"]
+    return [*numbers, f"{follow_by_hand(FAST)[2][1][1]:.3f}"]
 
 
 def find_bottom(motion):
@@ -363,13 +366,7 @@ def test_the_numbers_that_are_asked_for_are_those_of_the_motions():
 
 def test_two_rounds_by_hand_find_the_bottom_of_the_valley():
     """As step 13 says: the sine at the start, then halfway, and phi' unchanged."""
-    p_psi, p_phi = TOP.axial_momentum(SLOW_STATE), TOP.vertical_momentum(SLOW_STATE)
-    middle, found = THETA, []
-    for _ in range(2):
-        sum_of_both = p_phi + PUSHES.number * PUSHES.impulse * np.sin(middle)
-        moment = TOP.Ix * SLOW
-        found += [np.arccos(min(np.roots([-moment, p_psi, moment - sum_of_both])))]
-        middle = (THETA + found[-1]) / 2
+    found = [tilt for _, tilt in follow_by_hand(SLOW)[2]]
     ask = STEPS[12].ask
     assert [abs(each - ask["value"]) <= ask["within"] for each in found] == [False, True]
 

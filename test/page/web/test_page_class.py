@@ -29,6 +29,7 @@ def wait_for_table(opened, words):
     opened.until(lambda: words in opened.say("constants"))
 
 
+@pytest.mark.slow
 def test_the_list_shows_the_disc_that_moves_as_the_top_does(opened):
     opened.open_tab("start")
     shown = opened.tab.locator("#parts .part input")

@@ -56,6 +56,7 @@ def test_a_refusal_says_what_was_wrong_and_loses_nothing(shared):
     assert shared.read_events() == events
 
 
+@pytest.mark.slow
 def test_a_bound_that_is_typed_in_again_is_granted(opened):
     events = opened.read_events()
     for field, wrong in (("top.Ix", "1e-5"), ("top.Iz", "1")):
@@ -172,7 +173,9 @@ def test_a_separator_of_thousands_is_refused_with_both_readings(opened):
     assert opened.read_events() == events
 
 
-@pytest.mark.parametrize("language", [each for each in LANGUAGES if each != "en"])
+@pytest.mark.parametrize(
+    "language", choose([each for each in LANGUAGES if each != "en"], ["de"], "slow")
+)
 def test_where_numbers_have_a_comma_the_point_separates_thousands(open_page, language):
     opened = open_page(locale=language)
     opened.enter("psi_dot", "1.000")

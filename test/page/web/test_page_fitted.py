@@ -228,6 +228,7 @@ def test_friction_is_said_with_the_command_that_looks_for_it(tab):
     assert tab.locator("#fitted code").text_content() == f"{COMMAND} --friction"
 
 
+@pytest.mark.slow
 def test_without_a_limit_there_is_no_command(tab):
     show(tab, make_given(CUSPS))
     assert tab.locator("#fitted code").count() == 0

@@ -1,10 +1,9 @@
 """The lesson on the page: a class presses through all steps."""
 
-import math
 import re
 
-import numpy as np
 import pytest
+from by_hand import follow_by_hand
 from page.web.opened import FEW_FRAMES, read_motion
 from trials import choose
 
@@ -238,6 +237,7 @@ def test_the_sheets_are_those_of_the_page_and_only_the_teacher_has_answers(open_
     assert len(page.read_events()) == len(run["events"]) + 1
 
 
+@pytest.mark.slow
 def test_the_timeline_marks_the_acts_since_the_last_start_and_older_ones_when_asked(open_page):
     page = open_page("#lesson=9")
     button = page.tab.locator("#lesson-acts button").first
@@ -266,6 +266,7 @@ def test_the_title_of_a_step_that_its_list_cuts_is_read_below(open_page):
     assert title.evaluate("each => each.scrollWidth <= each.clientWidth")
 
 
+@pytest.mark.slow
 def test_letters_of_a_sentence_about_a_formula_are_set_as_in_it(open_page):
     for language in ("en", "de", "es", "fr", "tr"):
         page = open_page("#lesson=3", locale=language)
@@ -314,23 +315,6 @@ def test_labels_of_printed_pictures_are_inside_and_apart(open_page, language, si
             for other, its_left, its_up, its_right, its_down in labels[:k]:
                 is_beside = right <= its_left or its_right <= left
                 assert is_beside or down <= its_up or its_down <= up, (text, other)
-
-
-def follow_by_hand(precession_rate):
-    """Follow the sheet of step 13: two rounds of pushes, each with its tilt, in full digits."""
-    top, theta = Top(0.000228, 0.0000572, 0.068), 0.5
-    spin = top.Iz * (200 + precession_rate * math.cos(theta))
-    turn = top.Ix * precession_rate
-    before = spin * math.cos(theta) + turn * math.sin(theta) ** 2
-    rounds, taken = [], theta
-    for _ in range(2):
-        added = 20 * 0.00005 * math.sin(taken)
-        roots = np.roots([-turn, spin, turn - before - added])
-        tilts = [math.acos(u) for u in roots if abs(u) <= 1]
-        found = min(tilts, key=lambda tilt: abs(tilt - theta))
-        rounds.append((added, found))
-        taken = (theta + found) / 2
-    return spin, before, rounds
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -482,6 +482,7 @@ def test_a_film_of_four_gigabytes_is_not_read_into_memory(opened, film, tmp_path
     assert opened.tab.evaluate("performance.memory.usedJSHeapSize") < before + 100_000_000
 
 
+@pytest.mark.slow
 def test_a_film_that_vanishes_leaves_its_clicks_and_is_opened_again(opened, film, tmp_path):
     path = tmp_path / "swing.mp4"
     path.write_bytes(film.read_bytes())

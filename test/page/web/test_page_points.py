@@ -149,6 +149,7 @@ def test_an_angle_that_is_left_is_in_the_unit_of_the_page(opened):
         assert left == pytest.approx(last * size, rel=0.051)
 
 
+@pytest.mark.slow
 def test_points_that_were_thinned_are_said_to_be(opened):
     drop(opened, make_measured("theta", rows=100_000))
     assert opened.say("points").startswith("48 measured points of 100000 rows: tilts. ")
