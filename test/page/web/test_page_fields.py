@@ -4,6 +4,7 @@ import math
 from functools import partial
 
 import pytest
+from trials import choose
 
 from symtop_ros.page.web.join import LANGUAGES
 
