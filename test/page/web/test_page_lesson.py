@@ -65,7 +65,8 @@ def test_a_class_presses_through_all_steps(open_page):
     page = open_page("#lesson=1")
     for number, (step, expected) in enumerate(zip(STEPS, ANGLES, strict=True), start=1):
         assert page.tab.input_value("#steps") == f"{number}. {step.title}"
-        assert page.say("lesson-predict") == step.predict
+        # letters of formulas within sentences are marked: $u$
+        assert page.say("lesson-predict").replace("$", "") == step.predict
         assert page.say("pause") == "Run"  # nothing moves before the prediction
         page.tab.fill("#prediction", f"{SECRET} {number}")
         for name in ("seen", "answer"):
