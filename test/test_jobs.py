@@ -62,7 +62,7 @@ def test_a_workspace_is_built_and_its_node_records(tmp_path):
         **environment(domain),
         "WORKSPACE": str(tmp_path),
         "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
-        # colcon's script does not quote the Python that it calls, and it may stand in a path with a blank
+        # colcon's script does not quote the Python that it calls: its path may have a blank
         "COLCON_PYTHON_EXECUTABLE": str(tmp_path / "python"),
     }
     (tmp_path / "python").symlink_to(sys.executable)

@@ -131,7 +131,7 @@ def test_colcon_in_a_workspace(checkout, tmp_path):
     checkout.variables["PATH"] = f"{colcon.parent}:/usr/bin:/bin"
     words = [colcon, "build", "--packages-select", "symtop_ros"]
     execute(words, cwd=tmp_path / "ws", env={**os.environ, **checkout.variables}, check=True)
-    # colcon's script does not quote the Python that it calls, which may stand in a path with a blank
+    # colcon's script does not quote the Python that it calls: its path may have a blank
     (tmp_path / "python").symlink_to(sys.executable)
     checkout.variables["COLCON_PYTHON_EXECUTABLE"] = str(tmp_path / "python")
     lines = 'source ../../install/setup.bash && exec python -c "$CODE"'
