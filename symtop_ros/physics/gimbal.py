@@ -1,4 +1,4 @@
-"""What the outer ring of a gimbal and its stand give of a torque on the top."""
+"""Shares of a torque on the top: that of the outer ring of a gimbal, and that of its stand."""
 
 from dataclasses import dataclass
 

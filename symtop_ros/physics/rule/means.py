@@ -1,4 +1,4 @@
-"""What a change of the precession does in the mean: its sense, and the mean height.
+"""Means of a motion with a kick and without it: sense of the kick, and mean height.
 
 Perry's rule is a statement on theta'' at one instant (`perry.py`). In the backward part of a loop
 the precession of that instant has the sign opposite to the one that is seen. The means compare a

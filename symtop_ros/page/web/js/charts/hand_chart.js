@@ -1,6 +1,7 @@
 // What a hand feels: bars of the outer ring and of the stand.
 
 import { say } from "../controls/document.js";
+import { ROUNDING } from "../words/ledger.js";
 import { shorten } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
 import { draw, LEFT, WIDE } from "./plot.js";
@@ -19,7 +20,9 @@ const BARS = [
 /** @param {Hand | null} hand */
 export const drawHand = (hand) => {
   if (!hand) return;
-  const sizes = BARS.map(([name]) => Math.abs(hand[name]));
+  const sizes = BARS.map(([name]) => Math.abs(hand[name])).map((size) =>
+    size > ROUNDING * hand.most ? size : 0,
+  );
   const unit = hand.kind === "push" ? "N m s" : "N m";
   const texts = BARS.map(
     ([name], k) => `${phrase(`hand.${name}`)}: ${shorten(sizes[k], 3)} ${unit}`,
