@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -51,9 +51,21 @@ def running_browser() -> Iterator[Browser]:
             browser.close()
 
 
+def _watch_tabs(browser: Browser, watch: Callable[[Any], None]) -> None:
+    """Watch the tabs that a browser opens, and those of its contexts."""
+    new_context = browser.new_context
+
+    def open_context(**options: Any) -> Any:
+        context = new_context(**options)
+        watch(context)
+        return context
+
+    watch(browser)
+    browser.new_context = open_context  # type: ignore[method-assign]
+
+
 def _slow(browser: Browser, rate: float) -> None:
     """Slow down the tabs that a browser opens, and those of its contexts."""
-    new_context = browser.new_context
 
     def watch(owner: Any) -> None:
         new_page = owner.new_page
@@ -66,13 +78,7 @@ def _slow(browser: Browser, rate: float) -> None:
 
         owner.new_page = open_page
 
-    def open_context(**options: Any) -> Any:
-        context = new_context(**options)
-        watch(context)
-        return context
-
-    watch(browser)
-    browser.new_context = open_context  # type: ignore[method-assign]
+    _watch_tabs(browser, watch)
 
 
 _RUNNING: list[Any] = []
@@ -110,15 +116,7 @@ def _counting(browser: Browser) -> Iterator[None]:
 
         owner.new_page, owner.close = open_page, take_and_close
 
-    new_context = browser.new_context
-
-    def open_context(**options: Any) -> Any:
-        context = new_context(**options)
-        watch(context)
-        return context
-
-    watch(browser)
-    browser.new_context = open_context  # type: ignore[method-assign]
+    _watch_tabs(browser, watch)
     yield
     counter.take()
     counter.write(str(page_coverage.FOLDER))
