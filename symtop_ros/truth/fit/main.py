@@ -15,6 +15,7 @@ import numpy as np
 from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
 from symtop_ros.base.refusals import RefusedError, refuse
 from symtop_ros.truth.fit.aliases import RATES
+from symtop_ros.truth.fit.camera import CENTRE
 from symtop_ros.truth.fit.check import FAILS, HOLDS
 from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
@@ -35,7 +36,7 @@ deviations, what it cannot show, and whether the model holds."""
 EXAMPLE = "example.csv"
 PATIENCE = 2.0  # s, after which progress is written
 NOT_GIVEN = (None, False)
-CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance"
+CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance", "centre", "size"
 CLICKED = {"pivot": "U and V", "scale": "the length"}  # numbers that may have a deviation
 RATIOS = ("Iz/Ix", "Ix", "Mgl")
 
@@ -103,6 +104,20 @@ def make_parser() -> argparse.ArgumentParser:
         type=positive,
         metavar="LENGTHS",
         help="known distance of the camera from the pivot, in lengths of the axis",
+    )
+    parser.add_argument(
+        "--centre",
+        type=decimal,
+        nargs=2,
+        metavar=("U", "V"),
+        help="point of the picture at which a near camera looks, as a rule its middle",
+    )
+    parser.add_argument(
+        "--size",
+        type=positive,
+        nargs=2,
+        metavar=("WIDTH", "HEIGHT"),
+        help="size of the picture, whose middle is the centre, of points from its lower left corner",
     )
     add_options(parser)
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
@@ -213,6 +228,8 @@ def _refuse_options(kind: str, options: argparse.Namespace) -> None:
     for name in CLICKED:
         if getattr(options, f"{name}_deviation") and not getattr(options, name):
             raise RefusedError(f"--{name}-deviation must have a --{name}, got none")
+    if options.centre and options.size:
+        raise RefusedError("--size gives --centre: one of them must be given")
     if options.perspective and options.distance:
         raise RefusedError("--perspective looks for --distance: one of them must be given")
     if options.distance and options.distance <= 1 / NEAREST:
@@ -230,7 +247,8 @@ def find_camera(options: argparse.Namespace) -> dict[str, float]:
         found["nearness"] = 1 / options.distance
     if options.elevation is not None:
         found["elevation"] = float(np.radians(options.elevation))
-    return found
+    centre = options.centre or ([each / 2 for each in options.size] if options.size else None)
+    return found | (dict(zip(CENTRE, centre, strict=True)) if centre else {})
 
 
 def find_given(options: argparse.Namespace) -> dict[str, Known | None]:

@@ -21,7 +21,7 @@ from symtop_ros.physics import (
     Top,
     specific_force,
 )
-from symtop_ros.truth.fit.camera import CAMERA, project
+from symtop_ros.truth.fit.camera import CAMERA, CENTRE, project
 from symtop_ros.truth.fit.kinds import Kind
 from symtop_ros.truth.fit.record import Record
 
@@ -134,8 +134,12 @@ class Model:
 
     def show(self, x: Real) -> Real:
         """Return the values (k, n, m) of a record of parameters (k, p)."""
+        return self.show_at(x, self.record.times - self.record.times[0])
+
+    def show_at(self, x: Real, times: Real) -> Real:
+        """Return the values (k, n, m) that parameters (k, p) show at times (n,) from the start."""
         motions = self.read(x)
-        state = motions.at(self.record.times - self.record.times[0])
+        state = motions.at(times)
         if self.kind.name != "inertial":
             return self._see(state, x)
         forces = self._find_forces(motions, state, self.take(x, "gravity"))
@@ -172,7 +176,8 @@ class Model:
 
     def _find_cameras(self, x: Real) -> dict[str, Real]:
         given = self.record.camera
-        return {n: self.take(x, n, given.get(n, 0.0)) for n in CAMERA}
+        names = (*CAMERA, *(n for n in CENTRE if n in given))
+        return {n: self.take(x, n, given.get(n, 0.0)) for n in names}
 
     def find_camera(self, x: Real) -> dict[str, float]:
         """Return the camera of parameters (p,), by the names of its numbers."""
@@ -252,10 +257,11 @@ class Model:
         taken = moved[:count] - (moved[count:] if central else x)
         # Phases beyond 1e10 rad have steps of no digit: NaN ends a search that has lost its way.
         with np.errstate(invalid="ignore"):
-            slopes = self._subtract(left[:count], far) / np.diag(taken)[:, np.newaxis, np.newaxis]
+            slopes = self.subtract(left[:count], far) / np.diag(taken)[:, np.newaxis, np.newaxis]
         return np.asarray(np.moveaxis(slopes, 0, -1))
 
-    def _subtract(self, first: Real, second: Real) -> Real:
+    def subtract(self, first: Real, second: Real) -> Real:
+        """Return a difference of residuals; of an angle without whole turns."""
         difference = first - second
         if self.kind.rounds:  # the residuals of two neighbours may lie on two sides of the period
             last = difference[..., -1]

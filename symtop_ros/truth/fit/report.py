@@ -9,7 +9,7 @@ import numpy as np
 
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.header import make_header
-from symtop_ros.base.measured import format_measured
+from symtop_ros.base.measured import format_measured, write_measured
 from symtop_ros.truth.fit.check import FAILS, UNCLEAR, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
@@ -26,6 +26,8 @@ LABELS = {
     "nutation_period": "nutation period",
     "spin_half_time": "spin is half after",
 }
+SLIGHT = 0.1  # of the deviation by the noise: less is not written
+REST = 0.1  # of the square of a systematic deviation, which causes that are not named may make
 ANGLES = "theta", "phi", "theta_dot", "phi_dot"
 
 
@@ -69,7 +71,7 @@ class Report:
         """Return all figures, for JSON."""
         record = self.fit.model.record
         known = {
-            each.name: {"value": each.value, "deviation": each.deviation, "unit": each.unit}
+            each.name: describe_value(each)
             for each in self.values
             if each.is_known
         }
@@ -137,12 +139,39 @@ class Report:
         return write("model", record)
 
 
+def describe_value(value: Value) -> dict[str, Any]:
+    """Return a number for JSON."""
+    return {
+        "value": value.value,
+        "deviation": value.deviation,
+        "systematic": {part.cause: part.shift for part in value.parts},
+        "total": value.total,
+        "unit": value.unit,
+    }
+
+
 def write_row(value: Value) -> str:
     """Return a number with its deviation and its unit, as a row of a text."""
     measured = format_measured(value.value, value.deviation, 12)
     label = LABELS.get(value.name, value.name)
     when = " (first row)" if value.name in ANGLES else ""
-    return f"  {label:20}{measured} {value.unit}{when}".rstrip()
+    return f"  {label:20}{measured}{write_systematic(value)} {value.unit}{when}".rstrip()
+
+
+def write_systematic(value: Value) -> str:
+    """Return the deviation by what is assumed, with its causes; none if that of the noise hides it.
+
+    The causes are the largest, as many as make up nearly all of it.
+    """
+    if value.systematic < SLIGHT * value.deviation:
+        return ""
+    causes, left = [], value.systematic**2
+    for part in sorted(value.parts, key=lambda part: -abs(part.shift)):
+        if left > REST * value.systematic**2:
+            causes.append(part.cause)
+        left -= part.shift**2
+    deviation = write_measured(value.value, value.systematic)[1]
+    return write("systematic", {"deviation": deviation, "causes": causes})
 
 
 def write_unknown(unknown: Unknown) -> str:
