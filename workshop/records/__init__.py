@@ -1,1 +1,1 @@
-"""Records of tops that share no line and no assumption with the fit, to try what the fit assumes."""
+"""Records of tops that share no line and no assumption with the fit, which they try."""

@@ -101,4 +101,5 @@ def place_body(theta: float, phi: float) -> Real:
     cos, sin = np.cos(theta), np.sin(theta)
     tilted = np.array([[1.0, 0.0, 0.0], [0.0, cos, -sin], [0.0, sin, cos]])
     cos, sin = np.cos(phi), np.sin(phi)
-    return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]) @ tilted
+    turned = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    return np.asarray(turned @ tilted)

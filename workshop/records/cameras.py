@@ -70,7 +70,8 @@ class Camera:
         """Return the pixels (n, 2) of the end of the axis, by what each frame was exposed to."""
         delays = np.zeros(len(times))
         for _ in range(PASSES if self.readout else 1):
-            instants = np.linspace(0.0, self.shutter, INSTANTS if self.shutter else 1)
+            instants = (np.arange(INSTANTS) + 0.5) / INSTANTS * self.shutter
+            instants = instants if self.shutter else instants[:1]
             seen = np.mean(
                 [self.see(course.at(times + delays + each)[0][:, :, 2]) for each in instants],
                 axis=0,

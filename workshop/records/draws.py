@@ -1,4 +1,4 @@
-"""Random records with their truth: clean ones, and those of one fault that the fit does not model."""
+"""Random records with their truth: clean ones, and those of a fault that the fit does not model."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -90,10 +90,10 @@ def draw_camera(draw: Draw, height: float) -> Camera:
     return Camera(place, (0.0, 0.0, height), focal, roll=float(0.03 * draw.normal()))
 
 
-def film(draw: Draw, start: Start, camera: Camera, *options: str, kicks=()) -> Drawn:  # type: ignore[no-untyped-def]
+def film(draw: Draw, start: Start, camera: Camera, *options: str) -> Drawn:
     """Return points of the axis in a film."""
     times = np.arange(round(SECONDS * FRAMES)) / FRAMES
-    seen = camera.film(start.follow(kicks), times)
+    seen = camera.film(start.follow(), times)
     u, v = (seen + draw.choice(PIXELS) * draw.normal(size=seen.shape)).T
     known = {"nearness": 1 / camera.distance, "elevation": camera.elevation}
     return Drawn({"t": times, "u": u, "v": v}, ("--perspective", *options), start.truth | known)

@@ -17,6 +17,8 @@ from workshop.records.draws import CLEAN, FAULTS, draw_record
 
 EACH = 40  # records of a fault; of those without one this many and a half more
 WITHIN = 2.0  # deviations
+VERDICTS = {"holds": "holds", "in doubt": "unclear", "fails": "fails", "refused": "refused"}
+HEADS = *VERDICTS, "pulls, rms", "within 2 in all", "wider", "CPU, s"
 
 
 def try_record(name: str, seed: int) -> dict[str, Any]:
@@ -68,8 +70,8 @@ def run_trial(names: Sequence[str], seeds: Sequence[int], path: Path | None = No
 
 def write_table(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
     """Yield a line for each name: verdicts, pulls, and the share that total deviations cover."""
-    yield "| record | holds | in doubt | fails | refused | pulls, rms | within 2 in all | wider | CPU, s |"
-    yield "|---|" + "--:|" * 8
+    yield f"| record | {' | '.join(HEADS)} |"
+    yield "|---|" + "--:|" * len(HEADS)
     for name in [*CLEAN, *FAULTS]:
         mine = [row for row in rows if row["name"] == name]
         if mine:
@@ -77,9 +79,7 @@ def write_table(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
 
 
 def _write_line(name: str, rows: Sequence[dict[str, Any]]) -> str:
-    counts = [
-        sum(row["verdict"] == each for row in rows) for each in ("holds", "unclear", "fails", "refused")
-    ]
+    counts = [sum(row["verdict"] == each for row in rows) for each in VERDICTS.values()]
     pulls = [pull for row in rows for pull in row["pulls"].values()]
     totals = [pull for row in rows for pull in row.get("totals", {}).values()]
     wider = [each for row in rows for each in row.get("wider", {}).values()]

@@ -117,7 +117,8 @@ def make_parser() -> argparse.ArgumentParser:
         type=positive,
         nargs=2,
         metavar=("WIDTH", "HEIGHT"),
-        help="size of the picture, whose middle is the centre, of points from its lower left corner",
+        help="size of the picture, whose middle is the centre; u and v count from its lower left "
+        "corner",
     )
     add_options(parser)
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")

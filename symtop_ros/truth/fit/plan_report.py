@@ -69,8 +69,7 @@ class PlanReport:
             "seconds": record.seconds,
             "noise": self.plan.noise.tolist(),
             "values": {
-                each.name: describe_value(each)
-                | {"rows_for_1_percent": self.rows.get(each.name)}
+                each.name: describe_value(each) | {"rows_for_1_percent": self.rows.get(each.name)}
                 for each in self.values
                 if each.is_known
             },

@@ -70,11 +70,7 @@ class Report:
     def facts(self) -> dict[str, Any]:
         """Return all figures, for JSON."""
         record = self.fit.model.record
-        known = {
-            each.name: describe_value(each)
-            for each in self.values
-            if each.is_known
-        }
+        known = {each.name: describe_value(each) for each in self.values if each.is_known}
         return {
             **make_header("fit", [Path(self.source)]),
             "source": self.source,

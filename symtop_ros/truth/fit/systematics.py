@@ -18,6 +18,7 @@ from symtop_ros.truth.fit.camera import CENTRE, project
 from symtop_ros.truth.fit.model import find_axis
 from symtop_ros.truth.fit.refine import Fit
 
+SMALL = 2.0**-10  # part of a change for its derivative
 TIME_BASE = 1e-3  # of the time: 30 frames a second, where a camera takes 29.97
 SHUTTER = 0.02  # s of a frame, if frames are not closer than that
 READOUT = 0.02  # s from the first row of a picture to the last
@@ -55,61 +56,95 @@ class Budget:
         """Causes with changes (p,) of the parameters."""
         return [(cause, self._follow(change)) for cause, change in list_changes(self.fit)]
 
+    def raise_aim(self) -> Real | None:
+        """Return the change (p,) if a camera looks above the pivot; None unless it may be so."""
+        camera = self.fit.model.find_camera(self.fit.x)
+        if CENTRE[0] in camera or not camera["nearness"]:
+            return None
+        above = np.array([0.0, LENGTH * np.exp(camera["log_scale"])])
+        return -self._follow(_aim(self.fit, above))  # the record was shown so, and the fit follows
+
     def _follow(self, change: Real) -> Real:
+        """Return the change (p,), to first order, that shows a change (n, r)."""
         white = self.fit.noise.whiten(change)
-        return np.asarray(
-            np.einsum("tip,ti->p", self.fit.columns, white) @ self.fit.covariance
-        )
+        return np.asarray(np.einsum("tip,ti->p", self.fit.columns, white) @ self.fit.covariance)
 
 
 def list_changes(fit: Fit) -> Iterator[tuple[str, Real]]:
     """Yield causes with changes (n, r) of what a record shows."""
     record = fit.model.record
-    times = record.times - record.times[0]
-    yield "time_base", _subtract(fit, fit.model.show_at(fit.x[np.newaxis], times * (1 + TIME_BASE)))
+    # as a derivative: after many turns the phases of the whole change are no small angles
+    late = fit.model.show_at(fit.x[np.newaxis], _list_times(fit) * (1 + SMALL * TIME_BASE))
+    change = fit.model.subtract(fit.model.compare(late)[0], fit.residuals)
+    yield "time_base", np.asarray(change / SMALL)
     if record.kind.name == "pixels":
-        yield from _list_of_cameras(fit, times)
+        yield from _list_of_pictures(fit)
+        yield from _list_of_cameras(fit)
     if record.kind.name in {"rates", "inertial"}:
         yield from _list_of_sensors(fit)
 
 
-def _subtract(fit: Fit, shown: Real) -> Real:
-    """Return how what is shown (1, n, m) differs from what the fit shows."""
-    return fit.model.subtract(fit.model.compare(shown)[0], fit.residuals)
+def _list_times(fit: Fit) -> Real:
+    return np.asarray(fit.model.record.times - fit.model.record.times[0])
 
 
-def _list_of_cameras(fit: Fit, times: Real) -> Iterator[tuple[str, Real]]:
-    x, camera = fit.x[np.newaxis], fit.model.find_camera(fit.x)
-    shown = fit.model.show(x)[0]
-    pivot = np.array([camera["u"], camera["v"]])
-    middle = np.array([camera[name] for name in CENTRE]) if "centre_u" in camera else pivot
-    far = shown - middle
-    half = float(np.abs(far).max())
+def _list_of_pictures(fit: Fit) -> Iterator[tuple[str, Real]]:
+    """Yield what a lens, pixels and shutters do, with changes (n, 2)."""
+    x, times = fit.x[np.newaxis], _list_times(fit)
+    camera, shown = fit.model.find_camera(fit.x), fit.model.show(x)[0]
+    far = shown - _find_centre(camera)
+    half = _find_half(fit)
     yield "lens", LENS * far * (far**2).sum(axis=1, keepdims=True) / half**2
-    yield "pixels", SQUARE * (shown - pivot) * [1.0, 0.0]
-    open_for = min(SHUTTER, fit.model.record.step)
-    middle_of, end = (fit.model.show_at(x, times + part * open_for)[0] for part in (0.5, 1.0))
-    yield "shutter", np.asarray((4 * middle_of + end - 5 * shown) / 6)  # Simpson's rule
+    yield "pixels", SQUARE * (shown - [camera["u"], camera["v"]]) * [1.0, 0.0]
+    exposed = min(SHUTTER, fit.model.record.step)
+    before, after = (fit.model.show_at(x, times + side * exposed / 2)[0] for side in (-1, 1))
+    velocity = (after - before) / exposed
+    # the time of a frame is that of its beginning, and Simpson's rule is that of a blur
+    yield "shutter", velocity * exposed / 2 + (before + after - 2 * shown) / 6
     # the upper rows are read first
-    down = 0.5 - far[:, 1:] / (2 * half)
-    yield "readout", (end - shown) / open_for * READOUT * down
+    yield "readout", READOUT * velocity * (0.5 - far[:, 1:] / (2 * half))
+
+
+def _list_of_cameras(fit: Fit) -> Iterator[tuple[str, Real]]:
+    """Yield what a different aim and distance do, with changes (n, 2)."""
+    camera = fit.model.find_camera(fit.x)
     if camera["nearness"]:
-        aside = AIM * 2 * half if middle is not pivot else LENGTH * np.exp(camera["log_scale"])
+        is_known = CENTRE[0] in camera
+        aside = AIM * 2 * _find_half(fit) if is_known else LENGTH * np.exp(camera["log_scale"])
         for change in aside * np.eye(2):
-            yield "aim", _see(fit, times, {**camera, **dict(zip(CENTRE, middle + change, strict=True))}) - shown
-    elif "nearness" not in fit.model.place and "nearness" not in fit.model.record.camera:
-        yield "distance", _see(fit, times, {**camera, "nearness": NEAR}) - shown
+            yield "aim", _aim(fit, change)
+    elif not {"nearness"} & {*fit.model.place, *fit.model.record.camera}:
+        yield "distance", _see(fit, {**camera, "nearness": NEAR}) - _see(fit, camera)
 
 
-def _see(fit: Fit, times: Real, camera: Mapping[str, float]) -> Real:
-    """Return what another camera shows of the same motion, (n, 2)."""
-    axis = find_axis(fit.model.find_motion(fit.x).at(times).orientation)
-    return np.asarray(
-        project(axis[np.newaxis], {name: np.array([each]) for name, each in camera.items()})[0]
-    )
+def _find_centre(camera: Mapping[str, float]) -> Real:
+    """Return the point (2,) at which a camera looks: the pivot, if nothing else is known."""
+    pivot = dict(zip(CENTRE, (camera["u"], camera["v"]), strict=True))
+    return np.array([{**pivot, **camera}[name] for name in CENTRE])
+
+
+def _find_half(fit: Fit) -> float:
+    """Return half the size of the picture: as far as points go from its centre, at least."""
+    shown = fit.model.show(fit.x[np.newaxis])[0]
+    return float(np.abs(shown - _find_centre(fit.model.find_camera(fit.x))).max())
+
+
+def _aim(fit: Fit, change: Real) -> Real:
+    """Return what it does, (n, 2), that a camera looks at another point (2,) of the picture."""
+    camera = fit.model.find_camera(fit.x)
+    centre = dict(zip(CENTRE, _find_centre(camera) + change, strict=True))
+    return _see(fit, {**camera, **centre}) - _see(fit, camera)
+
+
+def _see(fit: Fit, camera: Mapping[str, float]) -> Real:
+    """Return what a camera shows of the motion, (n, 2)."""
+    axis = find_axis(fit.model.find_motion(fit.x).at(_list_times(fit)).orientation)
+    numbers = {name: np.array([each]) for name, each in camera.items()}
+    return np.asarray(project(axis[np.newaxis], numbers)[0])
 
 
 def _list_of_sensors(fit: Fit) -> Iterator[tuple[str, Real]]:
+    """Yield what gains and a tilt of a gyroscope do, with changes (n, r)."""
     rates = fit.model.show(fit.x[np.newaxis])[0][:, :3]
     others = np.zeros((len(rates), fit.residuals.shape[1] - 3))
     for axis in np.eye(3):

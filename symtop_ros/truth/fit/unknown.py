@@ -15,6 +15,7 @@ from symtop_ros.truth.fit.camera import project
 from symtop_ros.truth.fit.model import find_axis, find_momentum
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.systematics import Budget
 from symtop_ros.truth.fit.twins import (
     bias_spin,
     change_axial_moment,
@@ -69,7 +70,7 @@ class Unknown:
 def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> list[Unknown]:
     """Return what a record leaves open."""
     together = [*list_together(fit, values)]
-    found = [*list_twins(fit, given), *together, *_list_ambiguities(fit, values)]
+    found = [*list_twins(fit, given), *_list_aim(fit), *together, *_list_ambiguities(fit, values)]
     said = {name for each in found for name in each.names.split(", ")}
     curved = [each.name for each in values if not each.is_straight and each.name not in said]
     if curved:
@@ -212,6 +213,13 @@ def _project(fit: Fit, motion: Motion, camera: dict[str, float]) -> Real:
     return np.asarray(
         project(axis[np.newaxis], {name: np.array([each]) for name, each in camera.items()})[0]
     )
+
+
+def _list_aim(fit: Fit) -> Iterator[Unknown]:
+    """Yield what p_psi would be if a near camera whose aim is not known looks above the pivot."""
+    if fit.model.record.kind.name == "pixels" and (shift := Budget(fit).raise_aim()) is not None:
+        p = find_slope(fit, lambda x: find_momentum(fit.model, x)) @ shift
+        yield Unknown("aim", "aim of the camera", (find_momentum(fit.model, fit.x) + float(p),))
 
 
 def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:

@@ -183,9 +183,7 @@ def _list_angles(fit: Fit) -> Iterator[tuple[str, Callable[[Real], float]]]:
     yield "phi_dot", lambda x: float(model.find_motion(x).start.euler_rates.phi_dot)
 
 
-def find_value(
-    valley: Valley, budget: Budget, name: str, of: Callable[[Real], float]
-) -> Value:
+def find_value(valley: Valley, budget: Budget, name: str, of: Callable[[Real], float]) -> Value:
     """Return a number and its deviation, by central differences within white deviations."""
     fit = valley.fit
     slope, value = find_slope(fit, of), of(fit.x)

@@ -135,6 +135,14 @@ def test_options_of_another_kind_are_refused(table, capsys):
     assert "--scale must have a record of pixels, got axis" in capsys.readouterr().err
     assert main([str(table), "--perspective"]) == 1
     assert "--perspective must have a record of pixels, got axis" in capsys.readouterr().err
+    assert main([str(table), "--size", "640", "480"]) == 1
+    assert "--size must have a record of pixels, got axis" in capsys.readouterr().err
+
+
+def test_a_centre_is_given_once(tmp_path, capsys):
+    path = write_table(tmp_path / "film.csv", make_axis()[:, :2], head="t,u,v")
+    assert main([str(path), "--size", "640", "480", "--centre", "320", "240"]) == 1
+    assert "--size gives --centre: one of them must be given" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("arguments", [[], ["a.csv", "--example"], ["a.csv", "--Ix", "1"]])
@@ -196,5 +204,9 @@ def test_what_is_known_of_a_camera_is_in_the_numbers_of_the_model():
     options = make_parser().parse_args([*words, "--elevation", "30"])
     known = {"u": 300.0, "v": 200.0, "log_scale": np.log(250.0), "nearness": 0.125}
     assert find_camera(options) == known | {"elevation": pytest.approx(np.pi / 6)}
+    near = make_parser().parse_args(["a.csv", "--perspective", "--size", "1280", "720"])
+    assert find_camera(near) == {"centre_u": 640.0, "centre_v": 360.0}
+    aimed = make_parser().parse_args(["a.csv", "--perspective", "--centre", "-3", "5"])
+    assert find_camera(aimed) == {"centre_u": -3.0, "centre_v": 5.0}
     clicked = make_parser().parse_args([*words[:6], "--pivot-deviation", "1"])
     assert find_camera(clicked) == {"log_scale": np.log(250.0)}
