@@ -16,7 +16,7 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import RefusedError, one_line, plain
 from symtop_ros.physics import DEFAULT_GRAVITY
 from symtop_ros.truth.fit.kinds import KINDS
-from symtop_ros.truth.judge.columns import (
+from symtop_ros.truth.tables.columns import (
     ANGLES,
     AXIS,
     DEGREES,

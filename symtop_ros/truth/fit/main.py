@@ -26,7 +26,7 @@ from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
 from symtop_ros.truth.fit.report import Report
 from symtop_ros.truth.fit.runs import make_run
 from symtop_ros.truth.fit.search import NEAREST
-from symtop_ros.truth.judge.forms import is_table
+from symtop_ros.truth.tables.forms import is_table
 
 DESCRIPTION = """Find the motion of a heavy symmetric top from a record of what was seen of it: a
 table (columns with names: t and theta, phi; x, y, z of the axis; u, v of a point in a picture; wx,

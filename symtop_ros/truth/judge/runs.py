@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.messages import TRANSFORM
-from symtop_ros.truth.judge.estimates import Estimates, read_topic
-from symtop_ros.truth.judge.forms import is_table
 from symtop_ros.truth.judge.tables import read_table
 from symtop_ros.truth.judge.times import read_times
 from symtop_ros.truth.judge.truth import Truth, read_events, scene_truth
+from symtop_ros.truth.tables.forms import is_table
+from symtop_ros.truth.topics.estimates import Estimates, read_topic
 
 if TYPE_CHECKING:  # logs need mcap
     from symtop_ros.run.log.account import Account, TopicAccount

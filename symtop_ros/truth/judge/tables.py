@@ -13,8 +13,8 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError, one_line, plain
 from symtop_ros.run.wire.layout import NANOSECONDS
-from symtop_ros.truth.judge.attitudes import turn_by_angles, turn_by_matrices
-from symtop_ros.truth.judge.columns import (
+from symtop_ros.truth.tables.attitudes import turn_by_angles, turn_by_matrices
+from symtop_ros.truth.tables.columns import (
     DEGREES,
     NUMBERED,
     TIMES,
@@ -33,8 +33,8 @@ from symtop_ros.truth.judge.columns import (
     split_names,
     split_units,
 )
-from symtop_ros.truth.judge.estimates import MAX_STAMP, Estimates
-from symtop_ros.truth.judge.iso import write_seconds
+from symtop_ros.truth.tables.iso import write_seconds
+from symtop_ros.truth.topics.estimates import MAX_STAMP, Estimates
 
 DIGITS_OF = {"s": 9, "ms": 6, "us": 3, "ns": 0}  # digits after the point that are whole ns
 # Columns without names: EuRoC has ns, position, w, x, y, z, and more; TUM has s, position, x, y, z,

@@ -11,11 +11,11 @@ import numpy as np
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import SAMPLES, Fit
+from symtop_ros.truth.judge.alignment import SAMPLES, Alignment
 from symtop_ros.truth.judge.grid import HOPELESS, Tables, fit_rotations
 from symtop_ros.truth.judge.tables import Table
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 DAY = 86_400 * NANOSECONDS  # ns
 YEAR = 365.25 * DAY
@@ -88,6 +88,6 @@ def _fits(estimates: Estimates, truth: Truth) -> bool:
     # those that keep one attitude fit any instant
     if 1 - np.linalg.eigvalsh(some.orientations.T @ some.orientations)[-1] / len(some) < MOVING:
         return False
-    tables = Tables(truth, Fit(some, truth).fastest)
+    tables = Tables(truth, Alignment(some, truth).fastest)
     costs = [fit_rotations(tables.tabulate(some, name)[1], "both")[0].min() for name in TRIED]
     return bool(min(costs) <= HOPELESS)

@@ -7,9 +7,9 @@ from truth.judge.cases import SOME, encode, write_rows
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.messages import TRANSFORM
-from symtop_ros.truth.judge.estimates import FORMATS, Estimates, decode_estimates
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.judge.tables import read_table
+from symtop_ros.truth.topics.estimates import FORMATS, Estimates, decode_estimates
 
 DAMAGED = [
     ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z.* header nothing"),

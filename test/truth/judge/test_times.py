@@ -8,12 +8,12 @@ from scipy.spatial.transform import Rotation
 from truth.judge.cases import SECOND, Made, heading, write_rows
 
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.judgement import judge
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.judge.tables import read_table
 from symtop_ros.truth.judge.times import read_times
 from symtop_ros.truth.judge.truth import scene_truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 TRUTH = scene_truth("cusps")
 STAMPS = range(0, 2 * SECOND, SECOND // 100)

@@ -8,7 +8,7 @@ const SHOWN = 60; // characters of a line in a message
 /** @type {{[unit: string]: number}} */
 const SECONDS = { s: 1, ms: 1e-3, us: 1e-6, ns: 1e-9 };
 const NANO = 1e-9;
-// As in truth/judge/columns.py.
+// As in truth/tables/columns.py.
 const TIMES =
   /^(?:__)?(?:t|time|times|timestamp|time_?stamp|stamp|sec|secs|seconds)(?:_?(ns|us|ms|s))?$/;
 const AXIS = /^(?:(?:.*[._/ ])?(?:axis|e)[._/ ]?|)([xyz])$/;

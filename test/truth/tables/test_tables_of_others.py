@@ -6,8 +6,8 @@ import pytest
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import State
 from symtop_ros.truth.fit.files import read_rows
-from symtop_ros.truth.judge.iso import write_seconds
 from symtop_ros.truth.judge.tables import read_table
+from symtop_ros.truth.tables.iso import write_seconds
 
 # Turns of 0.1 and more about all axes, as quaternions of exact quarters.
 Q = np.array([[0.5, 0.5, 0.5, 0.5], [0.5, -0.5, 0.5, 0.5], [1.0, 0.0, 0.0, 0.0]])
