@@ -12,7 +12,8 @@ PACKAGE = ROOT / "symtop_ros"
 # Files next to the rooms, and what every folder may use of the ground floor.
 TOP = {"__init__", "__main__", "programs"}
 GROUND = {
-    f"base/{name}" for name in ("arrays", "counts", "header", "measured", "refusals", "units")
+    f"base/{name}"
+    for name in ("arrays", "counts", "header", "measured", "progress", "refusals", "units")
 }
 # Rooms of several folders.
 DIVIDED = ("run", "ros", "page", "truth")
@@ -50,9 +51,9 @@ TABLE = {
     "truth/imu": "base/command physics run/log run/simulation run/wire | numpy yaml",
     "truth/testset": "__init__ base/command physics run/models | numpy",
     # what judge and fit stand on knows neither of them
-    "truth/tables": " | numpy scipy",
+    "truth/tables": "physics | numpy scipy",
     "truth/residuals": " | numpy scipy",
-    "truth/topics": "run/log run/wire | numpy",
+    "truth/topics": "run/log run/wire truth/residuals | numpy",
     "truth/fit": "base/command base/look physics run/log run/simulation run/wire truth/residuals "
     "truth/tables truth/topics words | matplotlib numpy scipy",
     # of testset the scorer; the program itself only for --testset
@@ -174,7 +175,7 @@ CHANGING = {
     "Alignment",
     "Deviation",
     "Draw",
-    "Lines",
+    "RowReader",
     "Markers",
     "Missed",
     "StampRows",

@@ -8,10 +8,10 @@ from symtop_ros.base.arrays import Mask, Real
 from symtop_ros.truth.judge.alignment import Alignment
 from symtop_ros.truth.judge.causes import CHANGES, Cause
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.residuals.spread import NORMAL
 from symtop_ros.truth.topics.estimates import Estimates
 
 FAR = 5.0  # deviations of a component; a normal number is farther once in two million
-NORMAL = 1.4826  # deviations of normal numbers in medians of their sizes
 ROUNDS = 6  # of causes and outliers
 FEWEST = 0.5  # part of the estimates that is kept, at least
 

@@ -12,8 +12,8 @@ import numpy as np
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.alignment import SAMPLES, Alignment
+from symtop_ros.truth.judge.attitude_table import AttitudeTable
 from symtop_ros.truth.judge.grid import HOPELESS, Tables, fit_rotations
-from symtop_ros.truth.judge.tables import Table
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.topics.estimates import Estimates
 
@@ -26,7 +26,7 @@ TRIED = ("", "delay")
 MOVING = 4 * HOPELESS  # mean square of half angles between the attitudes and their mean
 
 
-def read_times(table: Table, truth: Truth, name: str, of_sensor: bool) -> Estimates:
+def read_times(table: AttitudeTable, truth: Truth, name: str, of_sensor: bool) -> Estimates:
     """Return the estimates of a table with the times that fit the run.
 
     Refused are times of another age than the run, if no unit and no shift to its start explains
@@ -49,7 +49,7 @@ def read_times(table: Table, truth: Truth, name: str, of_sensor: bool) -> Estima
     return stated
 
 
-def _list_readings(table: Table, truth: Truth) -> Iterator[Estimates]:
+def _list_readings(table: AttitudeTable, truth: Truth) -> Iterator[Estimates]:
     """Yield the estimates in other units and epochs, with a note, that begin within a day.
 
     Times of the day of the run have no other epoch: estimates may begin later than it.
