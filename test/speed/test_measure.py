@@ -7,7 +7,7 @@ import pytest
 from documents import ROOT, find_section
 from PIL import Image
 
-from symtop_ros.truth.judge import look
+from symtop_ros.base import look
 from workshop.speed import benchmarks
 from workshop.speed import measure as module
 from workshop.speed.measure import measure

@@ -4,8 +4,6 @@ import argparse
 import json
 import shutil
 import sys
-import time
-from collections.abc import Callable
 from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Any
@@ -13,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
+from symtop_ros.base.progress import Progress
 from symtop_ros.base.refusals import RefusedError, refuse
 from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.camera import CENTRE
@@ -27,14 +26,18 @@ from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
 from symtop_ros.truth.fit.report import Report
 from symtop_ros.truth.fit.runs import make_run
 from symtop_ros.truth.fit.search import NEAREST
-from symtop_ros.truth.judge.forms import is_table
+from symtop_ros.truth.residuals.sampling import (
+    NANOSECONDS,
+    describe_time_step,
+    find_time_step,
+)
+from symtop_ros.truth.tables.forms import is_table
 
 DESCRIPTION = """Find the motion of a heavy symmetric top from a record of what was seen of it: a
 table (columns with names: t and theta, phi; x, y, z of the axis; u, v of a point in a picture; wx,
 wy, wz of the body; w, x, y, z), a log or a bag. It prints what the record shows, with standard
 deviations, what it cannot show, and whether the model holds."""
 EXAMPLE = "example.csv"
-PATIENCE = 2.0  # s, after which progress is written
 NOT_GIVEN = (None, False)
 CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance", "centre", "size"
 CLICKED = {"pivot": "U and V", "scale": "the length"}  # numbers that may have a deviation
@@ -153,12 +156,12 @@ def _run(options: argparse.Namespace) -> int:
     if options.run and options.run.suffix != ".json":
         raise refuse("--run", "a name that ends in .json", str(options.run))
     path = copy_example() if options.example else options.record
-    progress = Progress()
+    progress = Progress("top_fit")
     if options.position:
         options.kind = "inertial"
     rows = read(path, options, progress)
     record = fill_record(rows, options)
-    fit = fit_motion(record, progress.report_part)
+    fit = fit_motion(record, lambda part: progress.report(part, "fitting"))
     given = {name: known for name, known in find_given(options).items() if known}
     report = Report(str(path), len(record), fit, given)
     progress.end()
@@ -185,7 +188,7 @@ def copy_example() -> Path:
     return path
 
 
-def read(path: Path, options: argparse.Namespace, progress: "Progress") -> Rows:
+def read(path: Path, options: argparse.Namespace, progress: Progress) -> Rows:
     """Return the rows of a table or a log."""
     if is_table(path):
         size = path.stat().st_size if path.exists() else 1
@@ -198,11 +201,15 @@ def read(path: Path, options: argparse.Namespace, progress: "Progress") -> Rows:
 def fill_record(rows: Rows, options: argparse.Namespace) -> Record:
     """Return the record of some rows and of what the options know."""
     _refuse_options(rows.kind, options)
-    notes = [*rows.notes]
+    rows = rows.count_once()
+    stamps = np.rint(rows.times * NANOSECONDS).astype(np.int64)
+    notes = [*rows.notes, *describe_time_step(find_time_step(stamps))]
     if len(rows.times) > MOST:
         notes.append(f"{len(rows.times)} rows: {MOST} of them are taken, spread over the record")
     more = describe_record(rows.kind, options)
-    return make_record(rows.times, rows.values, rows.kind, **more, notes=tuple(notes))
+    return make_record(
+        rows.times, rows.values, rows.kind, steps=rows.steps, **more, notes=tuple(notes)
+    )
 
 
 def describe_record(kind: str, options: argparse.Namespace) -> dict[str, Any]:
@@ -293,30 +300,3 @@ def draw(report: Report, path: Path) -> None:
         print(f"top_fit: no plot, {error.name} is missing", file=sys.stderr)
     else:
         write_figure(report, path)
-
-
-class Progress:
-    """Progress on a terminal, once an action takes longer than `PATIENCE`."""
-
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        self._clock, self._begin, self._wrote = clock, clock(), False
-
-    def report_part(self, part: float) -> None:
-        """Write what part of the fit is done."""
-        self.report(part, "fitting")
-
-    def report(self, part: float, action: str) -> None:
-        """Write what part of an action is done, and an estimate of the time that is left."""
-        spent = self._clock() - self._begin
-        if spent < PATIENCE or not 0 < part < 1 or not sys.stderr.isatty():
-            return
-        left = spent * (1 - part) / part
-        print(
-            f"\rtop_fit: {action}, {part:.0%}, at most {left:.0f} s more ", end="", file=sys.stderr
-        )
-        self._wrote = True
-
-    def end(self) -> None:
-        """End the line, if one was written."""
-        if self._wrote:
-            print(file=sys.stderr)

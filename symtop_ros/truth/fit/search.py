@@ -15,8 +15,9 @@ from scipy.optimize import least_squares
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit.body_starts import list_starts
 from symtop_ros.truth.fit.model import FRICTION, THINNEST, Model
-from symtop_ros.truth.fit.record import Record, find_spread
+from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.starts import Starts
+from symtop_ros.truth.residuals.spread import find_spread
 
 GROWTH = 1.7  # of a part
 BROAD = 3.0  # scales of the residuals at which starts are compared

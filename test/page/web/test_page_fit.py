@@ -18,8 +18,8 @@ from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.unknown import list_unknown
 from symtop_ros.truth.fit.values import list_values
-from symtop_ros.truth.judge.lasting import find_lasting, measure_noise
-from symtop_ros.truth.judge.noise import Remainder, sum_influences
+from symtop_ros.truth.residuals.residuals import Residuals, sum_influences
+from symtop_ros.truth.residuals.whitening import find_lasting, measure_noise
 from workshop.fit.records import NOISES, draw_sample, see
 from workshop.records.draws import draw_record as draw_film
 
@@ -113,7 +113,7 @@ def test_noise_is_measured_as_by_python(fits, slope):
     for k in range(1, len(rows)):
         rows[k] += slope * rows[k - 1]
     found = fits.evaluate("measureNoise", [rows.T.tolist(), 8])
-    own = Remainder((rows, rows), 1.0)
+    own = Residuals((rows, rows), 1.0)
     # sums of 150 products by a transform there, and by themselves here, in ratios
     assert found["independent"] == pytest.approx(own.independent, rel=1e-10)
     assert found["isWhite"] == own.is_white

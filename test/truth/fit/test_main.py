@@ -9,8 +9,9 @@ from drawn import Numbers
 from truth.fit.cases import CUSPS, TIMES, make_axis, write_table
 
 from symtop_ros import __version__
+from symtop_ros.base.progress import Progress
 from symtop_ros.physics import Motion, apply_impulse, specific_force
-from symtop_ros.truth.fit.main import Progress, find_camera, main, make_parser
+from symtop_ros.truth.fit.main import find_camera, main, make_parser
 from symtop_ros.truth.imu.main import main as imu_main
 from workshop.fit.records import see
 
@@ -110,7 +111,7 @@ def test_a_kick_of_a_body_with_an_accelerometer_is_named(tmp_path, capsys):
 
 BAD = {
     "few rows": (slice(5), "a record must have at least 12 rows, got 5"),
-    "repeated": ([*range(20), 19, 20], "times must grow, got "),
+    "back in time": ([*range(20), 22, 21], "times must grow, got "),
 }
 
 
@@ -162,10 +163,10 @@ def test_a_plot_is_written(table, tmp_path):
 def test_progress_is_written_after_two_seconds_on_a_terminal(capsys, monkeypatch):
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     times = iter([0.0, 1.0, 4.0])
-    progress = Progress(lambda: next(times))
-    progress.report_part(0.5)
+    progress = Progress("top_fit", lambda: next(times))
+    progress.report(0.5, "fitting")
     assert not capsys.readouterr().err
-    progress.report_part(0.5)
+    progress.report(0.5, "fitting")
     progress.end()
     assert capsys.readouterr().err == "\rtop_fit: fitting, 50%, at most 4 s more \n"
 

@@ -35,7 +35,7 @@ QUIET = 50  # a fiftieth of all lags without a correlation: there are no more
 
 
 @dataclass(frozen=True, eq=False)
-class Remainder:
+class Residuals:
     """The rotation vectors that an explanation leaves, at stamps in order."""
 
     frames: tuple[Real, Real]  # in the world and in the frame of the body, (n, 3) each, in rad

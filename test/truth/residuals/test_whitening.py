@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from drawn import Numbers
 
-from symtop_ros.truth.judge.lasting import (
+from symtop_ros.truth.residuals.whitening import (
     find_lasting,
     find_predictors,
     measure_noise,
