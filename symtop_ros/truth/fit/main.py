@@ -15,10 +15,9 @@ from symtop_ros.base.progress import Progress
 from symtop_ros.base.refusals import RefusedError, refuse
 from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.camera import CENTRE
-from symtop_ros.truth.fit.check import FAILS, HOLDS
+from symtop_ros.truth.fit.check import FAILS
 from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
-from symtop_ros.truth.fit.kicks import find_kick
 from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.fit.plan_options import add_options, make_plan, refuse_plan_options
 from symtop_ros.truth.fit.plan_report import PlanReport
@@ -163,20 +162,16 @@ def _run(options: argparse.Namespace) -> int:
     record = fill_record(rows, options)
     fit = fit_motion(record, lambda part: progress.report(part, "fitting"))
     given = {name: known for name, known in find_given(options).items() if known}
-    report = Report(str(path), len(record), fit, given)
+    report = Report.compare(str(path), len(record), fit, given)
     progress.end()
-    if report.check.verdict != HOLDS and (place := find_kick(fit)) is not None:
-        raise RefusedError(
-            f"{path} must have one motion, got two: a push or a knock after {place:.4g} s"
-        )
     print(json.dumps(report.facts(), indent=1) if options.json else report.format())
     if options.plot:
         draw(report, options.plot)
     if options.run:
-        run = make_run(fit, len(record), given)
+        run = make_run(report.fit, len(record), given)
         run.write(options.run)
         print(run.describe(options.run), file=sys.stderr if options.json else sys.stdout)
-    return int(report.check.verdict == FAILS)
+    return int(report.verdict == FAILS)
 
 
 def copy_example() -> Path:

@@ -1,5 +1,6 @@
 """The report of a fit: as a record for JSON, and as text, both from the same numbers."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,6 +14,7 @@ from symtop_ros.base.measured import format_measured, write_measured
 from symtop_ros.truth.fit.check import FAILS, UNCLEAR, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.rivals import Rival, find_rivals
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import Value, convert, list_values
 from symtop_ros.words import write
@@ -25,6 +27,8 @@ LABELS = {
     "mean_precession_rate": "mean precession",
     "nutation_period": "nutation period",
     "spin_half_time": "spin is half after",
+    "kick_time": "kick after",
+    "kick": "change of the rates",
 }
 SLIGHT = 0.1  # of the deviation by the noise: less is not written
 REST = 0.1  # of the square of a systematic deviation, which causes that are not named may make
@@ -44,12 +48,29 @@ class Report:
     fit : Fit
     given : dict
         Known values, as for `values.convert`.
+    rivals : sequence of Rival
+        What explains the record and one free motion does not, the clearest first; the fit is that
+        of the first.
     """
 
     source: str
     rows: int
     fit: Fit
     given: dict[str, Known]
+    rivals: Sequence[Rival] = ()
+
+    @classmethod
+    def compare(cls, source: str, rows: int, fit: Fit, given: dict[str, Known]) -> "Report":
+        """Return the report of a fit of one free motion, or of what explains the record better."""
+        rivals = find_rivals(fit, Check(fit))
+        if not (rivals and (rivals[0].explains or rivals[0].loses_spin)):
+            return cls(source, rows, fit, given)
+        return cls(source, rows, rivals[0].fit, given, rivals)
+
+    @property
+    def verdict(self) -> str:
+        """HOLDS, UNCLEAR or FAILS; the model is one free motion."""
+        return FAILS if self.rivals else self.check.verdict
 
     @cached_property
     def values(self) -> list[Value]:
@@ -87,7 +108,16 @@ class Report:
     def _describe_model(self) -> dict[str, Any]:
         check, noise = self.check, self.fit.noise
         return {
-            "verdict": check.verdict,
+            "verdict": self.verdict,
+            "rivals": [
+                {
+                    "kind": each.kind,
+                    "gain": each.gain,
+                    "needed": each.needed,
+                    "explains": each.explains,
+                }
+                for each in self.rivals
+            ],
             "text": self.write_verdict(),
             "residuals_are_white": check.is_white,
             "residual_rms": np.sqrt((self.fit.residuals[noise.kept] ** 2).mean(axis=0)).tolist(),
@@ -116,7 +146,17 @@ class Report:
     @property
     def _lacks_friction(self) -> bool:
         is_wrong = self.check.verdict == FAILS or self.check.is_smooth
-        return is_wrong and not self.fit.model.record.has_friction
+        return is_wrong and not self.rivals and not self.fit.model.record.has_friction
+
+    def _describe_rivals(self) -> dict[str, Any]:
+        """Return the fields of the sentence on what explains the record better; or none."""
+        if not self.rivals:
+            return {}
+        first, *others = self.rivals
+        kind = first.kind if first.explains else "other_loss"
+        fields = {"gain": first.gain, "needed": first.needed}
+        other = {"kind": others[0].kind, "gain": others[0].gain} if others else None
+        return {"verdict": kind, **fields, "other": other}
 
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""
@@ -124,6 +164,7 @@ class Report:
         is_lone = self.check.verdict == UNCLEAR and self.check.is_noise
         record = {
             "verdict": "lone" if is_lone else self.check.verdict,
+            **self._describe_rivals(),
             "undamped": {} if self._lacks_friction else None,
             "outliers": {"count": write_count(noise.outliers, "row")} if noise.outliers else None,
             "lasting": {"order": order} if order and not noise.is_flicker else None,

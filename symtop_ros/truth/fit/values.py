@@ -9,7 +9,7 @@ import numpy as np
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit.aliases import SPARSE, count_rows, is_alias
 from symtop_ros.truth.fit.camera import CAMERA
-from symtop_ros.truth.fit.model import FORCE_BIASES, FRICTION, MOUNT, find_momentum
+from symtop_ros.truth.fit.model import FORCE_BIASES, FRICTION, KICK, MOUNT, find_momentum
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.systematics import Budget, Part
@@ -39,6 +39,8 @@ UNITS = {
     "axial/Iz": "1/s",
     "transverse/Ix": "1/s",
     "spin_half_time": "s",
+    "kick_time": "s",
+    "kick": "rad/s",
     "Ix": "kg m^2",
     "Iz": "kg m^2",
     "Mgl": "J",
@@ -149,6 +151,10 @@ def list_quantities(fit: Fit) -> Iterator[tuple[str, Callable[[Real], float]]]:
     if not model.record.has_friction:
         for name in ("mean_precession_rate", "nutation_period"):
             yield name, lambda x, name=name: _ask(model.find_motion(x), name)  # type: ignore[misc]
+    if model.record.has_kick:
+        yield "kick_time", take("kick_time")
+        # its direction in space turns with the azimuth, which not every record shows
+        yield "kick", lambda x: float(np.linalg.norm(x[[model.place[name] for name in KICK[1:]]]))
     yield from ((name, take(name)) for name in OTHERS if name in model.place)
     for name in (each for each in CAMERA if each in model.place):
         yield _write_camera(name, take(name))
@@ -211,8 +217,10 @@ def find_slope(fit: Fit, of: Callable[[Real], float]) -> Real:
 def find_scale(fit: Fit, name: str, value: float) -> float:
     """Return the size of a number, below which its deviation has to be for it to be known."""
     scales = dict(zip(fit.model.names, fit.model.find_scales(fit.x), strict=True))
-    if name in {"nutation_period", "scale"}:
+    if name in {"nutation_period", "scale", "kick"}:
         return abs(value)
+    if name == "kick_time":
+        return fit.model.record.seconds
     if name in {"theta", "phi"}:
         return 1.0
     if name == "Iz/Ix":
