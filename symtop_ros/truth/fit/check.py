@@ -1,4 +1,4 @@
-"""The test of the model: white residuals, and the same constants in both halves."""
+"""The test of the model: white residuals without lines, and the same constants in both halves."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -6,7 +6,9 @@ from functools import cached_property
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.lines import list_lines
 from symtop_ros.truth.fit.refine import Fit, find_rounding
+from symtop_ros.truth.residuals.lines import Line
 from symtop_ros.truth.residuals.residuals import measure_correlation
 
 # The constants of two halves differ by more than five deviations once in two million records; noise
@@ -75,6 +77,16 @@ class Check:
         return bool(self.smoothness > SMOOTH or columns.max() > SMOOTH_COLUMN)
 
     @cached_property
+    def lines(self) -> tuple[Line, ...]:
+        """Lines in the residuals; those with a name are at frequencies of the motion."""
+        return list_lines(self.fit)
+
+    @property
+    def swings(self) -> bool:
+        """True if the residuals have a line at a frequency of the motion."""
+        return any(line.name for line in self.lines)
+
+    @cached_property
     def changes(self) -> tuple[Change, ...]:
         """Constants that are not the same in both halves."""
         first, second = (find_half(self.fit, late) for late in (False, True))
@@ -106,7 +118,7 @@ class Check:
     @property
     def verdict(self) -> str:
         """HOLDS, UNCLEAR (noise that wanders, a stretch left out, a lone search) or FAILS."""
-        if self.changes or (not self.is_white and self.is_smooth):
+        if self.changes or self.swings or (not self.is_white and self.is_smooth):
             return FAILS
         return HOLDS if self.is_noise and not self.fit.is_lone else UNCLEAR
 

@@ -19,6 +19,7 @@ from symtop_ros.truth.fit.check import FAILS
 from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
 from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.limits import leave_out_saturated
 from symtop_ros.truth.fit.plan_options import add_options, make_plan, refuse_plan_options
 from symtop_ros.truth.fit.plan_report import PlanReport
 from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
@@ -196,7 +197,7 @@ def read(path: Path, options: argparse.Namespace, progress: Progress) -> Rows:
 def fill_record(rows: Rows, options: argparse.Namespace) -> Record:
     """Return the record of some rows and of what the options know."""
     _refuse_options(rows.kind, options)
-    rows = rows.count_once()
+    rows = leave_out_saturated(rows.count_once())
     stamps = np.rint(rows.times * NANOSECONDS).astype(np.int64)
     notes = [*rows.notes, *describe_time_step(find_time_step(stamps))]
     if len(rows.times) > MOST:

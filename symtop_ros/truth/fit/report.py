@@ -11,12 +11,14 @@ import numpy as np
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.header import make_header
 from symtop_ros.base.measured import format_measured, write_measured
-from symtop_ros.truth.fit.check import FAILS, UNCLEAR, Check
+from symtop_ros.run.simulation.points import SEEN
+from symtop_ros.truth.fit.check import FAILS, HOLDS, UNCLEAR, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.rivals import Rival, find_rivals
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import Value, convert, list_values
+from symtop_ros.truth.residuals.lines import Line
 from symtop_ros.words import write
 from symtop_ros.words.templates import TEMPLATES
 
@@ -63,9 +65,12 @@ class Report:
     def compare(cls, source: str, rows: int, fit: Fit, given: dict[str, Known]) -> "Report":
         """Return the report of a fit of one free motion, or of what explains the record better."""
         rivals = find_rivals(fit, Check(fit))
-        if not (rivals and (rivals[0].explains or rivals[0].loses_spin)):
+        best = next((each for each in rivals if each.explains), None)
+        best = best or next((each for each in rivals if each.loses_spin), None)
+        if best is None:
             return cls(source, rows, fit, given)
-        return cls(source, rows, rivals[0].fit, given, rivals)
+        others = [each for each in rivals if each is not best]
+        return cls(source, rows, best.fit, given, [best, *others])
 
     @property
     def verdict(self) -> str:
@@ -129,6 +134,7 @@ class Report:
             "independent_rows": self.fit.remainder.independent,
             "no_deviations_as": check.fault or None,
             "changed": [vars(each) for each in check.changes],
+            "lines": [{**vars(each), "column": self._name(each)} for each in check.lines],
         }
 
     def format(self) -> str:
@@ -143,9 +149,17 @@ class Report:
         lines += [f"not known: {write_unknown(each)}" for each in self.unknown]
         return "\n".join([*lines, *(f"note: {note}" for note in record.notes)])
 
+    def _name(self, line: Line) -> str:
+        """Return the name of the column of the residuals that has a line."""
+        return SEEN[self.fit.model.kind.name].residuals[line.column]
+
+    def _describe_line(self, line: Line) -> dict[str, Any]:
+        at = {"kind": line.name} if line.name else None
+        return {**vars(line), "column": self._name(line), "at": at, "percent": 100 * line.share}
+
     @property
     def _lacks_friction(self) -> bool:
-        is_wrong = self.check.verdict == FAILS or self.check.is_smooth
+        is_wrong = bool(self.check.changes) or self.check.is_smooth
         return is_wrong and not self.rivals and not self.fit.model.record.has_friction
 
     def _describe_rivals(self) -> dict[str, Any]:
@@ -161,15 +175,20 @@ class Report:
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""
         noise, order = self.fit.noise, len(self.fit.noise.partial)
-        is_lone = self.check.verdict == UNCLEAR and self.check.is_noise
+        verdict = self.check.verdict
+        if verdict == UNCLEAR and self.check.is_noise:
+            verdict = "lone"
+        elif verdict == HOLDS and self.check.lines:
+            verdict = "lined"
         record = {
-            "verdict": "lone" if is_lone else self.check.verdict,
+            "verdict": verdict,
             **self._describe_rivals(),
             "undamped": {} if self._lacks_friction else None,
             "outliers": {"count": write_count(noise.outliers, "row")} if noise.outliers else None,
             "lasting": {"order": order} if order and not noise.is_flicker else None,
             "flicker": {} if noise.is_flicker else None,
             "stretch": {"count": str(self.check.stretch)} if self.check.stretch else None,
+            "lines": [self._describe_line(each) for each in self.check.lines] or None,
             "changes": [vars(each) for each in self.check.changes] or None,
             "fault": {"kind": self.check.fault} if self.check.fault else None,
         }
