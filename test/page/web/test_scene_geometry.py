@@ -86,7 +86,8 @@ def test_a_pose_sizes_turns_and_moves(tab):
 def test_the_shortest_turn_from_z_leads_to_a_direction(tab):
     directions = draw_vectors("directions", 20)
     directions /= np.linalg.norm(directions, axis=1)[:, np.newaxis]
-    directions = [*directions, np.array([0, 0, 1.0]), np.array([1.0, 0, 0]), np.array([0, -1.0, 0])]
+    directions = [*directions, np.array([0, 0, -1.0]), np.array([0, 0, 1.0]), np.array([1.0, 0, 0])]
+    directions.append(np.array([0, -1.0, 0]))
     found = call(tab, "scene/matrices", [["turnTo", each.tolist()] for each in directions])
     for quaternion, direction in zip(found, directions, strict=True):
         # the arc cosine of a number near 1 has half of its digits
