@@ -385,6 +385,8 @@ def test_a_plate_that_is_thrown_up_wobbles_twice_in_a_turn_of_omega_z(shared):
 @pytest.mark.wording
 def test_in_the_mean_the_pivot_carries_the_weight(shared):
     shared.follow("scene=looping")
+    shared.seek(0)  # a turning point, where the height is accelerated
+    shared.wait_for_texts()
     wait_for_table(shared, "the top weighs")
     rows = list_rows(shared)
     (row,) = [text for name, text in rows.items() if name.startswith("its mean")]

@@ -1,7 +1,7 @@
 // Labels of the scene: words over the picture, each in the colour of what it names, with a line to it
 // if they do not stand next to it.
 
-import { make, write } from "../controls/document.js";
+import { find, make, write } from "../controls/document.js";
 
 /** @import { Vector } from "../physics/kernel.js" */
 /**
@@ -59,6 +59,12 @@ export class Labels {
     this.shown = new Map();
     /** Sizes of the labels in px, once they are known. @type {Map<string, [number, number]>} */
     this.sizes = new Map();
+    this.floor = 0; // px at the lower edge of the picture, which have other words
+    const legend = find("legend");
+    new ResizeObserver(() => {
+      const isOver = getComputedStyle(legend).position === "absolute";
+      this.floor = isOver ? legend.offsetHeight : 0;
+    }).observe(legend);
   }
 
   begin() {
@@ -134,7 +140,7 @@ export class Labels {
   keepInside(name, place) {
     const [width, height] = this.measure(name);
     const { size } = this.camera;
-    const y = Math.max(Math.min(place.y, size.height - height / 2), height / 2);
+    const y = Math.max(Math.min(place.y, size.height - this.floor - height / 2), height / 2);
     const aside = Math.abs(y - place.y) > NEAR ? width / 2 + 2 * NEAR : 0;
     place.x = Math.max(Math.min(place.x + aside, size.width - width / 2), width / 2);
     place.y = y;
