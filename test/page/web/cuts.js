@@ -2,7 +2,7 @@
 
 const NEAR = 1.5; // px that a box may reach beyond another: letters have room around them
 const INSIDE = 0.3; // of a line, from its edges: there its letters are
-const APART = 3; // px by which texts of a chart overlap, in both directions
+const [APART, HIGH] = [3, 0.35]; // px, and of a line, by which texts of a chart overlap
 const ROWS = "#doing, #strip, #controls, #rest, #charts"; // what is scrolled sideways, or would be
 // Lists of which the whole text stands below: the title of a step, the names of what a chart or a question has.
 const SAID = ["steps", "free-x", "free-y", "questions"];
@@ -110,7 +110,7 @@ const listCollisions = () =>
         const [a, b] = [boxes[k], boxes[n]];
         const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
         const high = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
-        if (across < APART || high < APART) return [];
+        if (across < APART || high < HIGH * Math.min(a.height, b.height)) return [];
         return [`on each other: ${other.textContent} | ${text.textContent} (${name(svg)})`];
       }),
     );

@@ -403,6 +403,7 @@ export class Scene {
   /** @param {Vector} axis */
   drawHandle(axis) {
     this.painter.drawMesh(this.models.ball, createPose([1, 0, 0, 0], [BALL, BALL, BALL], axis));
+    this.labels.keepFree(axis, BALL);
     const { end, isTilting } = this.grip;
     if (end && !isTilting) this.drawArrow("ball", subtract(end, axis), axis, "");
   }
