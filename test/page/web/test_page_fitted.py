@@ -271,6 +271,7 @@ def test_what_cannot_be_known_is_what_top_fit_says(tab, tmp_path, capsys):
     ]
 
 
+@pytest.mark.slow
 def test_numbers_that_the_record_does_not_show_are_those_of_the_run(tab):
     fitted = show(tab, make_given(CUSPS))
     text = say(tab, "assumed")
