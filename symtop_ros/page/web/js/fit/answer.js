@@ -61,8 +61,8 @@ const listReasons = ({ is_white, is_smooth, changes, stretch, fault }, fit) => [
 ];
 
 /** What top_fit allows for and this search does not. @param {ReturnType<typeof checkFit>} check @param {Fit} fit */
-const listLimits = ({ verdict, is_smooth }, fit) => [
-  ...(verdict === "fails" || is_smooth ? ["friction"] : []),
+const listLimits = ({ verdict }, fit) => [
+  ...(verdict === "holds" && !fit.lasts ? [] : ["friction", "kick", "line"]),
   ...(fit.model.record.count < fit.model.record.given.times.length ? ["rows"] : []),
 ];
 
