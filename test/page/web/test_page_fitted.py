@@ -1,6 +1,7 @@
 """The result of a fit on the page, read as a person does: of top_fit and of the true motion."""
 
 import json
+import math
 import re
 
 import numpy as np
@@ -174,6 +175,11 @@ def test_the_table_has_the_numbers_of_top_fit(tab, kind, tmp_path, capsys):
         assert deviation == pytest.approx(own["deviation"], rel=0.1)
         assert unit == own["unit"].replace("pixels", "px")
     others = {label: value for label, value in table.items() if label not in named}
+    period, deviation, unit = others.pop("time of one turn")
+    rate, spread, _ = table["mean precession"]
+    assert (period, unit) == (pytest.approx(2 * math.pi / abs(rate), rel=0.01), "s")
+    assert deviation == pytest.approx(period * spread / abs(rate), rel=0.1)  # two digits of both
+    assert "Iz omega_z over Ix" in say(tab, "meanings")
     assert all(value is None or label.startswith("pivot") for label, value in others.items())
 
 

@@ -7,6 +7,7 @@ import {
   listUnknown,
   writeAssumed,
   writeLimits,
+  writeMeanings,
   writeShown,
   writeVerdict,
 } from "../words/fit.js";
@@ -62,6 +63,7 @@ const createAll = (fitted, command) => {
     createText("p", writeVerdict(fitted), { id: "fitted-verdict" }),
     ...listLimits(fitted, command),
     createTable(fitted),
+    createText("p", writeMeanings(fitted), { id: "fitted-meanings", className: "dim" }),
     createText("h2", phrase("fitted.unknown_title")),
     make("ul", { id: "fitted-unknown" }, ...unknown),
     ...(assumed ? [createText("p", assumed, { id: "fitted-assumed" })] : []),
