@@ -102,7 +102,8 @@ class TimeReader:
         floors = [each.to_integral_value(ROUND_FLOOR) for each in numbers]
         if self._is_whole and numbers != floors:
             raise SplitStampError
-        whole = [min(max(int(each), -FARTHEST), FARTHEST) for each in floors]
+        # before they are integers, of which 1e999999999 would fill the memory
+        whole = [int(min(max(each, -FARTHEST), FARTHEST)) for each in floors]
         self._decimals = max(self._decimals, count_decimals(column)[1])
         self._rest.extend([*map(float, map(Decimal.__sub__, numbers, floors))])
         self._whole.extend(whole)
