@@ -14,10 +14,10 @@ from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
 from symtop_ros.base.progress import Progress
 from symtop_ros.base.refusals import RefusedError, refuse
 from symtop_ros.truth.fit.aliases import RATES
-from symtop_ros.truth.fit.check import FAILS, HOLDS
+from symtop_ros.truth.fit.camera import CENTRE
+from symtop_ros.truth.fit.check import FAILS
 from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
-from symtop_ros.truth.fit.kicks import find_kick
 from symtop_ros.truth.fit.kinds import KINDS
 from symtop_ros.truth.fit.limits import leave_out_saturated
 from symtop_ros.truth.fit.plan_options import add_options, make_plan, refuse_plan_options
@@ -39,7 +39,7 @@ wy, wz of the body; w, x, y, z), a log or a bag. It prints what the record shows
 deviations, what it cannot show, and whether the model holds."""
 EXAMPLE = "example.csv"
 NOT_GIVEN = (None, False)
-CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance"
+CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance", "centre", "size"
 CLICKED = {"pivot": "U and V", "scale": "the length"}  # numbers that may have a deviation
 RATIOS = ("Iz/Ix", "Ix", "Mgl")
 
@@ -108,6 +108,21 @@ def make_parser() -> argparse.ArgumentParser:
         metavar="LENGTHS",
         help="known distance of the camera from the pivot, in lengths of the axis",
     )
+    parser.add_argument(
+        "--centre",
+        type=decimal,
+        nargs=2,
+        metavar=("U", "V"),
+        help="point of the picture at which a near camera looks, as a rule its middle",
+    )
+    parser.add_argument(
+        "--size",
+        type=positive,
+        nargs=2,
+        metavar=("WIDTH", "HEIGHT"),
+        help="size of the picture, whose middle is the centre; u and v count from its lower left "
+        "corner",
+    )
     add_options(parser)
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
@@ -148,20 +163,16 @@ def _run(options: argparse.Namespace) -> int:
     record = fill_record(rows, options)
     fit = fit_motion(record, lambda part: progress.report(part, "fitting"))
     given = {name: known for name, known in find_given(options).items() if known}
-    report = Report(str(path), len(record), fit, given)
+    report = Report.compare(str(path), len(record), fit, given)
     progress.end()
-    if report.check.verdict != HOLDS and (place := find_kick(fit)) is not None:
-        raise RefusedError(
-            f"{path} must have one motion, got two: a push or a knock after {place:.4g} s"
-        )
     print(json.dumps(report.facts(), indent=1) if options.json else report.format())
     if options.plot:
         draw(report, options.plot)
     if options.run:
-        run = make_run(fit, len(record), given)
+        run = make_run(report.fit, len(record), given)
         run.write(options.run)
         print(run.describe(options.run), file=sys.stderr if options.json else sys.stdout)
-    return int(report.check.verdict == FAILS)
+    return int(report.verdict == FAILS)
 
 
 def copy_example() -> Path:
@@ -221,6 +232,8 @@ def _refuse_options(kind: str, options: argparse.Namespace) -> None:
     for name in CLICKED:
         if getattr(options, f"{name}_deviation") and not getattr(options, name):
             raise RefusedError(f"--{name}-deviation must have a --{name}, got none")
+    if options.centre and options.size:
+        raise RefusedError("--size gives --centre: one of them must be given")
     if options.perspective and options.distance:
         raise RefusedError("--perspective looks for --distance: one of them must be given")
     if options.distance and options.distance <= 1 / NEAREST:
@@ -238,7 +251,8 @@ def find_camera(options: argparse.Namespace) -> dict[str, float]:
         found["nearness"] = 1 / options.distance
     if options.elevation is not None:
         found["elevation"] = float(np.radians(options.elevation))
-    return found
+    centre = options.centre or ([each / 2 for each in options.size] if options.size else None)
+    return found | (dict(zip(CENTRE, centre, strict=True)) if centre else {})
 
 
 def find_given(options: argparse.Namespace) -> dict[str, Known | None]:

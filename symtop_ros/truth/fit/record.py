@@ -43,6 +43,8 @@ class Record:
     has_length : bool
         Of points of an axis: True if their distance from the pivot is looked for; values are about
         one.
+    has_kick : bool
+        True if a sudden change of the rates is looked for.
     has_mount : bool
         Of rates: True if biases and the tilt of the sensor are looked for.
     has_perspective : bool
@@ -61,6 +63,7 @@ class Record:
     camera: Mapping[str, float] = field(default_factory=dict)
     known: Mapping[str, Known] = field(default_factory=dict)
     has_friction: bool = False
+    has_kick: bool = False
     has_length: bool = False
     has_mount: bool = False
     has_perspective: bool = False

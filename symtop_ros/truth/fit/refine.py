@@ -44,6 +44,8 @@ class Fit:
         Other motions that fit as well.
     is_lone : bool
         True if one search of all found this motion, and what it leaves lasts from row to row.
+    has_mirror : bool
+        Of a near camera: True if one below the pivot, with -p_psi, shows the record as well.
     """
 
     model: Model
@@ -51,6 +53,7 @@ class Fit:
     noise: Noise
     others: tuple["Fit", ...] = field(default=())
     is_lone: bool = False
+    has_mirror: bool = False
 
     @cached_property
     def residuals(self) -> Real:

@@ -158,6 +158,7 @@ def list_bounds(model: Model) -> tuple[Real, Real]:
     """Return the least and the largest value of each parameter."""
     low, high = np.full(len(model.names), -np.inf), np.full(len(model.names), np.inf)
     limits = {"Iz/Ix": (THINNEST, 2.0), "elevation": (-np.pi / 2, np.pi / 2)}
+    limits["kick_time"] = 0.0, model.record.seconds
     limits |= {"nearness": (0.0, NEAREST), "gravity": (0.1, np.inf)}
     limits |= dict.fromkeys(FRICTION, (-1e-6, np.inf))
     for name, (least, largest) in limits.items():

@@ -18,7 +18,8 @@ from symtop_ros.truth.tables.columns import SECONDS
 from symtop_ros.truth.tables.iso import write_seconds
 
 NS = 9  # decimals of a second
-FARTHEST = 2**62  # units; a time beyond it is none of a run
+LATEST = Decimal(2**62)  # units; a time beyond it is none of a run
+EARLIEST = -LATEST
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +104,7 @@ class TimeReader:
         if self._is_whole and numbers != floors:
             raise SplitStampError
         # before they are integers, of which 1e999999999 would fill the memory
-        whole = [int(min(max(each, -FARTHEST), FARTHEST)) for each in floors]
+        whole = [int(min(max(each, EARLIEST), LATEST)) for each in floors]
         self._decimals = max(self._decimals, count_decimals(column)[1])
         self._rest.extend([*map(float, map(Decimal.__sub__, numbers, floors))])
         self._whole.extend(whole)

@@ -341,7 +341,7 @@ def test_each_language_says_all(browser, language):
 def test_each_kind_of_what_is_not_known_has_its_words(language):
     texts = read_texts(language)
     kinds = {*EXACT_TWINS["axis"], *EXACT_TWINS["pixels"]}
-    kinds |= {"together", "tilt", "curved", "weak", "other", "sparse", "level"}
+    kinds |= {"aim", "alias", "together", "tilt", "curved", "weak", "other", "sparse", "level"}
     assert {key.removeprefix("unknown.") for key in texts if key.startswith("unknown.")} == kinds
 
 

@@ -3,11 +3,12 @@
 import { checkFit } from "./check.js";
 import { ORDERS } from "./lasting.js";
 import { listUnknown } from "./unknown.js";
-import { CAMERA } from "./projection.js";
+import { CAMERA, rectify } from "./projection.js";
 import { LENGTH } from "./model.js";
 import { listValues } from "./values.js";
 
 /** @import { Change, Verdict } from "./check.js" */
+/** @import { Camera } from "./projection.js" */
 /** @import { Fit } from "./refine.js" */
 /** @import { Top } from "../physics/kernel.js" */
 /** @import { Unknown } from "./unknown.js" */
@@ -78,6 +79,10 @@ const makeRun = ({ model, x, residuals }, top) => {
   const norm = Math.hypot(...q);
   const length = record.hasLength ? Math.exp(x[model.place[LENGTH]]) : 1;
   const divide = (/** @type {number[]} */ row) => row.map((each) => each / length);
+  const camera = record.kind === "pixels" ? model.findCamera(x) : null;
+  const level = (/** @type {number[]} */ row) => (camera ? rectify(row, camera) : divide(row));
+  const rows = splitRows(residuals, record.width);
+  const values = record.values.map(level);
   const start = {
     kind: "start",
     time: 0,
@@ -91,9 +96,12 @@ const makeRun = ({ model, x, residuals }, top) => {
     kind: record.kind,
     rows: record.given.times.length,
     times: [...record.times],
-    values: record.values.map(divide),
-    residuals: splitRows(residuals, record.width).map((row) => divide(row.map((each) => -each))),
-    ...(record.kind === "pixels" ? { camera: pickCamera(model, x) } : {}),
+    values,
+    residuals: record.values.map((row, k) => {
+      const shown = level(row.map((each, n) => each + rows[k][n]));
+      return values[k].map((each, n) => each - shown[n]);
+    }),
+    ...(camera ? { camera: pickCamera(camera) } : {}),
   };
   const assumed = [
     { name: "Iz/Ix", value: top.Iz / top.Ix, unit: "" },
@@ -102,8 +110,5 @@ const makeRun = ({ model, x, residuals }, top) => {
   return { run: { format: 5, events: [start], end: record.seconds, points }, assumed };
 };
 
-/** @param {Fit["model"]} model @param {number[]} x */
-const pickCamera = (model, x) => {
-  const camera = model.findCamera(x);
-  return Object.fromEntries(CAMERA.map((name) => [name, camera[name]]));
-};
+/** Its numbers for a run, whose points are those of a camera that looks at the pivot. @param {Camera} camera */
+const pickCamera = (camera) => Object.fromEntries(CAMERA.map((name) => [name, camera[name]]));
