@@ -1,7 +1,7 @@
 """Synthetic records of random tops, of every kind and with every noise."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -131,8 +131,8 @@ def draw_sample(kind: str, noise: str, seed: int) -> Sample:
     camera = draw_camera(draw) if kind == "pixels" else {}
     make = NOISES[noise]
     times, values = make(draw, times, lambda t: see(motion, kind, t, camera), SIGMA[kind])
-    record = make_record(times, values, kind, has_friction=has_friction)
-    record = replace(record, position=POSITION if kind == "inertial" else record.position)
+    position = POSITION if kind == "inertial" else (0.0, 0.0, 0.0)
+    record = make_record(times, values, kind, has_friction=has_friction, position=position)
     return Sample(record, motion, camera)
 
 

@@ -8,8 +8,8 @@ import numpy as np
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit.lines import list_lines
 from symtop_ros.truth.fit.refine import Fit, find_rounding
+from symtop_ros.truth.residuals.correlation import measure_correlation
 from symtop_ros.truth.residuals.lines import Line
-from symtop_ros.truth.residuals.residuals import measure_correlation
 
 # The constants of two halves differ by more than five deviations once in two million records; noise
 # that wanders makes deviations of halves uncertain, which the sandwich of a half allows for.

@@ -27,7 +27,8 @@ from symtop_ros.truth.tables.columns import (
     find_quaternions,
     find_rates,
 )
-from symtop_ros.truth.tables.reader import Columns, Report, Table, read_table
+from symtop_ros.truth.tables.reader import Report, read_table
+from symtop_ros.truth.tables.table import Columns, Table
 
 # A table may have the columns of several kinds; what was measured comes before exact truth.
 ORDER = ("angles", "theta", "pixels", "measured", "attitude", "matrix", "rates", "inertial", "axis")

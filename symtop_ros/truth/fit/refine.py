@@ -14,7 +14,8 @@ from symtop_ros.base.arrays import Mask, Real
 from symtop_ros.truth.fit.model import Model
 from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.search import minimise
-from symtop_ros.truth.residuals.residuals import Residuals, sum_influences
+from symtop_ros.truth.residuals.influence import sum_influences
+from symtop_ros.truth.residuals.residuals import Residuals
 from symtop_ros.truth.residuals.spread import find_spread
 from symtop_ros.truth.residuals.whitening import Noise, find_lasting, measure_noise
 

@@ -242,7 +242,7 @@ def rate_places(fit: Fit) -> list[float]:
     # those of the highest peaks: next to the best place all are good
     peaks = np.flatnonzero((gains >= np.roll(gains, 1)) & (gains >= np.roll(gains, -1)))
     best = peaks[np.argsort(gains[peaks])[::-1][:TRIED]]
-    return [float(place) for place in places[best]]
+    return [*map(float, places[best])]
 
 
 def _span_kicks(fit: Fit) -> tuple[Real, Real]:

@@ -11,7 +11,8 @@ from symtop_ros.base.arrays import Mask, Real, compose, find_rotation_vectors, i
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
 from symtop_ros.truth.judge.truth import Truth
-from symtop_ros.truth.residuals.residuals import Residuals, find_influences
+from symtop_ros.truth.residuals.influence import find_influences
+from symtop_ros.truth.residuals.residuals import Residuals
 from symtop_ros.truth.topics.estimates import Estimates
 
 SAMPLES = 500  # estimates that a search takes, spread over the run

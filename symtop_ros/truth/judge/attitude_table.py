@@ -23,7 +23,8 @@ from symtop_ros.truth.tables.columns import (
     find_rates,
     find_turns,
 )
-from symtop_ros.truth.tables.reader import Columns, Report, Table, read_table
+from symtop_ros.truth.tables.reader import Report, read_table
+from symtop_ros.truth.tables.table import Columns, Table
 from symtop_ros.truth.tables.times import Times
 from symtop_ros.truth.topics.estimates import MAX_STAMP, Estimates
 

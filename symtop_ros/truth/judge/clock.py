@@ -19,7 +19,7 @@ from symtop_ros.truth.judge.compare import Offset, to_rotation
 from symtop_ros.truth.judge.refine import RESOLUTION
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.judge.wanted import align
-from symtop_ros.truth.residuals.residuals import sum_lags
+from symtop_ros.truth.residuals.influence import sum_lags
 from symtop_ros.truth.topics.estimates import Estimates
 from symtop_ros.words import write
 

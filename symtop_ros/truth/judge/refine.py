@@ -15,7 +15,8 @@ from symtop_ros.base.arrays import Real, find_rotation_vectors
 from symtop_ros.truth.judge.alignment import COLUMNS, PARAMETERS, ROUNDING, Alignment, move
 from symtop_ros.truth.judge.causes import Cause
 from symtop_ros.truth.judge.compare import Offset
-from symtop_ros.truth.residuals.residuals import CHANCE, Influences, Residuals, find_influences
+from symtop_ros.truth.residuals.influence import Influences, find_influences
+from symtop_ros.truth.residuals.residuals import CHANCE, Residuals
 from symtop_ros.truth.residuals.whitening import find_noise
 
 RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time in whole ns

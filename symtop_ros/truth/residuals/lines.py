@@ -7,22 +7,22 @@ compares the power of a line in several tapered transforms with what the line le
 within a few steps of frequency, so that it holds for noise of any smooth spectrum, and its false
 alarms are known: without a line F has 2 and 2 K - 2 degrees of freedom.
 
-Tapers are those of Slepian at the times of the rows, made orthogonal again: rows may be missing, or
-be unevenly spaced. What a fit has absorbed of a line is missing, which makes alarms fewer.
+Tapers are sines (Riedel and Sidorenko, Minimum bias multiple taper spectral estimation, 1995) at
+the times of the rows, made orthogonal again: rows may be missing, or be unevenly spaced. What a fit
+has absorbed of a line is missing, which makes alarms fewer.
 """
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal.windows import dpss
 
 from symtop_ros.base.arrays import Mask, Real
 
-WIDTH, TAPERS = 4.0, 7  # half of the band, in steps of frequency 1/T, and tapers within it
-POINTS = 2048  # of a taper, between which it is interpolated
+TAPERS = 7
+WIDTH = (TAPERS + 1) / 2  # half of their band, in steps of frequency 1/T
 FEWEST = 64  # rows; in fewer a band is a large part of all frequencies
 CHANCE = 1e-3  # of a false alarm in a record
 FINER = 8  # frequencies for each step, of a search: a line in the middle of two is hardly seen
@@ -86,9 +86,10 @@ class Spectrum:
     @cached_property
     def tapers(self) -> Real:
         """Tapers (n, K), orthonormal at the times of the rows."""
-        places = (self.times - self.times[0]) * self.resolution * (POINTS - 1)
-        found = [np.interp(places, np.arange(POINTS), each) for each in _make_tapers()]
-        return np.asarray(np.linalg.qr(np.stack(found, axis=1))[0])
+        since = self.times - self.times[0] + self.step
+        phases = np.pi * since / (since[-1] + self.step)
+        found = np.sin(np.multiply.outer(phases, np.arange(1, TAPERS + 1)))
+        return np.asarray(np.linalg.qr(found)[0])
 
     @cached_property
     def _tapered(self) -> Real:
@@ -134,11 +135,6 @@ class Spectrum:
         noise = (np.abs(rest) ** 2).sum(axis=1)
         ratio = weight * np.abs(line) ** 2 / np.maximum(noise, SMALL)
         return np.asarray((1 + ratio) ** (1 - TAPERS)), np.asarray(np.sqrt(2) * np.abs(line))
-
-
-@cache
-def _make_tapers() -> Real:
-    return np.asarray(dpss(POINTS, WIDTH, TAPERS))
 
 
 def find_lines(times: Real, left: Real, named: Mapping[str, float]) -> tuple[Line, ...]:

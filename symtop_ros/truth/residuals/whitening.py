@@ -4,7 +4,7 @@ The order of an autoregression is the one that Hannan and Quinn's criterion choo
 power goes with 1/f, has no order: its slowest part would be taken for a tenth of its size. It is
 predicted as fractional noise (Granger and Joyeux 1980; Hosking 1981), if that is more likely. The
 first rows after a gap are predicted by those that there are. The fit and the judge whiten by
-it. Noise of any other correlation is left to the sandwich of `residuals.py`.
+it. Noise of any other correlation is left to the sandwich of `influence.py`.
 """
 
 from dataclasses import dataclass, replace

@@ -19,7 +19,8 @@ from symtop_ros.truth.tables.iso import write_seconds
 
 NS = 9  # decimals of a second
 EXACT = 22  # the largest power of ten that is a double
-FARTHEST = 2**62  # units; a time beyond it is none of a run
+LATEST = Decimal(2**62)  # units; a time beyond it is none of a run
+EARLIEST = -LATEST
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +112,8 @@ class TimeReader:
         floors = [each.to_integral_value(ROUND_FLOOR) for each in numbers]
         if self._is_whole and numbers != floors:
             raise SplitStampError
-        whole = [min(max(int(each), -FARTHEST), FARTHEST) for each in floors]
+        # before they are integers, of which 1e999999999 would fill the memory
+        whole = [int(min(max(each, EARLIEST), LATEST)) for each in floors]
         self._decimals = max(self._decimals, count_decimals(column)[1])
         self._rest.extend([*map(float, map(Decimal.__sub__, numbers, floors))])
         self._whole.extend(whole)

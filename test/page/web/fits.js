@@ -183,3 +183,17 @@ window.searchFrom = async ([given, reference, all, effort]) => {
     found: found.map(({ model, x, cost }) => ({ rows: model.record.count, x, cost })),
   };
 };
+
+/** Whether what a motion with these rates leaves of a record swings with it; `rates` is null for none. */
+window.trySwing = async ([times, columns, rates]) => {
+  const { isSwinging } = await import("/fit/lines.js");
+  const width = columns.length;
+  const model = {
+    record: { times, width, rounding: new Array(width).fill(0) },
+    read: () => null,
+    many: { findRates: () => rates },
+  };
+  const kept = times.map((_, row) => row);
+  const residuals = kept.flatMap((row) => columns.map((each) => each[row]));
+  return isSwinging({ model, x: [], residuals, noise: { kept, sigma: columns.map(() => 1) } });
+};

@@ -18,7 +18,8 @@ from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.unknown import list_unknown
 from symtop_ros.truth.fit.values import list_values
-from symtop_ros.truth.residuals.residuals import Residuals, sum_influences
+from symtop_ros.truth.residuals.influence import sum_influences
+from symtop_ros.truth.residuals.residuals import Residuals
 from symtop_ros.truth.residuals.whitening import find_lasting, measure_noise
 from workshop.fit.records import NOISES, draw_sample, see
 from workshop.records.draws import draw_record as draw_film

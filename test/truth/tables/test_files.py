@@ -153,3 +153,12 @@ def test_times_since_1970_are_as_exact_as_their_text(tmp_path):
     rows = [f"1700000000.{k:010d},{k}\n" for k in range(0, 10**6, 10**5)]
     path.write_text("t,theta\n" + "".join(rows))
     assert read_rows(path, None).times == pytest.approx(np.arange(10) * 1e-5, abs=1e-16)
+
+
+def test_a_time_with_a_huge_exponent_is_a_late_one_and_takes_no_memory(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("t,w,x,y,z\n0,1,0,0,0\n1e999999999,1,0,0,0\n1,1,0,0,0\n")
+    assert read_attitudes(path).read().stamps.tolist() == [0, 10**9]
+    path.write_text("t,w,x,y,z\n0,1,0,0,0\n1e99999999999999999999,1,0,0,0\n")
+    with pytest.raises(RefusedError, match=r"line 3 of .* must consist of numbers"):
+        read_attitudes(path)

@@ -51,8 +51,9 @@ export const describeFit = (fit, top) => {
 };
 
 /** @param {ReturnType<typeof checkFit>} check @param {Fit} fit @returns {Reason[]} */
-const listReasons = ({ is_white, is_smooth, changes, stretch, fault }, fit) => [
+const listReasons = ({ is_white, is_smooth, swings, changes, stretch, fault }, fit) => [
   ...(changes.length ? [{ kind: "changes", changes }] : []),
+  ...(swings ? [{ kind: "swings" }] : []),
   ...(is_smooth ? [{ kind: "smooth" }] : []),
   ...(is_white ? [] : [{ kind: "lasting" }]),
   ...(stretch ? [{ kind: "stretch", count: stretch }] : []),
@@ -61,8 +62,9 @@ const listReasons = ({ is_white, is_smooth, changes, stretch, fault }, fit) => [
 ];
 
 /** What top_fit allows for and this search does not. @param {ReturnType<typeof checkFit>} check @param {Fit} fit */
-const listLimits = ({ verdict }, fit) => [
-  ...(verdict === "holds" && !fit.lasts ? [] : ["friction", "kick", "line"]),
+const listLimits = ({ verdict, swings }, fit) => [
+  ...(verdict === "holds" && !fit.lasts ? [] : ["friction", "kick"]),
+  ...(swings ? ["lines"] : []),
   ...(fit.model.record.count < fit.model.record.given.times.length ? ["rows"] : []),
 ];
 
