@@ -111,7 +111,7 @@ class Report:
         }
 
     def _describe_model(self) -> dict[str, Any]:
-        check, noise = self.check, self.fit.noise
+        check, noise, columns = self.check, self.fit.noise, self.fit.model.kind.columns
         return {
             "verdict": self.verdict,
             "rivals": [
@@ -128,6 +128,7 @@ class Report:
             "residual_rms": np.sqrt((self.fit.residuals[noise.kept] ** 2).mean(axis=0)).tolist(),
             "outliers": noise.outliers,
             "stretch": check.stretch,
+            "still": [columns[column] for column in check.still],
             "noise_order": len(noise.partial),
             "is_flicker": noise.is_flicker,
             "is_lone": self.fit.is_lone,
@@ -175,7 +176,7 @@ class Report:
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""
         noise, order = self.fit.noise, len(self.fit.noise.partial)
-        verdict = self.check.verdict
+        verdict, kind = self.check.verdict, self.fit.model.kind
         if verdict == UNCLEAR and self.check.is_noise:
             verdict = "lone"
         elif verdict == HOLDS and self.check.lines:
@@ -188,6 +189,7 @@ class Report:
             "lasting": {"order": order} if order and not noise.is_flicker else None,
             "flicker": {} if noise.is_flicker else None,
             "stretch": {"count": str(self.check.stretch)} if self.check.stretch else None,
+            "still": [{"name": kind.columns[column]} for column in self.check.still] or None,
             "lines": [self._describe_line(each) for each in self.check.lines] or None,
             "changes": [vars(each) for each in self.check.changes] or None,
             "fault": {"kind": self.check.fault} if self.check.fault else None,
