@@ -79,6 +79,12 @@ class Firefox:
         """Press a key, as a person does."""
         self.client.actions.sequence("key", "keys").key_down(key).key_up(key).perform()
 
+    def resize(self, width: int, height: int) -> None:
+        """Give the page a size in px, as far as the window can be so narrow."""
+        self.client.set_window_rect(width=width, height=height)
+        own = self.run("return [innerWidth, innerHeight];")
+        self.client.set_window_rect(width=2 * width - own[0], height=2 * height - own[1])
+
     def take_picture(self) -> bytes:
         """Return the window as PNG."""
         return base64.b64decode(self.client.screenshot(full=False))
@@ -147,6 +153,12 @@ class WebKit:
 
     def reload(self) -> None:
         self.ask("/refresh", {})
+
+    def resize(self, width: int, height: int) -> None:
+        """Give the page a size in px, as far as the window can be so narrow."""
+        self.ask("/window/rect", {"width": width, "height": height})
+        own = self.run("return [innerWidth, innerHeight];")
+        self.ask("/window/rect", {"width": 2 * width - own[0], "height": 2 * height - own[1]})
 
     def take_picture(self) -> bytes:
         """Return the window as PNG."""

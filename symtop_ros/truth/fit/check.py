@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.lines import list_lines
 from symtop_ros.truth.fit.refine import Fit, find_rounding
 from symtop_ros.truth.residuals.correlation import measure_correlation
@@ -22,6 +23,7 @@ SMOOTH = 4.0
 SMOOTH_COLUMN = 12.0
 # Of rows that are outliers by chance, 5 % of all, eight follow each other once in 4e10 rows.
 STRETCH = 8
+ABOVE = 10.0  # deviations of rounding: noise that would change a number's last decimal
 HOLDS, UNCLEAR, FAILS = "holds", "unclear", "fails"
 CONSTANTS = ("Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin")
 
@@ -110,6 +112,23 @@ class Check:
         longest = int(np.diff(kept).max()) - 1
         return longest if longest >= STRETCH else 0
 
+    @cached_property
+    def still(self) -> tuple[int, ...]:
+        """Rates that are the same in all rows although the noise of others is far above rounding.
+
+        A sensor at a limit that is not known shows that, and no spin with noise does.
+        """
+        record = self.fit.model.record
+        if record.kind.name not in RATES:
+            return ()
+        values, noise = (
+            record.values[:, :3],
+            self.fit.residuals[self.fit.noise.kept, :3].std(axis=0),
+        )
+        rounding, _ = find_rounding(record, self.fit.residuals.shape[1])
+        is_still = (np.ptp(values, axis=0) == 0) & (rounding[:3] < noise.max() / ABOVE)
+        return tuple(map(int, np.flatnonzero(is_still)))
+
     @property
     def fault(self) -> str:
         """Why there are no honest deviations: "few", "wanders" or ""."""
@@ -130,7 +149,8 @@ class Check:
     @property
     def is_noise(self) -> bool:
         """True if nothing but noise is left, and nothing was left out but single rows."""
-        return self.is_white and not (self.is_smooth or self.fault or self.stretch)
+        is_odd = self.is_smooth or self.fault or self.stretch or self.still
+        return self.is_white and not is_odd
 
 
 @dataclass(frozen=True, eq=False)

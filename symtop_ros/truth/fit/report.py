@@ -65,9 +65,12 @@ class Report:
     def compare(cls, source: str, rows: int, fit: Fit, given: dict[str, Known]) -> "Report":
         """Return the report of a fit of one free motion, or of what explains the record better."""
         rivals = find_rivals(fit, Check(fit))
-        if not (rivals and (rivals[0].explains or rivals[0].loses_spin)):
+        best = next((each for each in rivals if each.explains), None)
+        best = best or next((each for each in rivals if each.loses_spin), None)
+        if best is None:
             return cls(source, rows, fit, given)
-        return cls(source, rows, rivals[0].fit, given, rivals)
+        others = [each for each in rivals if each is not best]
+        return cls(source, rows, best.fit, given, [best, *others])
 
     @property
     def verdict(self) -> str:
@@ -108,7 +111,7 @@ class Report:
         }
 
     def _describe_model(self) -> dict[str, Any]:
-        check, noise = self.check, self.fit.noise
+        check, noise, columns = self.check, self.fit.noise, self.fit.model.kind.columns
         return {
             "verdict": self.verdict,
             "rivals": [
@@ -125,6 +128,7 @@ class Report:
             "residual_rms": np.sqrt((self.fit.residuals[noise.kept] ** 2).mean(axis=0)).tolist(),
             "outliers": noise.outliers,
             "stretch": check.stretch,
+            "still": [columns[column] for column in check.still],
             "noise_order": len(noise.partial),
             "is_flicker": noise.is_flicker,
             "is_lone": self.fit.is_lone,
@@ -172,7 +176,7 @@ class Report:
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""
         noise, order = self.fit.noise, len(self.fit.noise.partial)
-        verdict = self.check.verdict
+        verdict, kind = self.check.verdict, self.fit.model.kind
         if verdict == UNCLEAR and self.check.is_noise:
             verdict = "lone"
         elif verdict == HOLDS and self.check.lines:
@@ -185,6 +189,7 @@ class Report:
             "lasting": {"order": order} if order and not noise.is_flicker else None,
             "flicker": {} if noise.is_flicker else None,
             "stretch": {"count": str(self.check.stretch)} if self.check.stretch else None,
+            "still": [{"name": kind.columns[column]} for column in self.check.still] or None,
             "lines": [self._describe_line(each) for each in self.check.lines] or None,
             "changes": [vars(each) for each in self.check.changes] or None,
             "fault": {"kind": self.check.fault} if self.check.fault else None,

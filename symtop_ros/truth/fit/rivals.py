@@ -13,12 +13,14 @@ import numpy as np
 from scipy.stats import chi2
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.check import HOLDS, Check
 from symtop_ros.truth.fit.fitting import sum_squares
 from symtop_ros.truth.fit.kicks import find_best, find_reach
 from symtop_ros.truth.fit.model import FRICTION, KICK, Model
 from symtop_ros.truth.fit.record import FEWEST, Record
-from symtop_ros.truth.fit.refine import Fit, fit_weighted, refine
+from symtop_ros.truth.fit.refine import Fit, find_noise, fit_weighted, refine
+from symtop_ros.truth.fit.search import list_bounds
 from symtop_ros.truth.fit.starts import fill
 
 SURE = 0.999  # of the records of one free motion are not taken for something else
@@ -26,6 +28,8 @@ DRAWS = 1000  # of white noise
 PLACES = 40  # of a kick
 TRIED = 3  # places that are followed by least squares
 SLIGHT = 1e-6  # of the rates; change of a derivative
+STEPS = 3  # before and after a kick that are tried, where rates jump
+BESIDE = 1e-4  # of a step, from a kick to a row at least
 LOSES = 5.0  # deviations by which friction is not zero
 
 
@@ -84,9 +88,9 @@ def find_rivals(fit: Fit, check: Check) -> list[Rival]:
     if is_white or record.has_friction or len(record) < 4 * FEWEST:
         return []
     # a slight kick leaves noise that seems to last, and is found by its linear effect
-    beginnings = [fit] if check.verdict == HOLDS else [fit, *find_beginning(record)]
-    kicked = fit_kick(fit, beginnings)
-    rubbed = fit_friction(beginnings)
+    is_slight = check.verdict == HOLDS
+    kicked = fit_kick(fit, [] if is_slight else [*find_beginning(record)])
+    rubbed = fit_friction(fit, is_slight)
     # each by the noise of the richest
     own = measure(kicked, fit)
     found = [
@@ -112,19 +116,60 @@ def measure(noise: Fit, fit: Fit) -> float:
     return sum_squares(noise, fit.model.find_residuals(x))
 
 
-def fit_friction(beginnings: Sequence[Fit]) -> Fit:
-    """Return the best motion with linear friction that begins near others."""
-    record = replace(beginnings[0].model.record, has_friction=True)
-    return _choose([refine(*_move(each, record)) for each in beginnings])
+def fit_friction(fit: Fit, is_slight: bool) -> Fit:
+    """Return the best motion with linear friction: one near the fit, or, if not slight, of all."""
+    record = replace(fit.model.record, has_friction=True)
+    starts = [_move(fit, record)]
+    if not is_slight:
+        found = find_best(record)
+        starts.append((found.model.move(record), found.x))
+    return _choose([refine(*each) for each in starts])
 
 
 def fit_kick(fit: Fit, beginnings: Sequence[Fit]) -> Fit:
-    """Return the best motion with a kick."""
+    """Return the best motion with a kick: a slight one, or where a motion of the beginning ends."""
     record = replace(fit.model.record, has_kick=True)
-    model, x = _move(fit, record)
-    starts = [add_kick(model, x, place) for place in rate_places(fit)]
-    starts += [join(each, record) for each in beginnings if each is not fit]
-    return _choose([refine(*start) for start in starts])
+    starts = [add_kick(*_move(fit, record), place) for place in rate_places(whiten_plainly(fit))]
+    starts += [join(each, record) for each in beginnings]
+    best = _choose([refine(*start) for start in starts])
+    # once more by the noise that is left then: what lasts about one motion may be the kick
+    free = Fit(fit.model, fit_weighted(fit.model, fit.x, best.noise), best.noise)
+    starts = [add_kick(*_move(free, record), place) for place in rate_places(free)]
+    best = _choose([best, *(refine(*start) for start in starts)])
+    return settle_time(best) if record.kind.name in RATES else best
+
+
+def whiten_plainly(fit: Fit) -> Fit:
+    """Return a fit whose noise is taken as white."""
+    return Fit(fit.model, fit.x, find_noise(fit.model, fit.x, lasts=False))
+
+
+def settle_time(fit: Fit) -> Fit:
+    """Return the fit with the time of its kick known to a step, if rates jump there.
+
+    Between two rows they may show little of the time, and beyond them they leave the whole jump: so
+    it is known at least as a number is that was rounded to the step. It stays off the rows
+    themselves, where the derivative is that of the jump.
+    """
+    fit = _choose([fit, *try_steps(fit)])
+    record, place = fit.model.record, fit.model.place["kick_time"]
+    times = record.times - record.times[0]
+    row = int(np.clip(np.searchsorted(times, fit.x[place]), 1, len(times) - 1))
+    step = times[row] - times[row - 1]
+    x = fit.x.copy()
+    x[place] = np.clip(x[place], times[row - 1] + BESIDE * step, times[row] - BESIDE * step)
+    known = {**record.known, "kick_time": (float(x[place]), float(step / np.sqrt(12)))}
+    return replace(fit, model=fit.model.move(replace(record, known=known)), x=x)
+
+
+def try_steps(fit: Fit) -> Iterator[Fit]:
+    """Yield the motions with a kick some steps before and after."""
+    place = fit.model.place["kick_time"]
+    for steps in range(-STEPS, STEPS + 1):
+        x = fit.x.copy()
+        x[place] += steps * fit.model.record.step
+        x = np.clip(x, *list_bounds(fit.model))
+        yield replace(fit, x=fit_weighted(fit.model, x, fit.noise))
 
 
 def join(before: Fit, record: Record) -> tuple[Model, Real]:

@@ -15,6 +15,7 @@ from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.systematics import Budget, Part
 from symtop_ros.truth.fit.valley import Valley
 
+HELD = 0.01  # of the deviation of the time of a kick
 SURE = 0.15  # of the scale of a number; one with a larger deviation is not known
 LEVEL = 4.0  # deviations within which an elevation may be zero
 SIDES = "p_psi/Ix", "phi_dot", "mean_precession_rate"  # change with the sign of p_psi
@@ -90,7 +91,7 @@ def list_values(fit: Fit) -> list[Value]:
     """
     rivals = [other for other in fit.others if not is_alias(other, fit)]
     others = [(dict(list_quantities(other)), other.x) for other in rivals]
-    hidden, valley, budget, found = find_hidden(fit), Valley(fit), Budget(fit), []
+    hidden, valley, budget, found = find_hidden(fit), Valley(hold_kick(fit)), Budget(fit), []
     for name, of in list_quantities(fit):
         value = find_value(valley, budget, name, of)
         is_same = all(agree(value, named[name](x)) for named, x in others)
@@ -104,6 +105,20 @@ def find_half_time(values: list[Value]) -> Iterator[Value]:
         if each.name == "axial/Iz" and each.value > 0:
             part = _relative(each.value, each.deviation)
             yield _combine("spin_half_time", np.log(2) / each.value, (part, 0.0), each)
+
+
+def hold_kick(fit: Fit) -> Fit:
+    """Return the fit with the time of its kick held.
+
+    A motion that is some deviations off would have its kick beyond a row, and leave the whole jump
+    there: no valley is straight across it.
+    """
+    known = fit.model.record.known
+    if "kick_time" not in known:
+        return fit
+    value, deviation = known["kick_time"]
+    record = replace(fit.model.record, known={**known, "kick_time": (value, HELD * deviation)})
+    return replace(fit, model=fit.model.move(record))
 
 
 def agree(value: Value, rival: float) -> bool:
@@ -191,7 +206,7 @@ def _list_angles(fit: Fit) -> Iterator[tuple[str, Callable[[Real], float]]]:
 
 def find_value(valley: Valley, budget: Budget, name: str, of: Callable[[Real], float]) -> Value:
     """Return a number and its deviation, by central differences within white deviations."""
-    fit = valley.fit
+    fit = budget.fit
     slope, value = find_slope(fit, of), of(fit.x)
     if not (np.isfinite(slope).all() and np.isfinite(value)):
         return Value(name, value, np.inf, False)

@@ -18,6 +18,7 @@ from symtop_ros.truth.tables.columns import SECONDS
 from symtop_ros.truth.tables.iso import write_seconds
 
 NS = 9  # decimals of a second
+EXACT = 22  # the largest power of ten that is a double
 LATEST = Decimal(2**62)  # units; a time beyond it is none of a run
 EARLIEST = -LATEST
 
@@ -49,11 +50,19 @@ class Times:
 
     @cached_property
     def seconds(self) -> Real:
-        """Times since the first row in s, (n,)."""
+        """Times since the first row in s, (n,): the nearest doubles of their decimals."""
         if not len(self):
             return np.zeros(0)
-        since = (self.whole - self.whole[0]) + (self.rest - self.rest[0])
-        return np.asarray(since / 10.0 ** SECONDS[self.unit])
+        whole, power = self.whole - self.whole[0], SECONDS[self.unit]
+        if (
+            0 <= self.decimals <= EXACT - power
+            and np.abs(whole).max() < 2.0**53 / 10**self.decimals
+        ):
+            # whole numbers below 2^53 over a power of ten that is a double: one rounding
+            ticks = np.rint(self.rest * 10.0**self.decimals)
+            since = whole * 10.0**self.decimals + (ticks - ticks[0])
+            return np.asarray(since / 10.0 ** (self.decimals + power))
+        return np.asarray((whole + (self.rest - self.rest[0])) / 10.0**power)
 
     @cached_property
     def stamps(self) -> tuple[int, ...]:

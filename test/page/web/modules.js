@@ -215,3 +215,15 @@ window.sayPresents = async (cases) => {
     return describePresent(new Course(kernel, top, state), state);
   });
 };
+
+/** By how much L changes from the start of each case on, in which span in ns, and the way of the axle. */
+window.findChanges = async (cases) => {
+  const { chooseSpan, findChange, findWay } = await import("/scene/change.js");
+  const answers = cases.map(async (each) => {
+    const course = await followCase(each);
+    const span = chooseSpan(course, course.start);
+    const run = { find: () => ({ course }), at: (time) => course.at(time) };
+    return { span, change: findChange(run, 0, span), way: findWay(course.start) };
+  });
+  return Promise.all(answers);
+};

@@ -45,7 +45,8 @@ EYE = (4.5, -5.25, 4.0)
 # A frame of the scene at each time, with the true places of the ball and the pivot in it.
 DRAW = """async ([run, fields, layers, times, eye, [width, height]]) => {
   document.body.innerHTML = `<canvas id="picture" style="display: block; width: ${2 * width}px;
-    height: ${2 * height}px"></canvas><div id="labels"></div><select id="unit"></select>`;
+    height: ${2 * height}px"></canvas><div id="labels"></div><ul id="legend"></ul>
+    <select id="unit"></select>`;
   const { LocalTop } = await import("/run/local.js");
   const { Scene } = await import("/scene/scene.js");
   const top = new LocalTop(kernel, { run_fields: fields, layers });

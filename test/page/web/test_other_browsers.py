@@ -1,7 +1,9 @@
 """The page in Firefox and WebKit: the bits of Python's kernel, and one pass through the page."""
 
 import base64
+import contextlib
 import io
+import time
 
 import numpy as np
 import pytest
@@ -29,6 +31,19 @@ Object.assign(box.style, {{ position: "fixed", left: 0, top: 0, width: "{SIZE}px
   height: "{SIZE}px", background: "white", color: "black", padding: "20px" }});
 box.append(symbol);
 document.body.append(box);
+"""
+# Widths of letters in the font of formulas, and in another one.
+LETTERS = """
+const letters = document.createElement("span");
+letters.textContent = "\U0001d703\U0001d711\U0001d713";
+letters.style.position = "fixed";
+document.body.append(letters);
+const widths = ["symbols, monospace", "monospace"].map((family) => {
+  letters.style.fontFamily = family;
+  return letters.getBoundingClientRect().width;
+});
+letters.remove();
+return widths;
 """
 BROWSERS = {"firefox": running_firefox, "webkit": running_webkit}
 
@@ -261,11 +276,32 @@ return [left, top, width, height];
 """
 
 
+EDGE = "return getComputedStyle(document.querySelector(given[0])).borderTopColor;"
+SLOWEST = 0.12  # s between two loads
+
+
+def test_letters_of_formulas_are_there_after_loads_in_quick_succession_in_webkit(path):
+    with running_webkit() as driver:
+        for pause in (0.0, SLOWEST / 4, SLOWEST):
+            driver.open(path.as_uri() + "#theta=0.5&psi_dot=200&precession=slow")
+            for _ in range(3):
+                with contextlib.suppress(AssertionError, OSError):  # the page is left meanwhile
+                    driver.run("setTimeout(() => location.reload(), 1);")
+                time.sleep(pause)
+            until(driver, "document.querySelector('#headline')?.textContent")
+            until(driver, "[...document.fonts].every(({ status }) => status === 'loaded')")
+            own, other = driver.run(LETTERS)
+            assert own != pytest.approx(other, abs=0.5)
+
+
 def test_forced_colours_leave_sliders_and_formulas_whole_in_firefox(path):
     with running_firefox(**{"browser.display.document_color_use": 2}) as driver:
         open_page(driver, path)
         assert driver.run("return matchMedia('(forced-colors: active)').matches;")
         driver.run("document.querySelector('#pause').click();")
+        for name in ("#pause", "#hurry", "#speed", "[data-push]"):
+            edge = driver.run(EDGE, name)
+            assert edge.startswith("rgb("), name  # one that is not seen is rgba(..., 0)
         driver.run("document.querySelector('#tab-start').click();")
         slider = driver.run(BOX, "[data-field=psi_dot] input[type=range]")
         rows, _ = count_inked(driver.take_picture(), slider)

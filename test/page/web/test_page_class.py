@@ -8,7 +8,17 @@ import pytest
 from page.web.opened import read_motion
 from physics.tops import ARTICLE
 
-from symtop_ros.physics import BODIES, Body, ExactTimes, Motion, Part, State, Top, solve_start
+from symtop_ros.physics import (
+    BODIES,
+    Body,
+    ExactTimes,
+    Motion,
+    Part,
+    State,
+    Top,
+    regular_precession_rates,
+    solve_start,
+)
 
 
 def fill_part(opened, row, kind, *texts):
@@ -286,3 +296,103 @@ def test_a_projector_leaves_three_fifths_for_the_scene_of_the_lesson(open_page):
     assert page.tab.locator("#scene").bounding_box()["width"] >= 0.6 * 1366 - 1  # px
     page.tab.locator("#lesson-predict").wait_for()
     assert page.tab.evaluate("looks.findCut") == []
+
+
+def list_rows(page):
+    return dict(page.tab.evaluate("looks.readNumbers")["rows"])
+
+
+@pytest.mark.wording
+def test_the_moment_of_gravity_is_found_from_tilt_spin_and_the_time_of_one_turn(shared):
+    """Of the Earth: a turn in a sidereal day, and one of the axis in 25772 years."""
+    shared.open_tab("start")
+    shared.enter("top.Ix", "8.0101e37")
+    shared.enter("top.Iz", "8.0365e37")
+    year, day = 365.25 * 86400, 86164.1
+    tilt, spin, rate = math.radians(23.44), 2 * math.pi / day, 2 * math.pi / (25772 * year)
+    shared.ask("theta psi_dot precession_period", "23.44\u00b0", repr(spin), repr(25772 * year))
+    assert len(shared.list_solutions()) == 2
+    shared.tab.locator("#solutions button").nth(1).click()  # backwards, as the Earth's axis goes
+    start = shared.read_events()[-1]
+    top = Top(*start["top"])
+    slow = regular_precession_rates(top, theta=tilt, psi_dot=spin)[0]
+    assert slow == pytest.approx(-rate, rel=1e-9)
+    assert shared.read_last().euler_rates.phi_dot == pytest.approx(-rate, rel=1e-9)
+    assert -top.Mgl * math.sin(tilt) == pytest.approx(1.8e22, rel=0.02)  # of the Sun and the Moon
+
+
+@pytest.mark.wording
+@pytest.mark.parametrize(
+    ("texts", "refusal"),
+    [
+        (("0", "200", "1"), "tilt theta must lie above 0 rad and below 3.1415 rad, got 0"),
+        (("0.5", "200", "-1"), "time of one turn (s) must be positive, got -1"),
+        (("0.5", "1e80", "1e-30"), "time of one turn (s) must be such that no rate exceeds"),
+    ],
+)
+def test_a_balance_that_cannot_be_is_refused(shared, texts, refusal):
+    shared.ask("theta psi_dot precession_period", *texts)
+    assert shared.say("refusal").startswith(refusal)
+    assert not shared.list_solutions()
+
+
+def test_the_last_digits_of_a_balance_bound_its_moment_of_gravity(shared):
+    shared.ask("theta psi_dot precession_period", "0.50 rad", "200.0", "0.966")
+    said = shared.tab.locator("#solutions .spread").nth(0).get_attribute("data-text")
+    low, high = map(float, re.findall(r"Mgl (\S+) to (\S+) J", said)[0])
+    Ix, Iz, _ = read_top(shared)
+    ends = itertools.product((0.495, 0.505), (199.95, 200.05), (0.9655, 0.9665))
+    found = [
+        (2 * math.pi / t) * (Iz * psi - (Ix - Iz) * (2 * math.pi / t) * math.cos(theta))
+        for theta, psi, t in ends
+    ]
+    width = max(found) - min(found)  # its second digit is at most a tenth
+    assert low <= min(found) <= low + width / 10
+    assert high >= max(found) >= high - width / 10
+
+
+@pytest.mark.wording
+def test_the_page_says_how_much_the_slow_rate_depends_on_the_tilt(shared):
+    shared.follow("theta=0.5&psi_dot=200&precession=slow")
+    shared.open_tab("start")
+    here = regular_precession_rates(ARTICLE, theta=0.5, psi_dot=200.0)[0]
+    level = ARTICLE.Mgl / (ARTICLE.Iz * 200)
+    share = 100 * (1 - level / here)
+    said = shared.say("roots-elsewhere")
+    assert f"At 90\u00b0 the slow rate is {level:.4g} rad/s" in said
+    assert f"{share:.2g} % less" in said
+    shared.enter("psi_dot", "2000")
+    shared.until(lambda: "0.078 % less" in shared.say("roots-elsewhere"))  # the square of a tenth
+    shared.enter("theta", "pi/2")
+    shared.until(lambda: "At 45\u00b0" in shared.say("roots-elsewhere"))
+    shared.enter("psi_dot", "1")
+    shared.until(lambda: shared.say("roots-elsewhere") == "")
+
+
+@pytest.mark.wording
+def test_a_plate_that_is_thrown_up_wobbles_twice_in_a_turn_of_omega_z(shared):
+    shared.open_tab("start")
+    shared.follow("theta=0.02&psi_dot=-10&phi_dot=20&Ix=0.001&Iz=0.002&Mgl=0")
+    state = shared.read_last()
+    wait_for_table(shared, f"{state.angular_velocity[2]:.6g} rad/s (")
+    (row,) = [text for name, text in list_rows(shared).items() if "constant under gravity" in name]
+    motion = Motion(Top(0.001, 0.002, 0.0), state)
+    times = motion.mean_precession_rate / state.angular_velocity[2]
+    assert times == pytest.approx(2.0, abs=0.01)
+    assert f"{times:.4g} times" in row
+
+
+@pytest.mark.wording
+def test_in_the_mean_the_pivot_carries_the_weight(shared):
+    shared.follow("scene=looping")
+    shared.seek(0)  # a turning point, where the height is accelerated
+
+    def read_forces():
+        rows = list_rows(shared)
+        (row,) = [text for name, text in rows.items() if name.startswith("its mean")]
+        (now,) = [text for name, text in rows.items() if name.startswith("force of the pivot")]
+        return [float(re.findall(r"ard ([\d.]+) N", each)[0]) for each in (now, row)], row
+
+    shared.until(lambda: read_forces()[0][0] != read_forces()[0][1])  # of this motion
+    (_, mean), row = read_forces()
+    assert f"the top weighs {mean:.4g} N" in row

@@ -224,7 +224,7 @@ def test_a_length_gives_the_scale(measuring):
 def test_a_click_outside_of_the_picture_is_refused_and_nothing_is_lost(measuring):
     click(measuring, PIVOT)
     click_balls(measuring, range(2))
-    click(measuring, (-3, HEIGHT / 2))
+    click(measuring, (WIDTH / 2, -3))
     assert measuring.say("refusal") == "a click must be inside the picture"
     assert "2 of 40 frames" in measuring.say("plan")
 
@@ -590,3 +590,25 @@ def test_a_table_of_the_axis_is_fitted_without_a_film(opened):
     assert np.sqrt(np.mean(left**2)) == pytest.approx(2.0**-9, rel=0.2)  # 216 numbers: 5 %
     assert opened.tab.is_hidden("#film")
     opened.until(lambda: opened.tab.inner_text("#fitted"))
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (390, 844)])
+def test_while_a_film_is_clicked_nothing_is_asked_and_fit_and_save_are_in_reach(
+    open_page, film, size
+):
+    page = open_page(known="", viewport={"width": size[0], "height": size[1]})
+    open_file(page, film)
+    for name in ("#question", "#answers", "#hurry", "#timeline"):
+        assert not page.tab.is_visible(name)
+    click(page, PIVOT)
+    click_balls(page, range(2))
+    page.until(lambda: page.tab.is_visible("#fit-record"))
+    page.tab.mouse.move(0, 0)
+    panel = page.tab.locator("#controls").bounding_box()
+    end = page.tab.locator("#save-measured").bounding_box()
+    if size[0] > 1000:  # without scrolling
+        assert end["y"] + end["height"] <= panel["y"] + panel["height"]
+    page.tab.locator("#save-measured").scroll_into_view_if_needed()
+    assert page.tab.is_visible("#save-measured")
+    page.tab.click("#close-film")
+    assert page.tab.is_visible("#answers")  # it is still to be answered

@@ -11,7 +11,7 @@ from page.web.opened import FEW_FRAMES, read_motion
 # start, and of the largest torque.
 EYE, TARGET = np.array([1.46, -1.7, 0.95]), np.array([0.0, 0.0, 0.33])
 ANGLE = math.radians(42)
-LENGTHS = {"L": 1.24, "omega": 1.13, "torque": 0.55}
+LENGTHS = {"L": 1.14, "omega": 1.13, "torque": 0.55}
 # px of each colour in a scene of some 600 x 500: the rotor fills a part of it, an arrow a line.
 LEAST = {"enamel": 1000, "brass": 300, "ball": 300, "L": 100, "omega": 100, "torque": 20}
 RADIUS = 5  # px

@@ -86,7 +86,8 @@ def test_a_pose_sizes_turns_and_moves(tab):
 def test_the_shortest_turn_from_z_leads_to_a_direction(tab):
     directions = draw_vectors("directions", 20)
     directions /= np.linalg.norm(directions, axis=1)[:, np.newaxis]
-    directions = [*directions, np.array([0, 0, 1.0]), np.array([1.0, 0, 0]), np.array([0, -1.0, 0])]
+    directions = [*directions, np.array([0, 0, -1.0]), np.array([0, 0, 1.0]), np.array([1.0, 0, 0])]
+    directions.append(np.array([0, -1.0, 0]))
     found = call(tab, "scene/matrices", [["turnTo", each.tolist()] for each in directions])
     for quaternion, direction in zip(found, directions, strict=True):
         # the arc cosine of a number near 1 has half of its digits
@@ -279,3 +280,33 @@ def test_arrows_are_the_vectors_of_the_motion(tab):
 def test_a_colour_is_red_green_and_blue(tab):
     found = call(tab, "scene/colors", [["readColor", "#0033ff"], ["readColor", "#cc9966"]])
     assert found == [[0.0, 0.2, 1.0], [0.8, 0.6, 0.4]]
+
+
+# A label at a point next to a ball, by a camera that looks along y: px are units of the world.
+PLACE = """async ([places, radius]) => {
+  const { Labels } = await import("/scene/labels.js");
+  document.body.innerHTML = "<ul id=legend></ul><div id=labels></div>";
+  const camera = {
+    size: { width: 600, height: 400 },
+    project: ([x, , z]) => ({ x, y: 200 - z, depth: 1 }),
+  };
+  const labels = new Labels(document.getElementById("labels"), camera);
+  return places.map(([x, z]) => {
+    labels.begin();
+    labels.keepFree([300, 0, 0], radius);
+    labels.put("name", "#000000", [x, 0, z], null, "a label of some words", 4);
+    labels.end();
+    const { label } = labels.names.name;
+    const [left, up] = label.style.transform.match(/-?[\\d.]+(?=px)/g).map(Number);
+    return [left, up, label.offsetWidth, label.offsetHeight];
+  });
+}"""
+
+
+def test_a_label_leaves_the_ball_free(tab):
+    radius = 20
+    places = [(x, z) for x in range(180, 321, 20) for z in range(-40, 41, 8)]
+    for x, y, width, height in tab.evaluate(PLACE, [places, radius]):
+        assert width > 10
+        across, high = abs(x - 300) - (width / 2 + radius), abs(y - 200) - (height / 2 + radius)
+        assert max(across, high) >= -0.1, (x, y)

@@ -19,6 +19,7 @@ import { drawKinds } from "./charts/kinds_chart.js";
 import { drawLedger } from "./charts/ledger_chart.js";
 import { NANO } from "./physics/course.js";
 import { inDegrees } from "./words/quantities.js";
+import { Opening } from "./controls/opening.js";
 import { Question, readAnswer } from "./controls/question.js";
 import { Parts } from "./controls/parts.js";
 import { Roots } from "./controls/roots.js";
@@ -89,6 +90,10 @@ export class Page {
         this.send({ act: "run" });
       },
       (name) => this.send({ act: "scene", name }),
+      new Opening(
+        (layers, shown) => this.layers.force(layers, shown),
+        (most) => this.send({ act: "limit", most }),
+      ),
     );
     addEventListener("beforeprint", () => {
       if (!find("picture").hidden) find("printed").replaceChildren(drawScene());

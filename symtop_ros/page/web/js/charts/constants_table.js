@@ -2,9 +2,12 @@
 
 import { find, make } from "../controls/document.js";
 import { findConstants, findPivotForce, findSizes } from "../physics/formulas.js";
+import { NANO } from "../physics/course.js";
 import { shorten } from "../words/quantities.js";
 import { typeset } from "../words/typeset.js";
 import { phrase } from "../words/wording.js";
+
+/** @import { Course } from "../physics/course.js" */
 
 const ROUNDING = 1e-12; // of the sizes of the parts of a constant, which may be nearly opposite
 /** @type {["energy" | "L_z" | "L_z'", string][]} */
@@ -25,19 +28,58 @@ const writeChange = (change) =>
 const createRow = ([name, text]) =>
   make("tr", {}, make("th", { scope: "row" }, ...typeset(name)), make("td", {}, text));
 
+const STATES = 128; // of a nutation: the mean of what is periodic and smooth has converged
+/** The mean upward force of the pivot of a motion, for the last mass. @type {WeakMap<Course, [mass: number, mean: number | null]>} */
+const means = new WeakMap();
+
+/** The mean upward force in a nutation; null if that never ends. @param {Course} course @param {number} mass */
+const findMean = (course, mass) => {
+  const known = means.get(course);
+  if (known?.[0] === mass) return known[1];
+  const period = course.motion.nutation_period * NANO;
+  const times = Array.from({ length: STATES }, (_, k) => Math.round((k * period) / STATES));
+  const find = (/** @type {number} */ time) =>
+    findPivotForce(course.top, course.at(time), mass, course.weighed.gravity).upward;
+  const mean = Number.isFinite(period)
+    ? times.reduce((sum, time) => sum + find(time), 0) / STATES
+    : null;
+  means.set(course, [mass, mean]);
+  return mean;
+};
+
 let shown = ""; // a table that stays as it is can be read, and its text marked
+
+/**
+ * omega_z, which gravity does not change, and how often the mean phi' is of it: a plate that is thrown up
+ * wobbles twice in the time of one such turn.
+ * @param {import("../run/telling.js").Sample} sample
+ */
+const listSpin = ({ state, course }) => {
+  const rate = state.omega[2];
+  const mean =
+    course.isDriven || course.clamped ? NaN : course.free.motion.rates.mean_precession_rate;
+  const times = mean / rate;
+  const compared = Number.isFinite(times) ? phrase("table.times", { times }) : "";
+  return [phrase("table.omega_z"), `${shorten(rate, 6)} rad/s ${compared}`.trim()];
+};
 
 /**
  * The force of the pivot, where nothing but the weight of a body of known mass acts.
  * @param {import("../run/telling.js").Sample} sample
  * @param {number} assumed mass in kg, where none is known
  */
-const listForce = ({ state, course: { top, clamped, isDriven, weighed } }, assumed) => {
+const listForce = ({ state, course }, assumed) => {
+  const { top, clamped, isDriven, weighed } = course;
   const mass = weighed.mass || assumed;
   if (!Number.isFinite(mass) || clamped || isDriven) return [];
   const { size, upward } = findPivotForce(top, state, mass, weighed.gravity);
   const text = phrase("table.newtons", { size: shorten(size), upward: shorten(upward) });
-  return [[phrase("table.pivot_force", { mass: shorten(mass, 3) }), text]];
+  const rows = [[phrase("table.pivot_force", { mass: shorten(mass, 3) }), text]];
+  const mean = findMean(course, mass);
+  if (mean === null) return rows;
+  const weight = shorten(mass * weighed.gravity);
+  rows.push([phrase("table.mean_force"), phrase("table.weighs", { mean: shorten(mean), weight })]);
+  return rows;
 };
 
 /**
@@ -56,7 +98,8 @@ export const showConstants = (rates, sample, mass) => {
     const value = shorten(dropRounding(now[name], least), 6);
     return [phrase(`table.${name}`), `${value} ${unit}, ${writeChange(change)}`];
   });
-  const all = /** @type {[string, string][]} */ ([...rates, ...listForce(sample, mass), ...rows]);
+  const others = [...listForce(sample, mass), listSpin(sample)];
+  const all = /** @type {[string, string][]} */ ([...rates, ...others, ...rows]);
   if (JSON.stringify(all) === shown) return;
   shown = JSON.stringify(all);
   find("constants").replaceChildren(make("tbody", {}, ...all.map(createRow)));

@@ -8,7 +8,7 @@ import { phrase } from "../words/wording.js";
 
 /** @import { Top } from "../physics/kernel.js" */
 /** @import { Pair } from "./plot.js" */
-/** @import { Now } from "../words/facts.js" */
+/** @import { Turning } from "../physics/kinds.js" */
 
 const HEIGHT = 205;
 const [ROWS, COLUMNS] = [86, 84]; // cells of the regions
@@ -23,7 +23,7 @@ const LOOKS = {
   lower: 'stroke="var(--grey)" stroke-width="1.4" stroke-dasharray="2 2"',
 };
 
-/** The ranges of psi' and of phi'. @param {Now} turning @returns {[Pair, Pair]} */
+/** The ranges of psi' and of phi'. @param {Turning} turning @returns {[Pair, Pair]} */
 const findRanges = ({ phi_dot, psi_dot, roots: all }) => {
   const roots = all.filter((rate) => Math.abs(rate) < LARGEST);
   const spin = 1.6 * Math.max(Math.abs(psi_dot), 100);
@@ -83,7 +83,7 @@ const drawBoundaries = (frame, top, theta, [[left, right], [low, high]]) => {
 /** What was drawn last: regions and boundaries hold for a top and a tilt. */
 const drawn = { key: "", text: "" };
 
-/** @param {Top} top @param {Now | null} turning */
+/** @param {Top} top @param {Turning | null} turning */
 export const drawKinds = (top, turning) => {
   find("kinds-chart").hidden = !turning;
   if (!turning) return;

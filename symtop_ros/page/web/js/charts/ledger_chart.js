@@ -11,7 +11,7 @@ import { phrase } from "../words/wording.js";
 /** @import { Ledger } from "../words/ledger.js" */
 
 const HEIGHT = 160;
-const WIDTH = 0.2; // of a bar; groups are 1 apart
+const WIDTH = 0.24; // of a bar; groups are 1 apart
 /** @type {[name: string, color: string, pick: (parts: Energies) => number][]} */
 const BARS = [
   ["weight", "var(--theta)", ({ weight }) => weight],
@@ -38,9 +38,10 @@ const drawBar = (frame, group, place, height) => {
   const [zero, end] = [frame.y(0), frame.y(height)];
   const middle = ((left + right) / 2).toFixed(1);
   const above = height < 0 ? end + 10 : end - 3;
-  return `<rect x="${left.toFixed(1)}" y="${Math.min(zero, end).toFixed(1)}" fill="${BARS[place][1]}"
-      width="${(right - left).toFixed(1)}" height="${Math.abs(end - zero).toFixed(1)}"/>
-    <text class="tick" x="${middle}" y="${above.toFixed(1)}" text-anchor="middle">${writeSigned(height)}</text>`;
+  const bar = `<rect x="${left.toFixed(1)}" y="${Math.min(zero, end).toFixed(1)}" fill="${BARS[place][1]}"
+      width="${(right - left).toFixed(1)}" height="${Math.abs(end - zero).toFixed(1)}"/>`;
+  const number = `<text class="tick bar" x="${middle}" y="${above.toFixed(1)}" text-anchor="middle">${writeSigned(height)}</text>`;
+  return { bar, number };
 };
 
 /** @param {Ledger | null} ledger @param {string} sentence */
@@ -54,6 +55,7 @@ export const drawLedger = (ledger, sentence) => {
   const bars = heights.flatMap((group, g) =>
     group.map((height, k) => drawBar(frame, g, k, height)),
   );
+  const list = (/** @type {"bar" | "number"} */ kind) => bars.map((each) => each[kind]).join("");
   const names = ["kick", ledger.point].map(
     (key, group) =>
       `<text class="tick" x="${frame.x(group)}" y="${frame.bottom + 12}" text-anchor="middle">${phrase(`ledger.bar_${key}`)}</text>`,
@@ -61,7 +63,7 @@ export const drawLedger = (ledger, sentence) => {
   draw(
     "ledger",
     HEIGHT,
-    `${frame.level(0, 'stroke="var(--grey)"')}${bars.join("")}${names.join("")}`,
+    `${frame.level(0, 'stroke="var(--grey)"')}${list("bar")}${list("number")}${names.join("")}`,
     sentence,
   );
   say("ledger-text", sentence);

@@ -10,6 +10,7 @@ const [RIGHT, UPPER, LOWER] = [18, 21, 28]; // margins, in which all words are
 const FAR = 1e4; // units; out of the drawing
 const DIGITS = 5; // of a number at an axis
 const LETTER = 5.6; // units of its width
+const DOT = 5; // units of its radius: no number is below it at the left edge
 
 /** A number at an axis, with a minus sign. @param {number} value */
 const writeTick = (value) => shorten(value, DIGITS).replace(/^-/, "\u2212");
@@ -65,6 +66,27 @@ const writePath = (points) => {
   return text;
 };
 
+/**
+ * Places for words below a chart, in order: apart by half a letter, and inside the drawing.
+ * @param {number[]} places wanted @param {string[]} texts
+ */
+const spreadWords = (places, texts) => {
+  const halves = texts.map((each) => (LETTER * each.length) / 2);
+  const found = texts.map((_, k) => places[k]);
+  for (let k = 1; k < found.length; k += 1) {
+    const lack = found[k - 1] + halves[k - 1] + LETTER / 2 + halves[k] - found[k];
+    if (lack <= 0) continue;
+    found[k - 1] -= k === 1 ? lack / 2 : 0; // of two both give way
+    found[k] += k === 1 ? lack / 2 : lack;
+  }
+  let end = WIDE - 1;
+  for (let k = found.length - 1; k >= 0; k -= 1) {
+    found[k] = Math.min(found[k], end - halves[k]);
+    end = found[k] - halves[k] - LETTER / 2;
+  }
+  return found;
+};
+
 /** The axes of a chart, and what is drawn in it: values become units of the drawing. */
 export class Frame {
   /**
@@ -90,8 +112,12 @@ export class Frame {
 
   /** @param {number} text @param {number} value */
   drawTick(text, value) {
+    const number = writeTick(text);
+    const most = LEFT - DOT - 4;
+    const isLong = LETTER * number.length > most; // all of it is seen
+    const size = isLong ? ` textLength="${most}" lengthAdjust="spacingAndGlyphs"` : "";
     return `${this.level(value, 'class="axis"')}
-      <text class="tick" x="${LEFT - 4}" y="${(this.y(value) + 3).toFixed(1)}" text-anchor="end">${writeTick(text)}</text>`;
+      <text class="tick" x="${LEFT - DOT - 2}" y="${(this.y(value) + 3).toFixed(1)}" text-anchor="end"${size}>${number}</text>`;
   }
 
   /** @param {Pair} point @returns {Pair} */
@@ -147,7 +173,7 @@ export class Frame {
   /** @param {Pair} point @param {string} style */
   dot(point, style) {
     const [x, y] = this.place(point).map((each) => each.toFixed(1));
-    return `<circle cx="${x}" cy="${y}" r="5" ${style}/>`;
+    return `<circle cx="${x}" cy="${y}" r="${DOT}" ${style}/>`;
   }
 
   /** What the vertical axis shows, above it. @param {string} text */
@@ -169,12 +195,9 @@ export class Frame {
   /** Values below the axes. @param {number[]} values @param {(value: number) => string} write */
   writeBelow(values, write = writeTick) {
     const place = `y="${this.bottom + 12}" text-anchor="middle"`;
-    return values
-      .map((each) => {
-        const text = write(each);
-        const x = Math.min(this.x(each), WIDE - 1 - (LETTER * text.length) / 2);
-        return `<text class="tick" x="${x.toFixed(1)}" ${place}>${text}</text>`;
-      })
+    const texts = values.map(write).filter((each, k, all) => each !== all[k - 1]);
+    return spreadWords(values.map(this.x), texts)
+      .map((x, k) => `<text class="tick" x="${x.toFixed(1)}" ${place}>${texts[k]}</text>`)
       .join("");
   }
 }

@@ -7,7 +7,6 @@ import { phrase } from "../words/wording.js";
 /** @typedef {import("../words/facts.js").Facts["potential"]} Potential */
 
 const HEIGHT = 165;
-const NEAR = 0.1; // of the chart: turning angles that are nearer share a label
 
 /** @param {Frame} frame @param {{theta: number[], height: number[]}} curve @param {string} style */
 const drawPotential = (frame, { theta, height }, style) =>
@@ -22,8 +21,6 @@ const drawPotential = (frame, { theta, height }, style) =>
 export const drawWell = (potential, theta) => {
   const { left, right, bottom, top, energy, angles, before } = potential;
   const frame = new Frame(HEIGHT, [left, right], [bottom, top]);
-  const isNarrow = angles[1] - angles[0] < NEAR * (right - left);
-  const named = isNarrow ? [(angles[0] + angles[1]) / 2] : angles;
   draw(
     "well",
     HEIGHT,
@@ -34,7 +31,7 @@ export const drawWell = (potential, theta) => {
     ${frame.nameLevel(energy, "E\u2032")}
     ${drawPotential(frame, potential, 'stroke="var(--phi)" stroke-width="2" id="potential"')}
     ${frame.nameVertical(phrase("axis.U"))}
-    ${frame.nameHorizontal("\u03b8", frame.writeBelow(named, writeAngle))}
+    ${frame.nameHorizontal("\u03b8", frame.writeBelow(angles, writeAngle))}
     ${frame.dot([theta, energy], 'fill="var(--theta)"')}`,
   );
 };

@@ -2,12 +2,12 @@
 
 import { drawResiduals, nameChart } from "../charts/residuals_chart.js";
 import {
-  addOptions,
   COLUMNS,
   listNumbers,
   listUnknown,
   writeAssumed,
   writeLimits,
+  writeMeanings,
   writeShown,
   writeVerdict,
 } from "../words/fit.js";
@@ -50,7 +50,7 @@ const listCharts = ({ kind }) =>
 const listLimits = (fitted, command) => {
   const text = writeLimits(fitted);
   if (!text) return [];
-  const code = make("code", {}, addOptions(fitted, command));
+  const code = make("code", {}, command);
   return [createText("p", text, { id: "fitted-limits" }), make("p", {}, code)];
 };
 
@@ -63,6 +63,7 @@ const createAll = (fitted, command) => {
     createText("p", writeVerdict(fitted), { id: "fitted-verdict" }),
     ...listLimits(fitted, command),
     createTable(fitted),
+    createText("p", writeMeanings(fitted), { id: "fitted-meanings", className: "dim" }),
     createText("h2", phrase("fitted.unknown_title")),
     make("ul", { id: "fitted-unknown" }, ...unknown),
     ...(assumed ? [createText("p", assumed, { id: "fitted-assumed" })] : []),

@@ -35,6 +35,8 @@ export class Layers {
     /** @type {{[layer: string]: HTMLInputElement}} */
     this.boxes = {};
     this.flashing = 0;
+    /** Layers that are shown in any case. @type {Set<string>} */
+    this.forced = new Set();
     // What is drawn at first has its name in the scene, or needs none.
     for (const each of LEGEND.filter(([, layer]) => !LAYERS[layer])) {
       const entry = createEntry(each);
@@ -67,10 +69,22 @@ export class Layers {
     }, MOMENT);
   }
 
+  /**
+   * Show layers whatever is pointed at, until that is taken back; those that are chosen stay.
+   * @param {string[]} layers @param {boolean} shown
+   */
+  force(layers, shown) {
+    for (const layer of layers) {
+      this.forced.delete(layer);
+      this.peek(layer, shown);
+      if (shown) this.forced.add(layer);
+    }
+  }
+
   /** Show an arrow for as long as its word is pointed at. @param {string | null} layer @param {boolean} shown */
   peek(layer, shown) {
-    if (layer && layer in this.boxes && !this.boxes[layer].checked)
-      this.send({ act: "show", layer, shown });
+    if (!layer || this.forced.has(layer)) return;
+    if (layer in this.boxes && !this.boxes[layer].checked) this.send({ act: "show", layer, shown });
   }
 
   /** @param {{[layer: string]: boolean}} layers and whether they are shown at first */
@@ -93,6 +107,7 @@ export class Layers {
   show(layer, shown) {
     this.boxes[layer].checked = shown;
     this.mark(layer, shown);
+    if (this.forced.has(layer)) return;
     this.send({ act: "show", layer, shown });
   }
 

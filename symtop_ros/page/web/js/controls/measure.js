@@ -321,7 +321,7 @@ export class Measure {
   /** Show what can be done now. */
   show() {
     const { film, table, given, isFitting } = this;
-    find("film-controls").hidden = !film;
+    for (const id of ["film-controls", "film-more"]) find(id).hidden = !film;
     const isFlat = Boolean(film) || table?.table.kind === "pixels";
     find("near").hidden = !isFlat;
     say("measured-name", this.describe());

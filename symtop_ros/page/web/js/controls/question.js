@@ -23,8 +23,12 @@ const keepFocus = ({ detail }) => {
 };
 
 export class Question {
-  /** @param {() => void} push @param {(scene: string) => void} start */
-  constructor(push, start) {
+  /**
+   * @param {() => void} push @param {(scene: string) => void} start
+   * @param {import("./opening.js").Opening} opening
+   */
+  constructor(push, start, opening) {
+    this.opening = opening;
     /** The answer of now. @type {string | null} */
     this.answer = null;
     this.end = Infinity; // s of the run at which the answer is seen
@@ -57,8 +61,11 @@ export class Question {
 
   /** @param {"ask" | "watch" | ""} stage */
   enter(stage) {
-    if (stage) document.body.dataset.asked = stage;
-    else delete document.body.dataset.asked;
+    const { dataset } = document.body;
+    if (stage === "ask") this.opening.begin(!this.isSecond);
+    else if (dataset.asked === "ask") this.opening.leave();
+    if (stage) dataset.asked = stage;
+    else delete dataset.asked;
   }
 
   /** The push leads to what is seen, and another act ends the question. @param {Facts} facts */
@@ -114,6 +121,7 @@ export class Question {
 
   /** What happened stands beside the answer once it has been seen. @param {number} time s */
   show(time) {
+    this.opening.follow(time);
     if (this.answer === null || time < this.end) return;
     this.enter("");
     find("compared").hidden = false;

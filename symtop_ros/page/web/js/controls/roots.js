@@ -24,9 +24,10 @@ export class Roots {
   /** The buttons stay, so that none is replaced while it is pressed. @param {Now} now */
   show(now) {
     this.now = now;
-    const { roots } = now;
+    const { roots, elsewhere } = now;
     const names = roots.length === 2 ? ["slow", "fast"] : ["only"];
     say("roots-text", phrase(roots.length ? "roots.some" : "roots.none"));
+    say("roots-elsewhere", elsewhere ? phrase("elsewhere", elsewhere) : "");
     this.buttons.forEach((button, k) => {
       button.hidden = k >= roots.length;
       if (button.hidden) return;

@@ -4,6 +4,7 @@
 import { find, make, say, write } from "./document.js";
 import { refuse, refuseField } from "./notices.js";
 import { convertTyped, makeInput, readTyped } from "./typed.js";
+import { BALANCE } from "../physics/balance.js";
 import { NAMES } from "../physics/records.js";
 import {
   addUnit,
@@ -19,7 +20,7 @@ import { QUANTITIES, UNITS } from "../words/units.js";
 import { phrase } from "../words/wording.js";
 
 /** @import { Found } from "../physics/kernel.js" */
-/** @typedef {{theta: number, theta_dot: number, phi_dot: number, psi_dot: number}} Solution */
+/** @typedef {{theta: number, theta_dot: number, phi_dot: number, psi_dot: number, Mgl?: number}} Solution with Mgl if that was asked for */
 
 const PER_MINUTE = 30 / Math.PI; // turns, of rad/s
 
@@ -27,7 +28,8 @@ const PER_MINUTE = 30 / Math.PI; // turns, of rad/s
 const describe = (start) => {
   const variant = inDegrees() ? "degrees" : "radians";
   const turns = { spin: start.psi_dot * PER_MINUTE, theta_dot: start.theta_dot || null };
-  return phrase("solution", { ...start, ...turns }, variant);
+  const text = phrase("solution", { ...start, ...turns }, variant);
+  return start.Mgl === undefined ? text : `${phrase("solution_weight", start)} ${text}`;
 };
 
 /** @typedef {{start: Solution, least: Solution, most: Solution}} Spread */
@@ -37,6 +39,7 @@ const NUMBERS = [
   ["theta_dot", "theta'", "rad/s"],
   ["phi_dot", "phi'", "rad/s"],
   ["psi_dot", "psi'", "rad/s"],
+  ["Mgl", "Mgl", "J"],
 ];
 
 /** Two ends, rounded outwards at the second digit of their distance. @param {number} least @param {number} most @param {string} unit */
@@ -52,9 +55,12 @@ const writeEnds = (least, most, unit) => {
 /** How far the numbers of a start move for the last digits of what was typed. @param {Spread} spread */
 const describeSpread = ({ least, most }) => {
   if (Number.isNaN(least.theta)) return phrase("spread.unknown");
-  const numbers = NUMBERS.filter(([name]) => most[name] > least[name]).map(([name, symbol, unit]) =>
-    phrase("spread.number", { name: symbol, ...writeEnds(least[name], most[name], unit) }),
-  );
+  const numbers = NUMBERS.flatMap(([name, symbol, unit]) => {
+    const [low, high] = [least[name] ?? 0, most[name] ?? 0];
+    return high > low
+      ? [phrase("spread.number", { name: symbol, ...writeEnds(low, high, unit) })]
+      : [];
+  });
   return numbers.length ? phrase("spread.numbers", { numbers: numbers.join(", ") }) : "";
 };
 
@@ -72,7 +78,7 @@ export class Seen {
   constructor(send) {
     this.send = send;
     this.list = find("questions", HTMLSelectElement);
-    for (const question of NAMES.question)
+    for (const question of [...NAMES.question, BALANCE])
       this.list.append(new Option(phrase(`question.${question}`), question));
     /** @type {HTMLInputElement[]} */
     this.inputs = [];
@@ -141,6 +147,12 @@ export class Seen {
     });
   }
 
+  /** Start a solution, with its own moment of gravity if it has one. @param {Solution} solution */
+  begin({ Mgl, ...start }) {
+    if (Mgl !== undefined) this.send({ act: "set", name: "top.Mgl", value: Mgl });
+    this.send({ act: "start", ...start });
+  }
+
   /** Show all starts as buttons, or say what a number would have to be. @param {Found} found */
   show({ demand, which, least, most, starts }) {
     if (demand) {
@@ -156,7 +168,7 @@ export class Seen {
     const shown = starts.flatMap((/** @type {Spread} */ found) => {
       const button = make("button", { className: "found" });
       write(button, describe(found.start));
-      button.addEventListener("click", () => this.send({ act: "start", ...found.start }));
+      button.addEventListener("click", () => this.begin(found.start));
       const spread = make("p", { className: "dim spread" });
       write(spread, describeSpread(found));
       return [button, spread];

@@ -149,18 +149,26 @@ export class Stage {
     ]);
   }
 
-  /** Have a pixel in the middle, as far as the picture goes. @param {Place} place */
+  /**
+   * Have a pixel in the middle, as far as the picture goes, with no more room around it than the whole
+   * picture has: zooming keeps what the pointer is at.
+   * @param {Place} place
+   */
   lookAt([x, y]) {
     const { film, canvas, scale } = this;
     if (!film) return;
     const clip = (
       /** @type {number} */ value,
       /** @type {number} */ all,
-      /** @type {number} */ seen,
-    ) => (seen >= all ? all / 2 : Math.min(Math.max(value, seen / 2), all - seen / 2));
+      /** @type {number} */ side, // css px
+    ) => {
+      const room = Math.max(side - (all * scale) / this.zoom, 0) / 2;
+      const least = Math.min((side / 2 - room) / scale, all / 2);
+      return Math.min(Math.max(value, least), all - least);
+    };
     this.middle = [
-      clip(x, film.width, canvas.clientWidth / scale),
-      clip(y, film.height, canvas.clientHeight / scale),
+      clip(x, film.width, canvas.clientWidth),
+      clip(y, film.height, canvas.clientHeight),
     ];
     this.draw();
   }

@@ -62,8 +62,8 @@ const listReasons = ({ is_white, is_smooth, swings, changes, stretch, fault }, f
 ];
 
 /** What top_fit allows for and this search does not. @param {ReturnType<typeof checkFit>} check @param {Fit} fit */
-const listLimits = ({ changes, is_smooth, swings }, fit) => [
-  ...(changes.length || is_smooth ? ["friction"] : []),
+const listLimits = ({ verdict, swings }, fit) => [
+  ...(verdict === "holds" && !fit.lasts ? [] : ["friction", "kick"]),
   ...(swings ? ["lines"] : []),
   ...(fit.model.record.count < fit.model.record.given.times.length ? ["rows"] : []),
 ];

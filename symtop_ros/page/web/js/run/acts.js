@@ -1,5 +1,6 @@
 // What a page asks of its top: kicks, pushes, torques, starts, and the time of the run.
 
+import { BALANCE, solveBalance } from "../physics/balance.js";
 import { Course, NANO, UNWEIGHED } from "../physics/course.js";
 import { NAMES } from "../physics/records.js";
 import { cross, scale, subtract } from "../scene/matrices.js";
@@ -45,6 +46,7 @@ import { createStart, describeStart, findScene, readLink, readScene } from "./li
  * @typedef {{
  *   keep: {kept: boolean},
  *   let_go: {hold: Held},
+ *   limit: {most: number},
  *   load: {run: unknown},
  *   pause: {},
  *   record: {},
@@ -272,7 +274,12 @@ const takeBody = (top, { parts }) => {
 
 /** What starts have what is known of them. @param {LocalTop} top @param {ViewActs["solve"]} asked */
 const solve = (top, { question, known, halfWidths }) => {
-  top.tell({ solved: top.kernel.solveStart(top.course.top, question, known, halfWidths) });
+  const { kernel, course } = top;
+  const solved =
+    question === BALANCE
+      ? solveBalance(course.top, known, halfWidths)
+      : kernel.solveStart(course.top, question, known, halfWidths);
+  top.tell({ solved });
 };
 
 /** @param {LocalTop} top */
@@ -316,6 +323,9 @@ const VIEWS = {
   step,
   keep: (top, { kept }) => top.keep(kept),
   let_go: letGo,
+  limit: (top, { most }) => {
+    top.most = most;
+  },
   load: (top, { run }) => top.load(run),
   pause: (top) => top.setRunning(!top.isRunning),
   record: (top) => top.record(),

@@ -39,6 +39,7 @@ export class LocalTop {
     this.end = 0; // ns; the latest time that was reached
     this.speed = SPEED;
     this.isSlow = false; // slower than chosen
+    this.most = Infinity; // speed, while something is shown
     this.isRunning = true;
     this.isRecording = false; // a node can record
     this.layers = { ...content.layers };
@@ -116,8 +117,8 @@ export class LocalTop {
     const { course, time } = this.run.findEvent(this.time);
     const before = this.course;
     const first = this.run.findFirstNutation(this.time);
-    const most =
-      first && this.time < first.end ? (first.end - first.begin) / NANO / WATCHED : Infinity;
+    const isFirst = first && this.time < first.end;
+    const most = isFirst ? (first.end - first.begin) / NANO / WATCHED : this.most;
     this.isSlow = most < this.speed;
     const wanted = this.time + Math.round(passed * Math.min(this.speed, most) * NANO);
     const reached = time + course.reach(wanted - time, FRAME_STEPS);

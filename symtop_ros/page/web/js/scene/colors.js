@@ -26,6 +26,8 @@ export const COLORS = {
 };
 
 export const FICTITIOUS = "fictitious torques";
+export const CHANGE = "change of L"; // and gravity, which makes it
+export const WAY = "way"; // of the axle
 
 /** Layers of the scene, and whether they are shown at first. @type {{[layer: string]: boolean}} */
 export const LAYERS = {
@@ -39,6 +41,8 @@ export const LAYERS = {
   "turning circles": false,
   "line of nodes": false,
   sphere: false,
+  [CHANGE]: false,
+  [WAY]: false,
   handle: true,
   [FICTITIOUS]: false,
 };

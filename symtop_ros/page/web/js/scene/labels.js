@@ -1,7 +1,8 @@
 // Labels of the scene: words over the picture, each in the colour of what it names, with a line to it
 // if they do not stand next to it.
 
-import { make, write } from "../controls/document.js";
+import { find, make, write } from "../controls/document.js";
+import { add } from "./matrices.js";
 
 /** @import { Vector } from "../physics/kernel.js" */
 /**
@@ -59,10 +60,29 @@ export class Labels {
     this.shown = new Map();
     /** Sizes of the labels in px, once they are known. @type {Map<string, [number, number]>} */
     this.sizes = new Map();
+    /** What no label covers: the ball. @type {Box[]} */
+    this.free = [];
+    this.floor = 0; // px at the lower edge of the picture, which have other words
+    const legend = find("legend");
+    new ResizeObserver(() => {
+      const isOver = getComputedStyle(legend).position === "absolute";
+      this.floor = isOver ? legend.offsetHeight : 0;
+    }).observe(legend);
   }
 
   begin() {
     this.shown.clear();
+    this.free = [];
+  }
+
+  /** Keep a ball free of labels. @param {Vector} point @param {number} radius */
+  keepFree(point, radius) {
+    const [at, above] = [point, add(point, [0, 0, radius])].map((each) =>
+      this.camera.project(each),
+    );
+    if (!at || !above) return;
+    const size = 2 * Math.hypot(above.x - at.x, above.y - at.y);
+    this.free.push({ x: at.x, y: at.y, width: size, height: size });
   }
 
   /**
@@ -118,6 +138,18 @@ export class Labels {
       place.x += x * (width / 2 + GAP + place.lead);
       place.y += y * (height / 2 + GAP + place.lead);
       this.keepInside(name, place);
+      this.leaveFree(name, place);
+    }
+  }
+
+  /** A label over the ball goes to the nearer edge of it, up or down. @param {string} name @param {Place} place */
+  leaveFree(name, place) {
+    const [width, height] = this.measure(name);
+    for (const { x, y, width: wide, height: high } of this.free) {
+      if (Math.abs(place.x - x) * 2 >= width + wide || Math.abs(place.y - y) * 2 >= height + high)
+        continue;
+      const far = (height + high) / 2 + GAP;
+      place.y = place.y < y && y - far > height / 2 ? y - far : y + far;
     }
   }
 
@@ -126,15 +158,16 @@ export class Labels {
       const [width, height] = this.measure(name);
       return { x: place.x, y: place.y, width, height, place };
     });
-    separate(boxes);
-    for (const { y, place } of boxes) place.y = y;
+    const { width, height } = this.camera.size;
+    arrange(boxes, { width, height: height - this.floor });
+    for (const { x, y, place } of boxes) Object.assign(place, { x, y });
   }
 
   /** None leaves the picture, and gives way to an arrow that ends there. @param {string} name @param {Place} place */
   keepInside(name, place) {
     const [width, height] = this.measure(name);
     const { size } = this.camera;
-    const y = Math.max(Math.min(place.y, size.height - height / 2), height / 2);
+    const y = Math.max(Math.min(place.y, size.height - this.floor - height / 2), height / 2);
     const aside = Math.abs(y - place.y) > NEAR ? width / 2 + 2 * NEAR : 0;
     place.x = Math.max(Math.min(place.x + aside, size.width - width / 2), width / 2);
     place.y = y;

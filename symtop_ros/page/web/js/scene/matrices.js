@@ -69,6 +69,8 @@ export const createPose = ([w, x, y, z], [a, b, c] = [1, 1, 1], place = [0, 0, 0
  */
 export const turnTo = ([x, y, z]) => {
   const half = Math.acos(Math.min(Math.max(z, -1), 1)) / 2;
-  const size = Math.sin(half) / (Math.hypot(x, y) || 1);
+  const across = Math.hypot(x, y);
+  if (!across) return [Math.cos(half), Math.sin(half), 0, 0]; // up, or down, by any way
+  const size = Math.sin(half) / across;
   return [Math.cos(half), -size * y, size * x, 0];
 };

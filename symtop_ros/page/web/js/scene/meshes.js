@@ -117,6 +117,8 @@ const join = (meshes) => {
   return mesh;
 };
 
+export const CENTER = 0.56; // height of the rotor along the axle
+
 /** The radius of a rotor, wider for a larger Iz/Ix. @param {Top} top */
 export const findRadius = ({ Ix, Iz }) => Math.min(0.22 + 0.4 * Math.sqrt(Iz / Ix), LARGEST);
 
@@ -142,7 +144,7 @@ const createRotor = (radius, height) => {
 
 /** The body of a top: its rotor is at the centre of mass. @param {Top} top */
 export const createBody = (top) => {
-  const height = 0.56 * Math.sign(top.Mgl);
+  const height = CENTER * Math.sign(top.Mgl);
   const low = Math.min(0, height - 0.22);
   const heights = [low, low + 0.03, 0.93, 0.95, 0.985, 1];
   const axle = createProfile([0, 0.022, 0.022, 0.034, 0.034, 0], heights);

@@ -252,6 +252,11 @@ export class Painter {
     this.drawTriangles(model, opacity === 1);
   }
 
+  /** What is drawn from now on covers what was drawn before, also what is nearer. */
+  beginOver() {
+    this.gl.clear(this.gl.DEPTH_BUFFER_BIT);
+  }
+
   /** @param {Model} disc @param {number[]} pose */
   drawShadow(disc, pose) {
     this.use(this.programs.shadows, pose);

@@ -5,6 +5,7 @@ import { Camera } from "./camera.js";
 import { listParallel, listPieces, listSphere } from "./curves.js";
 import { add, createPose, findSize, normalize, scale, subtract, turnTo } from "./matrices.js";
 import {
+  CENTER,
   createArrow,
   createBall,
   createBody,
@@ -12,13 +13,15 @@ import {
   createStand,
   findRadius,
 } from "./meshes.js";
-import { COLORS, FICTITIOUS, readColor } from "./colors.js";
+import { chooseSpan, findChange, findWay } from "./change.js";
+import { CHANGE, COLORS, FICTITIOUS, readColor, WAY } from "./colors.js";
 import { Grip } from "./grip.js";
 import { Labels } from "./labels.js";
 import { Painter } from "./painter.js";
 import { findPush, listReached, listBracket } from "./push.js";
 import { findTorques, findVectors } from "./vectors.js";
 import { NANO } from "../physics/course.js";
+import { writeNumber } from "../words/numbers.js";
 import { writePoint } from "../words/points.js";
 import { inDegrees } from "../words/quantities.js";
 import { phrase } from "../words/wording.js";
@@ -28,7 +31,7 @@ import { phrase } from "../words/wording.js";
 /** @import { Twist } from "./push.js" */
 /** @import { Vector } from "../physics/kernel.js" */
 
-const LENGTHS = { L: 1.24, omega: 1.13, torque: 0.55 }; // of the largest at the start of a motion
+const LENGTHS = { L: 1.14, omega: 1.13, torque: 0.55 }; // of the largest at the start of a motion
 const DEPTHS = { gravity: 0.1, Coriolis: 0.2, centrifugal: 0.3, sum: -0.1 }; // below the pivot
 const LONGEST = 2.5; // of a fictitious torque
 const TWIST_HEAD = 0.05; // length of the arrow at the end of a twist
@@ -38,7 +41,8 @@ const BALL = 0.055;
 const LEAD = 36; // px from the pale ball to its name
 const ASIDE = 16; // px from a bracket to its words
 const CROSS = 0.013; // arm of a measured point
-const PUSH = 0.34; // length of the arrow of a push
+const PUSH = 0.34; // length of the arrow of a push, and of the way
+const WEIGHT = 0.44; // length of the arrow of gravity
 // rad; the axis goes below the pivot: no stand, and the whole sphere
 const WIDE = 1.1;
 const HORIZON = 1.65;
@@ -71,6 +75,7 @@ export class Scene {
     this.scales = {};
     this.view = -1; // index of `VIEWS`
     this.torqueScale = 1;
+    this.span = 0; // ns for which the change of L is drawn
     this.bodyKey = "";
     /** The motion whose turning circles are loaded. @type {import("../physics/course.js").Course | null} */
     this.circled = null;
@@ -145,6 +150,7 @@ export class Scene {
     const torques = findTorques(course.top, state);
     this.torqueScale =
       Math.max(Math.abs(course.top.Mgl), ...Object.values(torques).slice(0, 3).map(Math.abs)) || 1;
+    this.span = chooseSpan(course, state);
     const isBelow = course.top.Mgl < 0 || angles[1] > HORIZON;
     const below = course.top.Mgl < 0 && findVectors(course, state).L[2] < 0 ? 2 : 1;
     const view = isBelow ? below : angles[1] > WIDE ? 3 : 0;
@@ -298,7 +304,7 @@ export class Scene {
       Math.sin(phi / 2),
     ]);
     const sizes = /** @type {Vector} */ ([radius + SOFT, radius * Math.abs(axis[2]) + SOFT, 1]);
-    const height = 0.56 * Math.sign(top.course.top.Mgl);
+    const height = CENTER * Math.sign(top.course.top.Mgl);
     const below = /** @type {Vector} */ ([height * axis[0], height * axis[1], GROUND]);
     painter.drawShadow(models.disc, createPose(turned, sizes, below));
     painter.drawShadow(models.disc, createPose([1, 0, 0, 0], [FOOT, FOOT, 1], [0, 0, GROUND]));
@@ -311,6 +317,26 @@ export class Scene {
       if (layers[name]) this.drawArrow(name, scale(vector, this.scales[name]), [0, 0, 0], name);
     }
     if (layers[FICTITIOUS]) this.drawTorques(state);
+    if (layers[CHANGE]) this.drawChange(state);
+    if (layers[WAY]) {
+      const axis = state.toWorld([0, 0, 1]);
+      this.drawArrow("ball", scale(findWay(state), PUSH), axis, "way");
+    }
+  }
+
+  /** Gravity at the middle of the rotor, seen through it, and at the head of L what it adds in a moment. @param {State} state */
+  drawChange(state) {
+    const { top, span } = this;
+    const { course, run, time } = top;
+    const side = Math.sign(course.top.Mgl);
+    const center = state.toWorld([0, 0, CENTER * side]);
+    const head = scale(findVectors(course, state).L, this.scales.L);
+    const change = scale(findChange(run, time, span), this.scales.L);
+    const text = phrase("label.change", { time: writeNumber(span / NANO, "1g") });
+    this.drawArrow("L", change, head, "change", text);
+    if (!side) return;
+    this.painter.beginOver();
+    this.drawArrow("gravity", [0, 0, -WEIGHT], center, "weight", phrase("label.gravity"));
   }
 
   /** @param {State} state @param {State[]} states */
@@ -333,8 +359,11 @@ export class Scene {
     painter.drawLines(this.models.trace, paint("trace"), 3, STILL);
   }
 
-  /** @param {string} name @param {Vector} vector @param {Vector} origin @param {string} label */
-  drawArrow(name, vector, origin, label) {
+  /**
+   * @param {string} name @param {Vector} vector @param {Vector} origin
+   * @param {string} label its name, none if it is empty @param {string} text of the label
+   */
+  drawArrow(name, vector, origin, label, text = label && phrase(`label.${label}`)) {
     const length = findSize(vector);
     if (!(length > SHORTEST)) return;
     const direction = normalize(vector);
@@ -349,7 +378,7 @@ export class Scene {
     );
     this.painter.drawMesh(head, createPose(rotation, [wide, wide, size], tip));
     const color = COLORS[/** @type {keyof typeof COLORS} */ (name)];
-    if (label) this.labels.put(label, color, tip, origin, phrase(`label.${name}`));
+    if (label) this.labels.put(label, color, tip, origin, text);
   }
 
   /**
@@ -374,6 +403,7 @@ export class Scene {
   /** @param {Vector} axis */
   drawHandle(axis) {
     this.painter.drawMesh(this.models.ball, createPose([1, 0, 0, 0], [BALL, BALL, BALL], axis));
+    this.labels.keepFree(axis, BALL);
     const { end, isTilting } = this.grip;
     if (end && !isTilting) this.drawArrow("ball", subtract(end, axis), axis, "");
   }

@@ -167,11 +167,35 @@ export const describeMotion = (run, time, free) => {
   };
 };
 
+const LEVEL = Math.PI / 2;
+const NEAR = Math.PI / 36; // rad; a tilt so near to 90° is compared with half of it
+
+/**
+ * The slow regular rate at another tilt with the same psi', and by how many percent it differs; null if
+ * there are not two at the tilt of now.
+ * @param {import("../physics/kernel.js").Kernel} kernel @param {import("../physics/kernel.js").Top} top
+ * @param {{theta: number, psi_dot: number, roots: number[]}} now
+ */
+const findElsewhere = (kernel, top, { theta, psi_dot, roots: [here] }) => {
+  const tilt = Math.abs(theta - LEVEL) < NEAR ? LEVEL / 2 : LEVEL;
+  const [rate] = kernel.findRegularRates(top, tilt, psi_dot);
+  if (!here || !rate) return null;
+  const change = 100 * (rate / here - 1);
+  return {
+    tilt: (tilt * 180) / Math.PI,
+    rate,
+    share: Math.abs(change),
+    kind: change < 0 ? "less" : "more",
+  };
+};
+
 /** Tilt, rates and regular rates of now. @typedef {ReturnType<typeof describeNow>} Now */
 /** @param {Course} course @param {State} state */
 export const describeNow = ({ kernel, top }, state) => {
   const { theta, phi_dot, psi_dot } = describeStart(state);
-  return { theta, phi_dot, psi_dot, roots: kernel.findRegularRates(top, theta, psi_dot) };
+  const roots = kernel.findRegularRates(top, theta, psi_dot);
+  const elsewhere = findElsewhere(kernel, top, { theta, psi_dot, roots });
+  return { theta, phi_dot, psi_dot, roots, elsewhere };
 };
 
 /** The regular rates between which a push leads, which holds L_z. @param {Course} course */

@@ -16,6 +16,8 @@ const MAIN = [
   ["Mgl/Ix", "weight"],
 ];
 const SIGN = "sign of ";
+const RATE = "mean_precession_rate";
+const MEANT = ["p_psi/Ix", "nearness"]; // numbers that are explained
 export const COLUMNS = { axis: ["x", "y", "z"], pixels: ["u", "v"] };
 
 /** @param {string} unit of a value; an angle has that of the page */
@@ -75,12 +77,31 @@ export const writeVerdict = ({ kind, verdict, reasons, sigma, outliers, order, i
   });
 };
 
+/**
+ * The time of one turn of the precession, which a watch checks; none of a rate that may be zero.
+ * @param {Value} rate @returns {Value[]}
+ */
+const findPeriod = ({ name, value, deviation, ...rest }) => {
+  if (name !== RATE || !rest.is_known || !(Math.abs(value) > ZERO * deviation)) return [];
+  const period = (2 * Math.PI) / Math.abs(value);
+  const spread = (period * deviation) / Math.abs(value);
+  return [{ ...rest, name: "precession_period", value: period, deviation: spread, unit: "s" }];
+};
+
 /** Names and values of all numbers. @param {Fitted} fitted @returns {[name: string, text: string][]} */
 export const listNumbers = ({ values }) =>
-  values.map((each) => [
-    writeName(each.name),
-    each.is_known ? writeValue(each) : phrase("fitted.not_known"),
-  ]);
+  values
+    .flatMap((each) => [each, ...findPeriod(each)])
+    .map((each) => [
+      writeName(each.name),
+      each.is_known ? writeValue(each) : phrase("fitted.not_known"),
+    ]);
+
+/** What the words of the table mean, of those numbers that it has. @param {Fitted} fitted */
+export const writeMeanings = ({ values }) => {
+  const known = MEANT.filter((name) => values.some((each) => each.name === name));
+  return known.map((name) => phrase(`fitted.meaning.${name}`)).join(" ");
+};
 
 /** What a record cannot show, and why, in a sentence; of some with what settles it. @param {Unknown} unknown @param {Value[]} values */
 const writeUnknown = ({ kind, names, numbers }, values) => {
@@ -107,10 +128,6 @@ export const listUnknown = ({ unknown, values }) =>
 /** What this search leaves out; nothing if the record has nothing of it. @param {Fitted} fitted */
 export const writeLimits = ({ limits }) =>
   limits.length ? phrase("fitted.limits", { limits: limits.map((kind) => ({ kind })) }) : "";
-
-/** The command that looks for what this search leaves out. @param {Fitted} fitted @param {string} command */
-export const addOptions = ({ limits }, command) =>
-  limits.includes("friction") ? `${command} --friction` : command;
 
 /** Numbers of the run that the record does not show. @param {Fitted} fitted */
 export const writeAssumed = ({ assumed }) =>
