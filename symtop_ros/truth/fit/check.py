@@ -137,7 +137,12 @@ class Check:
     @property
     def verdict(self) -> str:
         """HOLDS, UNCLEAR (noise that wanders, a stretch left out, a lone search) or FAILS."""
-        if self.changes or self.swings or (not self.is_white and self.is_smooth):
+        return FAILS if self.swings else self.of_noise
+
+    @property
+    def of_noise(self) -> str:
+        """The verdict if what is left has no lines: a search that found the motion leaves them."""
+        if self.changes or (not self.is_white and self.is_smooth):
             return FAILS
         return HOLDS if self.is_noise and not self.fit.is_lone else UNCLEAR
 

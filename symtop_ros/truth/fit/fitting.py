@@ -92,7 +92,7 @@ def is_sure(fit: Fit, bests: list[float]) -> bool:
     Noise that lasts may be the motion that a wrong minimum leaves: then three have to find it.
     """
     needed = SURE + (len(fit.noise.partial) > 0)
-    return count_agreeing(bests) >= needed and Check(fit).verdict == HOLDS
+    return count_agreeing(bests) >= needed and Check(fit).of_noise == HOLDS
 
 
 def count_agreeing(bests: list[float]) -> int:
