@@ -11,8 +11,8 @@ from symtop_ros.base.arrays import Stamps
 from symtop_ros.base.measured import format_measured
 from symtop_ros.truth.judge.clock import Clock, measure_clock
 from symtop_ros.truth.judge.compare import compare
-from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.truth import scene_truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 SECOND, LOOK_UPS = 1_000_000_000, 2000
 TRUTH = scene_truth("cusps")

@@ -30,6 +30,7 @@ def test_a_fault_is_put_into_code_and_not_into_texts_and_comments(name, tmp_path
         assert each.describe().startswith(f"{name}:")
 
 
+@pytest.mark.slow
 def test_faults_are_drawn_again_and_those_of_python_can_be_read():
     drawn = faults.draw()
     assert drawn == faults.draw()

@@ -12,7 +12,8 @@ PACKAGE = ROOT / "symtop_ros"
 # Files next to the rooms, and what every folder may use of the ground floor.
 TOP = {"__init__", "__main__", "programs"}
 GROUND = {
-    f"base/{name}" for name in ("arrays", "counts", "header", "measured", "refusals", "units")
+    f"base/{name}"
+    for name in ("arrays", "counts", "header", "measured", "progress", "refusals", "units")
 }
 # Rooms of several folders.
 DIVIDED = ("run", "ros", "page", "truth")
@@ -49,12 +50,15 @@ TABLE = {
     "geometry_msgs rclpy",
     "truth/imu": "base/command physics run/log run/simulation run/wire | numpy yaml",
     "truth/testset": "__init__ base/command physics run/models | numpy",
-    # of judge the reader of tables and topics, the noise, and the look of figures
-    "truth/fit": "base/command physics run/log run/simulation run/wire truth/judge words | "
-    "matplotlib numpy scipy",
+    # what judge and fit stand on knows neither of them
+    "truth/tables": "physics | numpy scipy",
+    "truth/residuals": " | numpy scipy",
+    "truth/topics": "run/log run/wire truth/residuals | numpy",
+    "truth/fit": "base/command base/look physics run/log run/simulation run/wire truth/residuals "
+    "truth/tables truth/topics words | matplotlib numpy scipy",
     # of testset the scorer; the program itself only for --testset
-    "truth/judge": "base/command base/shutdown run/log run/simulation run/wire truth/testset words "
-    "| matplotlib numpy rclpy scipy",
+    "truth/judge": "base/command base/look base/shutdown run/log run/simulation run/wire "
+    "truth/residuals truth/tables truth/testset truth/topics words | matplotlib numpy rclpy scipy",
 }
 ARROWS = {k: tuple(set(part.split()) for part in v.split("|")) for k, v in TABLE.items()}
 
@@ -143,6 +147,13 @@ def name_module(path):
     return name.removesuffix(".__init__")
 
 
+def test_what_judge_and_fit_stand_on_knows_neither():
+    for folder in ("truth/tables", "truth/residuals", "truth/topics"):
+        assert not imports(folder)[0] & {"truth/judge", "truth/fit"}
+    assert "truth/judge" not in imports("truth/fit")[0]
+    assert "truth/fit" not in imports("truth/judge")[0]
+
+
 def test_no_files_import_each_other_in_a_circle():
     below = list_files()
     while lowest := {name for name, others in below.items() if not others & {*below}}:
@@ -161,10 +172,10 @@ def test_other_folders_import_physics_by_its_public_names_only():
 # They count, or keep what was computed; every other record stays what it was when it was made.
 CHANGING = {
     "Agreement",
+    "Alignment",
     "Deviation",
     "Draw",
-    "Fit",
-    "Lines",
+    "RowReader",
     "Markers",
     "Missed",
     "StampRows",

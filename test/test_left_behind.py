@@ -33,7 +33,9 @@ def run(folder, line, *words):
 
 
 @pytest.mark.parametrize("processes", ["0", pytest.param("2", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("place", LEAVES)
+@pytest.mark.parametrize(
+    "place", ["nothing", "the home", pytest.param("the temporary folder", marks=pytest.mark.slow)]
+)
 def test_what_a_test_leaves_behind_fails_the_run_and_is_named(place, processes, tmp_path):
     done = run(tmp_path, LEAVES[place], "-n", processes)
     named = [Path(line.split()[2]) for line in done.stdout.splitlines() if "ls -ld" in line]

@@ -53,7 +53,16 @@ TIERS = {
 }
 
 
-@pytest.mark.parametrize("words", TIERS, ids=" ".join)
+QUICK = [*TIERS][:2]
+
+
+@pytest.mark.parametrize("words", QUICK, ids=" ".join)
+def test_each_test_is_of_one_tier(folder, words):
+    assert run(folder, *words)[0] == TIERS[words]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("words", [*TIERS][2:], ids=" ".join)
 def test_each_test_is_of_one_tier_and_one_that_is_named_runs_in_any(folder, words):
     assert run(folder, *words)[0] == TIERS[words]
 

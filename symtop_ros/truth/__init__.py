@@ -2,7 +2,8 @@
 
 `judge/` compares estimates with the exact motion and names causes; `testset/` has seventy motions
 to 30 digits, writes them for engines, and scores; `imu/` makes records of an inertial sensor;
-`fit/` finds the motion from a measurement.
+`fit/` finds the motion from a measurement. They stand on `tables/` (rows of text), `topics/`
+(messages) and `residuals/` (noise, and the deviations that follow), which know none of them.
 
 With `physics` it is all that such an author has to know. Begin with `judge/main.py` or
 `testset/main.py`.

@@ -6,8 +6,8 @@ from PIL import Image
 from rerun.chunk import RrdReader
 from trials import choose
 
+from symtop_ros.base.look import write_figures
 from symtop_ros.replay.view import entities
-from symtop_ros.truth.judge.look import write_figures
 from workshop import main as report
 from workshop.article.figures import FIGURES
 from workshop.article.recordings import MOTIONS, RATE, SCENES, SPAN

@@ -7,7 +7,7 @@ import pytest
 from documents import ROOT, find_section
 from PIL import Image
 
-from symtop_ros.truth.judge import look
+from symtop_ros.base import look
 from workshop.speed import benchmarks
 from workshop.speed import measure as module
 from workshop.speed.measure import measure
@@ -84,6 +84,7 @@ def test_every_peer_is_the_same_top_and_every_curve_has_points(facts, report):
     assert report["environment"]["missing"] == missing
 
 
+@pytest.mark.slow
 def test_the_documents_have_the_tables_and_plots_of_the_report(written):
     folder, docs = written
     text = (folder / "report.md").read_text().partition("\n\n")[2].strip()
@@ -97,6 +98,7 @@ def test_the_documents_have_the_tables_and_plots_of_the_report(written):
     assert {path.stem for path in docs.glob("*.png")} == {*DRAWINGS}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_a_plot_is_a_picture(written, name):
     folder, _ = written

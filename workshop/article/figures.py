@@ -8,13 +8,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.look import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
     regular_precession_rates,
     theta_acceleration,
 )
-from symtop_ros.truth.judge.look import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
 from workshop.article.answers.circle import draw_cusp_story, draw_nutation
 from workshop.article.answers.fictitious import draw_fictitious_torques, draw_four_masses
 from workshop.article.answers.impulses import draw_impulses

@@ -131,8 +131,8 @@ def draw_sample(kind: str, noise: str, seed: int) -> Sample:
     camera = draw_camera(draw) if kind == "pixels" else {}
     make = NOISES[noise]
     times, values = make(draw, times, lambda t: see(motion, kind, t, camera), SIGMA[kind])
-    more = {"position": POSITION} if kind == "inertial" else {}
-    record = make_record(times, values, kind, has_friction=has_friction, **more)
+    position = POSITION if kind == "inertial" else (0.0, 0.0, 0.0)
+    record = make_record(times, values, kind, has_friction=has_friction, position=position)
     return Sample(record, motion, camera)
 
 

@@ -14,6 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.look import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.page.web.join import read_record
 from symtop_ros.physics import (
     Motion,
@@ -28,7 +29,6 @@ from symtop_ros.replay.view.entities import draw_parallel
 from symtop_ros.replay.view.torques import torques_of
 from symtop_ros.run.simulation.changes.requests import initial_state
 from symtop_ros.run.simulation.settings import Settings
-from symtop_ros.truth.judge.look import BLUE, GOLD, GREY, INK, RED, new_figure
 from workshop.article.answers.fictitious import draw_arrow, plot_torques
 from workshop.article.answers.impulses import plot_impulses
 from workshop.article.answers.ledger import KickLedger, plot_ledger

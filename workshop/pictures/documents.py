@@ -15,13 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from symtop_ros.base.look import GREY, RED
 from symtop_ros.physics import Motion, State, hurry, kick_verdict
 from symtop_ros.replay.view import entities
 from symtop_ros.replay.view.view import View
 from symtop_ros.replay.viewer import create_recording
 from symtop_ros.run.simulation.changes.outcomes import Start
 from symtop_ros.run.simulation.segment import Segment
-from symtop_ros.truth.judge.look import GREY, RED
 from workshop.article import means
 from workshop.article.figures import FIGURES
 from workshop.article.maps import draw_map, make_map

@@ -15,12 +15,7 @@ from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real, invert
-from symtop_ros.run.simulation.changes.requests import start_motion
-from symtop_ros.run.simulation.settings import Settings
-from symtop_ros.truth.imu import CONSUMER, ImuRecord, record_imu
-from symtop_ros.truth.judge.compare import NONE, Errors, compare
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.look import (
+from symtop_ros.base.look import (
     BLUE,
     GOLD,
     GREY,
@@ -30,7 +25,12 @@ from symtop_ros.truth.judge.look import (
     rows,
     write_figures,
 )
+from symtop_ros.run.simulation.changes.requests import start_motion
+from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.truth.imu import CONSUMER, ImuRecord, record_imu
+from symtop_ros.truth.judge.compare import NONE, Errors, compare
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.topics.estimates import Estimates
 from workshop.pictures.pack import pack
 from workshop.speed.conditions import describe_conditions
 from workshop.speed.publish import format_table, group, track, write_results

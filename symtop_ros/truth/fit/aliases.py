@@ -15,6 +15,7 @@ from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.starts import Starts, fill
 
 SPARSE = 4.0  # rows in a nutation, below which a different motion may show the same rows
+NYQUIST = 2.0  # rows in a nutation, more than which are assumed of two motions that fit as well
 RATES = "rates", "inertial"  # kinds whose rows show the spin itself
 NEAR = np.linspace(0.8, 1.2, 33)  # of p_psi/Ix of a start
 
@@ -27,6 +28,14 @@ def count_rows(fit: Fit) -> float:
         return float(fit.model.find_motion(fit.x).nutation_period / fit.model.record.step)
     except (ValueError, TypeError):
         return np.inf
+
+
+def is_alias(rival: Fit, fit: Fit) -> bool:
+    """Return True if a motion that fits as well has too few rows in a nutation, and the fit enough.
+
+    As everywhere in sampling, the slower motion is taken, unless the rows say otherwise.
+    """
+    return count_rows(rival) <= NYQUIST and count_rows(fit) >= SPARSE
 
 
 def list_alias_starts(fit: Fit) -> list[Starts]:

@@ -1,4 +1,4 @@
-"""The test of the model: white residuals, and the same constants in both halves."""
+"""The test of the model: white residuals without lines, and the same constants in both halves."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -6,8 +6,11 @@ from functools import cached_property
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.aliases import RATES
+from symtop_ros.truth.fit.lines import list_lines
 from symtop_ros.truth.fit.refine import Fit, find_rounding
-from symtop_ros.truth.judge.noise import measure_correlation
+from symtop_ros.truth.residuals.correlation import measure_correlation
+from symtop_ros.truth.residuals.lines import Line
 
 # The constants of two halves differ by more than five deviations once in two million records; noise
 # that wanders makes deviations of halves uncertain, which the sandwich of a half allows for.
@@ -20,6 +23,7 @@ SMOOTH = 4.0
 SMOOTH_COLUMN = 12.0
 # Of rows that are outliers by chance, 5 % of all, eight follow each other once in 4e10 rows.
 STRETCH = 8
+ABOVE = 10.0  # deviations of rounding: noise that would change a number's last decimal
 HOLDS, UNCLEAR, FAILS = "holds", "unclear", "fails"
 CONSTANTS = ("Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin")
 
@@ -75,6 +79,16 @@ class Check:
         return bool(self.smoothness > SMOOTH or columns.max() > SMOOTH_COLUMN)
 
     @cached_property
+    def lines(self) -> tuple[Line, ...]:
+        """Lines in the residuals; those with a name are at frequencies of the motion."""
+        return list_lines(self.fit)
+
+    @property
+    def swings(self) -> bool:
+        """True if the residuals have a line at a frequency of the motion."""
+        return any(line.name for line in self.lines)
+
+    @cached_property
     def changes(self) -> tuple[Change, ...]:
         """Constants that are not the same in both halves."""
         first, second = (find_half(self.fit, late) for late in (False, True))
@@ -98,6 +112,23 @@ class Check:
         longest = int(np.diff(kept).max()) - 1
         return longest if longest >= STRETCH else 0
 
+    @cached_property
+    def still(self) -> tuple[int, ...]:
+        """Rates that are the same in all rows although the noise of others is far above rounding.
+
+        A sensor at a limit that is not known shows that, and no spin with noise does.
+        """
+        record = self.fit.model.record
+        if record.kind.name not in RATES:
+            return ()
+        values, noise = (
+            record.values[:, :3],
+            self.fit.residuals[self.fit.noise.kept, :3].std(axis=0),
+        )
+        rounding, _ = find_rounding(record, self.fit.residuals.shape[1])
+        is_still = (np.ptp(values, axis=0) == 0) & (rounding[:3] < noise.max() / ABOVE)
+        return tuple(map(int, np.flatnonzero(is_still)))
+
     @property
     def fault(self) -> str:
         """Why there are no honest deviations: "few", "wanders" or ""."""
@@ -106,14 +137,15 @@ class Check:
     @property
     def verdict(self) -> str:
         """HOLDS, UNCLEAR (noise that wanders, a stretch left out, a lone search) or FAILS."""
-        if self.changes or (not self.is_white and self.is_smooth):
+        if self.changes or self.swings or (not self.is_white and self.is_smooth):
             return FAILS
         return HOLDS if self.is_noise and not self.fit.is_lone else UNCLEAR
 
     @property
     def is_noise(self) -> bool:
         """True if nothing but noise is left, and nothing was left out but single rows."""
-        return self.is_white and not (self.is_smooth or self.fault or self.stretch)
+        is_odd = self.is_smooth or self.fault or self.stretch or self.still
+        return self.is_white and not is_odd
 
 
 @dataclass(frozen=True, eq=False)

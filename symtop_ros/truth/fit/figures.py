@@ -6,8 +6,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from symtop_ros.truth.fit.report import Report
-from symtop_ros.truth.judge.look import (
+from symtop_ros.base.look import (
     BLUE,
     GOLD,
     GREY,
@@ -19,6 +18,7 @@ from symtop_ros.truth.judge.look import (
     new_figure,
     rows,
 )
+from symtop_ros.truth.fit.report import Report
 
 POINTS = 2000  # of a record that are drawn
 COLOURS = (BLUE, RED, GOLD, INK, GREY, PALE)

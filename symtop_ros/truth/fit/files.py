@@ -1,166 +1,166 @@
-"""Records from tables of text: columns with the names of our tables and those of other tools.
+"""Records from tables of text: columns with the names of our tables and those of other tools."""
 
-Angles may be in degrees, if the name of a column says so; numbers may have decimal commas. Rows in
-which a cell is empty are left out: Tracker leaves cells empty where nothing was seen.
-"""
-
-from array import array
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.refusals import RefusedError, one_line, plain
-from symtop_ros.physics import DEFAULT_GRAVITY
+from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.fit.kinds import KINDS
-from symtop_ros.truth.judge.columns import (
+from symtop_ros.truth.residuals.sampling import (
+    describe_repeats,
+    find_repeats,
+)
+from symtop_ros.truth.tables.attitudes import turn_by_matrices
+from symtop_ros.truth.tables.columns import (
+    ANGLE_UNITS,
     ANGLES,
     AXIS,
-    DEGREES,
+    FORCE_UNITS,
     FORCES,
     POINT,
-    TIMES,
-    choose_time,
-    describe_empty,
+    RATE_UNITS,
+    Head,
+    find_matrix,
     find_quaternions,
     find_rates,
-    find_separator,
-    find_unit,
-    join_names,
-    refuse_twice,
-    split_cells,
-    split_names,
-    split_units,
 )
+from symtop_ros.truth.tables.reader import Report, read_table
+from symtop_ros.truth.tables.table import Columns, Table
 
-HEAD = 10  # lines within which the names of columns are looked for
-SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
-ANGULAR = ("angles", "theta", "rates", "inertial")  # kinds with angles or their rates
-G = ("g",)
-REPORT_EVERY = 100_000  # lines
 # A table may have the columns of several kinds; what was measured comes before exact truth.
-ORDER = ("angles", "theta", "pixels", "measured", "attitude", "rates", "inertial", "axis")
-
-
-@dataclass(frozen=True)
-class Places:
-    """Places of the time and of the columns of a kind, and the factors of their units."""
-
-    kind: str
-    time: int
-    columns: tuple[int, ...]
-    seconds: float  # of the unit of time; 0: ns if the numbers are whole
-    factors: tuple[float, ...]
-    others: tuple[str, ...]  # kinds that the table has as well
+ORDER = ("angles", "theta", "pixels", "measured", "attitude", "matrix", "rates", "inertial", "axis")
+KIND_OF = {"measured": "rates", "matrix": "attitude"}  # other kinds have their own names
+ANGLE_WORDS, RATE_WORDS = "rad or degrees", "rad/s, deg/s or rpm"
+Places = list[int]
 
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Numbers of a table."""
+    """Numbers of a table or a log, with the steps (m,) of their last decimals; 0: not known."""
 
     kind: str
     times: Real
     values: Real
     notes: tuple[str, ...]
+    steps: Real | None = None
+
+    def count_once(self) -> "Rows":
+        """Return the rows without those that are there a second time."""
+        again = find_repeats(self.times, self.values)
+        if not again.any():
+            return self
+        notes = (*self.notes, *describe_repeats(self.times[again]))
+        return Rows(self.kind, self.times[~again], self.values[~again], notes, self.steps)
 
 
-def read_rows(path: Path, kind: str | None, report: Callable[[int], None] | None = None) -> Rows:
-    """Return the rows of a table of a kind; without one, of the kind that its columns say.
+@dataclass(frozen=True)
+class WantedKind:
+    """The columns of a kind of record; without one, of the kind that they say."""
 
-    `report` is called with the number of bytes that were read, now and then.
-    """
-    try:
-        with path.open(encoding="utf-8-sig", errors="strict", newline="") as file:
-            return _read_lines(path, file, kind, report)
-    except OSError as error:
-        raise RefusedError(f"cannot open {path}: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise RefusedError(f"cannot read {path}: not a table of text") from None
+    kind: str | None
 
+    def find(self, head: Head) -> Columns | None:
+        """Return the columns of the kind by their names."""
+        found = {
+            name: places for name, places in _list_kinds(head.names) if self._takes(_name(name))
+        }
+        if not found:
+            return None
+        chosen = min(found, key=ORDER.index)
+        others = dict.fromkeys(_name(name) for name in found if _name(name) != _name(chosen))
+        names = " and ".join(others)
+        note = f"read as {_name(chosen)}; the table has {names} as well (--kind)"
+        return Columns(
+            chosen,
+            tuple(found[chosen]),
+            _find_factors(head, _name(chosen), found[chosen]),
+            (note,) if others else (),
+        )
 
-def _read_lines(
-    path: Path, file: Iterable[str], kind: str | None, report: Callable[[int], None] | None
-) -> Rows:
-    """Find the names within the first lines, and read the rows after them."""
-    filled = ((number, line) for number, line in enumerate(file, 1) if line.strip())
-    numbered = join_names(path, filled)
-    head = ""
-    for _, line in islice(numbered, HEAD):
-        head = head or line
-        if places := find_places(path, split_names(line), kind):
-            return _read_numbers(path, places, numbered, report)
-    raise RefusedError(_describe_names(path, kind, head))
+    def _takes(self, kind: str) -> bool:
+        return self.kind in {None, kind}
 
-
-def _describe_names(path: Path, kind: str | None, head: str) -> str:
-    wanted = " or ".join(
-        ", ".join(each.columns) for each in KINDS.values() if kind in {None, each.name}
-    )
-    got = one_line(head, 80) or "nothing"
-    return f"{path} must have the columns t (s) or stamp (ns) and {wanted}, got {got}"
-
-
-def find_places(path: Path, head: list[str], kind: str | None) -> Places | None:
-    """Return where the columns of a kind are; None if these are no names of them."""
-    names, units = split_units(head)
-    times = [place for place, name in enumerate(names) if TIMES.fullmatch(name)]
-    found = {name: places for name, places in _list_kinds(names) if kind in {None, _name(name)}}
-    if not times or not found:
-        return None
-    chosen = min(found, key=ORDER.index)
-    time, columns = choose_time(names, times), found[chosen]
-    refuse_twice(path, names, [time, *columns])
-    unit = find_unit(names[time], units[time], [*SECONDS])
-    others = tuple(dict.fromkeys(_name(name) for name in found if _name(name) != _name(chosen)))
-    factors = tuple(_find_factor(units[place], _name(chosen)) for place in columns)
-    seconds = SECONDS[unit] if unit else 0.0
-    return Places(_name(chosen), time, tuple(columns), seconds, factors, others)
+    def describe(self, path: Path, first: str) -> str:
+        """Return the refusal of a table without such columns."""
+        wanted = (", ".join(each.columns) for each in KINDS.values() if self._takes(each.name))
+        names = " or ".join(wanted)
+        return f"{path} must have the columns t (s) or stamp (ns) and {names}, got {first}"
 
 
 def _name(name: str) -> str:
-    return "rates" if name == "measured" else name
+    return KIND_OF.get(name, name)
 
 
-def _find_factor(unit: str, kind: str) -> float:
-    if unit in G:
-        return DEFAULT_GRAVITY
-    return np.pi / 180 if unit in DEGREES and kind in ANGULAR else 1.0
+def _find_factors(head: Head, kind: str, places: Places) -> tuple[float, ...]:
+    """Return the factors of the units of columns; those of points and quaternions do not matter."""
+    if kind in {"angles", "theta"}:
+        return head.find_factors(places, ANGLE_UNITS, ANGLE_WORDS)
+    if kind in {"rates", "inertial"}:
+        rates = head.find_factors(places[:3], RATE_UNITS, RATE_WORDS)
+        return (*rates, *head.find_factors(places[3:], FORCE_UNITS, "m/s^2 or g"))
+    return (1.0,) * len(places)
 
 
-def _list_kinds(names: list[str]) -> Iterator[tuple[str, list[int]]]:
+def read_rows(path: Path, kind: str | None, report: Report | None = None) -> Rows:
+    """Return the rows of a table of a kind; without one, of the kind that its columns say.
+
+    `report` is called with the number of characters that were read, now and then.
+    """
+    table = read_table(path, WantedKind(kind), report)
+    infinite = ~np.isfinite(table.values).all(axis=1)
+    if infinite.any():
+        row = int(np.argmax(infinite)) + 1
+        raise RefusedError(f"{path} must have finite numbers, or empty cells, got inf in row {row}")
+    return _make_rows(table)
+
+
+def _make_rows(table: Table) -> Rows:
+    is_matrix = table.columns.kind == "matrix"
+    return Rows(
+        _name(table.columns.kind),
+        table.times.seconds,
+        turn_by_matrices(table.values) if is_matrix else table.values,
+        table.notes,
+        None if is_matrix else table.steps,
+    )
+
+
+def _list_kinds(names: tuple[str, ...]) -> Iterator[tuple[str, Places]]:
     """Yield the kinds of which a table has all columns, with their places."""
     quaternions = find_quaternions(names)
     if len(quaternions) == 1:
         (places,) = quaternions.values()
         yield "attitude", [places[each] for each in "wxyz"]
+    if matrix := find_matrix(names):
+        yield "matrix", matrix
     if rates := find_rates(names, ("measured_", "")):
         is_measured = names[rates[0]].startswith("measured")
         yield "measured" if is_measured else "rates", rates
     forces = find_rates(names, ("measured_", ""), FORCES)
     if rates and forces:
         yield "inertial", [*rates, *forces]
+    yield from _list_angles(names)
+    yield from _list_points(names, bool(quaternions))
+
+
+def _list_angles(names: tuple[str, ...]) -> Iterator[tuple[str, Places]]:
+    """Yield the tilt alone, or with the azimuth."""
     angles = {
         angle: place
         for angle, pattern in ANGLES.items()
         for place, name in enumerate(names)
         if pattern.fullmatch(name)
     }
-    if "theta" in angles:
-        yield (
-            ("angles", [angles["theta"], angles["phi"]])
-            if len(angles) == 2
-            else (
-                "theta",
-                [angles["theta"]],
-            )
-        )
-    yield from _list_points(names, bool(quaternions))
+    if len(angles) == len(ANGLES):
+        yield "angles", [angles["theta"], angles["phi"]]
+    elif "theta" in angles:
+        yield "theta", [angles["theta"]]
 
 
-def _list_points(names: list[str], has_quaternion: bool) -> Iterator[tuple[str, list[int]]]:
+def _list_points(names: tuple[str, ...], has_quaternion: bool) -> Iterator[tuple[str, Places]]:
     """Yield the axis, or a point of a picture: u and v, or Tracker's x and y without z."""
     axis = {found[1]: k for k, name in enumerate(names) if (found := AXIS.fullmatch(name))}
     point = {found[1]: k for k, name in enumerate(names) if (found := POINT.fullmatch(name))}
@@ -170,73 +170,3 @@ def _list_points(names: list[str], has_quaternion: bool) -> Iterator[tuple[str, 
         yield "axis", [axis[each] for each in "xyz"]
     elif "x" in point and "y" in point and "z" not in axis:
         yield "pixels", [point["x"], point["y"]]
-
-
-@dataclass(eq=False)
-class Lines:
-    """Cells of a table, in the order of its lines."""
-
-    path: Path
-    wanted: tuple[int, ...]
-    numbers: "array[float]"
-    separator: str | None = None
-    rows: int = 0
-    empty: int = 0
-    is_whole: bool = True  # all times are whole numbers
-
-    def read(self, line: int, text: str) -> None:
-        """Read a line; the first one shows what separates the cells."""
-        if not self.rows:
-            self.separator = next((s for s in (";", "\t") if s in text), find_separator(text))
-        self.rows += 1
-        cells = split_cells(text, self.separator)
-        try:
-            picked = [cells[place] for place in self.wanted]
-            if all(picked):
-                self.numbers.extend([_read_number(cell, self.separator) for cell in picked])
-            else:
-                self.empty += 1
-        except (IndexError, ValueError) as error:
-            lacks = isinstance(error, IndexError)
-            wanted = "have all columns" if lacks else "have finite numbers, or empty cells"
-            raise RefusedError(
-                f"line {line} of {self.path} must {wanted}, got {one_line(text, 80)}"
-            ) from None
-        self.is_whole = self.is_whole and picked[0].lstrip("-").isdecimal()
-
-
-def _read_numbers(
-    path: Path,
-    places: Places,
-    lines: Iterable[tuple[int, str]],
-    report: Callable[[int], None] | None,
-) -> Rows:
-    """Read the rows, and say what was left out."""
-    done = 0
-    table = Lines(path, (places.time, *places.columns), array("d"))
-    for line, text in lines:
-        if not text.startswith("#"):
-            table.read(line, text)
-        done += len(text)
-        if report and table.rows % REPORT_EVERY == 0:
-            report(done)
-    numbers = np.frombuffer(table.numbers, dtype=float).reshape(-1, len(table.wanted))
-    seconds = places.seconds or (1e-9 if table.is_whole else 1.0)
-    times = (numbers[:, 0] - (numbers[0, 0] if len(numbers) else 0.0)) * seconds
-    values = numbers[:, 1:] * places.factors
-    return Rows(places.kind, times, values, tuple(_write_notes(table, places)))
-
-
-def _write_notes(table: Lines, places: Places) -> Iterator[str]:
-    """Yield what was odd about a table."""
-    yield from describe_empty(table.empty)
-    if places.others:
-        others = " and ".join(places.others)
-        yield f"read as {places.kind}; the table has {others} as well (--kind)"
-
-
-def _read_number(cell: str, separator: str | None) -> float:
-    value = float(plain(cell.replace(",", ".") if separator != "," else cell))
-    if not np.isfinite(value):
-        raise ValueError(cell)
-    return value

@@ -11,7 +11,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
-from symtop_ros.truth.fit.aliases import SPARSE, count_rows, list_alias_starts
+from symtop_ros.truth.fit.aliases import SPARSE, count_rows, is_alias, list_alias_starts
 from symtop_ros.truth.fit.body_starts import list_spins
 from symtop_ros.truth.fit.check import HOLDS, Check
 from symtop_ros.truth.fit.model import Model, find_momentum
@@ -25,6 +25,7 @@ AGAIN = 1.001  # costs of two searches that found one minimum
 SURE = 2  # searches that have to find it
 FARTHEST = 6.0  # deviations; a residual beyond it counts as this
 CLEAR = 25.0  # squares of deviations by which a motion fits worse than another
+SURELY_NEAR = 12.0  # deviations of a nearness; without it the squares grow by 144, far above CLEAR
 DIFFERENT = 0.02  # of p_psi/Ix; motions that are closer are one
 
 
@@ -129,6 +130,10 @@ def settle(fit: Fit, rivals: list[Candidate]) -> Fit:
             best = other
     if best is not fit:
         others = find_others(best, rivals)
+    slower = next((each for each in others if is_alias(best, each)), None)
+    if slower is not None:
+        best = choose_twin(refine(slower.model, slower.x))
+        others = find_others(best, rivals)
     return replace(best, others=tuple(others))
 
 
@@ -145,10 +150,38 @@ def choose_twin(fit: Fit) -> Fit:
         return _take(fit, turn_over(model.find_motion(x)), {})
     if "roll" in model.place and np.cos(x[model.place["roll"]]) < 0:
         fit = _take(fit, *turn_camera(model.find_motion(x), model.find_camera(x)))
-    is_far = not fit.model.record.breaks_twins
-    if is_far and "elevation" in fit.model.place and fit.x[fit.model.place["elevation"]] < 0:
-        return _take(fit, *mirror_view(fit.model.find_motion(fit.x), fit.model.find_camera(fit.x)))
-    return fit
+    return choose_side(fit) if "elevation" in model.place else fit
+
+
+def choose_side(fit: Fit) -> Fit:
+    """Return the fit with a camera above the pivot, unless the record shows that it was below.
+
+    Only what is nearer and larger shows the side. That a near camera is looked for decides nothing:
+    of a film from far away both sides fit as well.
+    """
+    model, is_below = fit.model, fit.x[fit.model.place["elevation"]] < 0
+    if not model.record.breaks_twins:
+        return _mirror(fit) if is_below else fit
+    if is_surely_near(fit):
+        return fit
+    other = _mirror(fit)
+    worse = sum_squares(fit, other.residuals) - sum_squares(fit, fit.residuals)
+    if worse >= CLEAR:
+        return fit
+    return replace(other if is_below else fit, has_mirror=True)
+
+
+def is_surely_near(fit: Fit) -> bool:
+    """Return True if a camera is so near that its picture shows from which side it looks."""
+    if "nearness" not in fit.model.place:
+        return False
+    place = fit.model.place["nearness"]
+    deviation = fit.find_deviation(np.eye(len(fit.x))[place])
+    return bool(fit.x[place] > SURELY_NEAR * deviation)
+
+
+def _mirror(fit: Fit) -> Fit:
+    return _take(fit, *mirror_view(fit.model.find_motion(fit.x), fit.model.find_camera(fit.x)))
 
 
 def choose_turns(fit: Fit) -> Fit:

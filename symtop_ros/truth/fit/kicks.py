@@ -1,7 +1,6 @@
-"""Two motions in one record: the place of a kick between them.
+"""How many of the first rows of a record one motion explains: up to a kick, if there is one.
 
-The first part that one motion explains is made longer by halves of the rest; so is the last part,
-from the other end. If both are noise and leave no gap, the motion changed where they meet.
+The first part is made longer until its motion no longer explains the rows that are added.
 """
 
 import numpy as np
@@ -12,24 +11,9 @@ from symtop_ros.truth.fit.search import EFFORTS, Candidate, search
 from symtop_ros.truth.fit.sides import expand
 
 SHORTEST = 3 * FEWEST  # rows that show a motion
-NEAR = 4  # rows between both parts, at most, in units of the resolution
 JUMPS = 3.0  # deviations of the first rows that a motion does not explain
 ROWS = 4  # of them
 CALM = 1.4  # deviations of a row in those of what is new in it
-
-
-def find_kick(fit: Fit) -> float | None:
-    """Return the time in s after the first row at which the motion changed; None if at no time."""
-    record = fit.model.record
-    first = find_reach(record)
-    if first is None or not SHORTEST <= first <= len(record) - SHORTEST:
-        return None
-    rest = record.select(slice(first, None))
-    found = find_best(rest)
-    other = refine(found.model.move(rest), found.x)
-    if not explains(other):
-        return None
-    return float(record.times[first] - record.times[0])
 
 
 def find_best(record: Record) -> Candidate:

@@ -13,7 +13,7 @@ from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.run.wire.messages import IMU, decode_messages
 from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.files import Rows
-from symtop_ros.truth.judge.estimates import decode_estimates, read_messages
+from symtop_ros.truth.topics.estimates import decode_estimates, read_messages
 
 SEEN = ("attitude", *RATES)  # kinds of which there are messages
 

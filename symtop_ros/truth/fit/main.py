@@ -4,8 +4,6 @@ import argparse
 import json
 import shutil
 import sys
-import time
-from collections.abc import Callable
 from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Any
@@ -13,29 +11,35 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
+from symtop_ros.base.progress import Progress
 from symtop_ros.base.refusals import RefusedError, refuse
 from symtop_ros.truth.fit.aliases import RATES
-from symtop_ros.truth.fit.check import FAILS, HOLDS
+from symtop_ros.truth.fit.camera import CENTRE
+from symtop_ros.truth.fit.check import FAILS
 from symtop_ros.truth.fit.files import Rows, read_rows
 from symtop_ros.truth.fit.fitting import fit_motion
-from symtop_ros.truth.fit.kicks import find_kick
 from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.limits import leave_out_saturated
 from symtop_ros.truth.fit.plan_options import add_options, make_plan, refuse_plan_options
 from symtop_ros.truth.fit.plan_report import PlanReport
 from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
 from symtop_ros.truth.fit.report import Report
 from symtop_ros.truth.fit.runs import make_run
 from symtop_ros.truth.fit.search import NEAREST
-from symtop_ros.truth.judge.forms import is_table
+from symtop_ros.truth.residuals.sampling import (
+    NANOSECONDS,
+    describe_time_step,
+    find_time_step,
+)
+from symtop_ros.truth.tables.forms import is_table
 
 DESCRIPTION = """Find the motion of a heavy symmetric top from a record of what was seen of it: a
 table (columns with names: t and theta, phi; x, y, z of the axis; u, v of a point in a picture; wx,
 wy, wz of the body; w, x, y, z), a log or a bag. It prints what the record shows, with standard
 deviations, what it cannot show, and whether the model holds."""
 EXAMPLE = "example.csv"
-PATIENCE = 2.0  # s, after which progress is written
 NOT_GIVEN = (None, False)
-CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance"
+CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance", "centre", "size"
 CLICKED = {"pivot": "U and V", "scale": "the length"}  # numbers that may have a deviation
 RATIOS = ("Iz/Ix", "Ix", "Mgl")
 
@@ -104,6 +108,21 @@ def make_parser() -> argparse.ArgumentParser:
         metavar="LENGTHS",
         help="known distance of the camera from the pivot, in lengths of the axis",
     )
+    parser.add_argument(
+        "--centre",
+        type=decimal,
+        nargs=2,
+        metavar=("U", "V"),
+        help="point of the picture at which a near camera looks, as a rule its middle",
+    )
+    parser.add_argument(
+        "--size",
+        type=positive,
+        nargs=2,
+        metavar=("WIDTH", "HEIGHT"),
+        help="size of the picture, whose middle is the centre; u and v count from its lower left "
+        "corner",
+    )
     add_options(parser)
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
@@ -137,27 +156,23 @@ def _run(options: argparse.Namespace) -> int:
     if options.run and options.run.suffix != ".json":
         raise refuse("--run", "a name that ends in .json", str(options.run))
     path = copy_example() if options.example else options.record
-    progress = Progress()
+    progress = Progress("top_fit")
     if options.position:
         options.kind = "inertial"
     rows = read(path, options, progress)
     record = fill_record(rows, options)
-    fit = fit_motion(record, progress.report_part)
+    fit = fit_motion(record, lambda part: progress.report(part, "fitting"))
     given = {name: known for name, known in find_given(options).items() if known}
-    report = Report(str(path), len(record), fit, given)
+    report = Report.compare(str(path), len(record), fit, given)
     progress.end()
-    if report.check.verdict != HOLDS and (place := find_kick(fit)) is not None:
-        raise RefusedError(
-            f"{path} must have one motion, got two: a push or a knock after {place:.4g} s"
-        )
     print(json.dumps(report.facts(), indent=1) if options.json else report.format())
     if options.plot:
         draw(report, options.plot)
     if options.run:
-        run = make_run(fit, len(record), given)
+        run = make_run(report.fit, len(record), given)
         run.write(options.run)
         print(run.describe(options.run), file=sys.stderr if options.json else sys.stdout)
-    return int(report.check.verdict == FAILS)
+    return int(report.verdict == FAILS)
 
 
 def copy_example() -> Path:
@@ -169,7 +184,7 @@ def copy_example() -> Path:
     return path
 
 
-def read(path: Path, options: argparse.Namespace, progress: "Progress") -> Rows:
+def read(path: Path, options: argparse.Namespace, progress: Progress) -> Rows:
     """Return the rows of a table or a log."""
     if is_table(path):
         size = path.stat().st_size if path.exists() else 1
@@ -182,11 +197,15 @@ def read(path: Path, options: argparse.Namespace, progress: "Progress") -> Rows:
 def fill_record(rows: Rows, options: argparse.Namespace) -> Record:
     """Return the record of some rows and of what the options know."""
     _refuse_options(rows.kind, options)
-    notes = [*rows.notes]
+    rows = leave_out_saturated(rows.count_once())
+    stamps = np.rint(rows.times * NANOSECONDS).astype(np.int64)
+    notes = [*rows.notes, *describe_time_step(find_time_step(stamps))]
     if len(rows.times) > MOST:
         notes.append(f"{len(rows.times)} rows: {MOST} of them are taken, spread over the record")
     more = describe_record(rows.kind, options)
-    return make_record(rows.times, rows.values, rows.kind, **more, notes=tuple(notes))
+    return make_record(
+        rows.times, rows.values, rows.kind, steps=rows.steps, **more, notes=tuple(notes)
+    )
 
 
 def describe_record(kind: str, options: argparse.Namespace) -> dict[str, Any]:
@@ -213,6 +232,8 @@ def _refuse_options(kind: str, options: argparse.Namespace) -> None:
     for name in CLICKED:
         if getattr(options, f"{name}_deviation") and not getattr(options, name):
             raise RefusedError(f"--{name}-deviation must have a --{name}, got none")
+    if options.centre and options.size:
+        raise RefusedError("--size gives --centre: one of them must be given")
     if options.perspective and options.distance:
         raise RefusedError("--perspective looks for --distance: one of them must be given")
     if options.distance and options.distance <= 1 / NEAREST:
@@ -230,7 +251,8 @@ def find_camera(options: argparse.Namespace) -> dict[str, float]:
         found["nearness"] = 1 / options.distance
     if options.elevation is not None:
         found["elevation"] = float(np.radians(options.elevation))
-    return found
+    centre = options.centre or ([each / 2 for each in options.size] if options.size else None)
+    return found | (dict(zip(CENTRE, centre, strict=True)) if centre else {})
 
 
 def find_given(options: argparse.Namespace) -> dict[str, Known | None]:
@@ -274,30 +296,3 @@ def draw(report: Report, path: Path) -> None:
         print(f"top_fit: no plot, {error.name} is missing", file=sys.stderr)
     else:
         write_figure(report, path)
-
-
-class Progress:
-    """Progress on a terminal, once an action takes longer than `PATIENCE`."""
-
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        self._clock, self._begin, self._wrote = clock, clock(), False
-
-    def report_part(self, part: float) -> None:
-        """Write what part of the fit is done."""
-        self.report(part, "fitting")
-
-    def report(self, part: float, action: str) -> None:
-        """Write what part of an action is done, and an estimate of the time that is left."""
-        spent = self._clock() - self._begin
-        if spent < PATIENCE or not 0 < part < 1 or not sys.stderr.isatty():
-            return
-        left = spent * (1 - part) / part
-        print(
-            f"\rtop_fit: {action}, {part:.0%}, at most {left:.0f} s more ", end="", file=sys.stderr
-        )
-        self._wrote = True
-
-    def end(self) -> None:
-        """End the line, if one was written."""
-        if self._wrote:
-            print(file=sys.stderr)

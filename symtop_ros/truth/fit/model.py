@@ -21,7 +21,7 @@ from symtop_ros.physics import (
     Top,
     specific_force,
 )
-from symtop_ros.truth.fit.camera import CAMERA, project
+from symtop_ros.truth.fit.camera import CAMERA, CENTRE, project
 from symtop_ros.truth.fit.kinds import Kind
 from symtop_ros.truth.fit.record import Record
 
@@ -30,6 +30,9 @@ FORCE_BIASES = ("bias_fx", "bias_fy", "bias_fz")  # of an accelerometer
 LENGTH = "log_length"  # of points of an axis; their distance from the pivot is exp(log_length)
 TURNS = ("turn_1", "turn_2", "turn_3")
 FRICTION = ("axial/Iz", "transverse/Ix")
+# Of a sudden change of the rates: its time after the first row, and the change in the world frame,
+# which does not turn with the spin while its time is looked for.
+KICK = ("kick_time", "kick_x", "kick_y", "kick_z")
 THINNEST = 1e-4  # Iz/Ix of a rod
 # A phase that changes by DELTA has a forward difference that is wrong by DELTA/2 of itself, and a
 # central one by DELTA^2/6; the rounding of phases, below 1e-14 rad, adds less than 1e-8 to both.
@@ -66,6 +69,7 @@ class Model:
             "wx",
             "wy",
             *(FRICTION if self.record.has_friction else ()),
+            *(KICK if self.record.has_kick else ()),
             *(MOUNT if self.record.has_mount else ()),
             *((LENGTH,) if self.record.has_length else ()),
             *(("gravity",) if is_inertial else ()),
@@ -134,14 +138,34 @@ class Model:
 
     def show(self, x: Real) -> Real:
         """Return the values (k, n, m) of a record of parameters (k, p)."""
+        return self.show_at(x, self.record.times - self.record.times[0])
+
+    def show_at(self, x: Real, times: Real) -> Real:
+        """Return the values (k, n, m) that parameters (k, p) show at times (n,) from the start."""
         motions = self.read(x)
-        state = motions.at(self.record.times - self.record.times[0])
+        state = motions.at(times)
+        if self.record.has_kick:
+            state = self._kick(motions, state, x, times)
         if self.kind.name != "inertial":
             return self._see(state, x)
         forces = self._find_forces(motions, state, self.take(x, "gravity"))
         force_bias = np.stack([self.take(x, n) for n in FORCE_BIASES], axis=-1)
         forces = self._turn_sensor(forces, x) + force_bias[:, np.newaxis]
         return np.concatenate([self._mount(state.angular_velocity, x), forces], axis=-1)
+
+    def _kick(self, motions: Motions, state: State, x: Real, times: Real) -> State:
+        """Return the states (k, n) at times, of which those after a kick are of another motion."""
+        place = self.place["kick_time"]
+        late = times >= x[:, place : place + 1]
+        if not late.any():
+            return state
+        after = np.where(late, times - x[:, place : place + 1], 0.0)
+        kicked = change_rates(motions, x[:, place], x[:, place + 1 : place + 4]).at_each(after)
+        both = [
+            np.where(late[..., np.newaxis], *each)
+            for each in zip(_take(kicked), _take(state), strict=True)
+        ]
+        return State._wrap(*both)
 
     def _find_forces(self, motions: Motions, state: State, gravity: Real) -> Real:
         """Return the specific forces (k, n, 3) at the place of the accelerometer."""
@@ -172,7 +196,8 @@ class Model:
 
     def _find_cameras(self, x: Real) -> dict[str, Real]:
         given = self.record.camera
-        return {n: self.take(x, n, given.get(n, 0.0)) for n in CAMERA}
+        names = (*CAMERA, *(n for n in CENTRE if n in given))
+        return {n: self.take(x, n, given.get(n, 0.0)) for n in names}
 
     def find_camera(self, x: Real) -> dict[str, float]:
         """Return the camera of parameters (p,), by the names of its numbers."""
@@ -221,6 +246,7 @@ class Model:
             size = float(np.exp(x[self.place["log_scale"]]))
         sizes = {"Mgl/Ix": max(abs(x[0]), 0.01 * rate**2), "u": size, "v": size}
         sizes |= dict.fromkeys(("gravity", *FORCE_BIASES), DEFAULT_GRAVITY)
+        sizes["kick_time"] = 1 / max(rate, 1e-300)
         ones = "Iz/Ix", "log_scale", "elevation", "roll", "nearness", LENGTH, *TURNS, *MOUNT[3:]
         sizes |= dict.fromkeys(ones, 1.0)
         return np.array([sizes.get(name, rate) for name in self.names])
@@ -252,15 +278,27 @@ class Model:
         taken = moved[:count] - (moved[count:] if central else x)
         # Phases beyond 1e10 rad have steps of no digit: NaN ends a search that has lost its way.
         with np.errstate(invalid="ignore"):
-            slopes = self._subtract(left[:count], far) / np.diag(taken)[:, np.newaxis, np.newaxis]
+            slopes = self.subtract(left[:count], far) / np.diag(taken)[:, np.newaxis, np.newaxis]
         return np.asarray(np.moveaxis(slopes, 0, -1))
 
-    def _subtract(self, first: Real, second: Real) -> Real:
+    def subtract(self, first: Real, second: Real) -> Real:
+        """Return a difference of residuals; of an angle without whole turns."""
         difference = first - second
         if self.kind.rounds:  # the residuals of two neighbours may lie on two sides of the period
             last = difference[..., -1]
             difference[..., -1] = last - self.kind.rounds * np.round(last / self.kind.rounds)
         return np.asarray(difference)
+
+
+def _take(state: State) -> tuple[Real, Real]:
+    return np.asarray(state.orientation), np.asarray(state.angular_velocity)
+
+
+def change_rates(motions: Motions, times: Real, change: Real) -> Motions:
+    """Return the motions (k,) after changes (k, 3) of the rates, in the world, at times (k,)."""
+    q, omega = _take(motions.at_each(times))
+    body = Rotation.from_quat(q[:, [1, 2, 3, 0]]).inv().apply(change)
+    return Motions(motions.top, State(q, omega + body), motions.friction)
 
 
 def find_axis(q: Real) -> Real:

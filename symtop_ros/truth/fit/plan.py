@@ -19,7 +19,7 @@ from symtop_ros.truth.fit.refine import Fit, find_sizes, find_spectrum
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.valley import Valley
 from symtop_ros.truth.fit.values import find_slope, list_quantities
-from symtop_ros.truth.judge.lasting import Noise
+from symtop_ros.truth.residuals.whitening import Noise
 
 PRECISE = 0.01  # relative deviation that is asked for
 LONGEST = 20_000  # rows that are tried

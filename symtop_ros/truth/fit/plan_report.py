@@ -8,7 +8,7 @@ from symtop_ros.base.counts import write_count
 from symtop_ros.base.header import make_header
 from symtop_ros.truth.fit.plan import LONGEST, PRECISE, Plan, Start
 from symtop_ros.truth.fit.record import Known
-from symtop_ros.truth.fit.report import describe_unknown, write_row, write_unknown
+from symtop_ros.truth.fit.report import describe_unknown, describe_value, write_row, write_unknown
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import SIZED, Value, convert, list_quantities, list_values
 from symtop_ros.words import write
@@ -69,12 +69,7 @@ class PlanReport:
             "seconds": record.seconds,
             "noise": self.plan.noise.tolist(),
             "values": {
-                each.name: {
-                    "value": each.value,
-                    "deviation": each.deviation,
-                    "unit": each.unit,
-                    "rows_for_1_percent": self.rows.get(each.name),
-                }
+                each.name: describe_value(each) | {"rows_for_1_percent": self.rows.get(each.name)}
                 for each in self.values
                 if each.is_known
             },

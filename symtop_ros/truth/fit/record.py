@@ -10,17 +10,15 @@ from symtop_ros.base.arrays import Mask, Places, Real
 from symtop_ros.base.refusals import RefusedError, refuse, require
 from symtop_ros.run.simulation import points
 from symtop_ros.truth.fit.kinds import KINDS, Kind
+from symtop_ros.truth.residuals.rounding import find_steps
+from symtop_ros.truth.residuals.spread import find_spread
 
 FEWEST = 12  # rows
 MOST = points.MOST  # rows of a fit, as many as a run has points; more are thinned
 RUN = 200  # rows that follow each other in a record that was thinned, for the correlation of noise
 GAP = 1.5  # medians of the steps; a longer step ends a run of noise
-MULTIPLES = 6  # the smallest difference of rounded values is a step, or 2 or 3, and seldom more
-MANY = 1e12  # units; such differences of doubles are whole numbers by their own rounding
-EVEN = 0.1  # of a unit; what decimals, or a change of units, leave of whole numbers
 LENGTH, USUAL = 0.1, 75  # relative differences of lengths in most rows, in per cent of them
 STILL = 1e-9  # of the size of the numbers; what changes less does not move
-NORMAL = 1.4826  # deviation of a normal distribution, in median distances from the median
 Known = tuple[float, float]  # a value and its standard deviation
 
 
@@ -45,6 +43,8 @@ class Record:
     has_length : bool
         Of points of an axis: True if their distance from the pivot is looked for; values are about
         one.
+    has_kick : bool
+        True if a sudden change of the rates is looked for.
     has_mount : bool
         Of rates: True if biases and the tilt of the sensor are looked for.
     has_perspective : bool
@@ -53,6 +53,8 @@ class Record:
         Of inertial records: the place of the accelerometer in the body, in m.
     notes : tuple of str
         Sentences on what is odd about the file.
+    steps : ndarray (m,), optional
+        Steps of the last decimals of each column, if the record was read from text.
     """
 
     times: Real
@@ -61,11 +63,13 @@ class Record:
     camera: Mapping[str, float] = field(default_factory=dict)
     known: Mapping[str, Known] = field(default_factory=dict)
     has_friction: bool = False
+    has_kick: bool = False
     has_length: bool = False
     has_mount: bool = False
     has_perspective: bool = False
     position: tuple[float, ...] = (0.0, 0.0, 0.0)
     notes: tuple[str, ...] = ()
+    steps: Real | None = None
 
     def __len__(self) -> int:
         """Return the number of rows."""
@@ -89,13 +93,14 @@ class Record:
     @cached_property
     def rounding(self) -> Real:
         """Deviation step/sqrt(12), (m,), of the rounding of each column; 0 if none is seen."""
-        return np.asarray(find_steps(self.values) / np.sqrt(12))
+        return np.asarray(find_steps(self.values, self.steps) / np.sqrt(12))
 
     @property
     def plain(self) -> "Record":
         """The same record without what breaks twins: an accelerometer, or perspective."""
         if self.kind.name == "inertial":
-            return replace(self, kind=KINDS["rates"], values=self.values[:, :3])
+            steps = None if self.steps is None else self.steps[:3]
+            return replace(self, kind=KINDS["rates"], values=self.values[:, :3], steps=steps)
         if self.kind.name == "pixels":
             camera = {name: value for name, value in self.camera.items() if name != "nearness"}
             return replace(self, camera=camera, has_perspective=False)
@@ -119,39 +124,9 @@ class Record:
         return self.select(np.unique(firsts[:, np.newaxis] + np.arange(RUN)).ravel())
 
 
-def find_steps(values: Real) -> Real:
-    """Return the steps (m,) to which columns (n, m) are rounded; 0: none is seen.
-
-    A column that does not change shows none: it has the smallest of the others, or else a step of
-    its last decimal.
-    """
-    steps = np.array([find_step(column) for column in values.T])
-    still = np.ptp(values, axis=0) == 0
-    if (steps[~still] > 0).all() and not still.all():
-        steps[still] = steps[~still].min()
-    return steps
-
-
-def find_step(values: Real) -> float:
-    """Return the step of which all values (n,) are multiples, apart from a constant; 0: of none."""
-    differences = np.diff(np.unique(values))
-    if not len(differences):
-        return find_decimal(values[0])
-    unit = differences.min() / MULTIPLES
-    counts = differences / unit
-    if counts.max() > MANY or np.abs(counts - np.round(counts)).max() > EVEN:
-        return 0.0
-    return float(np.gcd.reduce(np.round(counts).astype(np.int64)) * unit)
-
-
-def find_decimal(value: float) -> float:
-    """Return the step of the last decimal of a number that was written with up to nine digits."""
-    digits = f"{value:.9g}".partition("e")[0]
-    exponent = int(f"{value:.9e}".partition("e")[2])
-    return float(10.0 ** (exponent + 1 - len(digits.replace(".", "").strip("-0") or "0")))
-
-
-def make_record(times: Real, values: Real, kind: str, **more: object) -> Record:
+def make_record(
+    times: Real, values: Real, kind: str, *, steps: Real | None = None, **more: object
+) -> Record:
     """Return a record of which numbers, times and motion were looked at.
 
     Parameters
@@ -165,6 +140,8 @@ def make_record(times: Real, values: Real, kind: str, **more: object) -> Record:
         axis, v upwards.
     kind : str
         A name of `KINDS`.
+    steps : array_like (m,), optional
+        Steps of the last decimals of each column, if the numbers were read from text.
     **more
         Further attributes of `Record`.
 
@@ -194,7 +171,8 @@ def make_record(times: Real, values: Real, kind: str, **more: object) -> Record:
     if kind in {"axis", "attitude"}:
         values, length = _normalize(values, kind)
     _refuse_still(values, found)
-    return Record(times, values, found, has_length=length != 1, **more)  # type: ignore[arg-type]
+    steps = None if steps is None else np.asarray(steps, dtype=float) / length
+    return Record(times, values, found, steps=steps, has_length=length != 1, **more)  # type: ignore[arg-type]
 
 
 def _refuse_odd(times: Real, values: Real) -> None:
@@ -243,9 +221,3 @@ def _refuse_still(values: Real, kind: Kind) -> None:
             f"a record must show a motion, got {kind.name} that do not change: "
             f"{', '.join(f'{v:.6g}' for v in values[0])}"
         )
-
-
-def find_spread(rows: Real) -> Real:
-    """Return a deviation of each column, (m,), on which outliers have no influence."""
-    middle = np.median(rows, axis=0)
-    return np.asarray(NORMAL * np.median(np.abs(rows - middle), axis=0) + 1e-300)

@@ -2,7 +2,7 @@
 
 The weights are those of the noise of each column. Noise that lasts is taken as an autoregression,
 of the order that Hannan and Quinn's criterion chooses: flicker has another power at a nutation than
-on average. Noise of any other correlation is left to the sandwich of `truth/judge/noise.py`.
+on average. Noise of any other correlation is left to the sandwich of `truth/residuals`.
 """
 
 from dataclasses import dataclass, field, replace
@@ -12,10 +12,12 @@ import numpy as np
 
 from symtop_ros.base.arrays import Mask, Real
 from symtop_ros.truth.fit.model import Model
-from symtop_ros.truth.fit.record import Record, find_spread
+from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.search import minimise
-from symtop_ros.truth.judge.lasting import Noise, find_lasting, measure_noise
-from symtop_ros.truth.judge.noise import Remainder, sum_influences
+from symtop_ros.truth.residuals.influence import sum_influences
+from symtop_ros.truth.residuals.residuals import Residuals
+from symtop_ros.truth.residuals.spread import find_spread
+from symtop_ros.truth.residuals.whitening import Noise, find_lasting, measure_noise
 
 OUTLIER = 5.0  # deviations; a normal number is farther once in two million
 ROUNDS = 8  # of weights and least squares
@@ -42,6 +44,8 @@ class Fit:
         Other motions that fit as well.
     is_lone : bool
         True if one search of all found this motion, and what it leaves lasts from row to row.
+    has_mirror : bool
+        Of a near camera: True if one below the pivot, with -p_psi, shows the record as well.
     """
 
     model: Model
@@ -49,6 +53,7 @@ class Fit:
     noise: Noise
     others: tuple["Fit", ...] = field(default=())
     is_lone: bool = False
+    has_mirror: bool = False
 
     @cached_property
     def residuals(self) -> Real:
@@ -67,9 +72,9 @@ class Fit:
         return self.noise.whiten(slopes)
 
     @cached_property
-    def remainder(self) -> Remainder:
+    def remainder(self) -> Residuals:
         """The whitened residuals, for the tests of noise."""
-        return Remainder((self.white, self.white), self.model.record.seconds)
+        return Residuals((self.white, self.white), self.model.record.seconds)
 
     @cached_property
     def priors(self) -> Real:

@@ -1,5 +1,6 @@
 """The report of a fit: as a record for JSON, and as text, both from the same numbers."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -9,12 +10,15 @@ import numpy as np
 
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.header import make_header
-from symtop_ros.base.measured import format_measured
-from symtop_ros.truth.fit.check import FAILS, UNCLEAR, Check
+from symtop_ros.base.measured import format_measured, write_measured
+from symtop_ros.run.simulation.points import SEEN
+from symtop_ros.truth.fit.check import FAILS, HOLDS, UNCLEAR, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.rivals import Rival, find_rivals
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import Value, convert, list_values
+from symtop_ros.truth.residuals.lines import Line
 from symtop_ros.words import write
 from symtop_ros.words.templates import TEMPLATES
 
@@ -25,7 +29,11 @@ LABELS = {
     "mean_precession_rate": "mean precession",
     "nutation_period": "nutation period",
     "spin_half_time": "spin is half after",
+    "kick_time": "kick after",
+    "kick": "change of the rates",
 }
+SLIGHT = 0.1  # of the deviation by the noise: less is not written
+REST = 0.1  # of the square of a systematic deviation, which causes that are not named may make
 ANGLES = "theta", "phi", "theta_dot", "phi_dot"
 
 
@@ -42,12 +50,32 @@ class Report:
     fit : Fit
     given : dict
         Known values, as for `values.convert`.
+    rivals : sequence of Rival
+        What explains the record and one free motion does not, the clearest first; the fit is that
+        of the first.
     """
 
     source: str
     rows: int
     fit: Fit
     given: dict[str, Known]
+    rivals: Sequence[Rival] = ()
+
+    @classmethod
+    def compare(cls, source: str, rows: int, fit: Fit, given: dict[str, Known]) -> "Report":
+        """Return the report of a fit of one free motion, or of what explains the record better."""
+        rivals = find_rivals(fit, Check(fit))
+        best = next((each for each in rivals if each.explains), None)
+        best = best or next((each for each in rivals if each.loses_spin), None)
+        if best is None:
+            return cls(source, rows, fit, given)
+        others = [each for each in rivals if each is not best]
+        return cls(source, rows, best.fit, given, [best, *others])
+
+    @property
+    def verdict(self) -> str:
+        """HOLDS, UNCLEAR or FAILS; the model is one free motion."""
+        return FAILS if self.rivals else self.check.verdict
 
     @cached_property
     def values(self) -> list[Value]:
@@ -68,11 +96,7 @@ class Report:
     def facts(self) -> dict[str, Any]:
         """Return all figures, for JSON."""
         record = self.fit.model.record
-        known = {
-            each.name: {"value": each.value, "deviation": each.deviation, "unit": each.unit}
-            for each in self.values
-            if each.is_known
-        }
+        known = {each.name: describe_value(each) for each in self.values if each.is_known}
         return {
             **make_header("fit", [Path(self.source)]),
             "source": self.source,
@@ -87,20 +111,31 @@ class Report:
         }
 
     def _describe_model(self) -> dict[str, Any]:
-        check, noise = self.check, self.fit.noise
+        check, noise, columns = self.check, self.fit.noise, self.fit.model.kind.columns
         return {
-            "verdict": check.verdict,
+            "verdict": self.verdict,
+            "rivals": [
+                {
+                    "kind": each.kind,
+                    "gain": each.gain,
+                    "needed": each.needed,
+                    "explains": each.explains,
+                }
+                for each in self.rivals
+            ],
             "text": self.write_verdict(),
             "residuals_are_white": check.is_white,
             "residual_rms": np.sqrt((self.fit.residuals[noise.kept] ** 2).mean(axis=0)).tolist(),
             "outliers": noise.outliers,
             "stretch": check.stretch,
+            "still": [columns[column] for column in check.still],
             "noise_order": len(noise.partial),
             "is_flicker": noise.is_flicker,
             "is_lone": self.fit.is_lone,
             "independent_rows": self.fit.remainder.independent,
             "no_deviations_as": check.fault or None,
             "changed": [vars(each) for each in check.changes],
+            "lines": [{**vars(each), "column": self._name(each)} for each in check.lines],
         }
 
     def format(self) -> str:
@@ -115,26 +150,62 @@ class Report:
         lines += [f"not known: {write_unknown(each)}" for each in self.unknown]
         return "\n".join([*lines, *(f"note: {note}" for note in record.notes)])
 
+    def _name(self, line: Line) -> str:
+        """Return the name of the column of the residuals that has a line."""
+        return SEEN[self.fit.model.kind.name].residuals[line.column]
+
+    def _describe_line(self, line: Line) -> dict[str, Any]:
+        at = {"kind": line.name} if line.name else None
+        return {**vars(line), "column": self._name(line), "at": at, "percent": 100 * line.share}
+
     @property
     def _lacks_friction(self) -> bool:
-        is_wrong = self.check.verdict == FAILS or self.check.is_smooth
-        return is_wrong and not self.fit.model.record.has_friction
+        is_wrong = bool(self.check.changes) or self.check.is_smooth
+        return is_wrong and not self.rivals and not self.fit.model.record.has_friction
+
+    def _describe_rivals(self) -> dict[str, Any]:
+        """Return the fields of the sentence on what explains the record better; or none."""
+        if not self.rivals:
+            return {}
+        first, *others = self.rivals
+        kind = first.kind if first.explains else "other_loss"
+        fields = {"gain": first.gain, "needed": first.needed}
+        other = {"kind": others[0].kind, "gain": others[0].gain} if others else None
+        return {"verdict": kind, **fields, "other": other}
 
     def write_verdict(self) -> str:
         """Return whether the model holds, in a sentence."""
         noise, order = self.fit.noise, len(self.fit.noise.partial)
-        is_lone = self.check.verdict == UNCLEAR and self.check.is_noise
+        verdict, kind = self.check.verdict, self.fit.model.kind
+        if verdict == UNCLEAR and self.check.is_noise:
+            verdict = "lone"
+        elif verdict == HOLDS and self.check.lines:
+            verdict = "lined"
         record = {
-            "verdict": "lone" if is_lone else self.check.verdict,
+            "verdict": verdict,
+            **self._describe_rivals(),
             "undamped": {} if self._lacks_friction else None,
             "outliers": {"count": write_count(noise.outliers, "row")} if noise.outliers else None,
             "lasting": {"order": order} if order and not noise.is_flicker else None,
             "flicker": {} if noise.is_flicker else None,
             "stretch": {"count": str(self.check.stretch)} if self.check.stretch else None,
+            "still": [{"name": kind.columns[column]} for column in self.check.still] or None,
+            "lines": [self._describe_line(each) for each in self.check.lines] or None,
             "changes": [vars(each) for each in self.check.changes] or None,
             "fault": {"kind": self.check.fault} if self.check.fault else None,
         }
         return write("model", record)
+
+
+def describe_value(value: Value) -> dict[str, Any]:
+    """Return a number for JSON."""
+    return {
+        "value": value.value,
+        "deviation": value.deviation,
+        "systematic": {part.cause: part.shift for part in value.parts},
+        "total": value.total,
+        "unit": value.unit,
+    }
 
 
 def write_row(value: Value) -> str:
@@ -142,7 +213,23 @@ def write_row(value: Value) -> str:
     measured = format_measured(value.value, value.deviation, 12)
     label = LABELS.get(value.name, value.name)
     when = " (first row)" if value.name in ANGLES else ""
-    return f"  {label:20}{measured} {value.unit}{when}".rstrip()
+    return f"  {label:20}{measured}{write_systematic(value)} {value.unit}{when}".rstrip()
+
+
+def write_systematic(value: Value) -> str:
+    """Return the deviation by what is assumed, with its causes; none if that of the noise hides it.
+
+    The causes are the largest, as many as make up nearly all of it.
+    """
+    if value.systematic < SLIGHT * value.deviation:
+        return ""
+    causes, left = [], value.systematic**2
+    for part in sorted(value.parts, key=lambda part: -abs(part.shift)):
+        if left > REST * value.systematic**2:
+            causes.append(part.cause)
+        left -= part.shift**2
+    deviation = write_measured(value.value, value.systematic)[1]
+    return write("systematic", {"deviation": deviation, "causes": causes})
 
 
 def write_unknown(unknown: Unknown) -> str:

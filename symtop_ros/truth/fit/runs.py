@@ -18,7 +18,7 @@ from symtop_ros.physics import Motion
 from symtop_ros.run.simulation.points import Points
 from symtop_ros.run.simulation.run_file import RunEvent, write_run
 from symtop_ros.run.simulation.settings import Settings
-from symtop_ros.truth.fit.camera import CAMERA
+from symtop_ros.truth.fit.camera import CAMERA, rectify
 from symtop_ros.truth.fit.model import LENGTH, MOUNT
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
@@ -100,8 +100,9 @@ def make_run(fit: Fit, rows: int, given: Mapping[str, Known]) -> FittedRun:
 def find_points(fit: Fit, rows: int) -> Points:
     """Return the points of a record and what the motion leaves of them.
 
-    Of a sensor whose bias and tilt were found they are those of a sensor without, and of
-    points at a distance from the pivot that was found those at one.
+    Of a sensor whose bias and tilt were found they are those of a sensor without, of points at a
+    distance from the pivot that was found those at one, and of a camera that looks elsewhere those
+    of one at the same place that looks at the pivot.
     """
     record = fit.model.record
     values, residuals = record.values, -fit.residuals
@@ -117,7 +118,11 @@ def find_points(fit: Fit, rows: int) -> Points:
         values, residuals = values / length, residuals / length
     camera: dict[str, float] = {}
     if record.kind.name == "pixels":
-        camera = {name: fit.model.find_camera(fit.x)[name] for name in CAMERA}
+        found_camera = fit.model.find_camera(fit.x)
+        camera = {name: found_camera[name] for name in CAMERA}
+        shown = rectify(values - residuals, found_camera)
+        values = rectify(values, found_camera)
+        residuals = values - shown
     times = record.times - record.times[0]
     return Points(record.kind.name, rows, times, values, residuals, camera)
 

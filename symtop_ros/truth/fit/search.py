@@ -15,8 +15,9 @@ from scipy.optimize import least_squares
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit.body_starts import list_starts
 from symtop_ros.truth.fit.model import FRICTION, THINNEST, Model
-from symtop_ros.truth.fit.record import Record, find_spread
+from symtop_ros.truth.fit.record import FEWEST, Record
 from symtop_ros.truth.fit.starts import Starts
+from symtop_ros.truth.residuals.spread import find_spread
 
 GROWTH = 1.7  # of a part
 BROAD = 3.0  # scales of the residuals at which starts are compared
@@ -157,6 +158,9 @@ def list_bounds(model: Model) -> tuple[Real, Real]:
     """Return the least and the largest value of each parameter."""
     low, high = np.full(len(model.names), -np.inf), np.full(len(model.names), np.inf)
     limits = {"Iz/Ix": (THINNEST, 2.0), "elevation": (-np.pi / 2, np.pi / 2)}
+    # a kick next to an end shows nothing
+    begin, *_, end = model.record.times[[FEWEST // 2, -FEWEST // 2]] - model.record.times[0]
+    limits["kick_time"] = float(begin), float(end)
     limits |= {"nearness": (0.0, NEAREST), "gravity": (0.1, np.inf)}
     limits |= dict.fromkeys(FRICTION, (-1e-6, np.inf))
     for name, (least, largest) in limits.items():

@@ -18,6 +18,7 @@ from symtop_ros.truth.fit.camera import CAMERA
 from symtop_ros.truth.fit.model import (
     FORCE_BIASES,
     FRICTION,
+    KICK,
     LENGTH,
     MOUNT,
     TURNS,
@@ -72,7 +73,7 @@ def fill_axis_starts(record: Record, axes: Real) -> Starts:
 def fill(model: Model, values: Mapping[str, float]) -> Real:
     """Return the parameters (p,) of named values; the others are those of a start."""
     slight = dict.fromkeys(FRICTION, SLIGHT)
-    missing = dict.fromkeys((*TURNS, *MOUNT, LENGTH, *FORCE_BIASES, *CAMERA), 0.0) | slight
+    missing = dict.fromkeys((*TURNS, *KICK, *MOUNT, LENGTH, *FORCE_BIASES, *CAMERA), 0.0) | slight
     missing["gravity"] = DEFAULT_GRAVITY
     return np.array([{**missing, **values}[name] for name in model.names], dtype=float)
 

@@ -110,6 +110,16 @@ def turn_camera(motion: Motion, camera: dict[str, float]) -> tuple[Motion, dict[
     }
 
 
+def mirror_picture(motion: Motion, camera: dict[str, float]) -> tuple[Motion, dict[str, float]]:
+    """Return the motion mirrored left and right, and the camera that shows its picture mirrored."""
+    axis, velocity = _find_axis_motion(motion)
+    over = np.array([-1.0, 1.0, 1.0])
+    turned = {**camera, "roll": -camera["roll"]}
+    if "centre_u" in camera:
+        turned["centre_u"] = 2 * camera["u"] - camera["centre_u"]
+    return start_axis(motion, axis * over, velocity * over, -1.0), turned
+
+
 def _mirror(vector: Real, elevation: float) -> Real:
     """Return what a camera of the other elevation sees at the same place, mirrored in depth."""
     x, y, z = vector

@@ -10,15 +10,17 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
-from symtop_ros.truth.fit.aliases import count_rows
-from symtop_ros.truth.fit.camera import CAMERA, project
+from symtop_ros.truth.fit.aliases import count_rows, is_alias
+from symtop_ros.truth.fit.camera import project
 from symtop_ros.truth.fit.model import find_axis, find_momentum
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.systematics import Budget
 from symtop_ros.truth.fit.twins import (
     bias_spin,
     change_axial_moment,
     exchange_momenta,
+    mirror_picture,
     mirror_view,
     reverse_momenta,
     scale_moments,
@@ -34,7 +36,7 @@ ROWS = 50  # at which twins are compared
 STRONG = 0.98  # correlation of two numbers that are only known together
 ABOVE = 4.0  # deviations within which a camera may be straight above
 BIAS = 0.01  # of the spin, by which the gyroscope of a twin is wrong
-OF_CAMERAS = "upright", "high", "above"
+OF_CAMERAS = "mirrored", "upright", "high", "above"
 #: The twins of each kind.
 EXACT_TWINS: dict[str, tuple[str, ...]] = {
     "attitude": ("moments",),
@@ -42,7 +44,7 @@ EXACT_TWINS: dict[str, tuple[str, ...]] = {
     "inertial": ("moments", "azimuth"),
     "axis": ("moments", "spin"),
     "angles": ("moments", "spin"),
-    "pixels": ("moments", "spin", "upright", "high", "above"),
+    "pixels": ("moments", "spin", "mirrored", "upright", "high", "above"),
     "theta": ("moments", "spin", "azimuth", "exchange", "reverse"),
 }
 
@@ -68,7 +70,7 @@ class Unknown:
 def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> list[Unknown]:
     """Return what a record leaves open."""
     together = [*list_together(fit, values)]
-    found = [*list_twins(fit, given), *together, *_list_ambiguities(fit, values)]
+    found = [*list_twins(fit, given), *_list_aim(fit), *together, *_list_ambiguities(fit, values)]
     said = {name for each in found for name in each.names.split(", ")}
     curved = [each.name for each in values if not each.is_straight and each.name not in said]
     if curved:
@@ -84,7 +86,7 @@ def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> 
     ]
     # along a combination that alone is known there is a motion for each of its values
     others = [] if together else fit.others
-    return [*found, *_list_motions(others)]
+    return [*found, *_list_motions(fit, others)]
 
 
 def list_twins(fit: Fit, given: dict[str, Known]) -> Iterator[Unknown]:
@@ -97,7 +99,8 @@ def list_twins(fit: Fit, given: dict[str, Known]) -> Iterator[Unknown]:
             continue
         make = make_camera_twin if kind in OF_CAMERAS else make_body_twin
         twin = make(fit, motion, kind)
-        if np.abs(twin.shown - own).max() <= EXACT * size:
+        is_open = kind == "high" and fit.has_mirror
+        if is_open or np.abs(twin.shown - own).max() <= EXACT * size:
             yield Unknown(kind, twin.names, twin.numbers)
 
 
@@ -163,6 +166,10 @@ def make_momentum_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
 def make_camera_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
     """Return a twin that a different camera shows, or one from straight above."""
     camera, p = fit.model.find_camera(fit.x), find_p(motion)
+    if kind == "mirrored":
+        twin, turned = mirror_picture(motion, camera)
+        shown = _project(fit, twin, turned)
+        return Twin(shown * [-1.0, 1.0] + [2 * camera["u"], 0.0], "sign of p_psi", (-p,))
     if kind == "upright":
         twin, turned = turn_camera(motion, camera)
         return Twin(_project(fit, twin, turned), "sign of Mgl", (-motion.top.Mgl, p))
@@ -204,8 +211,15 @@ def _choose_times(fit: Fit) -> Real:
 def _project(fit: Fit, motion: Motion, camera: dict[str, float]) -> Real:
     axis = find_axis(motion.at(_choose_times(fit)).orientation)
     return np.asarray(
-        project(axis[np.newaxis], {name: np.array([camera[name]]) for name in CAMERA})[0]
+        project(axis[np.newaxis], {name: np.array([each]) for name, each in camera.items()})[0]
     )
+
+
+def _list_aim(fit: Fit) -> Iterator[Unknown]:
+    """Yield what p_psi would be if a near camera whose aim is not known looks above the pivot."""
+    if fit.model.record.kind.name == "pixels" and (shift := Budget(fit).raise_aim()) is not None:
+        p = find_slope(fit, lambda x: find_momentum(fit.model, x)) @ shift
+        yield Unknown("aim", "aim of the camera", (find_momentum(fit.model, fit.x) + float(p),))
 
 
 def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
@@ -238,11 +252,15 @@ def find_rest(fit: Fit) -> tuple[float, float]:
     return find(fit.x), fit.find_deviation(find_slope(fit, find))
 
 
-def _list_motions(others: Sequence[Fit]) -> Iterator[Unknown]:
+def _list_motions(fit: Fit, others: Sequence[Fit]) -> Iterator[Unknown]:
     """Yield motions that fit as well."""
     for other in others:
         motion = other.model.find_motion(other.x)
-        yield Unknown("other", "Mgl/Ix, p_psi/Ix", (float(motion.top.Mgl), find_p(motion)))
+        numbers = float(motion.top.Mgl), find_p(motion)
+        if is_alias(other, fit):
+            yield Unknown("alias", "rows in a nutation", (*numbers, count_rows(other)))
+        else:
+            yield Unknown("other", "Mgl/Ix, p_psi/Ix", numbers)
 
 
 def _list_ambiguities(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:

@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.truth.fit.aliases import SPARSE, count_rows
+from symtop_ros.truth.fit.aliases import SPARSE, count_rows, is_alias
 from symtop_ros.truth.fit.camera import CAMERA
-from symtop_ros.truth.fit.model import FORCE_BIASES, FRICTION, MOUNT, find_momentum
+from symtop_ros.truth.fit.model import FORCE_BIASES, FRICTION, KICK, MOUNT, find_momentum
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.fit.systematics import Budget, Part
 from symtop_ros.truth.fit.valley import Valley
 
+HELD = 0.01  # of the deviation of the time of a kick
 SURE = 0.15  # of the scale of a number; one with a larger deviation is not known
 LEVEL = 4.0  # deviations within which an elevation may be zero
 SIDES = "p_psi/Ix", "phi_dot", "mean_precession_rate"  # change with the sign of p_psi
@@ -38,6 +40,8 @@ UNITS = {
     "axial/Iz": "1/s",
     "transverse/Ix": "1/s",
     "spin_half_time": "s",
+    "kick_time": "s",
+    "kick": "rad/s",
     "Ix": "kg m^2",
     "Iz": "kg m^2",
     "Mgl": "J",
@@ -62,11 +66,22 @@ class Value:
     deviation: float
     is_known: bool  # the deviation is small, and so is what the record leaves open
     is_straight: bool = True  # False: the deviation would be small, but is not to be trusted
+    parts: tuple[Part, ...] = ()  # what usual errors of what is assumed change it by
 
     @property
     def unit(self) -> str:
         """Unit of the number."""
         return UNITS[self.name]
+
+    @property
+    def systematic(self) -> float:
+        """Deviation by what is assumed."""
+        return float(np.sqrt(sum(part.shift**2 for part in self.parts)))
+
+    @property
+    def total(self) -> float:
+        """Deviation in all: by the noise, and by what is assumed."""
+        return float(np.hypot(self.deviation, self.systematic))
 
 
 def list_values(fit: Fit) -> list[Value]:
@@ -74,12 +89,12 @@ def list_values(fit: Fit) -> list[Value]:
 
     A number is not known if a twin or another motion that fits as well has a different one.
     """
-    others = [dict(list_quantities(other)) for other in fit.others]
-    hidden, valley, found = find_hidden(fit), Valley(fit), []
+    rivals = [other for other in fit.others if not is_alias(other, fit)]
+    others = [(dict(list_quantities(other)), other.x) for other in rivals]
+    hidden, valley, budget, found = find_hidden(fit), Valley(hold_kick(fit)), Budget(fit), []
     for name, of in list_quantities(fit):
-        value = find_value(valley, name, of)
-        rivals = [other[name](each.x) for other, each in zip(others, fit.others, strict=True)]
-        is_same = all(agree(value, rival) for rival in rivals)
+        value = find_value(valley, budget, name, of)
+        is_same = all(agree(value, named[name](x)) for named, x in others)
         found.append(value if is_same and name not in hidden else replace(value, is_known=False))
     return [*found, *find_half_time(found)]
 
@@ -89,7 +104,21 @@ def find_half_time(values: list[Value]) -> Iterator[Value]:
     for each in values:
         if each.name == "axial/Iz" and each.value > 0:
             part = _relative(each.value, each.deviation)
-            yield _combine("spin_half_time", np.log(2) / each.value, part, 0.0, each.is_known)
+            yield _combine("spin_half_time", np.log(2) / each.value, (part, 0.0), each)
+
+
+def hold_kick(fit: Fit) -> Fit:
+    """Return the fit with the time of its kick held.
+
+    A motion that is some deviations off would have its kick beyond a row, and leave the whole jump
+    there: no valley is straight across it.
+    """
+    known = fit.model.record.known
+    if "kick_time" not in known:
+        return fit
+    value, deviation = known["kick_time"]
+    record = replace(fit.model.record, known={**known, "kick_time": (value, HELD * deviation)})
+    return replace(fit, model=fit.model.move(record))
 
 
 def agree(value: Value, rival: float) -> bool:
@@ -115,7 +144,8 @@ def is_sparse(fit: Fit) -> bool:
 
 def is_level(fit: Fit) -> bool:
     """Return True if a camera may be above or below the level of the pivot."""
-    if "elevation" not in fit.model.place or fit.model.record.breaks_twins:
+    is_open = fit.has_mirror or not fit.model.record.breaks_twins
+    if "elevation" not in fit.model.place or not is_open:
         return False
     place = fit.model.place["elevation"]
     deviation = fit.find_deviation(np.eye(len(fit.x))[place])
@@ -136,6 +166,10 @@ def list_quantities(fit: Fit) -> Iterator[tuple[str, Callable[[Real], float]]]:
     if not model.record.has_friction:
         for name in ("mean_precession_rate", "nutation_period"):
             yield name, lambda x, name=name: _ask(model.find_motion(x), name)  # type: ignore[misc]
+    if model.record.has_kick:
+        yield "kick_time", take("kick_time")
+        # its direction in space turns with the azimuth, which not every record shows
+        yield "kick", lambda x: float(np.linalg.norm(x[[model.place[name] for name in KICK[1:]]]))
     yield from ((name, take(name)) for name in OTHERS if name in model.place)
     for name in (each for each in CAMERA if each in model.place):
         yield _write_camera(name, take(name))
@@ -170,16 +204,17 @@ def _list_angles(fit: Fit) -> Iterator[tuple[str, Callable[[Real], float]]]:
     yield "phi_dot", lambda x: float(model.find_motion(x).start.euler_rates.phi_dot)
 
 
-def find_value(valley: Valley, name: str, of: Callable[[Real], float]) -> Value:
+def find_value(valley: Valley, budget: Budget, name: str, of: Callable[[Real], float]) -> Value:
     """Return a number and its deviation, by central differences within white deviations."""
-    fit = valley.fit
+    fit = budget.fit
     slope, value = find_slope(fit, of), of(fit.x)
     if not (np.isfinite(slope).all() and np.isfinite(value)):
         return Value(name, value, np.inf, False)
     deviation = fit.find_deviation(slope)
     is_small = deviation <= SURE * find_scale(fit, name, value)
     straight = not is_small or valley.is_straight(slope, of)
-    return Value(name, value, deviation, is_small and straight, straight)
+    parts = budget.list_parts(slope)
+    return Value(name, value, deviation, is_small and straight, straight, parts)
 
 
 def find_slope(fit: Fit, of: Callable[[Real], float]) -> Real:
@@ -197,8 +232,10 @@ def find_slope(fit: Fit, of: Callable[[Real], float]) -> Real:
 def find_scale(fit: Fit, name: str, value: float) -> float:
     """Return the size of a number, below which its deviation has to be for it to be known."""
     scales = dict(zip(fit.model.names, fit.model.find_scales(fit.x), strict=True))
-    if name in {"nutation_period", "scale"}:
+    if name in {"nutation_period", "scale", "kick"}:
         return abs(value)
+    if name == "kick_time":
+        return fit.model.record.seconds
     if name in {"theta", "phi"}:
         return 1.0
     if name == "Iz/Ix":
@@ -234,21 +271,25 @@ def _relative(value: float, deviation: float) -> float:
     return deviation / abs(value) if value else np.inf
 
 
-def _combine(name: str, value: float, first: float, second: float, is_known: bool) -> Value:
-    deviation = abs(value) * float(np.hypot(first, second))
-    return Value(name, value, deviation, is_known and deviation <= SURE * abs(value))
+def _combine(name: str, value: float, relative: tuple[float, float], of: Value) -> Value:
+    """Return a number that grows as another one does, or as its inverse."""
+    deviation = abs(value) * float(np.hypot(*relative))
+    is_known = of.is_known and deviation <= SURE * abs(value)
+    size = abs(value / of.value) if of.value else 0.0
+    parts = tuple(Part(part.cause, size * part.shift) for part in of.parts)
+    return Value(name, value, deviation, is_known, parts=parts)
 
 
 def _multiply(name: str, value: Value, known: Known) -> Value:
-    parts = _relative(value.value, value.deviation), _relative(*known)
-    return _combine(name, value.value * known[0], *parts, value.is_known)
+    relative = _relative(value.value, value.deviation), _relative(*known)
+    return _combine(name, value.value * known[0], relative, value)
 
 
 def _divide(name: str, value: Value, known: Known) -> Value:
-    parts = _relative(value.value, value.deviation), _relative(*known)
-    return _combine(name, value.value / known[0], *parts, value.is_known)
+    relative = _relative(value.value, value.deviation), _relative(*known)
+    return _combine(name, value.value / known[0], relative, value)
 
 
 def _divide_known(name: str, known: Known, value: Value) -> Value:
-    parts = _relative(value.value, value.deviation), _relative(*known)
-    return _combine(name, known[0] / value.value, *parts, value.is_known)
+    relative = _relative(value.value, value.deviation), _relative(*known)
+    return _combine(name, known[0] / value.value, relative, value)

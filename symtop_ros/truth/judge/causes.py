@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.arrays import Real, compose, invert
+from symtop_ros.truth.judge.alignment import PARAMETERS, Alignment
 from symtop_ros.truth.judge.compare import NONE, Offset
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import PARAMETERS, Fit
 from symtop_ros.truth.judge.permutations import list_permutations
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 # Which rotations are free, with their columns of derivatives, and how much each counts when the
 # simplest explanation is looked for.
@@ -135,14 +135,14 @@ PERMUTED = {each.name: each for each in list_permutations()}
 CHANGES = CONVENTIONS | {name: (1.5, ALL[:2], _turn(each.undo)) for name, each in PERMUTED.items()}
 
 
-class Fits(dict[str, Fit]):
+class Fits(dict[str, Alignment]):
     """Fits of estimates of which a change is undone, made when they are asked for."""
 
     def __init__(self, estimates: Estimates, truth: Truth) -> None:
         super().__init__()
         self._estimates, self._truth = estimates, truth
 
-    def __missing__(self, change: str) -> Fit:
+    def __missing__(self, change: str) -> Alignment:
         """Return the fit of a change."""
-        self[change] = Fit(CHANGES[change][2](self._estimates), self._truth)
+        self[change] = Alignment(CHANGES[change][2](self._estimates), self._truth)
         return self[change]

@@ -21,9 +21,9 @@ Each line is a step with its thresholds; causes that do not pass it go where its
 
 from collections.abc import Mapping, Sequence
 
+from symtop_ros.truth.judge.alignment import PARAMETERS, Alignment
 from symtop_ros.truth.judge.causes import Cause
-from symtop_ros.truth.judge.fit import PARAMETERS, Fit
-from symtop_ros.truth.judge.noise import CHANCE, PER_PARAMETER
+from symtop_ros.truth.residuals.residuals import CHANCE, PER_PARAMETER
 
 SIMPLER = 4.0  # if no noise is left, simpler causes count with at most twice the error (squared)
 TIE = 1.5  # explanations that are as good, by their mean squares
@@ -33,7 +33,7 @@ LESS = 4.0  # the squares become so many times smaller: the cause is worth a sen
 CLEAR = 1000.0  # the error becomes so many times smaller: its cause is clear, whatever is left
 
 
-def select(found: Sequence[Cause], fits: Mapping[str, Fit], rounding: float) -> list[Cause]:
+def select(found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: float) -> list[Cause]:
     """Return those that are as good as the best one, in the noise of so many estimates."""
     lowest = min(found, key=lambda each: each.cost)
     left = fits[lowest.change].find_remainder(lowest.offset)
@@ -48,7 +48,7 @@ def select(found: Sequence[Cause], fits: Mapping[str, Fit], rounding: float) -> 
 
 
 def choose(
-    found: Sequence[Cause], fits: Mapping[str, Fit], rounding: float
+    found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: float
 ) -> tuple[Cause, list[Cause]]:
     """Return the simplest of the good explanations, and others that are as simple and good.
 
@@ -77,7 +77,7 @@ def choose(
     return best, [*reversed(ties.values())]
 
 
-def judge(best: Cause, start: Cause, fit: Fit) -> tuple[bool, bool]:
+def judge(best: Cause, start: Cause, fit: Alignment) -> tuple[bool, bool]:
     """Return whether an explanation is named, and else whether it would leave clearly less.
 
     It is named if it is significant, and leaves noise or next to nothing. What is left may be

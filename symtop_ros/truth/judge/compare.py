@@ -19,9 +19,9 @@ from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real, Stamps, compose, invert, rotate, split
 from symtop_ros.run.wire.layout import NANOSECONDS
-from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.testset.score import measure_angles
+from symtop_ros.truth.topics.estimates import Estimates
 
 IDENTITY = np.array([1.0, 0.0, 0.0, 0.0])
 PERCENTILES = (50, 90, 99, 100)

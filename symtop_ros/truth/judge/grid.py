@@ -13,11 +13,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real, compose, find_rotation_vectors, invert
+from symtop_ros.truth.judge.alignment import MOST_DELAY
 from symtop_ros.truth.judge.causes import set_parameter
 from symtop_ros.truth.judge.compare import IDENTITY, NONE, Offset, Scaling
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import MOST_DELAY
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 # A parameter is tried in steps in which it turns the attitude by so many rad, and at most so often.
 GRID_STEP, MOST_STEPS = 0.5, 1000

@@ -14,7 +14,6 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.causes import Cause, Finding
 from symtop_ros.truth.judge.compare import NONE, PERCENTILES, Errors, Offset, compare
-from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.mistakes import find_mistakes
 from symtop_ros.truth.judge.outliers import count_outliers, trim
 from symtop_ros.truth.judge.relative import LABEL, Relative, measure_relative
@@ -23,6 +22,7 @@ from symtop_ros.truth.judge.summary import format_row, summarize
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.judge.turns import describe_axis
 from symtop_ros.truth.judge.wanted import align, explain, find_nearest
+from symtop_ros.truth.topics.estimates import Estimates
 from symtop_ros.words import write
 
 NOTHING = 1e-6  # rad; an error below this is not worth a sentence

@@ -18,10 +18,10 @@ from symtop_ros.run.simulation.events import decode_events
 from symtop_ros.run.simulation.topics import DEFAULT_NAME, EVENTS, Topic
 from symtop_ros.run.wire.names import full_name
 from symtop_ros.truth.judge.compare import Errors, compare
-from symtop_ros.truth.judge.estimates import decode_estimates
 from symtop_ros.truth.judge.summary import summarize
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.testset.score import enforce_limit
+from symtop_ros.truth.topics.estimates import decode_estimates
 
 PERIOD = 1.0  # s between two lines
 PATIENCE = 5.0  # s for the topic to be found

@@ -11,7 +11,6 @@ from typing import Any
 from symtop_ros.base.command import new_parser, positive, tell_failures
 from symtop_ros.base.header import make_header
 from symtop_ros.base.refusals import one_line
-from symtop_ros.truth.judge.attitudes import ORDERS
 from symtop_ros.truth.judge.clock import format_clocks, measure_clock
 from symtop_ros.truth.judge.judgement import Judgement, format_judgements, judge
 from symtop_ros.truth.judge.relative import read_lag
@@ -24,6 +23,7 @@ from symtop_ros.truth.judge.runs import (
     report_faults,
 )
 from symtop_ros.truth.judge.wanted import MODELS
+from symtop_ros.truth.tables.attitudes import ORDERS
 from symtop_ros.truth.testset.score import enforce_limit
 
 DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
@@ -243,8 +243,8 @@ def _write(judgements: list[Judgement], text: str, folder: Path) -> None:
     if len(judgements) > 1:
         return
     try:
+        from symtop_ros.base.look import write_figures
         from symtop_ros.truth.judge.error_plot import draw_errors
-        from symtop_ros.truth.judge.look import write_figures
     except ModuleNotFoundError as error:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)
     else:

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.truth.judge.alignment import SAMPLES
 from symtop_ros.truth.judge.causes import CHANGES, PERMUTED, Finding
 from symtop_ros.truth.judge.compare import NONE, Errors, Offset, compare
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import SAMPLES
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.testset.score import turn_to_body
+from symtop_ros.truth.topics.estimates import Estimates
 from symtop_ros.words import write
 
 # Undoing each, by its sentence.

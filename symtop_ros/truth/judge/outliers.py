@@ -5,18 +5,18 @@ from collections.abc import Callable
 import numpy as np
 
 from symtop_ros.base.arrays import Mask, Real
+from symtop_ros.truth.judge.alignment import Alignment
 from symtop_ros.truth.judge.causes import CHANGES, Cause
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import Fit
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.residuals.spread import NORMAL
+from symtop_ros.truth.topics.estimates import Estimates
 
 FAR = 5.0  # deviations of a component; a normal number is farther once in two million
-NORMAL = 1.4826  # deviations of normal numbers in medians of their sizes
 ROUNDS = 6  # of causes and outliers
 FEWEST = 0.5  # part of the estimates that is kept, at least
 
 
-def find_outliers(fit: Fit, cause: Cause) -> Mask:
+def find_outliers(fit: Alignment, cause: Cause) -> Mask:
     """Return True (n,) for estimates that a cause leaves far off, by the spread of the others.
 
     In both frames: noise about an axis of one has a component in the other that swings, and is far
@@ -41,7 +41,7 @@ def trim(run: Estimates, truth: Truth, find: Callable[[Estimates], Cause]) -> Es
     kept = np.ones(len(run), dtype=bool)
     for _ in range(ROUNDS):
         cause = find(run.select(kept))
-        fit = Fit(CHANGES[cause.change][2](run), truth)
+        fit = Alignment(CHANGES[cause.change][2](run), truth)
         before, kept = kept, ~find_outliers(fit, cause)
         if (kept == before).all() or kept.mean() < FEWEST:
             break
@@ -50,4 +50,4 @@ def trim(run: Estimates, truth: Truth, find: Callable[[Estimates], Cause]) -> Es
 
 def count_outliers(run: Estimates, truth: Truth, cause: Cause) -> int:
     """Return how many estimates a cause leaves far off."""
-    return int(find_outliers(Fit(CHANGES[cause.change][2](run), truth), cause).sum())
+    return int(find_outliers(Alignment(CHANGES[cause.change][2](run), truth), cause).sum())

@@ -12,18 +12,19 @@ from dataclasses import replace
 import numpy as np
 
 from symtop_ros.base.arrays import Real, find_rotation_vectors
+from symtop_ros.truth.judge.alignment import COLUMNS, PARAMETERS, ROUNDING, Alignment, move
 from symtop_ros.truth.judge.causes import Cause
 from symtop_ros.truth.judge.compare import Offset
-from symtop_ros.truth.judge.fit import COLUMNS, PARAMETERS, ROUNDING, Fit, move
-from symtop_ros.truth.judge.lasting import find_noise
-from symtop_ros.truth.judge.noise import CHANCE, Influences, Remainder, find_influences
+from symtop_ros.truth.residuals.influence import Influences, find_influences
+from symtop_ros.truth.residuals.residuals import CHANCE, Residuals
+from symtop_ros.truth.residuals.whitening import find_noise
 
 RESOLUTION = 1e-9 / math.sqrt(12)  # s: the standard deviation of a time in whole ns
 ROUNDS = 3  # of noise and least squares: the noise hardly depends on the offset
 
 
 def refine(
-    fit: Fit, kind: tuple[str, str, tuple[str, ...]], offset: Offset, *, is_sure: bool
+    fit: Alignment, kind: tuple[str, str, tuple[str, ...]], offset: Offset, *, is_sure: bool
 ) -> Cause:
     """Return the least squares of a kind of cause near an offset; `is_sure`: with deviations."""
     cause = Cause(*kind, offset, np.inf)
@@ -32,7 +33,7 @@ def refine(
     return make_sure(fit, found) if is_sure else found
 
 
-def make_sure(fit: Fit, cause: Cause) -> Cause:
+def make_sure(fit: Alignment, cause: Cause) -> Cause:
     """Return a cause with its standard deviations, or with the reason why it lacks them."""
     if cause.cost <= ROUNDING:
         return replace(cause, independent=float(len(fit.some)))
@@ -46,7 +47,7 @@ def make_sure(fit: Fit, cause: Cause) -> Cause:
     return found if found.fault or not found.count else weigh(fit, found, left)
 
 
-def weigh(fit: Fit, cause: Cause, left: Remainder) -> Cause:
+def weigh(fit: Alignment, cause: Cause, left: Residuals) -> Cause:
     """Return a cause as the least squares of whitened errors, with their deviations.
 
     Errors that are no noise may pull it far away: then it stays where it is.
@@ -72,7 +73,7 @@ def weigh(fit: Fit, cause: Cause, left: Remainder) -> Cause:
     return replace(cause, deviations=own, turn_deviations=turns)
 
 
-def find_white_influences(fit: Fit, offset: Offset, free: list[int]) -> Real:
+def find_white_influences(fit: Alignment, offset: Offset, free: list[int]) -> Real:
     """Return the changes (m, 11) by each estimate in the frame in which its noise is smaller."""
     follows = fit.find_follows(offset)
     frames = [

@@ -15,10 +15,10 @@ import numpy as np
 from symtop_ros.base.arrays import Places, Real, Stamps, compose, invert
 from symtop_ros.base.refusals import RefusedError, one_line
 from symtop_ros.truth.judge.compare import Offset, find_exact, undo
-from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.summary import format_row, summarize
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.testset.score import measure_angles
+from symtop_ros.truth.topics.estimates import Estimates
 
 LAG = re.compile(r"(\d+(?:\.\d*)?|\.\d+)(s|ms)")
 LABEL = 18  # characters of a label in the table of errors

@@ -14,13 +14,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from symtop_ros.base.counts import write_count
+from symtop_ros.base.progress import Progress
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.messages import TRANSFORM
-from symtop_ros.truth.judge.estimates import Estimates, read_topic
-from symtop_ros.truth.judge.forms import is_table
-from symtop_ros.truth.judge.tables import read_table
+from symtop_ros.truth.judge.attitude_table import AttitudeTable, read_attitudes
 from symtop_ros.truth.judge.times import read_times
 from symtop_ros.truth.judge.truth import Truth, read_events, scene_truth
+from symtop_ros.truth.tables.forms import is_table
+from symtop_ros.truth.topics.estimates import Estimates, read_topic
 
 if TYPE_CHECKING:  # logs need mcap
     from symtop_ros.run.log.account import Account, TopicAccount
@@ -66,13 +67,9 @@ def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
     """Return the estimates that are asked for."""
     other: Path | None = options.estimates
     if other and is_table(other):
+        table = _read_table(other, options.rpy)
         of_sensor = options.attitude_of == SENSOR
-        return [
-            Source(
-                str(other),
-                read_times(read_table(other, options.rpy), run.truth, str(other), of_sensor),
-            )
-        ]
+        return [Source(str(other), read_times(table, run.truth, str(other), of_sensor))]
     if not options.topic:
         raise RefusedError(f"--topic must name the estimates in {other}, got none")
     from symtop_ros.run.log.account import read_account  # logs need mcap
@@ -83,7 +80,9 @@ def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
     account = read_account(file, Names(file)) if other else run.account
     if account and other:
         print_problems(account)
-    found = ((topic, read_topic(file, topic, options.frame)) for topic in options.topic)
+    found = (
+        (topic, read_topic(file, topic, options.frame).count_once()) for topic in options.topic
+    )
     return [
         Source(
             name,
@@ -93,6 +92,14 @@ def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
         )
         for name, each in found
     ]
+
+
+def _read_table(path: Path, order: str | None) -> AttitudeTable:
+    """Return the attitudes of a table, and show progress."""
+    progress, size = Progress("top_judge"), path.stat().st_size if path.exists() else 1
+    table = read_attitudes(path, order, lambda done: progress.report(done / size, "reading"))
+    progress.end()
+    return table
 
 
 def _find_topic(account: Account | None, name: str, frame: str | None) -> TopicAccount | None:

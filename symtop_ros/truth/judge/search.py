@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.arrays import Real, compose
+from symtop_ros.truth.judge.alignment import MOST_DELAY, PARAMETERS, SAMPLES, Alignment
 from symtop_ros.truth.judge.causes import (
     CHANGES,
     CONVENTIONS,
@@ -25,12 +26,11 @@ from symtop_ros.truth.judge.causes import (
 )
 from symtop_ros.truth.judge.choice import SIMPLER, SMALL, choose, judge, select
 from symtop_ros.truth.judge.compare import MOST_STEPS, NONE, STEP, Offset, compare
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import MOST_DELAY, PARAMETERS, SAMPLES, Fit
 from symtop_ros.truth.judge.grid import COARSE, HOPELESS, Tables, fit_levels, fit_rotations
-from symtop_ros.truth.judge.noise import PER_PARAMETER
 from symtop_ros.truth.judge.refine import refine
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.residuals.residuals import PER_PARAMETER
+from symtop_ros.truth.topics.estimates import Estimates
 
 MOST_SAMPLES = 200_000  # estimates from which a cause that was found is estimated again
 TURNING = {"drift", "spin", "scale"}  # parameters with a direction in space
@@ -65,7 +65,7 @@ class Search:
         self.run = run
         self.fits, self.of_more = (Fits(those, truth) for those in (self.some, self.more))
         self.fit = self.fits[""]
-        self.few = Fit(self.some.thin(COARSE), truth)
+        self.few = Alignment(self.some.thin(COARSE), truth)
         self.tables = Tables(truth, self.fit.fastest)
         self.hidden = HIDDEN.get(truth.kind, ())
         steps = int(np.ptp(self.some.stamps)) // STEP + len(self.some)
@@ -79,7 +79,7 @@ class Search:
         found = self.find_in_more()
         if len(self.run) == len(self.more):
             return found
-        fit = Fit(CHANGES[found.best.change][2](self.run), self.truth)
+        fit = Alignment(CHANGES[found.best.change][2](self.run), self.truth)
         whole = replace(found.best, cost=fit.cost(found.best.offset))
         is_alike = whole.cost <= SIMPLER * found.best.cost + self.fit.rounding
         return replace(found, best=whole, explained=found.explained and is_alike)

@@ -11,11 +11,11 @@ import numpy as np
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import SAMPLES, Fit
+from symtop_ros.truth.judge.alignment import SAMPLES, Alignment
+from symtop_ros.truth.judge.attitude_table import AttitudeTable
 from symtop_ros.truth.judge.grid import HOPELESS, Tables, fit_rotations
-from symtop_ros.truth.judge.tables import Table
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 DAY = 86_400 * NANOSECONDS  # ns
 YEAR = 365.25 * DAY
@@ -26,7 +26,7 @@ TRIED = ("", "delay")
 MOVING = 4 * HOPELESS  # mean square of half angles between the attitudes and their mean
 
 
-def read_times(table: Table, truth: Truth, name: str, of_sensor: bool) -> Estimates:
+def read_times(table: AttitudeTable, truth: Truth, name: str, of_sensor: bool) -> Estimates:
     """Return the estimates of a table with the times that fit the run.
 
     Refused are times of another age than the run, if no unit and no shift to its start explains
@@ -49,7 +49,7 @@ def read_times(table: Table, truth: Truth, name: str, of_sensor: bool) -> Estima
     return stated
 
 
-def _list_readings(table: Table, truth: Truth) -> Iterator[Estimates]:
+def _list_readings(table: AttitudeTable, truth: Truth) -> Iterator[Estimates]:
     """Yield the estimates in other units and epochs, with a note, that begin within a day.
 
     Times of the day of the run have no other epoch: estimates may begin later than it.
@@ -88,6 +88,6 @@ def _fits(estimates: Estimates, truth: Truth) -> bool:
     # those that keep one attitude fit any instant
     if 1 - np.linalg.eigvalsh(some.orientations.T @ some.orientations)[-1] / len(some) < MOVING:
         return False
-    tables = Tables(truth, Fit(some, truth).fastest)
+    tables = Tables(truth, Alignment(some, truth).fastest)
     costs = [fit_rotations(tables.tabulate(some, name)[1], "both")[0].min() for name in TRIED]
     return bool(min(costs) <= HOPELESS)

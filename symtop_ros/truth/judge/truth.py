@@ -18,7 +18,7 @@ from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.events import Event, start_event
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.settings import Settings
-from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.topics.estimates import Estimates
 
 if TYPE_CHECKING:  # logs need mcap
     from symtop_ros.run.log.account import Account

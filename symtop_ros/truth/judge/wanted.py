@@ -4,14 +4,14 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from symtop_ros.base.refusals import RefusedError
+from symtop_ros.truth.judge.alignment import PARAMETERS, Alignment
 from symtop_ros.truth.judge.causes import LEVELS, Cause
 from symtop_ros.truth.judge.choice import select
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import PARAMETERS, Fit
 from symtop_ros.truth.judge.grid import fit_rotations
 from symtop_ros.truth.judge.refine import refine
 from symtop_ros.truth.judge.search import MOST_SAMPLES, Search
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 LEVELS_OF = {"none": "none", "heading": "heading", "world": "world", "world-and-body": "both"}
 # Rotations, and what the stamps may be off by.
@@ -68,7 +68,7 @@ def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = No
     sleeping top a delay is a heading.
     """
     rotations, *names = model.split("+")
-    fit = Fit(truth.select(estimates).thin(MOST_SAMPLES), truth)
+    fit = Alignment(truth.select(estimates).thin(MOST_SAMPLES), truth)
     level = LEVELS_OF[rotations]
     exact, known = fit.exact(fit.start)
     models = fit.some.orientations[None], exact[None], known[None].astype(float)

@@ -90,6 +90,26 @@ window.showTwins = async ([motion, camera, times]) => {
   });
 };
 
+/** Points of a near camera, those of the twin of its mirrored picture, and the twin's p_psi. */
+window.mirrorFilm = async ([motion, camera, times]) => {
+  const { many, mirrorPicture, project } = await openFit();
+  const twin = mirrorPicture(motion, camera);
+  const [own, other] = [{ motion, camera }, twin].map((each) => {
+    const [axes] = many.findAxes([each.motion], Float64Array.from(times));
+    return toNumbers(project(axes, each.camera, new Float64Array(2 * times.length)));
+  });
+  return [own, other, twin.motion.omega[2]];
+};
+
+/** Points of axes as a camera that looks elsewhere sees them, and turned to the pivot. */
+window.rectifyPoints = async ([axes, camera]) => {
+  const { project, rectify } = await openFit();
+  const seen = project(axes, camera, new Float64Array((2 * axes.length) / 3));
+  return axes
+    .slice(0, axes.length / 3)
+    .map((_, k) => rectify([seen[2 * k], seen[2 * k + 1]], camera));
+};
+
 /** The least squares of a linear problem with this matrix and these right sides, and limits. */
 window.minimiseLinear = async ([rows, rights, start, isSoft, [low, high]]) => {
   const { minimise } = await openFit();
@@ -162,4 +182,18 @@ window.searchFrom = async ([given, reference, all, effort]) => {
     parts,
     found: found.map(({ model, x, cost }) => ({ rows: model.record.count, x, cost })),
   };
+};
+
+/** Whether what a motion with these rates leaves of a record swings with it; `rates` is null for none. */
+window.trySwing = async ([times, columns, rates]) => {
+  const { isSwinging } = await import("/fit/lines.js");
+  const width = columns.length;
+  const model = {
+    record: { times, width, rounding: new Array(width).fill(0) },
+    read: () => null,
+    many: { findRates: () => rates },
+  };
+  const kept = times.map((_, row) => row);
+  const residuals = kept.flatMap((row) => columns.map((each) => each[row]));
+  return isSwinging({ model, x: [], residuals, noise: { kept, sigma: columns.map(() => 1) } });
 };

@@ -245,7 +245,7 @@ def test_clicks_are_kept_moved_and_taken_back(tab):
 MEASURED = """async ([balls, pivot, length, times, lengths, perspective, name]) => {
   const { makeGiven, writeCommand, writeTable } = await import("/film/measured.js");
   const clicks = { pivot, length, balls: new Map(balls) };
-  const given = makeGiven(clicks, times, 240, lengths, perspective);
+  const given = makeGiven(clicks, { times, width: 320, height: 240 }, lengths, perspective);
   return [given, writeTable(given), writeCommand(name, given)];
 }"""
 
@@ -272,7 +272,7 @@ def test_what_was_measured_is_a_record_a_table_and_a_command(tab):
     spread = f"{scale * deviation:.2g}"
     assert command == (
         "top_fit 'my film'\\''s.csv' --kind pixels --pivot 160 119.75 --pivot-deviation 1 "
-        f"--scale 30 --scale-deviation {spread} --perspective"
+        f"--scale 30 --scale-deviation {spread} --perspective --centre 160 120"
     )
 
 
@@ -290,7 +290,7 @@ PATH = """async ([times, end, camera]) => {
   const at = (time) => ({ toWorld: () => { asked.push(time); return [0.5, 0, time / 1e9]; } });
   const top = { end, run: { at } };
   const points = { times, camera, values: [[1, 2]] };
-  const path = tracePath(top, points, { height: 240 });
+  const path = tracePath(top, points, { width: 320, height: 240 });
   const others = [points, { ...points, values: [[1, 3]] }, { ...points, camera: null }, null];
   return [path, asked, others.map((each) => isSame(each, points))];
 }"""

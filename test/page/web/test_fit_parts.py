@@ -13,6 +13,7 @@ from symtop_ros.physics.values import EPS
 from symtop_ros.truth.fit.model import Model
 from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
+from symtop_ros.truth.residuals.lines import find_lines
 from workshop.fit.records import see
 
 
@@ -247,3 +248,20 @@ def test_a_search_ends_at_the_motion_that_its_starts_are_near(fits):
     # a loss in which large residuals count less has a minimum that is less sure
     deviations = np.sqrt(np.diag(fit.covariance))
     assert (np.abs(best["x"] - fit.x) < deviations).all()
+
+
+@pytest.mark.parametrize("size", [0.0, 0.75])
+def test_a_swing_at_a_frequency_of_the_motion_is_found_as_top_fit_finds_it(fits, size):
+    rates = {"nutation_period": 0.125, "mean_precession_rate": 4.0}
+    turning = 4.0 / (2 * np.pi)
+    named = {"nutation": 8.0, "twice_nutation": 16.0, "once": turning, "twice": 2 * turning}
+    found, right = [], []
+    for seed in range(6):
+        draw = Numbers(seed)
+        times = np.flatnonzero([draw.random() > 0.1 for _ in range(240)]) / 64
+        rows = draw.normals(len(times), 2)
+        rows[:, 1] += size * np.sqrt(2) * np.cos(2 * np.pi * 16.0 * times)
+        right.append(any(line.name for line in find_lines(times, rows, named)))
+        found.append(fits.evaluate("trySwing", [times.tolist(), rows.T.tolist(), rates]))
+    assert found == right
+    assert sum(found) == (0 if size == 0 else 6)

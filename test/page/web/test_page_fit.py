@@ -10,6 +10,7 @@ from drawn import Numbers
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.physics.values import EPS
 from symtop_ros.truth.fit import fit_motion, make_record
+from symtop_ros.truth.fit.camera import CENTRE, project
 from symtop_ros.truth.fit.check import Check
 from symtop_ros.truth.fit.fitting import sum_squares
 from symtop_ros.truth.fit.model import Model
@@ -17,9 +18,11 @@ from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.unknown import list_unknown
 from symtop_ros.truth.fit.values import list_values
-from symtop_ros.truth.judge.lasting import find_lasting, measure_noise
-from symtop_ros.truth.judge.noise import Remainder, sum_influences
+from symtop_ros.truth.residuals.influence import sum_influences
+from symtop_ros.truth.residuals.residuals import Residuals
+from symtop_ros.truth.residuals.whitening import find_lasting, measure_noise
 from workshop.fit.records import NOISES, draw_sample, see
+from workshop.records.draws import draw_record as draw_film
 
 KINDS = "axis", "pixels"
 # Squares of deviations by which the page's minimum may be above or below that of top_fit. Both end
@@ -47,6 +50,7 @@ def write(record):
         "values": record.values.tolist(),
         "known": {name: list(each) for name, each in record.known.items()},
         "perspective": record.has_perspective,
+        **({"centre": [record.camera[name] for name in CENTRE]} if record.camera else {}),
     }
 
 
@@ -62,9 +66,10 @@ def make_case(kind, **more):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("has_perspective", [False, True])
-def test_the_model_and_its_derivatives_are_those_of_python(fits, kind, has_perspective):
-    more = {"has_perspective": True} if has_perspective and kind == "pixels" else {}
+@pytest.mark.parametrize("centre", [None, {}, {"centre_u": 300.0, "centre_v": 400.0}])
+def test_the_model_and_its_derivatives_are_those_of_python(fits, kind, centre):
+    is_near = centre is not None and kind == "pixels"
+    more = {"has_perspective": True, "camera": centre} if is_near else {}
     record, reference, named = make_case(kind, **more)
     model = Model(record, np.array(reference))
     x = fill(model, named)
@@ -109,7 +114,7 @@ def test_noise_is_measured_as_by_python(fits, slope):
     for k in range(1, len(rows)):
         rows[k] += slope * rows[k - 1]
     found = fits.evaluate("measureNoise", [rows.T.tolist(), 8])
-    own = Remainder((rows, rows), 1.0)
+    own = Residuals((rows, rows), 1.0)
     # sums of 150 products by a transform there, and by themselves here, in ratios
     assert found["independent"] == pytest.approx(own.independent, rel=1e-10)
     assert found["isWhite"] == own.is_white
@@ -155,6 +160,40 @@ def test_twins_show_the_points_of_the_motion(fits):
         for twin in (low, over):
             np.testing.assert_allclose(twin, own, rtol=0, atol=error)
         np.testing.assert_allclose(above, level, rtol=0, atol=error)
+
+
+def test_a_mirrored_picture_is_that_of_the_mirrored_motion_also_of_a_near_camera(fits):
+    motion = {"weight": 200.0, "q": [0.96, 0.28, 0.0, 0.0], "omega": [0.5, 2.0, 30.0]}
+    camera = CAMERA | {"nearness": 0.25, "centre": [300.0, 350.0]}
+    own, twin, mirrored = fits.evaluate("mirrorFilm", [motion, camera, [k / 32 for k in range(20)]])
+    error = 100 * 64 * EPS * 1000  # as for other twins
+    np.testing.assert_allclose(twin[::2], 2 * CAMERA["u"] - np.array(own[::2]), rtol=0, atol=error)
+    np.testing.assert_allclose(twin[1::2], own[1::2], rtol=0, atol=error)
+    assert mirrored == -30.0
+
+
+def test_a_point_of_a_run_is_one_of_a_camera_that_looks_at_the_pivot(fits):
+    camera = CAMERA | {"nearness": 0.25, "centre": [300.0, 350.0]}
+    axes = Numbers("axes of a picture").normals(20, 3)
+    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
+    found = fits.evaluate("rectifyPoints", [axes.ravel().tolist(), camera])
+    plain = {name: np.array([each]) for name, each in camera.items() if name != "centre"}
+    # two projections and the inverse of one, of a dozen operations each, on numbers of 1000
+    np.testing.assert_allclose(found, project(axes[None], plain)[0], rtol=0, atol=64 * EPS * 1000)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["film, aim known", "film, far away", "aim"])
+def test_a_film_of_an_own_camera_is_fitted_as_by_top_fit(fits, name):
+    drawn = draw_film(name, 1)
+    times, *seen = drawn.columns.values()
+    values = np.stack(seen, axis=1)
+    camera = {"centre_u": 640.0, "centre_v": 360.0} if "--size" in drawn.options else {}
+    record = make_record(times, values, "pixels", has_perspective=True, camera=camera)
+    fit, found = fit_motion(record), fits.evaluate("fitRecord", write(record))
+    assert [*compare_minima(fit, found), *compare_values(fit, found)] == []
+    (said,) = (each["numbers"] for each in found["unknown"] if each["kind"] == "mirrored")
+    assert said[0] == -found["values"][1]["value"]
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -231,7 +231,7 @@ def test_friction_is_said_with_the_command_that_looks_for_it(tab):
     # the spin falls by exp(-0.125 * 1.87 / 2) = 0.89 from one half to the other
     assert 0.8 < second / first < 0.95
     assert "friction" in say(tab, "limits")
-    assert tab.locator("#fitted code").text_content() == f"{COMMAND} --friction"
+    assert tab.locator("#fitted code").text_content() == COMMAND
 
 
 @pytest.mark.slow
@@ -277,6 +277,7 @@ def test_what_cannot_be_known_is_what_top_fit_says(tab, tmp_path, capsys):
     ]
 
 
+@pytest.mark.slow
 def test_numbers_that_the_record_does_not_show_are_those_of_the_run(tab):
     fitted = show(tab, make_given(CUSPS))
     text = say(tab, "assumed")
@@ -347,7 +348,7 @@ def test_each_language_says_all(browser, language):
 def test_each_kind_of_what_is_not_known_has_its_words(language):
     texts = read_texts(language)
     kinds = {*EXACT_TWINS["axis"], *EXACT_TWINS["pixels"]}
-    kinds |= {"together", "tilt", "curved", "weak", "other", "sparse", "level"}
+    kinds |= {"aim", "alias", "together", "tilt", "curved", "weak", "other", "sparse", "level"}
     assert {key.removeprefix("unknown.") for key in texts if key.startswith("unknown.")} == kinds
 
 

@@ -46,7 +46,7 @@ def draw_instants(count):
 
 
 @pytest.mark.wording
-@pytest.mark.parametrize("count", trials(400, 20_000))
+@pytest.mark.parametrize("count", trials(100, 20_000))
 def test_an_instant_of_a_nutation_is_explained_by_what_is_so(tab, count):
     cases = list(draw_instants(count))
     heard = collections.Counter()

@@ -8,10 +8,10 @@ from truth.fit.cases import CUSPS, TIMES
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.truth.fit import make_record
 from symtop_ros.truth.fit.model import Model, find_axis, name_parameters
-from symtop_ros.truth.fit.record import find_step
 from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
 from symtop_ros.truth.fit.values import find_slope, list_values
+from symtop_ros.truth.residuals.rounding import find_step
 from workshop.fit.records import draw_sample
 from workshop.fit.trial import fit_from_truth
 

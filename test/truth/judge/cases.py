@@ -11,8 +11,8 @@ from symtop_ros.physics import Motion, hurry
 from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.events import Event
 from symtop_ros.run.simulation.segment import Segment
-from symtop_ros.truth.judge.estimates import FORMATS, Estimates
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.topics.estimates import FORMATS, Estimates
 
 SECOND = 1_000_000_000
 NONE = Rotation.identity()

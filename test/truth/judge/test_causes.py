@@ -16,11 +16,11 @@ from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.events import start_event
 from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.truth.judge.clock import measure_clock
-from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.judgement import judge
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.judge.search import find_causes
 from symtop_ros.truth.judge.truth import Truth, scene_truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 TRUTH = scene_truth("cusps")
 STAMPS = np.arange(SECOND, 6 * SECOND, SECOND // 100)

@@ -23,10 +23,10 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.replay.main import main as replay
 from symtop_ros.run.log.reader import LogError, McapFile
 from symtop_ros.run.wire.messages import QUATERNION
-from symtop_ros.truth.judge.estimates import decode_estimates
 from symtop_ros.truth.judge.judgement import judge
 from symtop_ros.truth.judge.main import main, make_parser
 from symtop_ros.truth.judge.runs import read_run, read_sources, report_faults
+from symtop_ros.truth.topics.estimates import decode_estimates
 
 NOISE = 1e-3  # rad
 BACK = 101_510_000_000, 100_600_000_000  # ns, between which the clock jumps

@@ -7,9 +7,9 @@ from truth.judge.cases import SOME, encode, write_rows
 
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.messages import TRANSFORM
-from symtop_ros.truth.judge.estimates import FORMATS, Estimates, decode_estimates
+from symtop_ros.truth.judge.attitude_table import read_attitudes
 from symtop_ros.truth.judge.main import main
-from symtop_ros.truth.judge.tables import read_table
+from symtop_ros.truth.topics.estimates import FORMATS, Estimates, decode_estimates
 
 DAMAGED = [
     ("", "must have the columns stamp \\(ns\\) or t \\(s\\), w, x, y, z.* header nothing"),
@@ -35,7 +35,7 @@ def test_a_damaged_csv_file_is_one_line(tmp_path, text, reason):
     path = tmp_path / "bad.csv"
     path.write_text(text)
     with pytest.raises(RefusedError, match=reason):
-        read_table(path)
+        read_attitudes(path)
 
 
 NAMES = ("t", "w", "x", "y", "z")
@@ -61,7 +61,7 @@ FORMS = {
 def test_tables_of_all_forms_are_read(tmp_path, name):
     path = tmp_path / name
     path.write_text(write_rows(SOME, **FORMS[name]))
-    found = read_table(path).read()
+    found = read_attitudes(path).read()
     assert found.stamps.tolist() == SOME.stamps.tolist()
     assert (found.orientations == SOME.orientations).all()
     if "wx" in FORMS[name].get("header", ()):
@@ -128,7 +128,7 @@ def test_where_a_header_names_the_columns_it_is_read(order, separator, header, s
     middle = "000" if "tx" in header or "p_" in header or ",a,b,c," in header else ""
     rows = write_rows(SOME, separator, ORDERS[order], middle, seconds=seconds)
     path.write_text(f"{header}\n{rows}")
-    found = read_table(path).read()
+    found = read_attitudes(path).read()
     assert found.stamps.tolist() == SOME.stamps.tolist()
     assert (found.orientations == SOME.orientations).all()
     assert found.notes == ()
@@ -137,7 +137,7 @@ def test_where_a_header_names_the_columns_it_is_read(order, separator, header, s
 def test_what_is_no_attitude_is_left_out(tmp_path):
     path = tmp_path / "odd.csv"
     path.write_text("t,w,x,y,z\n0,0,0,0,0\n1,nan,0,0,0\n-1,1,0,0,0\n1e30,1,0,0,0\n2,3,0,0,0\n")
-    found = read_table(path).read()
+    found = read_attitudes(path).read()
     # a time before the run has an attitude as well
     assert found.stamps.tolist() == [-1_000_000_000, 2_000_000_000]
     assert found.orientations.tolist() == [[1.0, 0.0, 0.0, 0.0]] * 2
@@ -155,7 +155,7 @@ ODD = [
 def test_what_is_odd_is_named_in_a_line(tmp_path, rows, note):
     path = tmp_path / "odd.csv"
     path.write_text(f"t,w,x,y,z\n{rows}")
-    (found,) = read_table(path).read().notes
+    (found,) = read_attitudes(path).read().notes
     assert re.search(note, found)
 
 

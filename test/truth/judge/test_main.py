@@ -17,10 +17,10 @@ from truth.testset.trajectories import make_table, write
 
 from symtop_ros.programs import BROKEN_PIPE
 from symtop_ros.run.log.reader import McapFile
-from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.judge.truth import scene_truth
 from symtop_ros.truth.testset.main import main as run_testset
+from symtop_ros.truth.topics.estimates import Estimates
 
 IMU = "sensor_msgs/msg/Imu"
 HEADER = "stamp", "w", "x", "y", "z"

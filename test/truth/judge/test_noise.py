@@ -10,15 +10,15 @@ from truth.judge.cases import SECOND, Made, turn_z, wxyz
 
 from symtop_ros.base.arrays import compose, invert
 from symtop_ros.truth.judge import search
+from symtop_ros.truth.judge.alignment import Alignment
 from symtop_ros.truth.judge.clock import measure_clock
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import Fit
 from symtop_ros.truth.judge.judgement import judge
-from symtop_ros.truth.judge.noise import Remainder
 from symtop_ros.truth.judge.refine import refine
 from symtop_ros.truth.judge.search import find_causes
 from symtop_ros.truth.judge.truth import scene_truth
 from symtop_ros.truth.judge.wanted import align
+from symtop_ros.truth.residuals.residuals import Residuals
+from symtop_ros.truth.topics.estimates import Estimates
 
 TRUTH = scene_truth("cusps")
 SIZE = 0.01  # rad
@@ -103,7 +103,7 @@ def measure_made(row, name, seeds):
         made = Made(**{name: MADE[name]}).make(truth, noisy.stamps)
         parts = compose(*noise) if in_world else compose(*noise[::-1]), made.orientations
         q = compose(*parts[:: 1 if in_world else -1])
-        run = Fit(Estimates.of(noisy.stamps, q), truth)
+        run = Alignment(Estimates.of(noisy.stamps, q), truth)
         start = replace(run.start, **{name: MADE[name]})
         found = refine(run, ("", "none", (name,)), start, is_sure=True)
         if not found.fault:
@@ -231,7 +231,7 @@ def test_what_is_said_is_said_of_all_estimates(monkeypatch):
 
 def test_correlations_that_swing_are_correlations():
     swing = 0.01 * np.sin(np.arange(2000) * 0.05)[:, np.newaxis] * np.ones(3)
-    remainder = Remainder((swing, swing), 10.0)
+    remainder = Residuals((swing, swing), 10.0)
     assert remainder.independent < 5
     assert remainder.find_fault(1) == "wanders"
     assert not remainder.is_white
@@ -241,7 +241,7 @@ def test_correlations_that_swing_are_correlations():
 @pytest.mark.parametrize("seed", choose(range(5), range(1)))
 def test_white_noise_is_white_whatever_its_axes(axes, seed):
     left = np.random.default_rng(seed).normal(size=(2000, 3)) * axes * SIZE
-    remainder = Remainder((left, left), 10.0)
+    remainder = Residuals((left, left), 10.0)
     assert remainder.is_white
     assert remainder.has_shape_of_noise
     # the squares of 2000 correlations add up to 0.7 +- 0.03 at most, of which one is taken away
@@ -254,4 +254,4 @@ def test_a_wave_that_only_means_of_eight_show_is_no_white_noise(size, is_white):
     rows = np.arange(400)
     wave = size * np.sin(2 * np.pi * rows / 160)
     left = np.random.default_rng(2).normal(size=(400, 3)) + wave[:, np.newaxis] * [1, 0, 0]
-    assert Remainder((left, left), 10.0).is_white == is_white
+    assert Residuals((left, left), 10.0).is_white == is_white

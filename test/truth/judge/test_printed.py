@@ -13,10 +13,10 @@ from scipy.spatial.transform import Rotation
 from trials import choose
 from truth.judge.cases import Made, heading, wxyz
 
+from symtop_ros.truth.judge.alignment import PARAMETERS, Alignment
 from symtop_ros.truth.judge.causes import Finding
 from symtop_ros.truth.judge.clock import format_clocks, measure_clock
 from symtop_ros.truth.judge.compare import compare
-from symtop_ros.truth.judge.fit import PARAMETERS, Fit
 from symtop_ros.truth.judge.judgement import Judgement, judge
 from symtop_ros.truth.judge.refine import refine
 from symtop_ros.truth.judge.truth import scene_truth
@@ -113,7 +113,7 @@ def measure_refined(kind, seed):
     """Return the pulls of a cause of which the kind is known: a search takes a second."""
     part = PARTS[kind]
     made = Made(**part.made)
-    run = Fit(replace(made, noise=NOISE).make(TRUTH, STAMPS, seed), TRUTH)
+    run = Alignment(replace(made, noise=NOISE).make(TRUTH, STAMPS, seed), TRUTH)
     turns = {name: wxyz(getattr(made, name)) for name in ("world", "body")}
     names = tuple(name for name in PARAMETERS if name in part.made)
     numbers = {name: part.made[name] for name in names}

@@ -10,10 +10,10 @@ from trials import choose
 from truth.judge.cases import SECOND, Made, heading, write_rows
 
 from symtop_ros.base.arrays import compose
-from symtop_ros.truth.judge.estimates import Estimates
 from symtop_ros.truth.judge.judgement import judge
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.judge.truth import scene_truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 SCENES = "cusps", "looping", "hanging", "disc", "conical_pendulum"
 STEP = SECOND // 100

@@ -8,12 +8,12 @@ from scipy.spatial.transform import Rotation
 from truth.judge.cases import SECOND, Made, heading, write_rows
 
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.truth.judge.estimates import Estimates
+from symtop_ros.truth.judge.attitude_table import read_attitudes
 from symtop_ros.truth.judge.judgement import judge
 from symtop_ros.truth.judge.main import main
-from symtop_ros.truth.judge.tables import read_table
 from symtop_ros.truth.judge.times import read_times
 from symtop_ros.truth.judge.truth import scene_truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 TRUTH = scene_truth("cusps")
 STAMPS = range(0, 2 * SECOND, SECOND // 100)
@@ -34,7 +34,7 @@ def read(path, estimates, *, factor=1, shift=0):
         time = (stamp + shift) * factor
         changed.append(f"{time // SECOND}.{time % SECOND:09d},{row.partition(',')[2]}")
     path.write_text("\n".join(changed))
-    return read_times(read_table(path), TRUTH, "file", False)
+    return read_times(read_attitudes(path), TRUTH, "file", False)
 
 
 EPOCH = 1_403_636_579_758_555_392  # of a published record, in ns
@@ -96,5 +96,7 @@ def test_norms_that_are_no_rounding_are_said(norm, note, tmp_path, capsys):
     path.write_text("\n".join([rows[0], *scaled]))
     assert main(["--scene", "cusps", "--estimates", str(path)]) == 0
     assert ("another norm" in capsys.readouterr().out) == bool(note)
-    notes = [each.removeprefix("200 of 200 quaternions") for each in read_table(path).read().notes]
+    notes = [
+        each.removeprefix("200 of 200 quaternions") for each in read_attitudes(path).read().notes
+    ]
     assert notes == [note] * bool(note)

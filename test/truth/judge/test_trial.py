@@ -19,11 +19,11 @@ from symtop_ros.base.arrays import Real, Stamps, compose
 from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.settings import Settings
+from symtop_ros.truth.judge.alignment import PARAMETERS
 from symtop_ros.truth.judge.causes import CONVENTIONS, LEVELS
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.fit import PARAMETERS
 from symtop_ros.truth.judge.search import find_causes
 from symtop_ros.truth.judge.truth import Truth, scene_truth
+from symtop_ros.truth.topics.estimates import Estimates
 
 SCENES = (
     "cusps",

@@ -12,8 +12,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.look import BLUE, GOLD, GREY, INK, RED, new_figure, rows
 from symtop_ros.physics import Motion
-from symtop_ros.truth.judge.look import BLUE, GOLD, GREY, INK, RED, new_figure, rows
 from workshop.article.motions import accelerations, cusps
 from workshop.article.nutation import times_of_extreme_rate
 

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from symtop_ros.base.look import BLUE, GOLD, INK, new_figure
 from symtop_ros.physics import (
     Hold,
     Motion,
@@ -18,7 +19,6 @@ from symtop_ros.physics import (
     hurry,
     theta_acceleration,
 )
-from symtop_ros.truth.judge.look import BLUE, GOLD, INK, new_figure
 from workshop.article.claims import Measured, claim
 from workshop.article.motions import (
     HURRIED,

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.look import BLUE, GOLD, GREY, INK, RED, columns, new_figure
 from symtop_ros.physics import Motion, State, Top, apply_impulse
-from symtop_ros.truth.judge.look import BLUE, GOLD, GREY, INK, RED, columns, new_figure
 from workshop.article.claims import Measured, claim
 from workshop.article.motions import cusps
 

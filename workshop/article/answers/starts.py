@@ -16,6 +16,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.base.look import GREY, INK, RED, new_figure
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,
@@ -24,7 +25,6 @@ from symtop_ros.physics import (
     regular_precession_rates,
     theta_acceleration,
 )
-from symtop_ros.truth.judge.look import GREY, INK, RED, new_figure
 from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import (
     FAST,

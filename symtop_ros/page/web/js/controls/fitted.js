@@ -2,7 +2,6 @@
 
 import { drawResiduals, nameChart } from "../charts/residuals_chart.js";
 import {
-  addOptions,
   COLUMNS,
   listNumbers,
   listUnknown,
@@ -51,7 +50,7 @@ const listCharts = ({ kind }) =>
 const listLimits = (fitted, command) => {
   const text = writeLimits(fitted);
   if (!text) return [];
-  const code = make("code", {}, addOptions(fitted, command));
+  const code = make("code", {}, command);
   return [createText("p", text, { id: "fitted-limits" }), make("p", {}, code)];
 };
 

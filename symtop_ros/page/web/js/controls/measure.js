@@ -220,7 +220,7 @@ export class Measure {
       };
     if (!film || !this.clicking.clicks.balls.size) return null;
     const { clicks, lengths } = this.clicking;
-    return makeGiven(clicks, film.times, film.height, lengths, this.isNear);
+    return makeGiven(clicks, film, lengths, this.isNear);
   }
 
   get isNear() {

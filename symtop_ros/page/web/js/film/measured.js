@@ -28,11 +28,11 @@ const findScale = ({ length: [from, to] }, { length, ball }) => {
 };
 
 /**
- * The record of some clicks.
- * @param {Clicks} clicks @param {number[]} times of the frames @param {number} height of the film
+ * The record of some clicks. The camera looks at the middle of the film.
+ * @param {Clicks} clicks @param {{times: number[], width: number, height: number}} film
  * @param {Lengths | null} lengths @param {boolean} perspective @returns {Given}
  */
-export const makeGiven = (clicks, times, height, lengths, perspective) => {
+export const makeGiven = (clicks, { times, width, height }, lengths, perspective) => {
   const frames = [...clicks.balls].sort(([a], [b]) => a - b);
   const [u, v] = clicks.pivot ? turnUp(clicks.pivot, height) : [];
   const scale = lengths && clicks.length.length === 2 ? findScale(clicks, lengths) : null;
@@ -45,6 +45,7 @@ export const makeGiven = (clicks, times, height, lengths, perspective) => {
       ...(scale ? { log_scale: [Math.log(scale.scale), scale.deviation] } : {}),
     },
     perspective,
+    centre: [width / 2, height / 2],
   };
 };
 
@@ -62,12 +63,13 @@ const writeScale = ([logarithm, deviation]) => {
 };
 
 /** The command that fits the same record. @param {string} name of the file @param {Given} given */
-export const writeCommand = (name, { kind, known = {}, perspective }) => {
+export const writeCommand = (name, { kind, known = {}, perspective, centre }) => {
   const { u, v, log_scale: size } = known;
   const options = [
     u && v ? `--pivot ${u[0]} ${v[0]} --pivot-deviation ${u[1]}` : "",
     size ? writeScale(size) : "",
     perspective ? "--perspective" : "",
+    perspective && centre ? `--centre ${centre.join(" ")}` : "",
   ];
   const file = /^[\w.-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`;
   return [`top_fit ${file} --kind ${kind}`, ...options].filter(Boolean).join(" ");

@@ -19,7 +19,9 @@ export const isSame = (points, own) =>
 
 /** Where the motion is in the film. @param {LocalTop} top @param {Points} points @param {Film} film @param {number} time ns @returns {Place} */
 export const see = (top, points, film, time) => {
-  const camera = /** @type {Camera} */ ({ nearness: 0, ...points.camera });
+  // the points of a run are those of a camera that looks at the pivot; that of the film does not
+  const centre = /** @type {const} */ ([film.width / 2, film.height / 2]);
+  const camera = /** @type {Camera} */ ({ nearness: 0, ...points.camera, centre });
   const [u, v] = project(top.run.at(time).toWorld([0, 0, 1]), camera, new Float64Array(2));
   return [u, film.height - v];
 };

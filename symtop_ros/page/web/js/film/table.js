@@ -8,7 +8,7 @@ const SHOWN = 60; // characters of a line in a message
 /** @type {{[unit: string]: number}} */
 const SECONDS = { s: 1, ms: 1e-3, us: 1e-6, ns: 1e-9 };
 const NANO = 1e-9;
-// As in truth/judge/columns.py.
+// As in truth/tables/columns.py.
 const TIMES =
   /^(?:__)?(?:t|time|times|timestamp|time_?stamp|stamp|sec|secs|seconds)(?:_?(ns|us|ms|s))?$/;
 const AXIS = /^(?:(?:.*[._/ ])?(?:axis|e)[._/ ]?|)([xyz])$/;
@@ -25,7 +25,9 @@ const OTHERS = [
 const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 const WHOLE = /^-?\d+$/;
 
-/** @typedef {{kind: "axis" | "pixels", time: number, columns: number[], seconds: number}} Places seconds: 0 for ns if the numbers are whole */
+const MISSING = /^(|nan|na|n\/a|null|--?)$/i;
+
+/** @typedef {{kind: "axis" | "pixels", time: number, columns: number[], seconds: number, names: number}} Places seconds: 0 for ns if the numbers are whole; names: how many there are */
 /** @typedef {{kind: "axis" | "pixels", times: number[], values: number[][], empty: number}} Table */
 
 /** @param {string} kind @param {{[name: string]: any}} fields */
@@ -110,7 +112,7 @@ const findPlaces = (line, file) => {
   for (const place of [time, ...points.columns])
     if (names.filter((name) => name === names[place]).length > 1)
       throw refuse("twice", { file, got: names[place] });
-  return { ...points, time, seconds: findSeconds(heads[time]) };
+  return { ...points, time, seconds: findSeconds(heads[time]), names: names.length };
 };
 
 /** @param {string} cell @param {string | null} separator */
@@ -120,20 +122,21 @@ const readNumber = (cell, separator) => {
 };
 
 /**
- * The rows below the names, as numbers; a row with an empty cell is left out.
+ * The rows below the names, as numbers; a row in which one is missing is left out.
  * @param {{line: string, number: number}[]} lines @param {Places} places @param {string} file
  */
-const readRows = (lines, { time, columns }, file) => {
+const readRows = (lines, { time, columns, names }, file) => {
   const rows = lines.filter(({ line }) => !line.startsWith("#"));
   const separator = rows.length ? findSeparator(rows[0].line, [";", "\t", ","]) : null;
   let isWhole = true;
   const numbers = rows.flatMap(({ line, number }) => {
     const cells = splitCells(line, separator);
+    if (cells.slice(names).some((cell) => cell)) throw refuse("more", { file, number, got: line });
     const picked = [time, ...columns].map((place) => cells[place]);
     if (picked.some((cell) => cell === undefined))
       throw refuse("columns", { file, number, got: line });
     isWhole &&= WHOLE.test(picked[0]);
-    if (picked.includes("")) return [];
+    if (picked.some((cell) => MISSING.test(cell))) return [];
     const row = picked.map((cell) => readNumber(cell, separator));
     if (!row.every(Number.isFinite)) throw refuse("numbers", { file, number, got: line });
     return [row];

@@ -3,11 +3,12 @@
 import { checkFit } from "./check.js";
 import { ORDERS } from "./lasting.js";
 import { listUnknown } from "./unknown.js";
-import { CAMERA } from "./projection.js";
+import { CAMERA, rectify } from "./projection.js";
 import { LENGTH } from "./model.js";
 import { listValues } from "./values.js";
 
 /** @import { Change, Verdict } from "./check.js" */
+/** @import { Camera } from "./projection.js" */
 /** @import { Fit } from "./refine.js" */
 /** @import { Top } from "../physics/kernel.js" */
 /** @import { Unknown } from "./unknown.js" */
@@ -50,8 +51,9 @@ export const describeFit = (fit, top) => {
 };
 
 /** @param {ReturnType<typeof checkFit>} check @param {Fit} fit @returns {Reason[]} */
-const listReasons = ({ is_white, is_smooth, changes, stretch, fault }, fit) => [
+const listReasons = ({ is_white, is_smooth, swings, changes, stretch, fault }, fit) => [
   ...(changes.length ? [{ kind: "changes", changes }] : []),
+  ...(swings ? [{ kind: "swings" }] : []),
   ...(is_smooth ? [{ kind: "smooth" }] : []),
   ...(is_white ? [] : [{ kind: "lasting" }]),
   ...(stretch ? [{ kind: "stretch", count: stretch }] : []),
@@ -60,8 +62,9 @@ const listReasons = ({ is_white, is_smooth, changes, stretch, fault }, fit) => [
 ];
 
 /** What top_fit allows for and this search does not. @param {ReturnType<typeof checkFit>} check @param {Fit} fit */
-const listLimits = ({ verdict, is_smooth }, fit) => [
-  ...(verdict === "fails" || is_smooth ? ["friction"] : []),
+const listLimits = ({ verdict, swings }, fit) => [
+  ...(verdict === "holds" && !fit.lasts ? [] : ["friction", "kick"]),
+  ...(swings ? ["lines"] : []),
   ...(fit.model.record.count < fit.model.record.given.times.length ? ["rows"] : []),
 ];
 
@@ -78,6 +81,10 @@ const makeRun = ({ model, x, residuals }, top) => {
   const norm = Math.hypot(...q);
   const length = record.hasLength ? Math.exp(x[model.place[LENGTH]]) : 1;
   const divide = (/** @type {number[]} */ row) => row.map((each) => each / length);
+  const camera = record.kind === "pixels" ? model.findCamera(x) : null;
+  const level = (/** @type {number[]} */ row) => (camera ? rectify(row, camera) : divide(row));
+  const rows = splitRows(residuals, record.width);
+  const values = record.values.map(level);
   const start = {
     kind: "start",
     time: 0,
@@ -91,9 +98,12 @@ const makeRun = ({ model, x, residuals }, top) => {
     kind: record.kind,
     rows: record.given.times.length,
     times: [...record.times],
-    values: record.values.map(divide),
-    residuals: splitRows(residuals, record.width).map((row) => divide(row.map((each) => -each))),
-    ...(record.kind === "pixels" ? { camera: pickCamera(model, x) } : {}),
+    values,
+    residuals: record.values.map((row, k) => {
+      const shown = level(row.map((each, n) => each + rows[k][n]));
+      return values[k].map((each, n) => each - shown[n]);
+    }),
+    ...(camera ? { camera: pickCamera(camera) } : {}),
   };
   const assumed = [
     { name: "Iz/Ix", value: top.Iz / top.Ix, unit: "" },
@@ -102,8 +112,5 @@ const makeRun = ({ model, x, residuals }, top) => {
   return { run: { format: 5, events: [start], end: record.seconds, points }, assumed };
 };
 
-/** @param {Fit["model"]} model @param {number[]} x */
-const pickCamera = (model, x) => {
-  const camera = model.findCamera(x);
-  return Object.fromEntries(CAMERA.map((name) => [name, camera[name]]));
-};
+/** Its numbers for a run, whose points are those of a camera that looks at the pivot. @param {Camera} camera */
+const pickCamera = (camera) => Object.fromEntries(CAMERA.map((name) => [name, camera[name]]));

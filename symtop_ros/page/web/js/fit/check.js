@@ -3,6 +3,7 @@
 // Twin of truth/fit/check.py, whose text has the reasons of the limits.
 
 import { dot, findEigen, multiplyPairs } from "./linear.js";
+import { isSwinging } from "./lines.js";
 import { splitColumns } from "./noise.js";
 import { isWhite } from "./statistics.js";
 
@@ -23,11 +24,12 @@ export const checkFit = (fit) => {
   const columns = splitColumns(fit.white, fit.model.record.width);
   const [is_white, is_smooth] = [isWhite(columns), isSmooth(fit)];
   const [changes, stretch, fault] = [listChanges(fit), findStretch(fit), findFault(fit)];
+  const swings = isSwinging(fit);
   const isNoise = is_white && !is_smooth && !fault && !stretch;
   /** @type {Verdict} */
   let verdict = isNoise && !fit.isLone ? "holds" : "unclear";
-  if (changes.length || (!is_white && is_smooth)) verdict = "fails";
-  return { verdict, is_white, is_smooth, changes, stretch, fault };
+  if (changes.length || swings || (!is_white && is_smooth)) verdict = "fails";
+  return { verdict, is_white, is_smooth, swings, changes, stretch, fault };
 };
 
 /** Whether residuals change slowly: they may be motion. @param {Fit} fit */

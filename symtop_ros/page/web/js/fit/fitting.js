@@ -11,7 +11,7 @@ import { AGAIN, EFFORTS, expand, search } from "./search.js";
 import { Starts } from "./starts.js";
 import { findMedian } from "./statistics.js";
 import { mirrorView, restate, turnCamera } from "./twins.js";
-import { SPARSE, countRows } from "./values.js";
+import { SPARSE, countRows, isAlias } from "./values.js";
 
 /** @import { Many, Thrown } from "./many.js" */
 /** @import { Record } from "./record.js" */
@@ -21,6 +21,8 @@ const SAME = 1.001; // costs of two searches that found one minimum
 const SURE = 2; // searches that have to find it
 const FARTHEST = 6; // deviations; a residual beyond it counts as this
 const CLEAR = 25; // squares of deviations by which a motion fits worse than another
+// deviations of a nearness; without it the squares would grow by 144, far above CLEAR
+const SURELY_NEAR = 12;
 const DIFFERENT = 0.02; // of p_psi/Ix; motions that are closer are one
 const ALIKE = 1.1; // costs of motions that fit as well, at most
 const NEAR = Array.from({ length: 33 }, (_, k) => 0.8 + (0.4 * k) / 32); // of p_psi/Ix of a start
@@ -98,21 +100,48 @@ const settle = (fit, rivals) => {
     if (isBetter(other, best)) best = other;
   }
   if (best !== fit) others = listOthers(best, rivals);
-  return new Fit(best.model, best.x, best.noise, others);
+  const slower = others.find((each) => isAlias(best, each));
+  if (slower) {
+    best = chooseTwin(refine(slower.model, slower.x));
+    others = listOthers(best, rivals);
+  }
+  const found = new Fit(best.model, best.x, best.noise, others);
+  found.hasMirror = best.hasMirror;
+  return found;
 };
 
 /** The usual one of exact twins: a camera is upright and high. @param {Fit} fit */
 const chooseTwin = (fit) => {
-  const { model } = fit;
-  if (model.record.kind !== "pixels") return fit;
-  let best = fit;
-  const take = (/** @type {typeof mirrorView} */ turn) => {
-    const { motion, camera } = turn(best.model.read(best.x), best.model.findCamera(best.x));
-    const { model, x } = restate(best.model.many, best.model.record, motion, camera);
-    best = refine(model, x);
-  };
-  if (Math.cos(best.x[model.place.roll]) < 0) take(turnCamera);
-  if (!model.record.hasPerspective && best.x[model.place.elevation] < 0) take(mirrorView);
+  const { record, place } = fit.model;
+  if (record.kind !== "pixels") return fit;
+  return chooseSide(Math.cos(fit.x[place.roll]) < 0 ? take(fit, turnCamera) : fit);
+};
+
+/** @param {Fit} fit @param {typeof mirrorView} turn */
+const take = (fit, turn) => {
+  const { many, record } = fit.model;
+  const { motion, camera } = turn(fit.model.read(fit.x), fit.model.findCamera(fit.x));
+  const { model, x } = restate(many, record, motion, camera);
+  return refine(model, x);
+};
+
+/**
+ * The fit with a camera above the pivot, unless the record shows that it was below.
+ *
+ * Only what is nearer and larger shows the side. That a near camera is looked for decides nothing: of a
+ * film from far away both sides fit as well.
+ * @param {Fit} fit
+ */
+const chooseSide = (fit) => {
+  const { record, place } = fit.model;
+  const isBelow = fit.x[place.elevation] < 0;
+  if (!record.hasPerspective) return isBelow ? take(fit, mirrorView) : fit;
+  const deviation = fit.findDeviation(fit.x.map((_, k) => Number(k === place.nearness)));
+  if (fit.x[place.nearness] > SURELY_NEAR * deviation) return fit;
+  const other = take(fit, mirrorView);
+  if (sumFar(fit, other.residuals) - sumFar(fit, fit.residuals) >= CLEAR) return fit;
+  const best = isBelow ? other : fit;
+  best.hasMirror = true;
   return best;
 };
 

@@ -1,6 +1,6 @@
 // Noise that lasts from row to row: a prediction by the rows before, and what is new in each row.
 //
-// Twin of truth/judge/lasting.py, whose text has the sources: an autoregression of the order that Hannan
+// Twin of truth/residuals/whitening.py, whose text has the sources: an autoregression of the order that Hannan
 // and Quinn's criterion chooses, or fractional noise, whose power goes with f^(-2 d), if that is likelier.
 
 import { dot } from "./linear.js";

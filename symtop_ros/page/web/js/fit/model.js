@@ -68,7 +68,8 @@ export class Model {
   /** @param {number[]} x @returns {Camera} */
   findCamera(x) {
     const take = (/** @type {string} */ name) => x[this.place[name]] ?? 0;
-    return /** @type {Camera} */ (Object.fromEntries(CAMERA.map((name) => [name, take(name)])));
+    const found = Object.fromEntries(CAMERA.map((name) => [name, take(name)]));
+    return /** @type {Camera} */ ({ ...found, centre: this.record.given.centre });
   }
 
   /** What is shown of axes. @param {Float64Array | null} axes @param {number[]} x */

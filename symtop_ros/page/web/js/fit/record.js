@@ -5,9 +5,10 @@ import { findMedian, findQuantile, findSpread } from "./statistics.js";
 
 /**
  * What is fitted: x, y, z of the axis or u, v of a picture (v upwards), and what is known besides, each
- * with a standard deviation. With perspective the distance of the camera is looked for.
+ * with a standard deviation. With perspective the distance of the camera is looked for, which looks at the
+ * centre of the picture; if that is not known, at the pivot.
  * @typedef {{kind: "axis" | "pixels", times: number[], values: number[][],
- *   known?: {[name: string]: [number, number]}, perspective?: boolean}} Given
+ *   known?: {[name: string]: [number, number]}, perspective?: boolean, centre?: readonly [number, number]}} Given
  */
 
 export const FEWEST = 12; // rows

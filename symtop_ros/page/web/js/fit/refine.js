@@ -34,6 +34,8 @@ export class Fit {
     this.others = others;
     /** True if one search of all found this motion, and what it leaves lasts. */
     this.isLone = false;
+    /** True if a near camera below the pivot, with -p_psi, shows the record as well. */
+    this.hasMirror = false;
     this.residuals = model.findResiduals(x);
     /** Residuals of the kept rows in deviations. */
     this.white = whiten(noise, this.residuals);

@@ -1,6 +1,6 @@
 // Numbers with noise: medians, correlations, and the variance of sums that are correlated.
 //
-// Twin of truth/judge/noise.py, whose text has the sources.
+// Twin of truth/residuals/residuals.py, whose text has the sources.
 
 import { dot } from "./linear.js";
 

@@ -56,6 +56,21 @@ export const mirrorView = (motion, camera) => {
   };
 };
 
+/** The motion mirrored left and right, and the camera that shows its picture mirrored. @param {Thrown} motion @param {Camera} camera @returns {Seen} */
+export const mirrorPicture = (motion, camera) => {
+  const { axis, velocity } = findAxisMotion(motion);
+  const over = (/** @type {Vector} */ [x, y, z]) => [-x, y, z];
+  const { u, centre } = camera;
+  return {
+    motion: startAxis(motion, over(axis), over(velocity), -motion.omega[2]),
+    camera: {
+      ...camera,
+      roll: -camera.roll,
+      centre: centre && [2 * u - centre[0], centre[1]],
+    },
+  };
+};
+
 /** The motion of the other end of the axis. @param {Thrown} motion @returns {Thrown} */
 const takeOtherEnd = ({ weight, q, omega: [wx, wy, p] }) => ({
   weight: -weight,
@@ -83,9 +98,18 @@ export const seeFromAbove = (motion) => {
 
 /**
  * The model about the start of another motion, and its parameters.
- * @param {Many} many @param {Record} record @param {Thrown} motion @param {{[name: string]: number}} more
+ * @param {Many} many @param {Record} record @param {Thrown} motion @param {{[name: string]: number} | Camera} more
  */
 export const restate = (many, record, { weight, q, omega: [wx, wy, p] }, more) => {
   const model = new Model(many, record, q);
-  return { model, x: model.fill({ ...more, "Mgl/Ix": weight, "p_psi/Ix": p, wx, wy }) };
+  return {
+    model,
+    x: model.fill({
+      .../** @type {{[name: string]: number}} */ (more),
+      "Mgl/Ix": weight,
+      "p_psi/Ix": p,
+      wx,
+      wy,
+    }),
+  };
 };

@@ -2,9 +2,11 @@
 //
 // A twin is named only if it was computed and shows the same points to rounding.
 
+import { dot } from "./linear.js";
+import { whiten } from "./noise.js";
 import { project } from "./projection.js";
-import { mirrorView, seeFromAbove, turnCamera } from "./twins.js";
-import { ALIASED, SPARSE, countRows, findSlope, isLevel } from "./values.js";
+import { mirrorPicture, mirrorView, seeFromAbove, turnCamera } from "./twins.js";
+import { ALIASED, SPARSE, countRows, findSlope, isAlias, isLevel } from "./values.js";
 
 /** @import { Camera } from "./projection.js" */
 /** @import { Thrown } from "./many.js" */
@@ -14,6 +16,7 @@ import { ALIASED, SPARSE, countRows, findSlope, isLevel } from "./values.js";
 
 const EXACT = 1e-9; // of the size of a record
 const STRONG = 0.98; // correlation of two numbers that are only known together
+const ABOVE_PIVOT = 0.5; // of the axis: where a camera looks whose aim is not known
 const ABOVE = 4; // deviations within which a camera may be straight above
 
 /** @param {Fit} fit @param {Value[]} values @returns {Unknown[]} */
@@ -33,7 +36,14 @@ export const listUnknown = (fit, values) => {
   const others = together.length ? [] : fit.others;
   for (const other of others) {
     const { weight, omega } = other.model.read(other.x);
-    found.push({ kind: "other", names: "Mgl/Ix, p_psi/Ix", numbers: [weight, omega[2]] });
+    const numbers = [weight, omega[2]];
+    if (isAlias(other, fit))
+      found.push({
+        kind: "alias",
+        names: "rows",
+        numbers: [...numbers, countRows(other)],
+      });
+    else found.push({ kind: "other", names: "Mgl/Ix, p_psi/Ix", numbers });
   }
   return found;
 };
@@ -51,8 +61,14 @@ const listTwins = (fit) => {
   const [p, weight] = [motion.omega[2], motion.weight];
   const [over, low] = [turnCamera(motion, camera), mirrorView(motion, camera)];
   const level = { ...camera, elevation: Math.PI / 2 };
+  const mirrored = mirrorPicture(motion, camera);
   /** @type {[Unknown, Seen, Seen][]} */
   const twins = [
+    [
+      { kind: "mirrored", names: "sign of p_psi", numbers: [-p] },
+      { motion, camera },
+      { ...mirrored, isMirrored: true },
+    ],
     [{ kind: "upright", names: "sign of Mgl", numbers: [-weight, p] }, { motion, camera }, over],
     [
       { kind: "high", names: "sign of p_psi", numbers: [low.camera.elevation, -p] },
@@ -68,19 +84,44 @@ const listTwins = (fit) => {
     ]);
   return [
     ...always,
-    ...twins.flatMap(([said, own, twin]) => (isSame(fit, own, twin) ? [said] : [])),
+    ...twins.flatMap(([said, own, twin]) =>
+      (said.kind === "high" && fit.hasMirror) || isSame(fit, own, twin) ? [said] : [],
+    ),
+    ...listAim(fit),
   ];
 };
 
-/** @typedef {{motion: Thrown, camera: Camera}} Seen */
+/** What p_psi would be if a camera whose aim is not known looks above the pivot. @param {Fit} fit @returns {Unknown[]} */
+const listAim = (fit) => {
+  const { many, record, place } = fit.model;
+  const camera = fit.model.findCamera(fit.x);
+  if (!record.hasPerspective || camera.centre) return [];
+  const [axes] = many.findAxes([fit.model.read(fit.x)], record.times);
+  if (!axes) return [];
+  const above = camera.v + ABOVE_PIVOT * Math.exp(camera.log_scale);
+  const [first, second] = [
+    camera,
+    { ...camera, centre: /** @type {const} */ ([camera.u, above]) },
+  ].map((each) => project(axes, each, new Float64Array(record.flat.length)));
+  // least squares follow what is shown, to first order
+  const change = whiten(
+    fit.noise,
+    first.map((each, k) => each - second[k]),
+  );
+  const row = fit.covariance[place["p_psi/Ix"]];
+  const shift = fit.slopes.columns.reduce((sum, each, k) => sum + row[k] * dot(each, change), 0);
+  return [{ kind: "aim", names: "aim", numbers: [fit.x[place["p_psi/Ix"]] + shift] }];
+};
+
+/** What is shown; of a mirrored picture left and right are exchanged. @typedef {{motion: Thrown, camera: Camera, isMirrored?: boolean}} Seen */
 
 /** Whether two motions show the same points. @param {Fit} fit @param {Seen} own @param {Seen} twin */
 const isSame = ({ model }, own, twin) => {
   const { many, record } = model;
   const axes = many.findAxes([own.motion, twin.motion], record.times);
-  const [first, second] = [own, twin].map(({ camera }, k) => {
-    const seen = axes[k];
-    return seen && project(seen, camera, new Float64Array(record.flat.length));
+  const [first, second] = [own, twin].map(({ camera, isMirrored }, k) => {
+    const seen = axes[k] && project(axes[k], camera, new Float64Array(record.flat.length));
+    return seen?.map((each, n) => (isMirrored && n % 2 === 0 ? 2 * camera.u - each : each));
   });
   if (!first || !second) return false;
   const size = first.reduce((most, each) => Math.max(most, Math.abs(each)), 0);

@@ -9,6 +9,7 @@ import { Valley } from "./valley.js";
 const SURE = 0.15; // of the scale of a number; one with a larger deviation is not known
 const LEVEL = 4; // deviations within which an elevation may be zero
 export const SPARSE = 4; // rows in a nutation, below which a different motion may show the same rows
+const NYQUIST = 2; // rows in a nutation, more than which are assumed of two motions that fit as well
 const SIDES = ["p_psi/Ix", "phi_dot", "mean_precession_rate"]; // change with the sign of p_psi
 export const ALIASED = ["Mgl/Ix", "p_psi/Ix", "theta_dot", "phi_dot", "nutation_period"];
 const STEP = 1e-6; // of differences, in scales of the parameters
@@ -78,20 +79,26 @@ const listQuantities = ({ model, x }) => {
 export const countRows = ({ model, x }) =>
   model.many.findRates(model.read(x)).nutation_period / model.record.step;
 
+/**
+ * Whether a motion that fits as well has too few rows in a nutation, and the fit enough: as everywhere in
+ * sampling, the slower motion is taken, unless the rows say otherwise.
+ * @param {Fit} rival @param {Fit} fit
+ */
+export const isAlias = (rival, fit) => countRows(rival) <= NYQUIST && countRows(fit) >= SPARSE;
+
 /** Whether a camera may be above or below the level of the pivot. @param {Fit} fit */
 export const isLevel = (fit) => {
   const place = fit.model.place.elevation;
-  if (place === undefined || fit.model.record.hasPerspective) return false;
+  const isOpen = fit.hasMirror || !fit.model.record.hasPerspective;
+  if (place === undefined || !isOpen) return false;
   const deviation = fit.findDeviation(fit.x.map((_, k) => Number(k === place)));
   return Math.abs(fit.x[place]) < LEVEL * deviation;
 };
 
 /** What the record shows; a number that a twin has with a different value is not known. @param {Fit} fit @returns {Value[]} */
 export const listValues = (fit) => {
-  const others = fit.others.map((other) => ({
-    other,
-    of: Object.fromEntries(listQuantities(other)),
-  }));
+  const rivals = fit.others.filter((other) => !isAlias(other, fit));
+  const others = rivals.map((other) => ({ other, of: Object.fromEntries(listQuantities(other)) }));
   const hidden = [
     ...(isLevel(fit) ? [...SIDES, "phi", "elevation"] : []),
     ...(countRows(fit) < SPARSE ? ALIASED : []),

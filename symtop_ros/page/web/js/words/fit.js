@@ -129,10 +129,6 @@ export const listUnknown = ({ unknown, values }) =>
 export const writeLimits = ({ limits }) =>
   limits.length ? phrase("fitted.limits", { limits: limits.map((kind) => ({ kind })) }) : "";
 
-/** The command that looks for what this search leaves out. @param {Fitted} fitted @param {string} command */
-export const addOptions = ({ limits }, command) =>
-  limits.includes("friction") ? `${command} --friction` : command;
-
 /** Numbers of the run that the record does not show. @param {Fitted} fitted */
 export const writeAssumed = ({ assumed }) =>
   assumed.length ? phrase("fitted.assumed", { numbers: assumed }) : "";

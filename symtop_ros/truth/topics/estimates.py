@@ -29,6 +29,12 @@ from symtop_ros.run.wire.messages import (
     decode_messages,
     define_stamped,
 )
+from symtop_ros.truth.residuals.sampling import (
+    describe_repeats,
+    describe_time_step,
+    find_repeats,
+    find_time_step,
+)
 
 if TYPE_CHECKING:  # logs need mcap
     from symtop_ros.run.log.source import MessageSource
@@ -92,6 +98,22 @@ class Estimates:
             orientations=self.orientations[chosen],
             angular_velocities=None if rates is None else rates[chosen],
         )
+
+    def count_once(self) -> Estimates:
+        """Return the estimates without those that are there a second time, as in merged bags."""
+        rates = self.angular_velocities
+        numbers = self.orientations if rates is None else np.hstack([self.orientations, rates])
+        again = find_repeats(self.stamps, numbers)
+        seconds = self.stamps / NANOSECONDS
+        found = self.select(~again)
+        times, counts = np.unique(found.stamps, return_counts=True)
+        notes = [*describe_repeats(seconds[again])]
+        if others := len(found) - len(times):
+            first = times[counts.argmax()] / NANOSECONDS
+            rows = "row repeats" if others == 1 else "rows repeat"
+            notes.append(f"{others} {rows} a time, among them {first:.9g} s")
+        notes += describe_time_step(find_time_step(found.stamps))
+        return replace(found, notes=(*self.notes, *notes))
 
     def thin(self, most: int) -> Estimates:
         """Return at least so many of the estimates, and less than twice, spread over the run.

@@ -6,8 +6,8 @@ import pytest
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import State
 from symtop_ros.truth.fit.files import read_rows
-from symtop_ros.truth.judge.iso import write_seconds
-from symtop_ros.truth.judge.tables import read_table
+from symtop_ros.truth.judge.attitude_table import read_attitudes
+from symtop_ros.truth.tables.iso import write_seconds
 
 # Turns of 0.1 and more about all axes, as quaternions of exact quarters.
 Q = np.array([[0.5, 0.5, 0.5, 0.5], [0.5, -0.5, 0.5, 0.5], [1.0, 0.0, 0.0, 0.0]])
@@ -38,7 +38,7 @@ def assert_same_turns(found, expected):
 
 @pytest.mark.parametrize("parent", ["", ",Parent,,,,,,,,\n"])
 def test_an_export_of_motive_is_read_without_rows_in_which_nothing_was_seen(tmp_path, parent):
-    table = read_table(write_motive(tmp_path / "take.csv", parent=parent))
+    table = read_attitudes(write_motive(tmp_path / "take.csv", parent=parent))
     assert_same_turns(table.numbers, Q)
     assert table.times == (0, 125_000_000, 250_000_000)
     assert table.notes == ("1 row has an empty cell: left out",)
@@ -52,7 +52,7 @@ def test_both_tools_read_one_export_of_motive(tmp_path):
 
 def test_an_export_of_motive_with_angles_is_refused(tmp_path):
     with pytest.raises(RefusedError, match="must have the rotation type Quaternion, got XYZ"):
-        read_table(write_motive(tmp_path / "take.csv", "XYZ"))
+        read_attitudes(write_motive(tmp_path / "take.csv", "XYZ"))
 
 
 def test_bodies_of_motive_are_told_apart_by_name(tmp_path):
@@ -63,7 +63,7 @@ def test_bodies_of_motive_are_told_apart_by_name(tmp_path):
         f"Format Version,1.2\n{head.replace('A', 'Type')}{head}{',,' + 'Rotation,' * 8}\n{axes}"
     )
     with pytest.raises(RefusedError, match=r"one quaternion, got a.rotation.w and b.rotation.w"):
-        read_table(path)
+        read_attitudes(path)
 
 
 ANGLES = np.array([[0.25, -0.5, 1.0], [-0.75, 0.125, -2.0]])
@@ -82,7 +82,7 @@ def test_roll_pitch_and_yaw_are_turns_in_the_order_of_the_flag(tmp_path, head, f
     path = tmp_path / "a.csv"
     lines = [",".join(map(repr, [k, *row])) for k, row in enumerate((ANGLES * factor).tolist())]
     path.write_text("\n".join([head, *lines]) + "\n")
-    yaw_first, roll_first = (read_table(path, order) for order in ("zyx", "xyz"))
+    yaw_first, roll_first = (read_attitudes(path, order) for order in ("zyx", "xyz"))
     assert yaw_first.notes == note
     for row, (roll, pitch, yaw) in enumerate(ANGLES):
         x, y, z = (
@@ -100,14 +100,14 @@ def test_roll_pitch_and_yaw_need_the_flag(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("t,roll,pitch,yaw\n0,0,0,0\n")
     with pytest.raises(RefusedError, match="--rpy must be the order of roll, pitch and yaw"):
-        read_table(path)
+        read_attitudes(path)
 
 
 def test_poses_of_kitti_with_a_time_in_front_are_matrices(tmp_path):
     path = tmp_path / "poses.txt"
     quarter = "0 -1 0 5 1 0 0 6 0 0 1 7"  # about z
     path.write_text(f"0.0 1 0 0 5 0 1 0 6 0 0 1 7\n0.5 {quarter}\n1.0 {'0 ' * 12}\n")
-    table = read_table(path)
+    table = read_attitudes(path)
     half = 0.5**0.5
     assert_same_turns(table.numbers[:2], np.array([[1, 0, 0, 0], [half, 0, 0, half]]))
     assert not table.numbers[2].any()  # no rotation, which is left out as no attitude
@@ -137,6 +137,6 @@ def test_a_table_may_have_times_of_iso_8601(tmp_path):
         "2026-13-28T14:01:26Z,1,0,0,0\n"
     )
     with pytest.raises(RefusedError, match=r"line 4 of .* must consist of numbers"):
-        read_table(path)
+        read_attitudes(path)
     path.write_text("\n".join(path.read_text().splitlines()[:3]) + "\n")
-    assert read_table(path).times == (1795874486_123456789, 1795874486_133456789)
+    assert read_attitudes(path).times == (1795874486_123456789, 1795874486_133456789)

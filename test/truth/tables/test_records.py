@@ -89,7 +89,11 @@ def test_rows_with_an_empty_cell_are_left_out_and_counted(tmp_path):
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("t,u,v\n0,1,nan\n", "line 2 of .* must have finite numbers, or empty cells, got 0,1,nan"),
+        ("t,u,v\n0,1,two\n", "line 2 of .* must consist of numbers, got 0,1,two"),
+        ("t,u,v\n0,1,inf\n", "must have finite numbers, or empty cells, got inf in row 1"),
+        ("t,u,v\n0,1,2,9\n", "line 2 of .* as many cells as there are names .3., got 0,1,2,9"),
+        ("t (min),u,v\n0,1,2\n", "t in .* must be in s, ms, us, ns, got min"),
+        ("t,theta (turns)\n0,1\n", "theta in .* must be in rad or degrees, got turns"),
         ("t,u,v\n0,1\n", "line 2 of .* must have all columns, got 0,1"),
         ("a,b\n1,2\n", "must have the columns t .* got a,b"),
         ("", "got nothing"),

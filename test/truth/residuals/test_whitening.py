@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from drawn import Numbers
 
-from symtop_ros.truth.judge.lasting import (
+from symtop_ros.truth.residuals.whitening import (
     find_lasting,
     find_predictors,
     measure_noise,
@@ -83,3 +83,14 @@ def test_rows_after_a_gap_or_an_outlier_begin_anew():
 def test_white_noise_has_no_order():
     rows = Numbers(3).normals(ROWS, 3)
     assert len(find_lasting(rows, GOOD, FOLLOWS, 0)) == 0
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.9375])
+def test_a_column_without_residuals_has_a_noise_without_a_size_and_no_warning(slope):
+    rows = make_lasting(slope)
+    rows[:, 1] = 0.0
+    partial = find_lasting(rows, GOOD, FOLLOWS, 4)
+    noise = measure_noise(rows, GOOD, FOLLOWS, partial, 4)
+    assert noise.sigma[1] < 1e-100
+    assert np.isfinite(noise.whiten(rows)).all()
+    assert (len(partial) > 0) == (slope > 0)

@@ -10,9 +10,10 @@ from scipy.spatial.transform import Rotation
 from symtop_ros.base.arrays import Mask, Real, compose, find_rotation_vectors, invert
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.compare import NONE, Offset, Scaling, subtract, to_rotation
-from symtop_ros.truth.judge.estimates import Estimates
-from symtop_ros.truth.judge.noise import Remainder, find_influences
 from symtop_ros.truth.judge.truth import Truth
+from symtop_ros.truth.residuals.influence import find_influences
+from symtop_ros.truth.residuals.residuals import Residuals
+from symtop_ros.truth.topics.estimates import Estimates
 
 SAMPLES = 500  # estimates that a search takes, spread over the run
 MOST_DELAY = 0.5  # s
@@ -32,7 +33,7 @@ RANK = 1e-7  # singular values below this part of the largest are zero
 
 
 @dataclass(eq=False)
-class Fit:
+class Alignment:
     """Some estimates, and the ways to compare them with the exact motion."""
 
     some: Estimates
@@ -192,12 +193,12 @@ class Fit:
         ]
         return bool(ranks[0] == ranks[1])
 
-    def find_remainder(self, offset: Offset) -> Remainder:
+    def find_remainder(self, offset: Offset) -> Residuals:
         """Return what an offset leaves of the known estimates."""
         q, model = self.residuals(offset)
         left = find_rotation_vectors(compose(q, invert(model)))
         body = to_rotation(model).inv().apply(left) if len(left) else left
-        return Remainder((left, body), self.seconds)
+        return Residuals((left, body), self.seconds)
 
     def find_influences(self, offset: Offset, free: list[int]) -> Real:
         """Return the changes of all columns, (n, 11), by each estimate."""

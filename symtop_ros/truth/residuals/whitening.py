@@ -3,8 +3,8 @@
 The order of an autoregression is the one that Hannan and Quinn's criterion chooses. Flicker, whose
 power goes with 1/f, has no order: its slowest part would be taken for a tenth of its size. It is
 predicted as fractional noise (Granger and Joyeux 1980; Hosking 1981), if that is more likely. The
-first rows after a gap are predicted by those that there are. `truth/fit` and the judge whiten by
-it. Noise of any other correlation is left to the sandwich of `noise.py`.
+first rows after a gap are predicted by those that there are. The fit and the judge whiten by
+it. Noise of any other correlation is left to the sandwich of `influence.py`.
 """
 
 from dataclasses import dataclass, replace
@@ -23,6 +23,9 @@ CLEAR = 20.0
 POWERS = np.linspace(0.05, 0.49, 12)  # d of fractional noise, whose power goes with f^(-2 d)
 LONGEST, PER_LAG = 64, 4  # rows by which it is predicted, at most, and rows for each
 LARGEST = 0.9999  # partial autocorrelation
+# Deviation of a column without residuals, as one that an exact solution fits to the last bit, whose
+# logarithm is finite.
+TINY = 1e-150
 ALIKE = 0.1  # of the largest deviation of components
 
 
@@ -99,7 +102,7 @@ def measure_noise(left: Real, good: Mask, follows: Mask, partial: Real, paramete
     noise = Noise(good, before, np.ones(left.shape[1]), partial, int((~good).sum()))
     new = noise.whiten(left)
     free = max(len(new) - parameters / left.shape[1], 1.0)
-    return replace(noise, sigma=np.sqrt((new**2).sum(axis=0) / free))
+    return replace(noise, sigma=np.sqrt((new**2).sum(axis=0) / free) + TINY)
 
 
 def count_before(good: Mask, follows: Mask, most: int) -> Places:

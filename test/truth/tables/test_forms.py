@@ -6,7 +6,7 @@ import subprocess
 import pytest
 
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.truth.judge.forms import is_table
+from symtop_ros.truth.tables.forms import is_table
 
 ROWS = b"t,w,x,y,z\n0,1,0,0,0\n"
 PACKED = {

@@ -1,0 +1,50 @@
+"""Lines in what a motion leaves: swings at its own frequencies, and at any other.
+
+What swings at the spin is of the body: one that is not symmetric (Iy = 1.02 Ix), or a sensor with
+unequal scales. Whitening would take it for noise that lasts.
+"""
+
+import numpy as np
+
+from symtop_ros.physics import Motion
+from symtop_ros.truth.fit.refine import Fit
+from symtop_ros.truth.residuals.lines import Line, find_lines
+
+PHASES = np.arange(64) / 64  # of a nutation, over which the spin is averaged
+TWICE = ("spin", "nutation", "precession")
+TURN = 2 * np.pi
+
+
+def list_lines(fit: Fit) -> tuple[Line, ...]:
+    """Return the lines in what a fit leaves, the clearest first.
+
+    The errors of rounding follow the motion and have its frequencies: a line that is no larger
+    than they are says nothing.
+    """
+    kept = fit.noise.kept
+    found = find_lines(fit.model.record.times[kept], fit.residuals[kept], name_frequencies(fit))
+    rounding = fit.model.record.rounding
+    width = fit.residuals.shape[1]  # those of attitudes are no differences of columns
+    sizes = rounding if len(rounding) == width else np.full(width, 2 * rounding.max())
+    return tuple(line for line in found if line.size > sizes[line.column])
+
+
+def name_frequencies(fit: Fit) -> dict[str, float]:
+    """Return the frequencies in Hz at which a wrong model swings, by name.
+
+    They are few, as the more are tried the clearer a line has to be: once and twice the nutation
+    and the precession, and of a body the spin, and both together.
+    """
+    found = fit.model.find_motion(fit.x)
+    motion = Motion(found.top, found.start)  # friction has no periods
+    try:
+        nutation, precession = TURN / motion.nutation_period, motion.mean_precession_rate
+    except ValueError:  # along the separatrix, or through a pole
+        return {}
+    rates = {"nutation": float(nutation), "precession": float(precession)}
+    if fit.model.kind.shows_spin:
+        times = PHASES * motion.nutation_period
+        spin = float(np.mean(motion.at(times).euler_rates.psi_dot))
+        rates |= {"spin": spin, "sum": spin + precession, "difference": spin - precession}
+    rates |= {f"twice_{name}": 2 * rates[name] for name in TWICE if name in rates}
+    return {name: abs(rate) / TURN for name, rate in rates.items() if np.isfinite(rate)}

@@ -1,0 +1,268 @@
+"""What explains a record that one free motion does not: linear friction, or a kick.
+
+The three are compared by one noise, that of the motion with a kick, which leaves least: noise that
+lasts would take up what friction or a kick does. A kick has a place only if there is a kick, so
+that squares which grow by chance are not those of chi-squared (Davies 1987; Andrews 1993): how much
+they grow at the best place is drawn, from white noise about the one motion.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.stats import chi2
+
+from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.aliases import RATES
+from symtop_ros.truth.fit.check import HOLDS, Check
+from symtop_ros.truth.fit.fitting import sum_squares
+from symtop_ros.truth.fit.kicks import find_best, find_reach
+from symtop_ros.truth.fit.model import FRICTION, KICK, Model
+from symtop_ros.truth.fit.record import FEWEST, Record
+from symtop_ros.truth.fit.refine import Fit, find_noise, fit_weighted, refine
+from symtop_ros.truth.fit.search import list_bounds
+from symtop_ros.truth.fit.starts import fill
+
+SURE = 0.999  # of the records of one free motion are not taken for something else
+DRAWS = 1000  # of white noise
+PLACES = 40  # of a kick
+TRIED = 3  # places that are followed by least squares
+SLIGHT = 1e-6  # of the rates; change of a derivative
+STEPS = 3  # before and after a kick that are tried, where rates jump
+BESIDE = 1e-4  # of a step, from a kick to a row at least
+LOSES = 5.0  # deviations by which friction is not zero
+
+
+@dataclass(frozen=True, eq=False)
+class Rival:
+    """A motion with more parameters, next to one free motion.
+
+    Attributes
+    ----------
+    kind : str
+        "friction" or "kick".
+    fit : Fit
+    gain : float
+        By how much it makes the squares of what is left smaller, in those of a deviation.
+    needed : float
+        Gain that one record of a thousand has by chance.
+    """
+
+    kind: str
+    fit: Fit
+    gain: float
+    needed: float
+
+    @property
+    def is_clear(self) -> bool:
+        """True if it explains more than chance does."""
+        return self.gain > self.needed
+
+    @property
+    def explains(self) -> bool:
+        """True if it leaves noise, and the same constants in both halves."""
+        return self.is_clear and Check(self.fit).verdict == HOLDS
+
+    @property
+    def margin(self) -> float:
+        """Gain beyond that of chance."""
+        return self.gain - self.needed
+
+    @property
+    def loses_spin(self) -> bool:
+        """True if friction takes spin away, by far more than its deviation."""
+        if self.kind != "friction":
+            return False
+        place = self.fit.model.place[FRICTION[0]]
+        deviation = self.fit.find_deviation(np.eye(len(self.fit.x))[place])
+        return self.is_clear and bool(self.fit.x[place] > LOSES * deviation)
+
+
+def find_rivals(fit: Fit, check: Check) -> list[Rival]:
+    """Return what explains more than one free motion does, the clearest first.
+
+    It is looked for if the motion leaves more than white noise.
+    """
+    record = fit.model.record
+    is_white = check.verdict == HOLDS and not len(fit.noise.partial)
+    if is_white or record.has_friction or len(record) < 4 * FEWEST:
+        return []
+    # a slight kick leaves noise that seems to last, and is found by its linear effect
+    is_slight = check.verdict == HOLDS
+    kicked = fit_kick(fit, [] if is_slight else [*find_beginning(record)])
+    rubbed = fit_friction(fit, is_slight)
+    # each by the noise of the richest
+    own = measure(kicked, fit)
+    found = [
+        Rival("kick", kicked, own - measure(kicked, kicked), find_chance(kicked, fit)),
+        Rival("friction", rubbed, own - measure(kicked, rubbed), float(chi2.ppf(SURE, 2))),
+    ]
+    clear = [each for each in found if each.is_clear]
+    return sorted(clear, key=lambda each: each.margin, reverse=True)
+
+
+def find_beginning(record: Record) -> Iterator[Fit]:
+    """Yield the motion of the first rows, as far as one explains them."""
+    first = find_reach(record)
+    if first is not None and FEWEST <= first < len(record):
+        part = record.select(slice(first))
+        found = find_best(part)
+        yield refine(found.model.move(part), found.x)
+
+
+def measure(noise: Fit, fit: Fit) -> float:
+    """Return the squares that a model leaves at most, by the noise of another fit."""
+    x = fit_weighted(fit.model, fit.x, noise.noise)
+    return sum_squares(noise, fit.model.find_residuals(x))
+
+
+def fit_friction(fit: Fit, is_slight: bool) -> Fit:
+    """Return the best motion with linear friction: one near the fit, or, if not slight, of all."""
+    record = replace(fit.model.record, has_friction=True)
+    starts = [_move(fit, record)]
+    if not is_slight:
+        found = find_best(record)
+        starts.append((found.model.move(record), found.x))
+    return _choose([refine(*each) for each in starts])
+
+
+def fit_kick(fit: Fit, beginnings: Sequence[Fit]) -> Fit:
+    """Return the best motion with a kick: a slight one, or where a motion of the beginning ends."""
+    record = replace(fit.model.record, has_kick=True)
+    starts = [add_kick(*_move(fit, record), place) for place in rate_places(whiten_plainly(fit))]
+    starts += [join(each, record) for each in beginnings]
+    best = _choose([refine(*start) for start in starts])
+    # once more by the noise that is left then: what lasts about one motion may be the kick
+    free = Fit(fit.model, fit_weighted(fit.model, fit.x, best.noise), best.noise)
+    starts = [add_kick(*_move(free, record), place) for place in rate_places(free)]
+    best = _choose([best, *(refine(*start) for start in starts)])
+    return settle_time(best) if record.kind.name in RATES else best
+
+
+def whiten_plainly(fit: Fit) -> Fit:
+    """Return a fit whose noise is taken as white."""
+    return Fit(fit.model, fit.x, find_noise(fit.model, fit.x, lasts=False))
+
+
+def settle_time(fit: Fit) -> Fit:
+    """Return the fit with the time of its kick known to a step, if rates jump there.
+
+    Between two rows they may show little of the time, and beyond them they leave the whole jump: so
+    it is known at least as a number is that was rounded to the step. It stays off the rows
+    themselves, where the derivative is that of the jump.
+    """
+    fit = _choose([fit, *try_steps(fit)])
+    record, place = fit.model.record, fit.model.place["kick_time"]
+    times = record.times - record.times[0]
+    row = int(np.clip(np.searchsorted(times, fit.x[place]), 1, len(times) - 1))
+    step = times[row] - times[row - 1]
+    x = fit.x.copy()
+    x[place] = np.clip(x[place], times[row - 1] + BESIDE * step, times[row] - BESIDE * step)
+    known = {**record.known, "kick_time": (float(x[place]), float(step / np.sqrt(12)))}
+    return replace(fit, model=fit.model.move(replace(record, known=known)), x=x)
+
+
+def try_steps(fit: Fit) -> Iterator[Fit]:
+    """Yield the motions with a kick some steps before and after."""
+    place = fit.model.place["kick_time"]
+    for steps in range(-STEPS, STEPS + 1):
+        x = fit.x.copy()
+        x[place] += steps * fit.model.record.step
+        x = np.clip(x, *list_bounds(fit.model))
+        yield replace(fit, x=fit_weighted(fit.model, x, fit.noise))
+
+
+def join(before: Fit, record: Record) -> tuple[Model, Real]:
+    """Return the motion of the first rows, with the kick that leads to that of the others."""
+    model, x = _move(before, record)
+    rest = replace(record.select(slice(len(before.model.record), None)), has_kick=False)
+    found = find_best(rest)
+    place = float(rest.times[0] - record.times[0])
+    first, second = before.model.find_motion(before.x).at(place), found.model.find_motion(found.x)
+    if record.kind.shows_spin:  # the body is the same, and the azimuth of the other may differ
+        change = first.to_world(second.start.angular_velocity - first.angular_velocity)
+    else:
+        change = second.start.to_world(second.start.angular_velocity)
+        change = change - first.to_world(first.angular_velocity)
+    x[model.place["kick_time"]] = place
+    x[[model.place[name] for name in KICK[1:]]] = change
+    return model, x
+
+
+def _move(fit: Fit, record: Record) -> tuple[Model, Real]:
+    """Return the model of another record about the same start, and its parameters."""
+    model = Model(record, fit.model.reference)
+    return model, fill(model, dict(zip(fit.model.names, fit.x.tolist(), strict=True)))
+
+
+def _choose(found: Sequence[Fit]) -> Fit:
+    """Return the fit that leaves least by the noise of the one that leaves least by its own."""
+    best = min(found, key=lambda each: float(np.abs(each.residuals).mean()))
+    return min(found, key=lambda each: sum_squares(best, each.residuals))
+
+
+def add_kick(model: Model, x: Real, place: float) -> tuple[Model, Real]:
+    """Return parameters with a kick at a place, as large as its linear effect says."""
+    x = x.copy()
+    x[model.place["kick_time"]] = place
+    slopes, left = _derive_kick(model, x, place), model.find_residuals(x)
+    size = np.median(np.abs(left), axis=0) + 1e-300  # outliers do not count
+    usual = (np.abs(left) < 10 * size).all(axis=1)
+    columns = (slopes[usual] / size[:, np.newaxis]).reshape(-1, len(KICK) - 1)
+    change = np.linalg.lstsq(columns, -(left[usual] / size).ravel(), rcond=None)[0]
+    x[[model.place[name] for name in KICK[1:]]] = change
+    return model, x
+
+
+def _derive_kick(model: Model, x: Real, place: float) -> Real:
+    """Return the derivatives (n, r, 3) of the residuals by a change of the rates at a place."""
+    rates = SLIGHT * float(model.find_scales(x)[model.place["wx"]])
+    moved = np.tile(x, (4, 1))
+    moved[:, model.place["kick_time"]] = place
+    for k, name in enumerate(KICK[1:]):
+        moved[:, model.place[name]] = 0.0
+        moved[k + 1, model.place[name]] = rates
+    left = model.compare(model.show(moved))
+    slopes = [model.subtract(each, left[0]) / rates for each in left[1:]]
+    return np.stack(slopes, axis=-1)
+
+
+def list_places(fit: Fit) -> Real:
+    """Return times at which a kick is tried, in s after the first row."""
+    times = fit.model.record.times - fit.model.record.times[0]
+    rows = np.linspace(FEWEST, len(times) - 1 - FEWEST, PLACES).astype(int)
+    return np.asarray(times[np.unique(rows)] - fit.model.record.step / 2)
+
+
+def rate_places(fit: Fit) -> list[float]:
+    """Return the places at which a kick makes the squares smallest, to first order."""
+    bases, places = _span_kicks(fit)
+    white = fit.noise.whiten(fit.residuals).ravel()
+    gains = ((bases @ white) ** 2).sum(axis=1)
+    # those of the highest peaks: next to the best place all are good
+    peaks = np.flatnonzero((gains >= np.roll(gains, 1)) & (gains >= np.roll(gains, -1)))
+    best = peaks[np.argsort(gains[peaks])[::-1][:TRIED]]
+    return [*map(float, places[best])]
+
+
+def _span_kicks(fit: Fit) -> tuple[Real, Real]:
+    """Return what kicks at places do that no other motion does: bases (m, 3, n r), and places."""
+    model, x = _move(fit, replace(fit.model.record, has_kick=True))
+    free = np.linalg.qr(fit.columns.reshape(-1, len(fit.x)) / fit.sizes)[0]
+    places, bases = list_places(fit), []
+    for place in places.tolist():
+        columns = fit.noise.whiten(_derive_kick(model, x, place)).reshape(len(free), -1)
+        columns /= np.linalg.norm(columns, axis=0) + 1e-300
+        columns -= free @ (free.T @ columns)
+        bases.append(np.linalg.svd(columns, full_matrices=False)[0].T)
+    return np.array(bases), places
+
+
+def find_chance(kicked: Fit, fit: Fit) -> float:
+    """Return the gain that a kick at the best place has by chance, once in a thousand records."""
+    free = Fit(fit.model, fit_weighted(fit.model, fit.x, kicked.noise), kicked.noise)
+    bases, _ = _span_kicks(free)
+    draw = np.random.default_rng(1)
+    noise = draw.normal(size=(bases.shape[2], DRAWS))
+    gains = ((bases @ noise) ** 2).sum(axis=1).max(axis=0)
+    return float(np.quantile(gains, SURE))

@@ -1,0 +1,1 @@
+"""Attitudes and rates in messages of a log."""

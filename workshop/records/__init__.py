@@ -1,0 +1,1 @@
+"""Records of tops that share no line and no assumption with the fit, which they try."""
