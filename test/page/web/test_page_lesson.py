@@ -5,6 +5,7 @@ import re
 import pytest
 from by_hand import follow_by_hand
 from page.web.opened import FEW_FRAMES, read_motion
+from page.web.pdf_pages import read_pages, squeeze
 from trials import choose
 
 from symtop_ros.page.web.join import LANGUAGES, read_texts
@@ -316,6 +317,37 @@ def test_labels_of_printed_pictures_are_inside_and_apart(open_page, language, si
             for other, its_left, its_up, its_right, its_down in labels[:k]:
                 is_beside = right <= its_left or its_right <= left
                 assert is_beside or down <= its_up or its_down <= up, (text, other)
+
+
+MARGIN = 12 / 25.4 * 72  # points of a sheet's edge
+PLAIN = re.compile(r"[^'_<>=^*/|\[\]]+")  # a text without formulas and arrows
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("size", choose([(1280, 720), (390, 844)], [(1280, 720)]))
+def test_the_words_of_a_printed_sheet_are_on_its_pages_and_beside_its_pictures(
+    open_page, language, size
+):
+    window = {"viewport": {"width": size[0], "height": size[1]}}
+    page = open_page(f"#lang={language}", script=NO_PRINTER + FEW_FRAMES, **window)
+    page.tab.evaluate("document.querySelector('#print-teacher').click()")
+    pages = read_pages(page.tab.pdf(prefer_css_page_size=True))
+    written = "".join(each.text for each in pages)
+    texts = read_texts(language)
+    for step in STEPS:
+        title = texts[f"lesson.{step.name}.title"]
+        for part in PLAIN.findall(title):
+            assert squeeze(part) in written
+    assert sum(len(each.pictures) for each in pages) == len(STEPS)
+    for each in pages:
+        width, height = each.size
+        for text, x, y in each.letters:
+            assert MARGIN - 1 <= x <= width - MARGIN, text
+            assert MARGIN - 1 <= y <= height - MARGIN, text
+            for corners in each.pictures:
+                (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)
+                assert not (left < x < right and low < y < high), text
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
