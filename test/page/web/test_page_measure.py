@@ -14,6 +14,7 @@ from page.web.opened import WINDOW, Opened
 from run.simulation.page_points import look, make_measured
 
 from symtop_ros.physics import Motion, State, Top
+from symtop_ros.truth.fit.camera import rectify
 from symtop_ros.truth.fit.files import read_rows
 from symtop_ros.truth.fit.main import make_parser
 
@@ -363,7 +364,9 @@ def test_the_run_of_a_fit_leaves_what_a_codec_leaves(fitted):
     assert points["kind"] == "pixels"
     assert len(points["times"]) == len(balls)
     assert np.abs(np.array(points["residuals"])[3:]).max() < FOUND
-    seen = np.array([(x, HEIGHT - y) for x, y in balls])
+    # the points of a run are those of a camera that looks at the pivot; the film's does not
+    centre = {"centre_u": WIDTH / 2, "centre_v": HEIGHT / 2}
+    seen = rectify(np.array([(x, HEIGHT - y) for x, y in balls]), points["camera"] | centre)
     assert np.array(points["values"])[3:] == pytest.approx(seen[3:], abs=FOUND)
 
 

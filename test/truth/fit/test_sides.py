@@ -77,8 +77,10 @@ def test_a_near_camera_shows_its_distance_and_the_sign_of_p_psi(more):
     assert_near(values["p_psi/Ix"], 0.25 * CUSPS.start.angular_velocity[2])
     if "has_perspective" in more:
         assert_near(values["nearness"], 0.25)
-    # a camera that is turned over, with the vertical, is all that is left open
-    assert {each.kind for each in report.unknown} == {"moments", "spin", "upright"}
+    # left open are a film that is mirrored, a camera that is turned over, and where it looks
+    assert {each.kind for each in report.unknown} == {
+        *("moments", "spin", "mirrored", "upright", "aim")
+    }
 
 
 def test_a_pinhole_shows_a_point_where_its_ray_meets_the_picture():
