@@ -106,7 +106,7 @@ def test_white_noise_is_not_looked_at_again():
 
 @pytest.mark.long
 def test_of_many_records_a_kick_has_the_place_and_the_size_that_it_had():
-    """A kick that leaves white noise changes the numbers of one motion by no more than noise does."""
+    """One that leaves white noise changes the numbers by no more than noise does."""
     pulls, found = [], 0
     for seed in range(40):
         drawn = draw_record("kick, axis", seed)
