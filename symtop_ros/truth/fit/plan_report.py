@@ -8,7 +8,13 @@ from symtop_ros.base.counts import write_count
 from symtop_ros.base.header import make_header
 from symtop_ros.truth.fit.plan import LONGEST, PRECISE, Plan, Start
 from symtop_ros.truth.fit.record import Known
-from symtop_ros.truth.fit.report import describe_unknown, describe_value, write_row, write_unknown
+from symtop_ros.truth.fit.report import (
+    describe_unknown,
+    describe_value,
+    write_legend,
+    write_row,
+    write_unknown,
+)
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import SIZED, Value, convert, list_quantities, list_values
 from symtop_ros.words import write
@@ -87,8 +93,8 @@ class PlanReport:
             "seconds": record.seconds,
             "rate": 1 / record.step,
         }
-        lines = [write("plan", head)]
-        lines += [self._write_row(each) for each in self.values if each.is_known]
+        known = [each for each in self.values if each.is_known]
+        lines = [write("plan", head), *write_legend(known), *map(self._write_row, known)]
         lines += [f"not known: {write_unknown(each)}" for each in self.unknown]
         lines += [self._write_late(each) for each in self.values if self._is_late(each)]
         return "\n".join([*lines, *map(self._write_start, self.plan.starts)])

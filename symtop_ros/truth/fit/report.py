@@ -145,7 +145,8 @@ class Report:
             f"{self.source}: {record.kind.name}, {write_count(self.rows, 'row')} in "
             f"{record.seconds:.4g} s"
         )
-        lines = [head, *(write_row(each) for each in self.values if each.is_known)]
+        known = [each for each in self.values if each.is_known]
+        lines = [head, *write_legend(known), *map(write_row, known)]
         lines.append(self.write_verdict())
         lines += [f"not known: {write_unknown(each)}" for each in self.unknown]
         return "\n".join([*lines, *(f"note: {note}" for note in record.notes)])
@@ -214,6 +215,11 @@ def write_row(value: Value) -> str:
     label = LABELS.get(value.name, value.name)
     when = " (first row)" if value.name in ANGLES else ""
     return f"  {label:20}{measured}{write_systematic(value)} {value.unit}{when}".rstrip()
+
+
+def write_legend(values: Sequence[Value]) -> list[str]:
+    """Return a line on what stands after +-, if any number has a second deviation."""
+    return [write("legend", {})] if any(map(write_systematic, values)) else []
 
 
 def write_systematic(value: Value) -> str:
