@@ -29,6 +29,7 @@ SURE = 0.999  # of the records of one free motion leave less to gain by chance
 CLEAR = 1.5
 DRAWS = 1000  # of white noise
 PLACES = 40  # of a kick
+MANY = 2000  # rows in which rivals are looked for
 TRIED = 3  # places that are followed by least squares
 SLIGHT = 1e-6  # of the rates; change of a derivative
 STEPS = 3  # before and after a kick that are tried, where rates jump
@@ -84,12 +85,29 @@ class Rival:
 def find_rivals(fit: Fit, check: Check) -> list[Rival]:
     """Return what explains more than one free motion does, the clearest first.
 
-    It is looked for if the motion leaves more than white noise.
+    It is looked for if the motion leaves more than white noise, of a long record in a part of its
+    rows.
     """
     record = fit.model.record
     is_white = check.verdict == HOLDS and not len(fit.noise.partial)
     if is_white or record.has_friction or len(record) < 4 * FEWEST:
         return []
+    if len(record) > MANY:
+        part = refine(fit.model.move(record.thin(MANY)), fit.x)
+        return [extend(each, record) for each in compare(part, check)]
+    return compare(fit, check)
+
+
+def extend(rival: Rival, record: Record) -> Rival:
+    """Return a rival that was found in a part of a record, fitted to all of it."""
+    model = rival.fit.model
+    whole = replace(model.record, times=record.times, values=record.values)
+    return replace(rival, fit=refine(model.move(whole), rival.fit.x))
+
+
+def compare(fit: Fit, check: Check) -> list[Rival]:
+    """Return the rivals of a motion that explain more than chance does, the clearest first."""
+    record = fit.model.record
     # a slight kick leaves noise that seems to last, and is found by its linear effect
     is_slight = check.verdict == HOLDS
     kicked = fit_kick(fit, [] if is_slight else [*find_beginning(record)])
@@ -264,8 +282,11 @@ def _span_kicks(fit: Fit) -> tuple[Real, Real]:
 def find_chance(kicked: Fit, fit: Fit) -> float:
     """Return the gain that a kick at the best place has by chance, once in a thousand records."""
     free = Fit(fit.model, fit_weighted(fit.model, fit.x, kicked.noise), kicked.noise)
-    bases, _ = _span_kicks(free)
-    draw = np.random.default_rng(1)
-    noise = draw.normal(size=(bases.shape[2], DRAWS))
-    gains = ((bases @ noise) ** 2).sum(axis=1).max(axis=0)
+    bases, places = _span_kicks(free)
+    # white noise seen along the bases is normal, with their products as covariance
+    columns = bases.reshape(-1, bases.shape[2])
+    values, vectors = np.linalg.eigh(columns @ columns.T)
+    draw = np.random.default_rng(1).normal(size=(len(values), DRAWS))
+    seen = vectors @ (np.sqrt(np.maximum(values, 0.0))[:, np.newaxis] * draw)
+    gains = (seen.reshape(len(places), -1, DRAWS) ** 2).sum(axis=1).max(axis=0)
     return float(np.quantile(gains, SURE))
