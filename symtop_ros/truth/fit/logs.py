@@ -1,6 +1,7 @@
 """Records from logs and bags: attitudes, or what a sensor on the body measures."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from symtop_ros.base.arrays import Real, Stamps
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.log.bags import open_run
+from symtop_ros.run.log.reader import list_problems
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.run.wire.messages import IMU, decode_messages
 from symtop_ros.truth.fit.aliases import RATES
@@ -25,7 +27,14 @@ def read_log(path: Path, topic: str | None, frame: str | None, kind: str | None)
     chosen = kind or "attitude"
     if chosen not in SEEN:
         raise RefusedError(f"--kind must be one of {', '.join(SEEN)} for a log, got {chosen}")
-    form, messages = read_messages(open_run([path]), topic)
+    source = open_run([path])
+    form, messages = read_messages(source, topic)
+    rows = _read(form, messages, topic, frame, chosen)
+    return replace(rows, notes=(*list_problems(source.problems), *rows.notes))
+
+
+def _read(form: str, messages: Sequence[bytes], topic: str, frame: str | None, chosen: str) -> Rows:
+    """Return the rows that the messages of a topic are, of a type and a kind."""
     if chosen != "attitude" and form == IMU.type:
         return _read_sensor(topic, messages, chosen)
     found = decode_estimates(form, messages, frame)

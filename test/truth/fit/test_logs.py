@@ -1,5 +1,7 @@
 """Records from logs: attitudes, and what a sensor measures, with or without an attitude."""
 
+import shutil
+
 import numpy as np
 import pytest
 from truth.fit.cases import CUSPS, TIMES
@@ -68,3 +70,21 @@ def test_attitudes_are_read_unless_a_kind_is_asked_for(log):
 def test_what_a_log_does_not_have_is_named(log, topic, kind, reason):
     with pytest.raises(RefusedError, match=reason):
         read_log(log, topic, None, kind)
+
+
+METADATA = """\
+rosbag2_bagfile_information:
+  relative_file_paths: [run.mcap]
+  starting_time: {nanoseconds_since_epoch: 0}
+  duration: {nanoseconds: 0}
+  message_count: 1000000
+"""
+
+
+def test_what_a_bag_lacks_is_a_note_of_the_record(log, tmp_path):
+    shutil.copy(log, tmp_path)
+    assert read_log(tmp_path, "/imu", None, "rates").notes == ()
+    (tmp_path / "metadata.yaml").write_text(METADATA)
+    (note,) = read_log(tmp_path, "/imu", None, "rates").notes
+    assert note.startswith("messages of the bag are missing (metadata.yaml: ")
+    assert note.endswith(" of 1000000 messages)")
