@@ -69,7 +69,7 @@ class Bag:
     """A folder of rosbag2 with the files that are there."""
 
     def __init__(self, folder: Path, files: Mapping[Path, MessageSource]) -> None:
-        # Weak, as the sources have this: else their temporary copies stay until a cycle is collected.
+        # Weak, as the sources have this: a cycle would keep their temporary copies.
         self._files = WeakValueDictionary({_name(path): each for path, each in files.items()})
         self._folder = folder
 
@@ -161,7 +161,7 @@ def _read(path: Path) -> Inventory | None:
     except FileNotFoundError:
         return None
     try:
-        return Inventory.of(yaml.load(data, LOADER))  # noqa: S506  # a safe loader
+        return Inventory.of(yaml.load(data, LOADER))  # a safe loader
     except DamagedError:
         raise
     except (yaml.YAMLError, LookupError, TypeError, AttributeError, ValueError, RecursionError):

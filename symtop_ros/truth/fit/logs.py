@@ -12,11 +12,13 @@ from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.log.reader import list_problems
 from symtop_ros.run.wire.layout import NANOSECONDS
-from symtop_ros.run.wire.messages import IMU, decode_messages
+from symtop_ros.run.wire.messages import IMU
 from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.files import Rows
 from symtop_ros.truth.topics.estimates import decode_estimates, read_messages
+from symtop_ros.truth.topics.measured import find_absent, read_measured
 
+SENSED = ("angular_velocity", "linear_acceleration")
 SEEN = ("attitude", *RATES)  # kinds of which there are messages
 
 
@@ -49,16 +51,21 @@ def _read(form: str, messages: Sequence[bytes], topic: str, frame: str | None, c
 
 def _read_sensor(topic: str, messages: Sequence[bytes], kind: str) -> Rows:
     """Return rates, and forces if they are asked for, of Imu messages with or without attitudes."""
-    parts, refused = decode_messages(IMU, messages)
-    if not parts:
+    measured = read_measured(IMU, messages)
+    if not len(measured.stamps):
         raise RefusedError(f"{topic} must have messages, got none that can be read")
-    stamps = np.concatenate([part.stamps for part in parts])
-    numbers = np.concatenate([part.numbers for part in parts])[np.argsort(stamps, kind="stable")]
-    names = ("angular_velocity", "linear_acceleration")[: 1 if kind == "rates" else 2]
-    values = np.concatenate([numbers[:, IMU.quantities[name]] for name in names], axis=1)
-    count = write_count(len(refused), "message")
-    notes = (f"{count} cannot be read: left out",) if refused else ()
-    return Rows(kind, _count_seconds(np.sort(stamps)), values, notes)
+    names = SENSED[: 1 if kind == "rates" else 2]
+    values = np.concatenate([np.asarray(measured.find(name)) for name in names], axis=1)
+    notes = [*measured.describe_absent(*names)]
+    good = np.flatnonzero(~find_absent(values))
+    if not good.size:
+        wanted = " and ".join(name.replace("_", " ") for name in names)
+        raise RefusedError(f"{topic} must have messages with {wanted}, got {'; '.join(notes)}")
+    order = good[np.argsort(measured.stamps[good], kind="stable")]
+    if measured.unreadable:
+        count = write_count(measured.unreadable, "message")
+        notes.append(f"{count} cannot be read: left out")
+    return Rows(kind, _count_seconds(measured.stamps[order]), values[order], tuple(notes))
 
 
 def _count_seconds(stamps: Stamps) -> Real:
