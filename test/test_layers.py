@@ -26,7 +26,7 @@ TABLE = {
     "physics": "base/deprecation base/missing base/one_or_many words | cupy flint numpy",
     "run/wire": " | numpy",
     "run/simulation": "__init__ physics run/wire words | numpy scipy yaml",
-    "run/log": "__init__ run/simulation run/wire | lz4 mcap numpy zstandard",
+    "run/log": "__init__ run/simulation run/wire | lz4 mcap numpy yaml zstandard",
     "run/models": "base/command physics run/simulation | ",
     "run/session": "__init__ base/missing physics run/log run/models run/simulation run/wire words"
     " | numpy",

@@ -4,6 +4,7 @@ A bag of any kind is read like one `McapFile`, as a `MessageSource`.
 """
 
 import os
+import shutil
 import sqlite3
 import tempfile
 import weakref
@@ -17,6 +18,8 @@ import zstandard
 from mcap.records import Channel, Message, Schema
 
 from symtop_ros.base.counts import write_count
+from symtop_ros.run.log.inventory import FILE as INVENTORY
+from symtop_ros.run.log.inventory import Bag
 from symtop_ros.run.log.reader import MAX_MESSAGES, PIECE, LogError, McapFile
 from symtop_ros.run.log.source import ZSTD_START, Loss, MessageSource, name_kind
 from symtop_ros.run.log.writer import BEGUN_ENTRY, FILE_ENTRY, METADATA
@@ -25,15 +28,28 @@ MCAP, SQLITE, ZSTD = ".mcap", ".db3", ".zstd"
 SUFFIXES = (MCAP, SQLITE, f"{MCAP}{ZSTD}", f"{SQLITE}{ZSTD}")
 MALFORMED = "malformed"  # in what SQLite says of a database that is damaged
 MAX_FILES = 10_000  # of one run
+# What SQLite says of the disk, of rights, of memory and of locks: not of the file.
+OF_MEDIUM = {
+    *(sqlite3.SQLITE_PERM, sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED, sqlite3.SQLITE_NOMEM),
+    *(sqlite3.SQLITE_READONLY, sqlite3.SQLITE_IOERR, sqlite3.SQLITE_FULL, sqlite3.SQLITE_CANTOPEN),
+}
 
 
 def open_run(paths: Sequence[Path]) -> MessageSource:
     """Open files and rosbag2 folders as one run; their order does not matter."""
-    files = [file for path in paths for file in _files_of(path)]
+    found = {path: _files_of(path) for path in paths}
+    files = [*dict.fromkeys(file for each in found.values() for file in each)]
     if len(files) > MAX_FILES:
         raise LogError(f"a run must have at most {MAX_FILES} files, got {len(files)}")
-    sources = [_open(file) for file in dict.fromkeys(files)]
-    return sources[0] if len(sources) == 1 else SeveralFiles(paths[0], sources)
+    sources = {file: _open(file) for file in files}
+    opened = [*sources.values()]
+    run = opened[0] if len(opened) == 1 else SeveralFiles(paths[0], opened)
+    run.checks = [
+        Bag(path, {file: sources[file] for file in own}).find_losses
+        for path, own in found.items()
+        if os.path.isdir(path)
+    ]
+    return run
 
 
 def _files_of(path: Path) -> list[Path]:
@@ -67,7 +83,7 @@ def _packed(file: Path) -> Path:
 
 def _read_metadata(folder: Path) -> str:
     with suppress(OSError):
-        return (folder / "metadata.yaml").read_text(errors="replace")
+        return (folder / INVENTORY).read_text(errors="replace")
     return ""
 
 
@@ -109,6 +125,7 @@ class SqliteBag(MessageSource):
         super().__init__(path)
         try:
             self.size = path.stat().st_size
+            self._readable = self._find_readable()
             for row in self._rows("SELECT id, name, type, serialization_format FROM topics"):
                 number = int(row[0])
                 name, kind, encoding = map(str, row[1:])
@@ -117,11 +134,7 @@ class SqliteBag(MessageSource):
         except OSError as error:
             raise LogError(f"cannot open {path}: {error.strerror}") from None
         except (sqlite3.Error, ValueError) as error:
-            is_damaged = MALFORMED in str(error)
-            kind = name_kind(
-                path, "the bag is damaged" if is_damaged else f"not a bag of rosbag2 ({error})"
-            )
-            raise LogError(f"cannot open {path}: {kind}") from None
+            raise LogError(f"cannot open {path}: {_describe_refusal(path, error)}") from None
 
     def _read(self) -> Iterator[list[Message]]:
         """Yield messages in the order of their arrival."""
@@ -143,7 +156,8 @@ class SqliteBag(MessageSource):
             yield messages
             messages = []
             lost = self._report_rows(lost)
-            self.report(f"the bag is damaged after the messages that were read: {error}")
+            what = "cannot be read" if _is_of_medium(error) else "is damaged"
+            self.report(f"the bag {what} after the messages that were read: {error}")
         self.offset = self.size
         yield messages
         self._report_rows(lost)
@@ -155,13 +169,43 @@ class SqliteBag(MessageSource):
         return 0
 
     def _rows(self, query: str) -> Iterator[tuple[Any, ...]]:
-        # Immutable: without locks and files next to the bag, whose disk may be read-only. But a
-        # recorder that was killed may have left messages in a file next to it (write-ahead log),
-        # which SQLite would then ignore.
-        pending = self.path.with_name(f"{self.path.name}-wal").exists()
-        name = f"{self.path.absolute().as_uri()}?mode=ro{'' if pending else '&immutable=1'}"
-        with closing(sqlite3.connect(name, uri=True)) as database:
+        with closing(sqlite3.connect(self._readable, uri=True)) as database:
             yield from database.execute(query)
+
+    def _find_readable(self) -> str:
+        """Return the address at which SQLite reads the database and leaves no file next to it.
+
+        A recorder that was killed may have left messages in a file next to the database (its
+        write-ahead log). Immutable, without locks and files next to it, SQLite would ignore them;
+        otherwise it makes an index next to them, if there is none, for which the disk may be
+        read-only. So it gets a copy of both. Where an index is, a recorder may still be writing.
+        """
+        log, index = (self.path.with_name(f"{self.path.name}{end}") for end in ("-wal", "-shm"))
+        path, mode = self.path.absolute(), "mode=ro&immutable=1"
+        if log.exists() and index.exists():
+            mode = "mode=ro"
+        elif log.exists():
+            folder = tempfile.TemporaryDirectory(prefix="symtop_ros_")
+            weakref.finalize(self, folder.cleanup)
+            for each in (path, log):
+                shutil.copyfile(each, Path(folder.name, each.name))
+            path, mode = Path(folder.name, path.name), "mode=ro"
+        return f"{path.as_uri()}?{mode}"
+
+
+def _is_of_medium(error: Exception) -> bool:
+    """Return True if the disk or the system refused, and the file may be sound."""
+    return getattr(error, "sqlite_errorcode", 0) & 0xFF in OF_MEDIUM
+
+
+def _describe_refusal(path: Path, error: Exception) -> str:
+    """Return why a database cannot be opened."""
+    if _is_of_medium(error):
+        return f"it cannot be read here ({error})"
+    is_damaged = MALFORMED in str(error)
+    return name_kind(
+        path, "the bag is damaged" if is_damaged else f"not a bag of rosbag2 ({error})"
+    )
 
 
 class SeveralFiles(MessageSource):

@@ -1,7 +1,10 @@
 """Sources of messages: what all kinds of logs have in common."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from io import BytesIO
@@ -47,7 +50,11 @@ class MessageSource(ABC):
         self.channels: dict[int, Channel] = {}  # by their ids
         self.metadata: dict[str, dict[str, str]] = {}  # metadata records by name
         self.losses: list[Loss] = []  # everything that reading has found to be damaged or lost
+        # Each returns what else is lost, when everything was read.
+        self.checks: Sequence[Callable[[MessageSource], list[Loss]]] = ()
         self.count = 0  # messages that were read
+        self.counts: Counter[int] = Counter()  # messages by channel, readable or not
+        self.latest = 0  # latest time of a message, in ns
         self.size, self.offset = 0, 0  # bytes of the file, and those that were read
         self.is_packed = False  # True if each message was compressed by itself (rosbag2)
 
@@ -61,7 +68,7 @@ class MessageSource(ABC):
         return [each.text for each in self.losses]
 
     @property
-    def files(self) -> Sequence["MessageSource"]:
+    def files(self) -> Sequence[MessageSource]:
         """The files of which the log consists, in the order in which they are read."""
         return [self]
 
@@ -70,7 +77,7 @@ class MessageSource(ABC):
         """The number of messages before each file; complete when all chunks are read."""
         return [0]
 
-    def find_file(self, channel: int) -> "MessageSource":
+    def find_file(self, channel: int) -> MessageSource:
         """Return the file that has a channel."""
         del channel
         return self
@@ -82,14 +89,18 @@ class MessageSource(ABC):
     def chunks(self) -> Iterator[list[Message]]:
         """Yield messages in the order of the log, those of a chunk together."""
         self.losses.clear()
-        self.count = lost = 0
+        self.counts.clear()
+        self.count = self.latest = lost = 0
         for messages in self._read():
+            self.counts.update(each.channel_id for each in messages)
+            self.latest = max(self.latest, *(each.log_time for each in messages), 0)
             unpacked = [*_unpack(messages)] if self.is_packed else messages
             lost += len(messages) - len(unpacked)
             self.count += len(unpacked)
             yield unpacked
         if lost:
             self.losses.append(Loss(f"messages that cannot be decompressed: {lost}", 0))
+        self.losses += [loss for check in self.checks for loss in check(self)]
 
 
 def _unpack(messages: list[Message]) -> Iterator[Message]:

@@ -27,6 +27,11 @@ from symtop_ros.truth.testset.tables import TABLES
 STEP = re.compile(r"(.+?)-(\d+(?:\.\d*)?(?:e[-+]?\d+)?)")
 SOLVED = 0.01  # rad; an attitude that is never further off
 APART = 3.0  # errors in two descriptions of a body: an engine takes them for two bodies
+LEAST_ORDER = 0.5  # between the two smallest steps; Euler's method has 1
+SAME = 0.3  # of the error: errors that differ less between two steps are not those of the step
+# Limits of single precision: the rounding of inputs is about one at all steps, that of an engine's
+# own steps differs between them. g = 9.80665 is 90 or more off.
+SINGLE = 10.0
 ROUNDING = 1e3  # limits; errors below this are rounding as well, and show no order
 
 
@@ -90,19 +95,60 @@ def _list_described(problems: dict[str, Problem]) -> Iterator[Problem]:
             yield find_problem(problems, f"{name}.{each}")
 
 
-def find_orders(entries: Sequence[Entry]) -> dict[tuple[str, str], float]:
-    """Return the order of each method in each problem: the slope of its errors by their steps."""
-    points: dict[tuple[str, str], list[tuple[float, float]]] = defaultdict(list)
+@dataclass(frozen=True)
+class Order:
+    """How the errors of a method in a problem depend on its step."""
+
+    order: float  # slope of the errors by their steps
+    left: float | None = None  # rad that no smaller step removes; None: errors become smaller
+    left_float32: float = 0.0  # the same in limits of single precision
+
+    def describe(self, problem: str, method: str) -> str:
+        """Return the order, or that there is none, in a line."""
+        if self.left is None:
+            return f"order of {method} in {problem}: {self.order:.2f}"
+        also = ", or computes in single precision" * (self.left_float32 < SINGLE)
+        return (
+            f"{method} in {problem} does not converge to this motion{also}: "
+            f"smaller steps leave {self.left:.1e} rad"
+        )
+
+
+def find_orders(entries: Sequence[Entry]) -> dict[tuple[str, str], Order]:
+    """Return how the errors of each method in each problem depend on its step."""
+    methods: dict[tuple[str, str], dict[float, Entry]] = defaultdict(dict)
     for each in entries:
-        if each.step and each.limits > ROUNDING and each.error < 1:
+        if each.step:
             method, step = each.step
-            points[each.problem["name"], method].append((step, each.error))
-    return {
-        key: float(np.polyfit(steps, errors, 1)[0])
-        for key, own in sorted(points.items())
-        for steps, errors in [np.log(own).T]
-        if np.ptp(steps)
-    }
+            methods[each.problem["name"], method][step] = each
+    found = {key: _find_order(own) for key, own in sorted(methods.items())}
+    return {key: order for key, order in found.items() if order}
+
+
+def _find_order(own: Mapping[float, Entry]) -> Order | None:
+    """Return the order of a method from its entries by their steps, if they show one."""
+    good = {step: each for step, each in own.items() if each.limits > ROUNDING and each.error < 1}
+    if len(good) < 2:
+        return None
+    steps, errors = np.log([(step, each.error) for step, each in good.items()]).T
+    order = float(np.polyfit(steps, errors, 1)[0])
+    small, large = sorted(own)[:2]
+    if {small, large} <= {*good} and _is_stuck(small, large, own):
+        least = own[small].score
+        return Order(order, own[small].error, float(least.in_float32_limits.max()))
+    return Order(order)
+
+
+def _is_stuck(small: float, large: float, own: Mapping[float, Entry]) -> bool:
+    """Return True if the smaller of two steps leaves the errors as they are, at all times.
+
+    Of errors that happen to vanish at a step, as a*h - b*h^2 does at h = a/b, the largest ones
+    alone would show the same.
+    """
+    angles, before = own[small].score.angles, own[large].score.angles
+    gained = math.log(own[large].error / own[small].error) / math.log(large / small)
+    is_same = float(np.abs(angles - before).max()) < SAME * own[small].error
+    return gained < LEAST_ORDER and is_same
 
 
 def find_differences(entries: Sequence[Entry]) -> dict[tuple[str, str], dict[str, float]]:
@@ -140,6 +186,8 @@ def rank(
 
     Of those that solved as many, the one with the smaller median of these comes first. If nothing
     is solved, the median is that of all problems, and the worst for those that were not tried.
+    Those that tried fewer than half have no such median: first come those that tried more, then
+    those with the smaller median of what they tried.
     """
     plain = [each for each in entries if each.problem["name"] in problems]
     for level in sorted({each.problem["level"] for each in plain}):
@@ -152,7 +200,7 @@ def rank(
             tried = [each.limits for each in own]
             whole = good or [*tried, *[math.inf] * (count - len(own))]
             row = Rank(name, len(good), len(own), count, median(good or tried))
-            rows.append((-row.solved, median(whole), name, row))
+            rows.append((-row.solved, median(whole), -row.tried, row.median_limits, name, row))
         yield level, [row for *_, row in sorted(rows)]
 
 
@@ -165,8 +213,7 @@ def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> s
         for each in entries
     ]
     orders = [
-        f"order of {method} in {problem}: {order:.2f}"
-        for (problem, method), order in find_orders(entries).items()
+        order.describe(problem, method) for (problem, method), order in find_orders(entries).items()
     ]
     head = f"{'problem':{width}}{'level':>5}  {'entry':24}{'error, rad':>11}{'limits':>10}"
     lines = [head, *scores, *orders]
@@ -200,7 +247,7 @@ def format_json(
         **header,
         "scores": [each.facts() for each in entries],
         "orders": [
-            {"problem": problem, "method": method, "order": order}
+            {"problem": problem, "method": method, **asdict(order)}
             for (problem, method), order in find_orders(entries).items()
         ],
         "differences": [

@@ -26,7 +26,6 @@ from symtop_ros.run.wire.messages import (
     QUATERNION,
     TRANSFORM,
     Format,
-    decode_messages,
     define_stamped,
 )
 from symtop_ros.truth.residuals.sampling import (
@@ -35,6 +34,7 @@ from symtop_ros.truth.residuals.sampling import (
     find_repeats,
     find_time_step,
 )
+from symtop_ros.truth.topics.measured import read_measured
 
 if TYPE_CHECKING:  # logs need mcap
     from symtop_ros.run.log.source import MessageSource
@@ -74,6 +74,8 @@ class Estimates:
             # A filter's quaternion of norm 2 is an attitude; zeros, the default of a message that
             # was never filled, are none.
             good = np.isfinite(norms) & (norms > LARGEST_NORM_ERROR)
+            if angular_velocities is not None and not _has_any(angular_velocities):
+                angular_velocities = None
             if angular_velocities is not None:
                 good &= np.isfinite(angular_velocities).all(axis=1)
         good &= np.abs(times) < MAX_STAMP
@@ -132,6 +134,11 @@ class Estimates:
         return self.select(chosen)
 
 
+def _has_any(rates: Real) -> bool:
+    """Return True if there are no rows (n, 3), or one of them has rates."""
+    return not len(rates) or bool(np.isfinite(rates).all(axis=1).any())
+
+
 def _describe_norms(norms: Real) -> Iterator[str]:
     """Name quaternions that were no attitudes before they were divided by their norms."""
     wrong = int((np.abs(norms - 1) > ODD_NORM).sum())
@@ -142,6 +149,7 @@ def _describe_norms(norms: Real) -> Iterator[str]:
         yield f"{counted} had another norm than 1, and {were} divided by it: {' to '.join(ends)}"
 
 
+ATTITUDES, RATES = ("orientation", "rotation"), ("angular_velocity", "angular")
 POSE = {"position": 3, "orientation": 4}
 FORMATS = {
     form.type: form
@@ -170,24 +178,13 @@ def decode_estimates(kind: str, messages: Sequence[bytes], frame: str | None = N
         raise RefusedError(
             f"topic must have a type with an attitude ({known}), got {one_line(kind)}"
         )
-    form = FORMATS[kind]
-    parts, refused = decode_messages(form, messages)
-    parts = [part for part in parts if frame is None or frame == part.names[-1]]
-    numbers = np.concatenate([part.numbers for part in parts] or [np.empty((0, form.width))])
-    stamps = np.concatenate([part.stamps for part in parts] or [np.empty(0, dtype=np.int64)])
-
-    def find(*names: str) -> Real | None:
-        """Return the first of some quantities that the messages have."""
-        places = [form.quantities[name] for name in names if name in form.quantities]
-        return numbers[:, places[0]] if places else None
-
-    q = np.asarray(find("orientation", "rotation"))[:, [3, 0, 1, 2]].copy()
-    covariance = find("orientation_covariance")
-    rates = find("angular_velocity", "angular")
-    if covariance is not None:
-        q[covariance[:, 0] == -1.0] = 0.0  # an Imu without an orientation, says sensor_msgs
-    found = Estimates.of(stamps, q, rates, len(refused))
-    return replace(found, of_sensor=kind == IMU.type, unreadable=len(refused))
+    measured = read_measured(FORMATS[kind], messages, frame)
+    q = np.asarray(measured.find(*ATTITUDES))[:, [3, 0, 1, 2]]
+    rates = measured.find(*RATES)
+    found = Estimates.of(measured.stamps, q, rates, measured.unreadable)
+    notes = (*found.notes, *measured.describe_absent(*ATTITUDES, *RATES))
+    of_sensor = kind == IMU.type
+    return replace(found, of_sensor=of_sensor, unreadable=measured.unreadable, notes=notes)
 
 
 def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimates:
@@ -197,7 +194,8 @@ def _decode_transforms(messages: Sequence[bytes], frame: str | None) -> Estimate
     for data in messages:
         try:
             for child, stamp, q in _read_transforms(Reader(data)):
-                found.setdefault(child, []).append((stamp, q))
+                if child:  # tf2 drops the others, too
+                    found.setdefault(child, []).append((stamp, q))
         except DecodeError:
             refused += 1
     if frame is None and len(found) > 1:

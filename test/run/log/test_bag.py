@@ -296,7 +296,12 @@ def join(folders, target):
         for name in ("relative_file_paths", "files"):
             about[name] += each[name]
         about["message_count"] += each["message_count"]
-        about["duration"]["nanoseconds"] += each["duration"]["nanoseconds"]
+        topics = each["topics_with_message_count"]
+        for mine, other in zip(about["topics_with_message_count"], topics, strict=True):
+            assert mine["topic_metadata"]["name"] == other["topic_metadata"]["name"]
+            mine["message_count"] += other["message_count"]
+        begin, later = (part["starting_time"]["nanoseconds_since_epoch"] for part in (about, each))
+        about["duration"]["nanoseconds"] = later + each["duration"]["nanoseconds"] - begin
     (target / "metadata.yaml").write_text(yaml.safe_dump(parts[0]))
     return target
 

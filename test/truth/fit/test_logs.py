@@ -1,5 +1,7 @@
 """Records from logs: attitudes, and what a sensor measures, with or without an attitude."""
 
+import shutil
+
 import numpy as np
 import pytest
 from truth.fit.cases import CUSPS, TIMES
@@ -68,3 +70,60 @@ def test_attitudes_are_read_unless_a_kind_is_asked_for(log):
 def test_what_a_log_does_not_have_is_named(log, topic, kind, reason):
     with pytest.raises(RefusedError, match=reason):
         read_log(log, topic, None, kind)
+
+
+def write_imu(folder, **covariances):
+    """A log of one topic /imu, whose covariances are given by rows, or for all of them."""
+    values = {
+        "orientation": STATE.orientation[:, [1, 2, 3, 0]],
+        "angular_velocity": STATE.angular_velocity,
+        "linear_acceleration": FORCES,
+    }
+    rows = IMU.arrange((len(TIMES),), values)
+    for name, covariance in covariances.items():
+        rows[:, IMU.quantities[f"{name}_covariance"].start] = covariance
+    layout = IMU.layout("imu")
+    stamped = zip(STAMPS.tolist(), rows.tolist(), strict=True)
+    data = [(stamp, layout.encode(stamp, row)) for stamp, row in stamped]
+    write_log(folder / "run.mcap", {"/imu": (IMU.type, data)})
+    return folder / "run.mcap"
+
+
+def test_rates_that_a_message_says_are_absent_are_not_taken(tmp_path):
+    path = write_imu(tmp_path, angular_velocity=-1.0)
+    said = f"{len(TIMES)} messages have no angular velocity: absent by covariance, frame or nan"
+    for kind in ("rates", "inertial"):
+        with pytest.raises(RefusedError, match=f"/imu must have .*angular velocity.*, got {said}"):
+            read_log(path, "/imu", None, kind)
+    rows = read_log(path, "/imu", None, None)
+    assert (rows.kind, len(rows.times)) == ("attitude", len(TIMES))
+    assert said in rows.notes
+
+
+def test_rows_in_which_a_force_is_absent_are_left_out(tmp_path):
+    absent = np.where(np.arange(len(TIMES)) % 3, 0.0, -1.0)
+    path = write_imu(tmp_path, linear_acceleration=absent)
+    rows = read_log(path, "/imu", None, "inertial")
+    assert rows.values[:, 3:].tolist() == FORCES[absent == 0.0].tolist()
+    assert rows.notes[0].endswith(
+        " messages have no linear acceleration: absent by covariance, frame or nan"
+    )
+    assert len(read_log(path, "/imu", None, "rates").times) == len(TIMES)
+
+
+METADATA = """\
+rosbag2_bagfile_information:
+  relative_file_paths: [run.mcap]
+  starting_time: {nanoseconds_since_epoch: 0}
+  duration: {nanoseconds: 0}
+  message_count: 1000000
+"""
+
+
+def test_what_a_bag_lacks_is_a_note_of_the_record(log, tmp_path):
+    shutil.copy(log, tmp_path)
+    assert read_log(tmp_path, "/imu", None, "rates").notes == ()
+    (tmp_path / "metadata.yaml").write_text(METADATA)
+    (note,) = read_log(tmp_path, "/imu", None, "rates").notes
+    assert note.startswith("messages of the bag are missing (metadata.yaml: ")
+    assert note.endswith(" of 1000000 messages)")

@@ -1,12 +1,13 @@
 """Estimates from tables of text, and from each message type."""
 
+import math
 import re
 
 import pytest
 from truth.judge.cases import SOME, encode, write_rows
 
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.run.wire.messages import TRANSFORM
+from symtop_ros.run.wire.messages import IMU, ODOMETRY, TRANSFORM
 from symtop_ros.truth.judge.attitude_table import read_attitudes
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.topics.estimates import FORMATS, Estimates, decode_estimates
@@ -203,6 +204,53 @@ def test_an_imu_without_orientation_is_left_out():
     unknown = layout.encode(5, [0.0, 0, 0, 1, -1.0, *[0.0] * 32])
     found = decode_estimates("sensor_msgs/msg/Imu", [messages[0][1], unknown, b"noise"])
     assert (len(found), found.left_out) == (1, 2)
+
+
+TURNED = (0.5, -0.5, 0.5, 0.5)  # x, y, z, w
+
+
+def encode_imu(stamp, rates, covariance):
+    layout = IMU.layout("imu")
+    values = {"orientation": TURNED, "angular_velocity": rates}
+    row = IMU.arrange((), values)
+    row[IMU.quantities["angular_velocity_covariance"].start] = covariance
+    return layout.encode(stamp, row.tolist())
+
+
+@pytest.mark.parametrize(("rates", "covariance"), [((9.0, 9.0, 9.0), -1.0), ((math.nan,) * 3, 0.0)])
+def test_an_imu_without_rates_has_its_attitude(rates, covariance):
+    """A filter fills in the attitude alone: its rates are zero, and are not those of the top."""
+    found = decode_estimates(IMU.type, [encode_imu(k, rates, covariance) for k in range(3)])
+    assert (len(found), found.left_out) == (3, 0)
+    assert found.angular_velocities is None
+    (note,) = found.notes
+    assert note == "3 messages have no angular velocity: absent by covariance, frame or nan"
+
+
+def test_of_imus_of_which_some_have_rates_those_are_taken():
+    data = [encode_imu(k, (1.0, 2.0, 3.0), -1.0 if k == 1 else 0.1) for k in range(3)]
+    found = decode_estimates(IMU.type, data)
+    assert (found.stamps.tolist(), found.left_out) == ([0, 2], 1)
+    assert found.angular_velocities.tolist() == [[1.0, 2.0, 3.0]] * 2
+    (note,) = found.notes
+    assert note.startswith("1 message has no angular velocity")
+
+
+@pytest.mark.parametrize(("child", "rates"), [("", None), ("disc", [[1.0, 2.0, 3.0]])])
+def test_the_rates_of_an_odometry_are_those_of_a_frame_that_it_names(child, rates):
+    row = ODOMETRY.arrange((), {"orientation": TURNED, "angular": (1.0, 2.0, 3.0)})
+    found = decode_estimates(
+        ODOMETRY.type, [ODOMETRY.layout("odom", child).encode(5, row.tolist())]
+    )
+    assert len(found) == 1
+    velocities = found.angular_velocities
+    assert (None if velocities is None else velocities.tolist()) == rates
+
+
+def test_a_transform_of_a_frame_without_a_name_is_none_as_for_tf2():
+    numbers = [0.0, 0, 0, 0, 0, 0, 1]
+    data = [TRANSFORM.layout("world", child).encode(9, numbers) for child in ("", "b")]
+    assert decode_estimates(TRANSFORM.type, data).stamps.tolist() == [9]
 
 
 def test_transforms_of_several_frames_need_a_name():

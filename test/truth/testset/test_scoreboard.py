@@ -8,6 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from truth.testset.trajectories import NAMES, write
 
+from symtop_ros.physics import Motion, State, Top
 from symtop_ros.truth.testset.main import main
 from symtop_ros.truth.testset.score import find_problem, read_problems
 from symtop_ros.truth.testset.scoreboard import Entry
@@ -39,6 +40,93 @@ def test_an_entry_that_tries_more_and_solves_nothing_more_is_not_ranked_first(tm
     rows = json.loads(capsys.readouterr().out)["ranking"]["2"]
     found = [(row["entry"], row["solved"], row["tried"], row["of"]) for row in rows]
     assert found == [("careful", 2, 2, 10), ("bold", 1, 3, 10), ("shy", 1, 1, 10)]
+
+
+def test_engines_that_tried_fewer_than_half_and_solved_nothing_are_ranked_by_their_errors(
+    tmp_path, capsys
+):
+    # the order of their names is another one
+    errors = {
+        "a": {"cusps": 2.0, "rising": 2.0},
+        "b": {"cusps": 1.0, "rising": 1.0},
+        "c": {"cusps": 0.5},
+        "d": {"cusps": 2.5, "rising": 2.5, "looping": 2.5},
+    }
+    for name, of in errors.items():
+        for problem, error in of.items():
+            write_entry(tmp_path, problem, name, error)
+    assert main(["all", str(tmp_path), "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["ranking"]["2"]
+    assert [row["entry"] for row in rows] == ["d", "b", "a", "c"]
+
+
+FAULT = 3e-4  # rad, as g = 9.80665 in place of 9.81 leaves
+WRONG = {
+    "at once": ({"0.01": FAULT, "1e-3": FAULT, "1e-4": FAULT}, FAULT),
+    "after the step": ({"0.1": 0.1, "0.01": 1e-3 + FAULT, "1e-3": FAULT, "1e-4": FAULT}, FAULT),
+    "with worse rounding": ({"0.01": FAULT, "1e-3": 1.01 * FAULT}, 1.01 * FAULT),
+}
+
+
+@pytest.mark.parametrize(("errors", "left"), WRONG.values(), ids=WRONG)
+def test_a_fault_that_no_step_removes_is_said_not_to_converge(errors, left, tmp_path, capsys):
+    for step, error in errors.items():
+        write_entry(tmp_path, "cusps", f"rk4-{step}", error)
+    assert main(["all", str(tmp_path)]) == 0
+    text = capsys.readouterr().out
+    said = f"rk4 in cusps does not converge to this motion: smaller steps leave {left:.1e} rad\n"
+    assert said in text
+    assert "order of rk4" not in text
+    assert main(["all", str(tmp_path), "--json"]) == 0
+    (order,) = json.loads(capsys.readouterr().out)["orders"]
+    assert order["left"] == pytest.approx(left, rel=1e-9)
+
+
+FAULTS = {"g = 9.80665": ((1.0, 9.80665 / 9.81), False), "Iz off by 1e-6": ((1 + 1e-6, 1.0), True)}
+
+
+@pytest.mark.parametrize(("factors", "is_small"), FAULTS.values(), ids=FAULTS)
+def test_the_motion_of_another_top_does_not_converge_to_this_one(
+    factors, is_small, tmp_path, capsys
+):
+    facts = find_problem(read_problems(), "cusps").facts
+    top = Top(facts["Ix"], facts["Iz"] * factors[0], facts["Mgl"] * factors[1])
+    motion = Motion(top, State(facts["orientation"], facts["angular_velocity"]))
+    table = np.column_stack((facts["times"], motion.at(facts["times"]).orientation))
+    (tmp_path / "cusps").mkdir()
+    for step in ("1e-3", "1e-4"):
+        (tmp_path / "cusps" / f"rk4-{step}.csv").write_text(write(table, NAMES[:5]))
+    assert main(["all", str(tmp_path)]) == 0
+    text = capsys.readouterr().out
+    assert "rk4 in cusps does not converge to this motion" in text
+    assert ("single precision" in text) == is_small
+
+
+def test_what_single_precision_leaves_may_be_that(tmp_path, capsys):
+    for step in ("0.01", "1e-3"):
+        write_entry(tmp_path, "cusps", f"rk4-{step}", 1e-6)
+    assert main(["all", str(tmp_path)]) == 0
+    said = "does not converge to this motion, or computes in single precision: smaller steps leave"
+    assert said in capsys.readouterr().out
+
+
+COARSE = {
+    "first order": {"0.01": 0.2, "1e-3": 0.02},
+    "steps that are near each other": {"0.010": 0.2, "0.009": 0.18},
+    # of a*h - b*h^2 at h = 0.01
+    "an error that vanishes at one step": {"0.02": 0.2, "0.01": 1e-4, "0.005": 0.025},
+    "the last step has rounding alone": {"0.01": 1e-6, "0.005": 9e-7, "1e-3": 1e-13},
+}
+
+
+@pytest.mark.parametrize("errors", COARSE.values(), ids=COARSE)
+def test_a_method_that_is_coarse_is_not_said_to_be_wrong(errors, tmp_path, capsys):
+    for step, error in errors.items():
+        write_entry(tmp_path, "cusps", f"rk4-{step}", error)
+    assert main(["all", str(tmp_path)]) == 0
+    text = capsys.readouterr().out
+    assert "order of rk4 in cusps: " in text
+    assert "converge" not in text
 
 
 STEPS = {"rk4-1e-3": ("rk4", 0.001), "euler-2-1": ("euler-2", 1.0), "rk4": None, "rk4-0": None}
