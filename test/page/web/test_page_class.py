@@ -385,14 +385,21 @@ def test_a_plate_that_is_thrown_up_wobbles_twice_in_a_turn_of_omega_z(shared):
 @pytest.mark.wording
 def test_in_the_mean_the_pivot_carries_the_weight(shared):
     shared.follow("scene=looping")
-    shared.seek(0)  # a turning point, where the height is accelerated
 
     def read_forces():
-        rows = list_rows(shared)
-        (row,) = [text for name, text in rows.items() if name.startswith("its mean")]
-        (now,) = [text for name, text in rows.items() if name.startswith("force of the pivot")]
-        return [float(re.findall(r"ard ([\d.]+) N", each)[0]) for each in (now, row)], row
+        """Return the force of now and the mean one with its text; none of another table."""
+        rows = list_rows(shared).items()
+        texts = [
+            next((text for name, text in rows if name.startswith(begin)), "")
+            for begin in ("force of the pivot", "its mean")
+        ]
+        found = [re.findall(r"ard ([\d.]+) N", each) for each in texts]
+        return ([float(each[0]) for each in found], texts[1]) if all(found) else None
 
-    shared.until(lambda: read_forces()[0][0] != read_forces()[0][1])  # of this motion
+    def differ():
+        read = read_forces()
+        return read and read[0][0] != read[0][1]
+
+    shared.until(differ)  # the height of this motion is accelerated, that of the one before not
     (_, mean), row = read_forces()
     assert f"the top weighs {mean:.4g} N" in row
