@@ -169,6 +169,8 @@ def _run(options: argparse.Namespace) -> int:
     if options.plot:
         draw(report, options.plot)
     if options.run:
+        if report.fit.model.record.has_kick:
+            raise RefusedError("--run must have one free motion, got two that a kick joins")
         run = make_run(report.fit, len(record), given)
         run.write(options.run)
         print(run.describe(options.run), file=sys.stderr if options.json else sys.stdout)

@@ -8,6 +8,7 @@ they grow at the best place is drawn, from white noise about the one motion.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.stats import chi2
@@ -62,7 +63,7 @@ class Rival:
         """True if it explains more than chance does."""
         return self.margin > 0
 
-    @property
+    @cached_property
     def explains(self) -> bool:
         """True if it leaves noise, and the same constants in both halves."""
         return self.is_clear and Check(self.fit).verdict == HOLDS

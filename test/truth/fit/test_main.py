@@ -98,6 +98,10 @@ def test_a_kick_is_named_with_its_place(tmp_path, capsys):
     assert abs(value - 3.0) < FAR * deviation < 0.5
     value, deviation = found["Mgl/Ix"]
     assert abs(value - 300.0) < FAR * deviation < 5.0
+    run = tmp_path / "run.json"  # it would go on as if there was no kick
+    assert main([str(path), "--run", str(run)]) == 1
+    assert "--run must have one free motion, got two that a kick joins" in capsys.readouterr().err
+    assert not run.exists()
 
 
 @pytest.mark.slow
