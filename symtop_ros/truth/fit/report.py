@@ -11,7 +11,6 @@ import numpy as np
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.header import make_header
 from symtop_ros.base.measured import format_measured, write_measured
-from symtop_ros.run.simulation.points import SEEN
 from symtop_ros.truth.fit.check import FAILS, HOLDS, UNCLEAR, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
@@ -153,7 +152,7 @@ class Report:
 
     def _name(self, line: Line) -> str:
         """Return the name of the column of the residuals that has a line."""
-        return SEEN[self.fit.model.kind.name].residuals[line.column]
+        return self.fit.model.kind.residuals[line.column]
 
     def _describe_line(self, line: Line) -> dict[str, Any]:
         at = {"kind": line.name} if line.name else None
@@ -241,7 +240,7 @@ def write_systematic(value: Value) -> str:
 def write_unknown(unknown: Unknown) -> str:
     """Return what a record does not show, and why, in a sentence."""
     record: dict[str, Any] = {f"n{k}": number for k, number in enumerate(unknown.numbers)}
-    if unknown.kind in {"weak", "together"}:  # the last two are a value with its deviation
+    if unknown.kind in {"weak", "together", "cut"}:  # the last two are a value with its deviation
         value, deviation = unknown.numbers[-2:]
         record["value"] = format_measured(value, deviation)
     if unknown.kind == "together":

@@ -66,7 +66,7 @@ def make_record(options: argparse.Namespace) -> ImuRecord:
 
 def find_limits(options: argparse.Namespace) -> dict[str, float]:
     """Return the parameters of the range and of the resolution that are given."""
-    found = {}
+    found: dict[str, float] = {}
     for name in ("range", "resolution"):
         numbers = getattr(options, name)
         if len(numbers) > len(INSTRUMENTS):
@@ -155,7 +155,7 @@ def make_parser() -> argparse.ArgumentParser:
             nargs="+",
             default=(),
             metavar=("RAD/S", "M/S^2"),
-            help=f"{what} that the gyroscope shows, and that the accelerometer shows; default: none",
+            help=f"{what} of the gyroscope, and of the accelerometer; default: none",
         )
     parser.add_argument("--seed", type=integer, default=0, help="seed of the noise, default 0")
     parser.add_argument(
