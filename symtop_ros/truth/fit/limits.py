@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.ndimage import binary_dilation
 
-from symtop_ros.base.arrays import Mask
+from symtop_ros.base.arrays import Mask, Real
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.fit.aliases import RATES
@@ -48,8 +48,7 @@ def leave_out_saturated(rows: Rows) -> Rows:
     at_limit = int(bad.any(axis=1).sum())
     bad[:, SPIN] = binary_dilation(bad[:, SPIN], iterations=BESIDE)
     if rows.kind == "rates" and bad[:, SPIN].mean() > MOST:
-        spin = ", ".join(_describe(each, rows) for each in found if each.column == SPIN)
-        rows = _leave_out_spin(rows, f"{spin}: beyond the range of the sensor, and left out")
+        rows = _leave_out_spin(rows, _describe_spin(rows.values[bad[:, SPIN], SPIN]))
         found, bad = tuple(each for each in found if each.column != SPIN), bad[:, :SPIN]
     parts = ", ".join(_describe(each, rows) for each in found)
     is_bad = np.asarray(bad.any(axis=1))
@@ -84,12 +83,17 @@ def fit_record(record: Record, report: Callable[[float], None]) -> Fit:
     fit = fit_motion(record, report)
     if record.kind.name != "rates" or SPIN not in Check(fit).still:
         return fit
-    limit = float(record.values[0, SPIN])
-    degrees = f"{limit:.5g} rad/s ({np.degrees(limit):.5g} deg/s)"
-    note = f"wz at {degrees} in all rows: beyond the range of the sensor, and left out"
-    notes, values = (*record.notes, note), record.values[:, :SPIN]
+    notes = *record.notes, _describe_spin(record.values[:, SPIN])
+    values = record.values[:, :SPIN]
     steps = None if record.steps is None else record.steps[:SPIN]
     return fit_motion(replace(record, kind=ACROSS, values=values, notes=notes, steps=steps), report)
+
+
+def _describe_spin(values: Real) -> str:
+    """Return the note on rates (n,) about the axis that are at the limit of the sensor."""
+    limit = float(np.median(values))
+    at = f"wz at {limit:.5g} rad/s ({np.degrees(limit):.5g} deg/s)"
+    return f"{at}, the limit of the sensor: the spin is beyond it, and wz is left out"
 
 
 def _describe(found: Saturation, rows: Rows) -> str:

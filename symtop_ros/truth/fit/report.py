@@ -14,7 +14,7 @@ from symtop_ros.base.measured import format_measured, write_measured
 from symtop_ros.truth.fit.check import FAILS, HOLDS, UNCLEAR, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
-from symtop_ros.truth.fit.rivals import Rival, find_rivals
+from symtop_ros.truth.fit.rivals import Rival, find_calm, find_rivals
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import Value, convert, list_values
 from symtop_ros.truth.residuals.lines import Line
@@ -64,6 +64,9 @@ class Report:
     def compare(cls, source: str, rows: int, fit: Fit, given: dict[str, Known]) -> "Report":
         """Return the report of a fit of one free motion, or of what explains the record better."""
         rivals = find_rivals(fit, Check(fit))
+        calm = find_calm(fit, rivals)
+        if calm is not fit:
+            fit, rivals = calm, find_rivals(calm, Check(calm))
         best = next((each for each in rivals if each.explains), None)
         best = best or next((each for each in rivals if each.loses_spin), None)
         if best is None:

@@ -52,7 +52,7 @@ def write_clipped(tmp_path):
 def test_a_spin_beyond_the_range_is_left_out_and_what_the_others_show_is_printed(tmp_path, capsys):
     assert main([str(write_clipped(tmp_path))]) == 0
     text = capsys.readouterr().out
-    assert "note: wz at 34.907 rad/s (2000 deg/s) in 100% of the rows" in text
+    assert "note: wz at 34.907 rad/s (2000 deg/s), the limit of the sensor" in text
     period, deviation = read_number(text, "nutation period")
     assert abs(period - CUSPS.nutation_period) < 5 * deviation
     # no number of the top stands among those that are known

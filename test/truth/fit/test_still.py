@@ -40,7 +40,7 @@ def test_a_spin_at_such_a_limit_is_left_out():
     found = fit_record(draw(0.02, 47.123456), lambda part: None)
     assert found.model.kind.name == "across"
     assert Check(found).verdict == "holds"
-    assert found.model.record.notes[-1].startswith("wz at 47.123 rad/s (2700 deg/s) in all rows")
+    assert found.model.record.notes[-1].startswith("wz at 47.123 rad/s (2700 deg/s), the limit")
     Ix, _, Iz = START.body.moments
     known = Report("record", len(TIMES), found, {}).unknown
     (constant,) = [each.numbers for each in known if each.kind == "cut"]
