@@ -107,6 +107,11 @@ class Finding:
     repeated: Offset = NONE
     nearest: Cause | None = None  # what leaves least, if it is not named
 
+    @property
+    def said(self) -> Cause:
+        """The one cause of which all sentences and keys speak: named, or else a candidate."""
+        return self.candidate or self.best
+
 
 def set_parameter(offset: Offset, name: str, value: float) -> Offset:
     """Return an offset with a parameter; without a name, the same."""
