@@ -5,9 +5,8 @@ from random import Random
 from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
-from workshop.judge.motion import EXACT, Course, Real, multiply, turn
+from workshop.judge.motion import Course, Real, integrate, multiply, turn
 
 # What the columns w, x, y, z hold: places of the components, and their signs.
 COLUMNS: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
@@ -79,7 +78,7 @@ def scale_rates(course: Course, times: Real, part: float) -> Real:
 
     first = course.states(times[:1])[0]
     begin = np.concatenate((first, first[:4]))
-    found = solve_ivp(slope, (times[0], times[-1]), begin, t_eval=times, **EXACT).y.T[:, 7:]
+    found = integrate(slope, begin, float(times[0]), times)[:, 7:]
     return np.asarray(found / np.sqrt((found**2).sum(axis=1, keepdims=True)))
 
 

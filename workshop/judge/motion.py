@@ -5,8 +5,8 @@ Quaternions are w, x, y, z, and turn the body into a world whose z axis is up.
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from fractions import Fraction
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -25,7 +25,15 @@ KINDS = "steady", "nutating", "kicked", "slow"
 BEGIN, END = 0.6, 8.0  # s, between which there are estimates
 ROOM = 0.55  # s before and after them, by which estimates may be late or early
 WEIGHT = 0.068  # J
-EXACT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-12}
+EXACT = 1e-12  # tolerance of a step, relative and absolute
+
+
+def integrate(slope: Callable[[float, Real], Real], start: Real, begin: float, marks: Real) -> Real:
+    """Return the states at marks (n,) in s, by an explicit method of order eight, (n, m)."""
+    found: Any = solve_ivp(
+        slope, (begin, marks[-1]), start, "DOP853", t_eval=marks, rtol=EXACT, atol=EXACT
+    )
+    return np.asarray(found.y.T)
 
 
 def multiply(p: Real, q: Real) -> Real:
@@ -45,13 +53,14 @@ def turn(vectors: Any) -> Real:
 
 def conjugate(q: Real) -> Real:
     """Return the inverse rotations."""
-    return q * np.array([1.0, -1.0, -1.0, -1.0])
+    return np.asarray(q * np.array([1.0, -1.0, -1.0, -1.0]))
 
 
 def find_angles(p: Real, q: Real) -> Real:
     """Return the angles in rad between attitudes (n, 4)."""
     between = multiply(conjugate(p), q)
-    return 2 * np.arctan2(np.sqrt((between[:, 1:] ** 2).sum(axis=1)), np.abs(between[:, 0]))
+    sines = np.sqrt((between[:, 1:] ** 2).sum(axis=1))
+    return np.asarray(2 * np.arctan2(sines, np.abs(between[:, 0])))
 
 
 @dataclass(frozen=True)
@@ -105,25 +114,24 @@ class Course:
     @property
     def before_kick(self) -> Real:
         """The state at the kick without it, (7,)."""
-        return self._solve(self.start, 0.0, np.array([self.kick or 0.0]))[0]
+        return np.asarray(self._solve(self.start, 0.0, np.array([self.kick or 0.0]))[0])
 
     @property
     def after_kick(self) -> Real:
         """The state that the kick leaves, (7,)."""
-        return self.before_kick + np.array((0.0, 0.0, 0.0, 0.0, *self.push))
+        return np.asarray(self.before_kick + np.array((0.0, 0.0, 0.0, 0.0, *self.push)))
 
     def _solve(self, start: Real, begin: float, times: Real) -> Real:
         if not len(times) or times[-1] == begin:
             return np.tile(start, (len(times), 1))
         marks = np.unique(times)
-        solved = solve_ivp(self.body.slope, (begin, marks[-1]), start, t_eval=marks, **EXACT)
-        states = np.asarray(solved.y.T[np.searchsorted(marks, times)])
+        states = integrate(self.body.slope, start, begin, marks)[np.searchsorted(marks, times)]
         states[:, :4] /= np.sqrt((states[:, :4] ** 2).sum(axis=1, keepdims=True))
         return states
 
     def attitudes(self, times: Real) -> Real:
         """Return quaternions at times (n,) in s, (n, 4)."""
-        return self.states(times)[:, :4]
+        return np.asarray(self.states(times)[:, :4])
 
     def write_run(self, path: Path, end: int) -> None:
         """Write the events of the run, until a stamp in ns, as the program reads them."""
@@ -160,8 +168,8 @@ def draw_path(random: Random, kind: str) -> Course:
     start = _start(tilt, azimuth, turned, *rates, spin)
     if kind == "nutating":
         return Course(body, start, kind)
-    push = tuple(random.choice((-1, 1)) * random.uniform(1.0, 6.0) for _ in range(2))
-    return Course(body, start, kind, float(Fraction(random.randint(200, 400), 100)), (*push, 0.0))
+    push = [random.choice((-1, 1)) * random.uniform(1.0, 6.0) for _ in range(2)]
+    return Course(body, start, kind, random.randint(200, 400) / 100, (push[0], push[1], 0.0))
 
 
 def _start(

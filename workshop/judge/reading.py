@@ -22,7 +22,7 @@ PARTS = {  # name: sentence, and its unit
     "body": (rf"of the body by {MEASURED} rad{AXIS}", 1.0),
 }
 SHARE = re.compile(rf" leaves? {NUMBER} of {NUMBER} (mrad|rad) rms")
-NAMED = re.compile(r"best explained by (.*); this leaves ")
+NAMED = re.compile(rf"best explained by (.*); this leaves {NUMBER} rad rms")
 OR = re.compile(r"^or equally well by (.*)$", re.M)
 LETTERS = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 MISTAKES = {  # the sentence of a note, and what its columns hold
@@ -69,8 +69,8 @@ class Verdict:
 
     causes: list[Said] = field(default_factory=list)
     is_named: bool = False
-    left: float = float("nan")  # rad, of a share
-    whole: float = float("nan")
+    left: float = float("nan")  # rad
+    whole: float = float("nan")  # rad, of a share
 
 
 def read_verdict(text: str) -> Verdict:
@@ -85,9 +85,9 @@ def read_verdict(text: str) -> Verdict:
     if first is None:
         return Verdict()
     causes = [read_parts(each, columns) for each in (first, *OR.findall(text))]
-    if named or share is None:
-        return Verdict(causes, True)
-    found = SHARE.search(share)
+    if named:
+        return Verdict(causes, True, float(named[2]))
+    found = SHARE.search(first)
     assert found
     unit = {"mrad": 1e-3, "rad": 1.0}[found[3]]
     return Verdict(causes, False, unit * float(found[1]), unit * float(found[2]))

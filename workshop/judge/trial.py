@@ -1,4 +1,4 @@
-"""Two hundred fresh files, judged by the program: what it says of each, and whether that is true."""
+"""Two hundred fresh files: what the program says of each, and whether that is true."""
 
 import json
 import math
@@ -140,7 +140,7 @@ def rate(file: File, text: str) -> tuple[str, dict[str, float]]:
             return "wrong", pulls
     # a part of two causes, or what a filter is off by, is right if it leaves what is said
     has_more = file.cause == "two parameters" or file.noise == "filter"
-    is_true = has_more and not verdict.is_named and is_true_share(file, verdict)
+    is_true = has_more and is_true_share(file, verdict)
     return ("share" if is_true else "wrong"), {}
 
 
@@ -214,8 +214,10 @@ def is_true_share(file: File, verdict: Verdict) -> bool:
     left = math.sqrt(float((find_angles(rows, model) ** 2).mean()))
     plain = find_angles(file.rows, file.course.attitudes(file.times))
     whole = math.sqrt(float((plain**2).mean()))
-    room = 0.06 * verdict.left + 2e-3 * sum(abs(v) for v in said.values.values() if abs(v) < 4)
-    return abs(left - verdict.left) <= room and abs(whole - verdict.whole) <= 0.01 * whole
+    # axes have two decimals and more, and a value ends where its changes are seen in what is left
+    room = 0.5 * verdict.left + 0.01 * math.hypot(*fault.world, *fault.body)
+    is_whole = verdict.is_named or abs(whole - verdict.whole) <= 0.01 * whole
+    return is_whole and abs(left - verdict.left) <= room
 
 
 @dataclass(frozen=True)

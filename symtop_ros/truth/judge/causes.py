@@ -13,6 +13,7 @@ from symtop_ros.base.arrays import Real, compose, invert
 from symtop_ros.truth.judge.alignment import PARAMETERS, Alignment
 from symtop_ros.truth.judge.compare import NONE, Offset
 from symtop_ros.truth.judge.permutations import list_permutations
+from symtop_ros.truth.judge.stamps import Steps
 from symtop_ros.truth.judge.swing import Swing
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.topics.estimates import Estimates
@@ -116,6 +117,7 @@ class Finding:
     same: Cause | None = None  # rotations that are the same as the delay in a steady motion
     # rates (rad/s) of `precession` and `spin`, by which an unknown delay turns world and body
     turning: Mapping[str, float] | None = None
+    steps: Steps | None = None  # of stamps, which explain the rest
     swing: Swing | None = None  # the strongest line of what is left, unless all is explained
 
     @property

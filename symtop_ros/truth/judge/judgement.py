@@ -226,6 +226,7 @@ def _describe_finding(found: Finding) -> dict[str, Any]:
         "other_delays": [each.offset.delay for each in found.aliases],
         "not_identifiable": list(found.hidden),
         "residual_rms": said.residual,
+        "stamp_steps": found.steps and vars(found.steps),
         "line": found.swing and vars(found.swing),
     }
 

@@ -46,6 +46,7 @@ from symtop_ros.truth.judge.grid import (
     fit_rotations,
 )
 from symtop_ros.truth.judge.refine import refine
+from symtop_ros.truth.judge.stamps import find_steps
 from symtop_ros.truth.judge.swing import find_swing
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.residuals.residuals import PER_PARAMETER
@@ -138,6 +139,8 @@ class Search:
         choice = self.choose()
         best, *others = self.profile(choice.best)
         is_named = judge(best, start, self.of_more[best.change])
+        if not is_named and (found := self.find_stepped(best)):
+            return found
         if not (is_named or explains_part(best, start, self.fits[best.change], self.fit)):
             fault = "few" if len(self.more) < PER_PARAMETER * best.count else start.fault
             share = max(1 - math.sqrt(choice.lowest / start.cost), 0.0)
@@ -147,6 +150,14 @@ class Search:
         found = replace(found, candidate=None if is_named else best)
         is_valley = "delay" in choice.best.parameters and not best.parameters
         return replace(found, **self.find_delays(best, others, is_valley=is_valley))
+
+    def find_stepped(self, best: Cause) -> Finding | None:
+        """Return a cause with a delay and stamps in steps, if they explain the rest."""
+        if best.parameters not in ((), ("delay",)):
+            return None
+        late = self.refine((best.change, best.level, ("delay",)), best.offset, with_more=True)
+        steps = find_steps(self.of_more[best.change], late.offset)
+        return Finding(late, (), (), steps=steps) if steps else None
 
     def _refine_again(self, cause: Cause) -> Cause:
         return self.refine(cause.kind, cause.offset, with_more=True)
@@ -274,7 +285,7 @@ class Search:
     ) -> Iterator[Cause]:
         """Yield explanations with a change and a parameter, or none, next to those of an offset."""
         # Those of a delay are as deep up to the nutation, and the steps hide which one is deepest.
-        most = MOST_VALLEYS if (change, name) == ("", "delay") else VALLEYS
+        most = MOST_VALLEYS if name == "delay" else VALLEYS
         for level, valleys in self.find_valleys(change, name, known, values, most).items():
             for start in valleys[:VALLEYS]:
                 yield self.refine((change, level, (name,) if name else ()), start)

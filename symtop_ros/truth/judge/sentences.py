@@ -23,6 +23,8 @@ def choose_key(found: Finding) -> str:
         return "still"
     if found.candidate:
         return "part"
+    if found.steps:
+        return "stepped"
     if not found.explained:
         return found.fault or "unexplained"
     if found.best.weight:
@@ -125,6 +127,8 @@ def _write_whole(found: Finding) -> dict[str, Any]:
         "left": left,
         "whole": error,
         "unit": unit,
+        "steps": found.steps and {n: 1e3 * getattr(found.steps, n) for n in ("step", "jitter")},
+        "stepped": found.steps and found.steps.left,
     }
 
 

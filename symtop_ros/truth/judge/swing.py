@@ -48,11 +48,14 @@ class Swing:
 def find_swing(fit: Alignment, offset: Offset) -> Swing | None:
     """Return the strongest line of what an offset leaves, if noise hardly has it."""
     stamps = fit.some.stamps[fit.exact(offset)[1]]
-    seconds = (stamps - stamps[:1]) / NANOSECONDS
-    if len(seconds) < 2 or not (np.diff(seconds) > 0).any():
+    stamps, firsts = np.unique(stamps, return_index=True)
+    if len(stamps) < 2:
         return None
-    left = np.hstack(fit.find_remainder(offset).frames[::-1])
+    seconds = (stamps - stamps[0]) / NANOSECONDS
+    left = np.hstack(fit.find_remainder(offset).frames[::-1])[firsts]
     found = [*find_lines(seconds, left, fit.truth.frequencies), *_find_slow(seconds, left)]
+    most = len(seconds) / (2 * seconds[-1])  # stamps in pairs have short steps and long ones
+    found = [each for each in found if each.frequency <= most]
     line = max(found, key=lambda each: each.size, default=None)
     if line is None or line.size < SMALL * fit.find_remainder(offset).rms:
         return None
