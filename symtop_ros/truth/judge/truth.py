@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
@@ -104,6 +105,26 @@ class Truth:
             return None
         period = segment.motion.nutation_period / segment.factor
         return float(period) if np.isfinite(period) and period > 0 else None
+
+    @property
+    def rates(self) -> dict[str, float]:
+        """Mean rates in rad/s of the motion of a run of one motion, by name; empty for others."""
+        segment = self._only
+        if segment is None or segment.motion.is_driven:
+            return {}
+        motion = segment.motion
+        rates = {
+            "nutation": motion.nutation_rate,
+            "spin": motion.mean_spin_rate,
+            "precession": motion.mean_precession_rate,
+        }
+        found = {name: float(rate) * segment.factor for name, rate in rates.items()}
+        return {name: rate for name, rate in found.items() if math.isfinite(rate)}
+
+    @property
+    def frequencies(self) -> dict[str, float]:
+        """Frequencies in Hz of these rates."""
+        return {name: abs(rate) / math.tau for name, rate in self.rates.items() if rate}
 
     def find_unjudged(self, stamps: Stamps) -> Mask:
         """Return the mask of the stamps within the run at which the motion is not known."""
