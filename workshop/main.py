@@ -42,7 +42,7 @@ def make_parser() -> argparse.ArgumentParser:
     of = {name: commands.add_parser(name, help=each["help"]) for name, each in COMMANDS.items()}
     of["language"].add_argument("languages", nargs="*", default=LANGUAGES, metavar="TAG")
     for name in of.keys() - {"language"}:
-        folder = "docs" if name == "pictures" else "report"
+        folder = "docs" if name in ("pictures", "tables") else "report"
         of[name].add_argument(
             "folder", type=Path, nargs="?", default=Path(folder), help=f"./{folder}"
         )

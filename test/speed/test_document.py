@@ -2,7 +2,7 @@ import pytest
 from documents import ROOT, find_section
 
 from workshop.load import links, node_cost, starts, stress
-from workshop.speed import derivatives, filters, many, testset
+from workshop.speed import derivatives, filters, many, summary, testset
 from workshop.speed.ahead import TABLES
 from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
 from workshop.speed.many import ManyCost
@@ -40,6 +40,9 @@ PAGES = [TESTSET, ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 SECTIONS = (
     "chapters",
     "summary",
+    "sources",
+    summary.NAME,
+    node_cost.MEASURED,
     *(
         each.NAME
         for each in (derivatives, filters, many, testset, links, node_cost, starts, stress)

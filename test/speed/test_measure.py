@@ -13,7 +13,9 @@ from workshop.speed import measure as module
 from workshop.speed.measure import measure
 from workshop.speed.peers import CLOSED_FORM, TAYLOR, find_peers
 from workshop.speed.plots import DRAWINGS
+from workshop.speed.provenance import seal
 from workshop.speed.reference import Reference
+from workshop.speed.summary import NAME as MEASURED
 
 DOCS = ROOT / "docs"
 SECTION = re.compile("(?<=<!-- figures: ).*?(?=<!-- end of figures -->)", re.DOTALL)
@@ -89,9 +91,11 @@ def test_the_documents_have_the_tables_and_plots_of_the_report(written):
     folder, docs = written
     text = (folder / "report.md").read_text().partition("\n\n")[2].strip()
     page = (docs / "accuracy_tables.md").read_text()
-    assert find_section(page, "chapters") == text
+    assert find_section(page, "chapters") == seal("chapters", text)
     summary = find_section((docs / "accuracy.md").read_text(), "summary")
-    assert f"| {CLOSED_FORM} |" in summary
+    assert "| symtop_ros | closed form |" in summary
+    readme = find_section((docs / "../README.md").read_text(), MEASURED)
+    assert "1 s under gravity alone" in readme
     for name in ("../README.md", "accuracy.md", "accuracy_tables.md", "many.md"):
         before, after = (SECTION.sub("", (each / name).read_text()) for each in (DOCS, docs))
         assert before == after  # what is written by hand is not changed

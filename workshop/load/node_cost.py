@@ -20,7 +20,7 @@ from workshop.load.bare import TOPICS
 from workshop.load.listener import LOOK, Listener, Traffic
 from workshop.load.processes import DOCS, domain, run_program, running, script, top_node
 from workshop.speed.conditions import describe_conditions
-from workshop.speed.publish import format_tables, publish, write_chapter
+from workshop.speed.publish import format_table, format_tables, publish, write_chapter
 
 COST_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, tried for the highest one without late samples
@@ -37,6 +37,7 @@ HIGHEST = f"highest rate with < {100 * LATE:g} % late, Hz"
 
 Command = Callable[[float], list[str]]  # command line for a rate in Hz
 NAME = "node cost"  # of the table in the documentation
+MEASURED = "measured node"  # of that in the README
 Runs = dict[str, dict[str, list[float]]]  # values of each run, by the row and the node
 
 
@@ -147,7 +148,7 @@ def _measure_all(node: str, command: Command, seconds: float) -> Iterator[tuple[
 
 
 def format_sections(facts: dict[str, Any]) -> dict[str, str]:
-    """Return the conditions and the table of docs/reliability_tables.md by its name."""
+    """Return the table of docs/reliability_tables.md with its conditions, and the README's."""
     runs: Runs = facts["runs"]
     nodes = tuple(dict.fromkeys(node for row in runs.values() for node in row))
     rows = [[row, *(_format_cell(row, of.get(node)) for node in nodes)] for row, of in runs.items()]
@@ -158,7 +159,23 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
         "alone": alone.KICKS,
         "pause": alone.PAUSE,
     }
-    return {NAME: write_chapter(NAME, **facts, **values, table=format_tables(["", *nodes], rows))}
+    table = format_tables(["", *nodes], rows)
+    return {NAME: write_chapter(NAME, **facts, **values, table=table), MEASURED: format_few(runs)}
+
+
+def format_few(runs: Runs) -> str:
+    """Return the README's table: what the node takes, and where a bare node is ahead."""
+    first = f"{COST_RATES[0]:.0f} Hz: {CPU}"
+    rows = [
+        [name, *(f"{median(runs[row][node]):.2g} {unit}" for node in (TOP, BARE, PREPARED))]
+        for name, row, unit in (
+            (f"CPU (one core) at {COST_RATES[0]:g} Hz, five topics", first, "%"),
+            ("kick to first sample at 1000 Hz", f"{COST_RATES[-1]:.0f} Hz: {KICK}", "ms"),
+        )
+    ]
+    highest = [f"{median(runs[HIGHEST][node]):g} Hz" for node in (TOP, BARE, PREPARED)]
+    head = ["", TOP, BARE, "bare, with prepared bytes"]
+    return format_table(head, [*rows, ["highest rate", *highest]])
 
 
 def _format_cell(row: str, values: list[float] | None) -> str:

@@ -6,6 +6,7 @@ from statistics import median
 from workshop.speed.ahead import FRICTION, list_ahead
 from workshop.speed.benchmarks import CHECK, SPAN, ArrayCost, DrivenCase, HardCase, Results
 from workshop.speed.footprint import format_footprint
+from workshop.speed.forms import find_best, find_cheapest, find_form, find_program, write_forms
 from workshop.speed.many import format_many
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
 from workshop.speed.publish import (
@@ -20,15 +21,6 @@ from workshop.speed.reference import EPS, ReferenceMotion
 from workshop.speed.sweep import Curve
 
 LEVELS = (1e-6, 1e-9, 1e-12)
-SUMMARY = (
-    CLOSED_FORM,
-    "heyoka, quaternion",
-    "heyoka, Euler angles, two constants",
-    "CyRK DOP853, Euler angles",
-    "SciPy DOP853, Euler angles",
-    "MuJoCo RK4",
-    "Drake RK5, quaternion",
-)
 ARRAY = 100_000  # states of the column on arrays
 BEST = ["", "largest error", "mean error", "at times", "ms", "x ours"]
 COSTS = [f"ms for {level:.0e}" for level in LEVELS]
@@ -69,13 +61,21 @@ def format_chapters(results: Results, motion: ReferenceMotion, environment: Envi
 
 
 def format_summary(results: Results, motion: ReferenceMotion) -> str:
-    """Return the table of the README: the best form of each program on one motion."""
-    head = ["", "largest error, rad", "ms", f"ms for {LEVELS[1]:.0e}"]
-    curves = {curve.peer: curve for curve in results.curves if curve.motion == motion.name}
-    rows = [
-        [each.peer, f"{each.best.error:.0e}", format_ms(each.best.seconds), _format_levels(each)[1]]
-        for each in filter(None, map(curves.get, SUMMARY))
-    ]
+    """Return the table of docs/accuracy.md: each program in its best forms, on one motion."""
+    head = ["", "its best, form", "largest error, rad", "ms", f"for {LEVELS[1]:.0e}, form", "ms"]
+    curves = [curve for curve in results.curves if curve.motion == motion.name]
+    rows = []
+    for program, own in group(curves, lambda curve: find_program(curve.peer)).items():
+        best, cheap = find_best(own), find_cheapest(own, LEVELS[1])
+        rows.append(
+            [
+                program,
+                find_form(best[0].peer),
+                f"{best[1].error:.0e}",
+                format_ms(best[1].seconds),
+                *((find_form(cheap[0].peer), format_ms(cheap[1].seconds)) if cheap else ("-", "-")),
+            ]
+        )
     return format_table(head, rows)
 
 
@@ -106,6 +106,7 @@ def _format_work(results: Results, motion: ReferenceMotion, limit: float) -> str
         motion=motion.name,
         t=SPAN,
         limit=limit,
+        forms=write_forms(curves, ours.seconds),
         errors=format_table([*BEST, "sweep ended at"], errors),
         costs=_format_costs(results, curves),
         array=ARRAY,
@@ -177,7 +178,8 @@ def _format_friction(results: Results) -> str:
     ours = results.find_curve(TAYLOR, FRICTION).best
     errors = format_table(BEST, [_format_best(curve, ours.seconds) for curve in curves])
     costs = format_table(["", *COSTS], [[c.peer, *_format_levels(c)] for c in curves])
-    return write_chapter("friction", t=SPAN, errors=errors, costs=costs)
+    forms = write_forms(curves, ours.seconds)
+    return write_chapter("friction", t=SPAN, forms=forms, errors=errors, costs=costs)
 
 
 def _format_driven(cases: list[DrivenCase]) -> str:
@@ -191,15 +193,17 @@ def _format_driven(cases: list[DrivenCase]) -> str:
         of_peers = [[case.errors[peer] for case in own] for peer in peers]
         cells = [f"{summarize(each):.1e}" for summarize in (median, max) for each in of_peers]
         errors.append([family, f"{len(own)}", *cells])
+        times = [median([case.seconds[peer] for case in own]) for peer in peers]
         seconds.append(
-            [family, *(format_ms(median([c.seconds[peer] for c in own])) for peer in peers)]
+            [family, *map(format_ms, times), *(f"{each / times[0]:.2g}" for each in times[1:])]
         )
     head = ["family", "motions"]
     head += [f"{name}, {label}" for name in ("median", "largest") for label in labels]
+    ratios = [f"{label}, x ours" for label in labels[1:]]
     return write_chapter(
         "driven",
         errors=format_tables(head, errors, 2),
-        seconds=format_tables(["family", *labels], seconds),
+        seconds=format_tables(["family", *labels, *ratios], seconds),
     )
 
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache, partial
 from importlib.util import find_spec
-from itertools import islice
+from itertools import islice, product
 from statistics import median
 from timeit import repeat
 from typing import Any
@@ -22,7 +22,7 @@ NAME = "many motions"  # of the section in the documentation
 SEED = 1
 COMPARED = 32  # motions of which the errors are taken; the exact ones take 2 s each
 RUNS = 5  # of which the median counts
-TOLERANCES = 1e-9, 2.0**-52
+TOLERANCES = 1e-9, 1e-12, 2.0**-52
 
 
 @dataclass(frozen=True)
@@ -52,11 +52,11 @@ def find_programs() -> Iterator[tuple[str, Program]]:
     """Yield the programs that can be measured, with their names."""
     yield CLOSED_FORM, compute
     if find_spec("heyoka"):
-        from workshop.speed.peers.heyoka_peer import prepare_batches
+        from workshop.speed.peers.heyoka_peer import BATCHES, prepare_batches
 
-        for tolerance in TOLERANCES:
-            name = f"heyoka, two constants, batches, tolerance {tolerance:.0e}"
-            yield name, prepare_batches(tolerance)
+        for form, tolerance in product(BATCHES, TOLERANCES):
+            name = f"heyoka, {form}, batches, tolerance {tolerance:.0e}"
+            yield name, prepare_batches(form, tolerance)
 
 
 def compute(motions: Motions, t: float) -> Real:

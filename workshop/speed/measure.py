@@ -16,6 +16,8 @@ from workshop.speed.peers import find_peers
 from workshop.speed.plots import DRAWINGS, write_plots
 from workshop.speed.publish import publish, track, write_results
 from workshop.speed.reference import Reference
+from workshop.speed.summary import NAME as MEASURED
+from workshop.speed.summary import format_measured
 
 PACKAGES = (
     "numpy",
@@ -77,6 +79,7 @@ def _write(folder: Path, results: Results, environment: Environment, docs: Path 
     if docs:
         chapters = format_chapters(results, motion, environment)
         summary = format_summary(results, motion)
-        publish({"chapters": chapters, "summary": summary, MANY: tabulate(results.many)}, docs)
+        tables = {"chapters": chapters, "summary": summary, MANY: tabulate(results.many)}
+        publish({**tables, MEASURED: format_measured(results, motion)}, docs)
         for name in DRAWINGS:
             (docs / f"{name}.png").write_bytes(pack(folder / f"{name}.png"))

@@ -2,7 +2,7 @@
 
 Tables are narrow enough to be read without scrolling sideways. One that is written into a page of
 the documentation stands between two comments that name it, `<!-- figures: NAME -->` and
-`<!-- end of figures -->`.
+`<!-- end of figures -->`, with a seal (provenance.py).
 """
 
 import json
@@ -14,6 +14,8 @@ from typing import Any, TypeVar
 
 import yaml
 from tqdm import tqdm
+
+from workshop.speed.provenance import seal
 
 Work = TypeVar("Work")
 CHAPTERS: dict[str, list[str | list[str]]] = yaml.safe_load(
@@ -74,11 +76,11 @@ def write_chapter(name: str, **values: Any) -> str:
 
 
 def replace_section(text: str, name: str, content: str) -> str:
-    """Return a text with a section replaced; unchanged if it has no such section."""
+    """Return a text with a section replaced, and sealed; unchanged if it has no such section."""
     head, begin, rest = text.partition(f"<!-- figures: {name} -->")
     if not begin:
         return text
-    return f"{head}{begin}\n{content}\n{END}{rest.partition(END)[2]}"
+    return f"{head}{begin}\n{seal(name, content)}\n{END}{rest.partition(END)[2]}"
 
 
 def write_results(

@@ -37,7 +37,7 @@ OWN = [
 
 def find_peers() -> tuple[list[Peer], list[str]]:
     """Return the package's engines and the peers that can be imported, and the missing packages."""
-    modules = [import_module(f"{__name__}.scipy_peer")]
+    modules = [import_module(f"{__name__}.{file}") for file in ("elliptic_peer", "scipy_peer")]
     missing = []
     for package, file in OPTIONAL.items():
         try:

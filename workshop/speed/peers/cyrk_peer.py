@@ -17,6 +17,7 @@ from workshop.speed.peers.peer import (
     on_euler_angles,
     on_quaternion,
 )
+from workshop.speed.peers.turning_frame import on_turning_frame
 
 METHOD = "DOP853"  # the most exact of its methods here; Vern7 and Vern8 were tried as well
 SETTINGS = (1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-14, 1e-15, 2.0**-52)
@@ -41,6 +42,25 @@ def compile_quaternion(task: Motion) -> tuple[Rates, Equations]:
         slopes[6] = -axial * y[6] / Iz
 
     return rates, on_quaternion(task)
+
+
+def compile_turning_frame(task: Motion) -> tuple[Rates, Equations]:
+    """Return rates in the frame without the spin that CyRK compiles, and the equations."""
+    Ix, Iz, Mgl = task.top.moments
+    axial, transverse = task.friction.axial, task.friction.transverse
+
+    def rates(slopes: Any, _t: float, y: Any, _arguments: Any) -> None:
+        turn = Iz / Ix * y[6]
+        slopes[0] = (-y[1] * y[4] - y[2] * y[5] - y[3] * turn) / 2
+        slopes[1] = (y[0] * y[4] + y[2] * turn - y[3] * y[5]) / 2
+        slopes[2] = (y[0] * y[5] - y[1] * turn + y[3] * y[4]) / 2
+        slopes[3] = (y[0] * turn + y[1] * y[5] - y[2] * y[4]) / 2
+        slopes[4] = (2 * Mgl * (y[2] * y[3] + y[0] * y[1]) - transverse * y[4]) / Ix
+        slopes[5] = (-2 * Mgl * (y[1] * y[3] - y[0] * y[2]) - transverse * y[5]) / Ix
+        slopes[6] = -axial * y[6] / Iz
+        slopes[7] = y[6]
+
+    return rates, on_turning_frame(task)
 
 
 def compile_euler_angles(task: Motion) -> tuple[Rates, Equations]:
@@ -82,5 +102,8 @@ def prepare(
 
 PEERS = [
     Peer(f"CyRK {METHOD}, quaternion", SETTINGS, partial(prepare, compile_quaternion), "also"),
+    Peer(
+        f"CyRK {METHOD}, turning frame", SETTINGS, partial(prepare, compile_turning_frame), "also"
+    ),
     Peer(f"CyRK {METHOD}, Euler angles", SETTINGS, partial(prepare, compile_euler_angles)),
 ]

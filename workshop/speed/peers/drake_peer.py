@@ -117,7 +117,7 @@ def prepare_ball_joint(scheme: str, task: Motion, accuracy: float) -> Solution:
         simulator.clear_monitor()
         return np.array([*steps]), np.array([*steps.values()])
 
-    return Solution.of_steps(lambda t: reach(t)[np.newaxis], run, read=np.asarray)
+    return Solution.of_steps(lambda t: reach(t)[np.newaxis], run, read=lambda _, y: y)
 
 
 def _build_ball_joint(task: Motion) -> tuple[Any, Any]:

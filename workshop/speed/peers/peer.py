@@ -39,21 +39,22 @@ class Solution(NamedTuple):
         cls,
         reach: Callable[[float], Real],
         run: Callable[[float], tuple[Real, Real]],
-        read: Callable[[Real], Real],
+        read: Callable[[Real, Real], Real],
     ) -> "Solution":
         """Return a solution from an integrator's own steps, without its interpolation.
 
         `reach` returns the variables (1, k) at a time; `run` returns the times (n,) of all steps,
-        with the start, and the variables (n, k) there; `read` is that of a `Equations`.
+        with the start, and the variables (n, k) there; `read` is that of an `Equations`.
         """
 
         def record(t: float) -> tuple[Real, Real]:
             times, states = run(t)
             # From the end back: the time t itself is always among them.
             chosen = slice(None, None, -(-(len(times) - 1) // OWN_STEPS))
-            return times[:0:-1][chosen], read(states[:0:-1][chosen])
+            kept = times[:0:-1][chosen]
+            return kept, read(kept, states[:0:-1][chosen])
 
-        return cls(lambda t: np.asarray(read(reach(t))[0]), record)
+        return cls(lambda t: np.asarray(read(np.array([t]), reach(t))[0]), record)
 
     @classmethod
     def of_arrays(cls, reach: Callable[[float], Real], arrays: Arrays) -> "Solution":
@@ -98,22 +99,25 @@ class Equations(NamedTuple):
 
     start: list[float]  # the variables at t = 0
     rates: Callable[..., list[Any]]  # their rates of change, from the time in s and the variables
-    read: Callable[[Real], Real]  # variables (n, k) -> orientations (n, 4)
+    # times (n,) in s and variables (n, k) -> orientations (n, 4)
+    read: Callable[[Real, Real], Real]
 
 
 def on_quaternion(task: Motion) -> Equations:
     """Return the quaternion and the body's angular velocity as variables."""
-    return Equations(initial_values(task), partial(body_rates, task), lambda y: normalize(y[:, :4]))
+    rates = partial(body_rates, task)
+    return Equations(initial_values(task), rates, lambda _, y: normalize(y[:, :4]))
 
 
 def on_euler_angles(task: Motion, **functions: Any) -> Equations:
     """Return the Euler angles and their rates as variables; `functions` may be sin and cos."""
     start = [*task.start.euler_angles, *task.start.euler_rates]
     rates = partial(euler_rates, task, **functions)
-    return Equations(start, rates, lambda y: from_euler_angles(y[:, :3]))
+    return Equations(start, rates, lambda _, y: from_euler_angles(y[:, :3]))
 
 
 PrepareArrays = Callable[[Motion], Arrays]
+Friction = Literal["no", "also", "only"]
 
 
 @dataclass(frozen=True)
@@ -126,7 +130,7 @@ class Peer:
     # builds a `Solution` for a task and a setting, with all compiling and loading
     prepare: Callable[[Motion, float], Solution]
     # friction along and across the axis: not modelled, modelled, or the only use of the peer
-    friction: Literal["no", "also", "only"] = "no"
+    friction: Friction = "no"
     # builds a model, at the best setting, that computes the states at many times at once
     prepare_arrays: PrepareArrays | None = None
 
@@ -165,22 +169,26 @@ def body_rates(task: Motion, t: float, y: Any) -> list[Any]:
     With friction -axial wz on the axis and -transverse (wx, wy) across it, and with the applied
     torque. Only sums and products are used, so that the numbers may also be symbolic expressions.
     """
-    Ix, Iz, Mgl = task.top.moments
+    Ix, Iz, _ = task.top.moments
     axial, transverse = task.friction.axial, task.friction.transverse
     w, x, y_, z, wx, wy, wz = y.tolist() if hasattr(y, "tolist") else y
-    gx = 2 * (x * z - w * y_)
-    gy = 2 * (y_ * z + w * x)
-    torque = task.applied_torque
-    tx, ty, tz = _to_body(torque, w, x, y_, z) if any(torque) else torque
+    nx, ny, nz = find_torque(task, w, x, y_, z)
     return [
         (-x * wx - y_ * wy - z * wz) / 2,
         (w * wx + y_ * wz - z * wy) / 2,
         (w * wy - x * wz + z * wx) / 2,
         (w * wz + x * wy - y_ * wx) / 2,
-        ((Ix - Iz) * wy * wz + Mgl * gy - transverse * wx + tx) / Ix,
-        ((Iz - Ix) * wz * wx - Mgl * gx - transverse * wy + ty) / Ix,
-        (tz - axial * wz) / Iz,
+        ((Ix - Iz) * wy * wz + nx - transverse * wx) / Ix,
+        ((Iz - Ix) * wz * wx + ny - transverse * wy) / Ix,
+        (nz - axial * wz) / Iz,
     ]
+
+
+def find_torque(task: Motion, w: Any, x: Any, y: Any, z: Any) -> tuple[Any, Any, Any]:
+    """Return the torque of gravity and the applied one in the frame of a quaternion."""
+    Mgl, torque = task.top.Mgl, task.applied_torque
+    tx, ty, tz = _to_body(torque, w, x, y, z) if any(torque) else torque
+    return Mgl * (2 * (y * z + w * x)) + tx, -Mgl * (2 * (x * z - w * y)) + ty, tz
 
 
 def _to_body(torque: Vector, w: Any, x: Any, y: Any, z: Any) -> tuple[Any, Any, Any]:

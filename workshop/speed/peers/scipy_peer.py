@@ -1,4 +1,4 @@
-"""SciPy's solve_ivp, on the quaternion with Euler's equations and on Euler angles."""
+"""SciPy's solve_ivp, on quaternions of the body and of the turning frame, and on Euler angles."""
 
 from collections.abc import Callable
 from functools import partial
@@ -18,6 +18,7 @@ from workshop.speed.peers.peer import (
     on_euler_angles,
     on_quaternion,
 )
+from workshop.speed.peers.turning_frame import on_turning_frame
 
 Method = Literal["DOP853", "LSODA", "Radau"]
 
@@ -53,17 +54,19 @@ def prepare(
 
 def prepare_arrays(task: Motion) -> Arrays:
     """Return states at many times, from the dense output of DOP853 at its best tolerance."""
-    equations = on_quaternion(task)
+    equations = on_turning_frame(task)
     run = partial(integrate, "DOP853", equations, TOLERANCES[-1])
-    return lambda times: equations.read(run(float(times[-1]), times)[1])
+    return lambda times: equations.read(times, run(float(times[-1]), times)[1])
 
 
 def _make_peers(method: Method) -> list[Peer]:
-    """Return a method as two peers, on the quaternion and on Euler angles."""
+    """Return a method as three peers, by the forms of the equations."""
     arrays = prepare_arrays if method == "DOP853" else None
-    quaternion, angles = (partial(prepare, method, f) for f in (on_quaternion, on_euler_angles))
+    forms = on_quaternion, on_turning_frame, on_euler_angles
+    quaternion, frame, angles = (partial(prepare, method, form) for form in forms)
     return [
-        Peer(f"SciPy {method}, quaternion", TOLERANCES, quaternion, "also", arrays),
+        Peer(f"SciPy {method}, quaternion", TOLERANCES, quaternion, "also"),
+        Peer(f"SciPy {method}, turning frame", TOLERANCES, frame, "also", arrays),
         Peer(f"SciPy {method}, Euler angles", TOLERANCES, angles),
     ]
 
