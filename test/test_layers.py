@@ -99,7 +99,9 @@ def list_folders():
     """Yield the packages, and the folders of those that are divided."""
     for package in [path.parent for path in PACKAGE.glob("*/__init__.py")]:
         if package.name in DIVIDED:
-            yield from (f"{package.name}/{path.parent.name}" for path in package.glob("*/__init__.py"))
+            yield from (
+                f"{package.name}/{path.parent.name}" for path in package.glob("*/__init__.py")
+            )
         elif package.name != "base":
             yield package.name
 

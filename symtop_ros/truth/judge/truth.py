@@ -13,7 +13,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Mask, Places, Real, Stamps, compose
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.run.log.stretches import partition
+from symtop_ros.run.log.intervals import partition
 from symtop_ros.run.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.events import Event, start_event
@@ -22,7 +22,7 @@ from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.truth.topics.estimates import Estimates
 
 if TYPE_CHECKING:  # logs need mcap
-    from symtop_ros.run.log.account import Account
+    from symtop_ros.run.log.catalog import Catalog
 
 
 class Truth:
@@ -59,13 +59,13 @@ class Truth:
             column.append(value)
 
     @classmethod
-    def of(cls, account: Account) -> Truth:
-        """Return what the account of a log knows, up to its last sample."""
-        truth = cls(end=account.end)
+    def of(cls, catalog: Catalog) -> Truth:
+        """Return what the catalog of a log knows, up to its last sample."""
+        truth = cls(end=catalog.end)
         segments = {
-            id(each.event): cache(each.event.segment) for each in account.stretches if each.event
+            id(each.event): cache(each.event.segment) for each in catalog.stretches if each.event
         }
-        for begin, holding in partition(account.stretches):
+        for begin, holding in partition(catalog.stretches):
             event = holding[0].event if len(holding) == 1 else None
             truth._add(begin, segments[id(event)] if event else None, len(holding) > 1)
         return truth
