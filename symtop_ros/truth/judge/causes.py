@@ -55,6 +55,7 @@ class Cause:
     )
     fault: str = ""  # why there are no deviations: "few", "wanders"
     correlation_time: float = 0.0  # s
+    rms: float | None = None  # rad, of the angles that are left, if deviations were asked for
 
     @property
     def weight(self) -> float:
@@ -63,8 +64,8 @@ class Cause:
 
     @property
     def residual(self) -> float:
-        """Root mean square of the angle that is left in rad."""
-        return float(np.sqrt(4 * self.cost))
+        """Root mean square of the angle that is left in rad; nearly, if it was not computed."""
+        return float(np.sqrt(4 * self.cost)) if self.rms is None else self.rms
 
     @property
     def turns(self) -> float:

@@ -112,7 +112,7 @@ class Search:
         if len(self.run) == len(self.more):
             return found
         whole: dict[str, Any] = {
-            name: replace(each, cost=self._find_cost(each))
+            name: replace(each, cost=self._find_cost(each), rms=None)
             for name in ("best", "candidate")
             if (each := getattr(found, name))
         }

@@ -56,7 +56,7 @@ def find_swing(fit: Alignment, offset: Offset) -> Swing | None:
     lines = find_lines(seconds, left, fit.truth.frequencies)
     most = len(seconds) / (2 * seconds[-1])  # stamps in pairs have short steps and long ones
     found = {each.frequency: each.name for each in lines if each.frequency <= most}
-    found |= {each: "" for each in _find_slow(seconds, left)}
+    found |= dict.fromkeys(_find_slow(seconds, left), "")
     sizes = {each: measure_swings(seconds, left, each) for each in found}
     frequency = max(sizes, key=lambda each: float(sizes[each].max()), default=None)
     if frequency is None or sizes[frequency].max() < SMALL * fit.find_remainder(offset).rms:

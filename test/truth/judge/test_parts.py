@@ -23,7 +23,7 @@ SWING = 2e-3  # rad, root mean square
 
 
 def swing(estimates, frequency, axis=2):
-    """Turn estimates to and fro about an axis of the body."""
+    """swing estimates about an axis of the body."""
     vectors = np.zeros((len(estimates), 3))
     seconds = estimates.stamps / SECOND
     vectors[:, axis] = SWING * 2**0.5 * np.sin(2 * np.pi * frequency * seconds + 0.7)
