@@ -112,6 +112,7 @@ class Finding:
     aliases: tuple[Cause, ...] = ()  # the same with other delays, which are as good
     period: float | None = None  # s; delays that differ by it are as good, with `repeated`
     repeated: Offset = NONE
+    repeats: int = 1  # number of periods after which it is
     heading_step: float | None = None  # rad; the heading grows by it, and no other rotation
     nearest: Cause | None = None  # what leaves least, if nothing is said
     share: float = 0.0  # part of the root mean square that any cause explains, if none is said

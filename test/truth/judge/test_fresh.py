@@ -1,4 +1,4 @@
-"""The trial of workshop/judge: files that share no formula with the judge, and what it says of them.
+"""The trial of workshop/judge: files that share no formula with the judge, and what it says.
 
 docs/truth.md has the counts.
 """
@@ -7,7 +7,6 @@ import importlib
 
 import numpy as np
 import pytest
-from trials import choose
 
 from workshop.judge.causes import Fault, scale_rates
 from workshop.judge.motion import BEGIN, draw_path, find_angles
@@ -70,8 +69,8 @@ def test_a_scale_of_nothing_changes_nothing():
 @pytest.mark.wording
 def test_sentences_are_read_with_all_their_numbers():
     named = (
-        "best explained by a delay of 3.00 +- 0.02 ms + n x 31.4 ms, a heading of -0.30 +- 0.01 rad "
-        "+ n x 0.2 rad; this leaves 1.7e-03 rad rms\nor equally well by a drift of the heading of "
+        "best explained by a delay of 3.00 +- 0.02 ms + n x 31.4 ms, a heading of -0.30 +- 0.01 "
+        "rad + n x 0.2 rad; this leaves 1.7e-03 rad rms\nor equally well by a drift of the heading of "
         "0.1 rad/s from 0.600 s on"
     )
     first, other = read_verdict(named).causes
