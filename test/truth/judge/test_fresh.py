@@ -70,8 +70,8 @@ def test_a_scale_of_nothing_changes_nothing():
 def test_sentences_are_read_with_all_their_numbers():
     named = (
         "best explained by a delay of 3.00 +- 0.02 ms + n x 31.4 ms, a heading of -0.30 +- 0.01 "
-        "rad + n x 0.2 rad; this leaves 1.7e-03 rad rms\nor equally well by a drift of the heading of "
-        "0.1 rad/s from 0.600 s on"
+        "rad + n x 0.2 rad; this leaves 1.7e-03 rad rms\n"
+        "or equally well by a drift of the heading of 0.1 rad/s from 0.600 s on"
     )
     first, other = read_verdict(named).causes
     assert first.values == {"delay": pytest.approx(3e-3), "heading": -0.3}
