@@ -5,7 +5,6 @@ squares are profiled over the delay, with the rotations that are best for each, 
 kept that the noise of so many independent estimates cannot tell apart.
 """
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -36,17 +35,17 @@ def describe_family(members: Sequence[Cause]) -> dict[str, Any]:
     found = find_period(np.sort([each.offset.delay for each in members]))
     if found is None:
         return {}
-    size: float = found
+    period: float = found
     # the next one, or the one before if there is none
-    after = min(
+    other = min(
         (each.offset for each in members[1:]),
-        key=lambda e: (abs(e.delay - first.delay) > 1.5 * size, e.delay < first.delay),
+        key=lambda e: (abs(e.delay - first.delay) > 1.5 * period, e.delay < first.delay),
     )
-    period = math.copysign(size, after.delay - first.delay)
-    turned = compose(after.world, invert(first.world))
-    is_heading = members[0].level in ("none", "heading")
-    step = float(find_rotation_vectors(turned)[2]) if is_heading else None
-    return {"period": period, "repeated": after, "heading_step": step}
+    count = round((other.delay - first.delay) / period)
+    turned = find_rotation_vectors(compose(other.world, invert(first.world)))
+    is_heading = members[0].level in ("none", "heading") and abs(count) == 1
+    step = count * float(turned[2]) if is_heading else None
+    return {"period": period, "repeated": other, "repeats": count, "heading_step": step}
 
 
 def find_period(delays: Real) -> float | None:

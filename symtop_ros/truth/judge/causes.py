@@ -55,6 +55,7 @@ class Cause:
     )
     fault: str = ""  # why there are no deviations: "few", "wanders"
     correlation_time: float = 0.0  # s
+    rms: float | None = None  # rad, of the angles that are left, if deviations were asked for
 
     @property
     def weight(self) -> float:
@@ -63,8 +64,8 @@ class Cause:
 
     @property
     def residual(self) -> float:
-        """Root mean square of the angle that is left in rad."""
-        return float(np.sqrt(4 * self.cost))
+        """Root mean square of the angle that is left in rad; nearly, if it was not computed."""
+        return float(np.sqrt(4 * self.cost)) if self.rms is None else self.rms
 
     @property
     def turns(self) -> float:
@@ -111,6 +112,7 @@ class Finding:
     aliases: tuple[Cause, ...] = ()  # the same with other delays, which are as good
     period: float | None = None  # s; delays that differ by it are as good, with `repeated`
     repeated: Offset = NONE
+    repeats: int = 1  # number of periods after which it is
     heading_step: float | None = None  # rad; the heading grows by it, and no other rotation
     nearest: Cause | None = None  # what leaves least, if nothing is said
     share: float = 0.0  # part of the root mean square that any cause explains, if none is said

@@ -31,6 +31,8 @@ from symtop_ros.truth.residuals.influence import find_influences
 from symtop_ros.truth.residuals.residuals import CHANCE, PER_PARAMETER
 
 SIMPLER = 4.0  # if no noise is left, simpler causes count with at most twice the error (squared)
+# Errors that last: of those that wander, as flicker, fewer are independent than it seems.
+LASTS = 4.0
 TIE = 1.5  # explanations that are as good, by their mean squares
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
 SMALL = 1e-3  # rad; smaller rotations count as zero in a comparison of explanations
@@ -53,7 +55,8 @@ def select(found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: floa
     lowest = min(found, key=lambda each: each.cost)
     left = fits[lowest.change].find_remainder(lowest.offset)
     is_noise = not left.find_fault(lowest.count) and left.has_shape_of_noise
-    factor = min(1 + CHANCE / left.numbers, SIMPLER) if is_noise else SIMPLER
+    chance = CHANCE if left.is_white else LASTS * CHANCE
+    factor = min(1 + chance / left.numbers, SIMPLER) if is_noise else SIMPLER
     most = factor * lowest.cost + rounding
     known = fits[lowest.change].exact(lowest.offset)[1]
     if known.all():

@@ -40,6 +40,7 @@ def make_sure(fit: Alignment, cause: Cause) -> Cause:
     left = fit.find_remainder(cause.offset)
     found = replace(
         cause,
+        rms=left.rms,
         independent=left.independent,
         correlation_time=left.correlation_time,
         fault=left.find_fault(cause.count),
@@ -72,7 +73,8 @@ def weigh(fit: Alignment, cause: Cause, left: Residuals) -> Cause:
         values = find_white_influences(fit, moved, cause.columns)
         moved = move(moved, values.sum(axis=0))
     if fit.cost(moved) <= most:
-        cause = replace(cause, offset=moved, cost=fit.cost(moved))
+        rms = fit.find_remainder(moved).rms
+        cause = replace(cause, offset=moved, cost=fit.cost(moved), rms=rms)
     else:
         values = fit.find_influences(cause.offset, cause.columns)
     # The power of slow noise is as uncertain as so few estimates make it, also after whitening.

@@ -112,7 +112,7 @@ class Search:
         if len(self.run) == len(self.more):
             return found
         whole: dict[str, Any] = {
-            name: replace(each, cost=self._find_cost(each))
+            name: replace(each, cost=self._find_cost(each), rms=None)
             for name in ("best", "candidate")
             if (each := getattr(found, name))
         }
@@ -176,7 +176,8 @@ class Search:
             found += self.find_still(best)
         good = select(found, self.fits, self.fit.rounding)
         if len(self.more) <= PROFILED:
-            good = select(self.select_in_more(good), self.of_more, self.fit.rounding)
+            good = self.select_in_more(good)
+            good = select(good, self.of_more, self.fit.rounding)
         if without := [each for each in good if not each.parameters]:
             return [self._refine_again(without[0])]
         first, *others = gather(good, self.fit.fastest)

@@ -138,7 +138,8 @@ def _write_repeated(found: Finding) -> dict[str, Any]:
     digits = write_measured(period, deviation or 0.0)[0] if found.aliases else f"{period:.4g}"
     world, body = found.repeated.angles
     is_turned = found.said.level in ("body", "both") or not found.aliases
-    return {"period": digits, "world": world, "body": body if is_turned else None}
+    turns = {"world": world, "body": body if is_turned else None}
+    return {"period": digits, "n": str(found.repeats), **turns}
 
 
 def _scale(size: float, *values: float) -> tuple[Any, ...]:

@@ -10,7 +10,7 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.alignment import Alignment
 from symtop_ros.truth.judge.compare import Offset
-from symtop_ros.truth.residuals.lines import Line, find_lines
+from symtop_ros.truth.residuals.lines import find_lines
 
 SMALL = 0.3  # part of what is left, below which a line is not said
 SLOW = np.arange(10, 40) / 8  # turns in the run of swings that are too slow for a test
@@ -53,33 +53,35 @@ def find_swing(fit: Alignment, offset: Offset) -> Swing | None:
         return None
     seconds = (stamps - stamps[0]) / NANOSECONDS
     left = np.hstack(fit.find_remainder(offset).frames[::-1])[firsts]
-    found = [*find_lines(seconds, left, fit.truth.frequencies), *_find_slow(seconds, left)]
+    lines = find_lines(seconds, left, fit.truth.frequencies)
     most = len(seconds) / (2 * seconds[-1])  # stamps in pairs have short steps and long ones
-    found = [each for each in found if each.frequency <= most]
-    line = max(found, key=lambda each: each.size, default=None)
-    if line is None or line.size < SMALL * fit.find_remainder(offset).rms:
+    found = {each.frequency: each.name for each in lines if each.frequency <= most}
+    found |= dict.fromkeys(_find_slow(seconds, left), "")
+    sizes = {each: measure_swings(seconds, left, each) for each in found}
+    frequency = max(sizes, key=lambda each: float(sizes[each].max()), default=None)
+    if frequency is None or sizes[frequency].max() < SMALL * fit.find_remainder(offset).rms:
         return None
-    resolution = 1 / float(seconds[-1])
-    return Swing(line.frequency, resolution, line.size, ABOUT[line.column], line.name)
+    column = int(sizes[frequency].argmax())
+    resolution, size = 1 / float(seconds[-1]), float(sizes[frequency][column])
+    return Swing(frequency, resolution, size, ABOUT[column], found[frequency])
 
 
-def _find_slow(seconds: Real, left: Real) -> Iterator[Line]:
-    """Yield the clearest swing of fewer turns than a line needs, if it is nearly all of a column.
+def measure_swings(seconds: Real, left: Real, frequency: float) -> Real:
+    """Return root mean squares of swings of a frequency in columns (n, r), apart from constants."""
+    phase = math.tau * frequency * seconds
+    waves = np.stack((np.ones_like(phase), np.cos(phase), np.sin(phase)), axis=1)
+    basis, triangle = np.linalg.qr(waves)
+    swings = waves[:, 1:] @ np.linalg.solve(triangle, basis.T @ left)[1:]
+    return np.asarray(np.sqrt((swings**2).mean(axis=0)))
+
+
+def _find_slow(seconds: Real, left: Real) -> Iterator[float]:
+    """Yield the frequency of a swing of fewer turns than a line needs, if it is nearly all.
 
     Noise that lasts has swings of one or two turns as well: it is no test of a line.
     """
-    phases = math.tau * np.outer(SLOW, seconds / seconds[-1])
-    power = (left**2).sum(axis=0) + np.finfo(float).tiny
-    tried = []
-    for place, phase in enumerate(phases):
-        waves = np.stack((np.ones_like(phase), np.cos(phase), np.sin(phase)), axis=1)
-        basis, triangle = np.linalg.qr(waves)
-        sizes = basis.T @ left
-        share = (sizes**2).sum(axis=0) / power
-        column = int(share.argmax())
-        swing = waves[:, 1:] @ np.linalg.solve(triangle, sizes[:, column])[1:]
-        tried.append((float(share[column]), place, column, float(np.sqrt((swing**2).mean()))))
-    share, place, column, size = max(tried)
-    if share > NEARLY_ALL and size**2 * len(left) > NEARLY_ALL * power.max() / 2:
-        frequency = float(SLOW[place] / seconds[-1])
-        yield Line("", frequency, column, size, share, 1.0)
+    tried = SLOW / seconds[-1]
+    sizes = np.array([measure_swings(seconds, left, each) for each in tried])
+    place, column = np.unravel_index(int(sizes.argmax()), sizes.shape)
+    if sizes[place, column] ** 2 > NEARLY_ALL * left[:, column].var():
+        yield float(tried[place])
