@@ -20,7 +20,7 @@ from workshop.load.bare import TOPICS
 from workshop.load.listener import LOOK, Listener, Traffic
 from workshop.load.processes import DOCS, domain, run_program, running, script, top_node
 from workshop.speed.conditions import describe_conditions
-from workshop.speed.publish import format_table, format_tables, publish, write_chapter
+from workshop.speed.publish import format_list, format_tables, publish, write_chapter
 
 COST_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, tried for the highest one without late samples
@@ -164,18 +164,18 @@ def format_sections(facts: dict[str, Any]) -> dict[str, str]:
 
 
 def format_few(runs: Runs) -> str:
-    """Return the README's table: what the node takes, and where a bare node is ahead."""
-    first = f"{COST_RATES[0]:.0f} Hz: {CPU}"
-    rows = [
-        [name, *(f"{median(runs[row][node]):.2g} {unit}" for node in (TOP, BARE, PREPARED))]
-        for name, row, unit in (
-            (f"CPU (one core) at {COST_RATES[0]:g} Hz, five topics", first, "%"),
-            ("kick to first sample at 1000 Hz", f"{COST_RATES[-1]:.0f} Hz: {KICK}", "ms"),
+    """Return the README's figures: what the node takes, and where a bare node is ahead."""
+    cpu = runs[f"{COST_RATES[0]:.0f} Hz: {CPU}"]
+    rows = (
+        (f"CPU (one core) of the node at {COST_RATES[0]:g} Hz, five topics", cpu, ".2g", " %"),
+        ("highest rate", runs[HIGHEST], "g", " Hz"),
+    )
+    return format_list(
+        "{}: {}; bare rclpy {}, with prepared bytes {}.".format(
+            name, *(f"{median(of[node]):{form}}{unit}" for node in (TOP, BARE, PREPARED))
         )
-    ]
-    highest = [f"{median(runs[HIGHEST][node]):g} Hz" for node in (TOP, BARE, PREPARED)]
-    head = ["", TOP, BARE, "bare, with prepared bytes"]
-    return format_table(head, [*rows, ["highest rate", *highest]])
+        for name, of, form, unit in rows
+    )
 
 
 def _format_cell(row: str, values: list[float] | None) -> str:

@@ -16,8 +16,8 @@ from workshop.speed.peers import find_peers
 from workshop.speed.plots import DRAWINGS, write_plots
 from workshop.speed.publish import publish, track, write_results
 from workshop.speed.reference import Reference
+from workshop.speed.summary import AHEAD, format_measured, format_others_ahead
 from workshop.speed.summary import NAME as MEASURED
-from workshop.speed.summary import format_measured
 
 PACKAGES = (
     "numpy",
@@ -80,6 +80,10 @@ def _write(folder: Path, results: Results, environment: Environment, docs: Path 
         chapters = format_chapters(results, motion, environment)
         summary = format_summary(results, motion)
         tables = {"chapters": chapters, "summary": summary, MANY: tabulate(results.many)}
-        publish({**tables, MEASURED: format_measured(results, motion)}, docs)
+        tables |= {
+            MEASURED: format_measured(results, motion),
+            AHEAD: format_others_ahead(results),
+        }
+        publish(tables, docs)
         for name in DRAWINGS:
             (docs / f"{name}.png").write_bytes(pack(folder / f"{name}.png"))

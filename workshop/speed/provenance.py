@@ -1,8 +1,8 @@
 """Which sources a table was measured with, and whether a hand has changed it.
 
-Each table that a command writes into the documentation ends with a comment, the seal: a digest of the
-sources that it measures, and one of its own text. `python -m workshop tables` lists the tables whose
-sources have changed since, in docs/accuracy_tables.md.
+Each table that a command writes into the documentation ends with a comment, the seal: a digest of
+the sources that it measures, and one of its own text. `python -m workshop tables` lists the tables
+whose sources have changed since, in docs/accuracy_tables.md.
 """
 
 import hashlib
@@ -32,7 +32,8 @@ REPORT = (*KERNEL, *PEERS)
 # By table: the command that writes it, and the sources that it measures.
 TABLES: dict[str, tuple[str, tuple[str, ...]]] = {
     **dict.fromkeys(
-        ("chapters", "summary", "many motions", "measured motion"), ("report", REPORT)
+        ("chapters", "summary", "many motions", "measured motion", "others ahead"),
+        ("report", REPORT),
     ),
     "derivatives": ("derivatives", (*KERNEL, "workshop/speed/derivatives.*")),
     "filters": ("filters", (*KERNEL, "symtop_ros/run/**/*.py", "workshop/speed/filters.py")),

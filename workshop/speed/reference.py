@@ -84,14 +84,21 @@ class ReferenceMotion:
         """Return the errors (n,) in rad at any times (n,) in s, which are taken as exact.
 
         The exact motion comes from a Taylor series. It is computed as far as is asked for, at a
-        third of a second for a second of the article's top, and kept.
+        third of a second for a second of the article's top, and kept, as are its states: at most
+        settings of a peer the times are the same.
         """
-        exact = split_orientations(self._motion, np.asarray(times, dtype=float).tolist())
-        return measure_angles(np.asarray(orientations, dtype=float), *exact)
+        asked = np.asarray(times, dtype=float)
+        if (key := asked.tobytes()) not in self._known:
+            self._known[key] = split_orientations(self._motion, asked.tolist())
+        return measure_angles(np.asarray(orientations, dtype=float), *self._known[key])
 
     @cached_property
     def _motion(self) -> Series:
         return integrate(self.task)
+
+    @cached_property
+    def _known(self) -> dict[bytes, tuple[Real, Real]]:
+        return {}
 
     def limit(self, t: float) -> float:
         """Return the limit in rad at one of the times; 0 if it is unknown."""

@@ -1,16 +1,18 @@
-"""The README's figures of a motion, from the report's results."""
+"""The README's figures of a motion, and where others are ahead, from the report's results."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from statistics import median
 
 from workshop.speed.ahead import FRICTION
-from workshop.speed.benchmarks import SPAN, Results
+from workshop.speed.benchmarks import DRIVEN_BEST, DRIVEN_PEER, SPAN, Results
 from workshop.speed.forms import LEVELS, Form, find_best, find_cheapest, find_program
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
-from workshop.speed.publish import format_ms, format_table
+from workshop.speed.publish import format_list, format_ms, format_table, group
 from workshop.speed.reference import ReferenceMotion
-from workshop.speed.sweep import Curve
+from workshop.speed.sweep import Curve, Measurement
 
 NAME = "measured motion"
+AHEAD = "others ahead"
 OWN = "symtop_ros"
 
 
@@ -18,42 +20,74 @@ def format_measured(results: Results, motion: ReferenceMotion) -> str:
     """Return errors and times of this package, and of the best of the others."""
     free = [curve for curve in results.curves if curve.motion == motion.name]
     driven = [curve for curve in results.curves if curve.motion == FRICTION]
-    rows = [
-        [f"{SPAN:g} s under gravity alone", *_compare(free, CLOSED_FORM)],
-        [f"{SPAN:g} s with friction", *_compare(driven, TAYLOR)] if driven else [],
-        ["first state in Python, warm", *_compare_first(results)],
-    ]
-    level = f"the fastest of the others for {LEVELS[0]:.0e} rad"
-    head = ["the article's top", OWN, "the most exact of the others", level]
-    return format_table(head, [row for row in rows if row])
+    lines = [f"{SPAN:g} s of the article's top: {_compare(free, CLOSED_FORM)}"]
+    if driven:
+        lines.append(f"with friction: {_compare(driven, TAYLOR)}")
+    return format_list(f"{line}." for line in lines)
 
 
-def _compare(curves: Sequence[Curve], own: str) -> list[str]:
+def _compare(curves: Sequence[Curve], own: str) -> str:
+    """Return our figures, those of the most exact other form, and of the fastest for an error."""
     ours = next(curve for curve in curves if curve.peer == own).best
     others = [curve for curve in curves if not curve.peer.startswith(OWN)]
-    fastest = find_cheapest(others, LEVELS[0])
-    return [
-        f"{ours.error:.0e} rad, {format_ms(ours.seconds)} ms",
-        _name(find_best(others)),
-        _name(fastest) if fastest else "none",
-    ]
+    best, fastest = find_best(others), find_cheapest(others, LEVELS[0])
+    compared = f"{_describe(ours)}; {_name(best)} {_describe(best[1])}"
+    if not fastest:
+        return compared
+    return f"{compared}, for {LEVELS[0]:.0e} {_name(fastest)} {format_ms(fastest[1].seconds)} ms"
+
+
+def _describe(point: Measurement) -> str:
+    return f"{point.error:.0e} rad, {format_ms(point.seconds)} ms"
 
 
 def _name(form: Form) -> str:
-    curve, point = form
-    bits = " in 80 bits" if "80 bits" in curve.peer else ""
-    return (
-        f"{find_program(curve.peer)}{bits}: {point.error:.0e} rad, {format_ms(point.seconds)} ms"
-    )
+    bits = " (80 bits)" if "80 bits" in form[0].peer else ""
+    return f"{find_program(form[0].peer)}{bits}"
 
 
-def _compare_first(results: Results) -> list[str]:
-    """Compare the calls for one state, from Python and with the set-up, if they were measured."""
-    first = {each.peer: each for each in results.states if each.numbers[0] == 1}
-    ours = first.pop(CLOSED_FORM)
-    others = [each for each in first.values() if each.error <= LEVELS[0]]
-    fastest = min(others, key=lambda each: each.seconds[0], default=None)
-    named = "none"
-    if fastest:
-        named = f"{fastest.peer.split(',')[0]}: {format_ms(fastest.seconds[0])} ms"
-    return [f"{format_ms(ours.seconds[0])} ms", "", named]
+def format_others_ahead(results: Results) -> str:
+    """Return the table of docs/accuracy.md: motions for which another program is ahead."""
+    head = ["", "program and form", "time / ours", "error, rad", "our error, rad"]
+    return format_table(head, [*_list_motions_ahead(results), *_list_driven_ahead(results)])
+
+
+def _list_motions_ahead(results: Results) -> Iterator[list[str]]:
+    """Yield the most exact form of another program, and the fastest for an error, if ahead."""
+    for motion, curves in group(results.curves, lambda curve: curve.motion).items():
+        ours = next(curve for curve in curves if curve.peer.startswith(OWN)).best
+        others = [curve for curve in curves if not curve.peer.startswith(OWN)]
+        if not others:
+            continue
+        forms = [find_best(others), find_cheapest(others, LEVELS[0])]
+        for n, form in enumerate(forms):
+            if form is None:
+                continue
+            curve, point = form
+            is_ahead = point.seconds < ours.seconds if n else point.error < ours.error
+            if is_ahead:
+                ratio = f"{point.seconds / ours.seconds:.2g}"
+                yield [motion, curve.peer, ratio, f"{point.error:.0e}", f"{ours.error:.0e}"]
+
+
+def _list_driven_ahead(results: Results) -> Iterator[list[str]]:
+    """Yield in how many families with friction or a torque another program takes less time."""
+    families = group(results.driven, lambda case: case.family)
+    for peer in (DRIVEN_PEER, DRIVEN_BEST):
+        ratios = [
+            median(case.seconds[peer] for case in own)
+            / median(case.seconds[TAYLOR] for case in own)
+            for own in families.values()
+            if all(peer in case.errors for case in own)
+        ]
+        if ahead := sorted(ratio for ratio in ratios if ratio < 1):
+            errors = [
+                f"{max(case.errors[name] for case in results.driven):.0e}"
+                for name in (peer, TAYLOR)
+            ]
+            yield [
+                f"friction and torques: {len(ahead)} of {len(ratios)} families",
+                peer,
+                f"{ahead[0]:.2g} to {ahead[-1]:.2g}",
+                *(f"{error} at most" for error in errors),
+            ]

@@ -1,4 +1,4 @@
-"""The list of all tables that commands write, with the sources of each: `python -m workshop tables`."""
+"""The list of all tables with their sources: `python -m workshop tables`."""
 
 from collections.abc import Iterable
 from pathlib import Path

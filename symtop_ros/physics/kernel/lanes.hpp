@@ -56,6 +56,25 @@ SYMTOP_INLINE To read_bits_as(const From& from) {
   return to;
 }
 
+#ifdef SYMTOP_LANES
+// The lanes of a in another order. Written lane by lane GCC 12 takes each of them out and puts it back.
+#if defined(__clang__) || __GNUC__ >= 12
+#define SYMTOP_ORDER(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
+#else
+#define SYMTOP_ORDER(a, b, i, j, k, l) __builtin_shuffle(a, b, IntegerLanes{i, j, k, l})
+#endif
+template <int I, int J, int K, int L>
+SYMTOP_INLINE Lanes order(Lanes a) { return SYMTOP_ORDER(a, a, I, J, K, L); }
+
+template <int I>
+SYMTOP_INLINE Lanes spread(Lanes a) { return SYMTOP_ORDER(a, a, I, I, I, I); }
+
+// Lanes with the other sign where `signs` has one.
+SYMTOP_INLINE Lanes negate(Lanes a, Lanes signs) {
+  return read_bits_as<Lanes>(read_bits_as<IntegerLanes>(a) ^ read_bits_as<IntegerLanes>(signs));
+}
+#endif
+
 // ---- What is written for a double and for lanes ----
 
 const uint64_t SIGN = uint64_t(1) << 63;
@@ -80,6 +99,13 @@ SYMTOP_INLINE Lanes choose(Truths condition, Lanes a, Lanes b) { return conditio
 
 SYMTOP_INLINE Lanes find_size(Lanes x) {
   return read_bits_as<Lanes>(read_bits_as<IntegerLanes>(x) & ~SIGN);
+}
+
+SYMTOP_INLINE Lanes find_larger(Lanes a, Lanes b) { return a > b ? a : b; }
+
+SYMTOP_INLINE double find_largest_lane(Lanes a) {
+  const Lanes pairs = find_larger(a, order<2, 3, 2, 3>(a));
+  return pairs[0] > pairs[1] ? pairs[0] : pairs[1];
 }
 
 SYMTOP_INLINE Lanes copy_sign(Lanes size, Lanes x) {

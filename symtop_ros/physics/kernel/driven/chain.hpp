@@ -65,7 +65,7 @@ class Chain {
 
  private:
   const Precise per_ns_ = invert(Precise(1e9));  // in s
-  Stepper stepper_{CARRIED_SHARE};
+  Stepper stepper_{CARRIED_SHARE, true};
   Piece piece_;
 
   // By Taylor series, in either direction of time; false if that takes too many steps.

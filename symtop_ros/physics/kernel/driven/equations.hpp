@@ -44,7 +44,7 @@ struct Variables {
 };
 
 // Products of two components of q, in blocks of four. The weight has those of the first block alone.
-enum { YZ, MINUS_XZ, WX, WY, WW, XX, YY, ZZ, XY, WZ, SQUARES };
+enum { WX, XZ, WY, YZ, WW, XX, YY, ZZ, WZ, XY, SQUARES };
 
 struct DrivenArguments {
   double Ix, Iz, Mgl, axial, transverse, torque[3], orientation[4], omega[3];
@@ -124,9 +124,9 @@ struct DrivenEquations {
   // coefficient; 0 where there are less than four.
   void add_torque(int row, int axis, int component, Double2 size) {
     static const int ENTRIES[3][3][4][2] = {
-        {{{WW, 1}, {XX, 1}, {YY, -1}, {ZZ, -1}}, {{XY, 2}, {WZ, -2}}, {{MINUS_XZ, -2}, {WY, 2}}},
+        {{{WW, 1}, {XX, 1}, {YY, -1}, {ZZ, -1}}, {{XY, 2}, {WZ, -2}}, {{XZ, 2}, {WY, 2}}},
         {{{XY, 2}, {WZ, 2}}, {{WW, 1}, {YY, 1}, {XX, -1}, {ZZ, -1}}, {{YZ, 2}, {WX, -2}}},
-        {{{MINUS_XZ, -2}, {WY, -2}}, {{YZ, 2}, {WX, 2}}, {{WW, 1}, {ZZ, 1}, {XX, -1}, {YY, -1}}}};
+        {{{XZ, 2}, {WY, -2}}, {{YZ, 2}, {WX, 2}}, {{WW, 1}, {ZZ, 1}, {XX, -1}, {YY, -1}}}};
     for (const auto& entry : ENTRIES[axis][component]) {
       SumOf<Lanes>& all = coefficients.torques[entry[0]];
       const Double2 sum = pick(all, row) + scale(size, double(entry[1]));

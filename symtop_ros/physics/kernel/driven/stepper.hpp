@@ -18,18 +18,26 @@ const double LONGEST = 16.0;  // in units of about 1/rate; so the powers of a st
 // rounding with them.
 const double LARGEST_TURN = 2.0;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;
+// A step is expanded again in a unit next to its length if the unit was not within these parts of it.
+const double SHORTEST_PART = 0.35, LONGEST_PART = 2.0;
+const int MOST_TRIES = 4;
 const int LENGTH_BITS = 10;  // a length has so few bits that the sum of lengths, the time, is exact
 const double LARGEST_SPIN = 1e15;  // rad of half the spin angle; far beyond, no digit of it is left
 
 // The root of order n of x, 0.6 % off at most for n >= 29: a length needs no more, and the last bit of
 // the C library's power depends on the version. The logarithm to base 2 runs straight between powers
 // of two, at most 0.09 below itself, and 2^f on 0 to 1 is a parabola, at most 0.3 % off.
+inline double make_power(int exponent) {
+  if (exponent < -1000 || exponent > 1000) return std::ldexp(1.0, exponent);
+  return read_bits_as<double>(static_cast<uint64_t>(exponent + 1023) << 52);
+}
+
 inline double find_root(double x, int n) {
   int exponent;
   const double digits = std::frexp(x, &exponent);
   const double logarithm = ((exponent - 2) + 2 * digits) / n;
   const double whole = std::floor(logarithm), f = logarithm - whole;
-  return std::ldexp(1 + f * (0.6565 + 0.3435 * f), static_cast<int>(whole));
+  return (1 + f * (0.6565 + 0.3435 * f)) * make_power(static_cast<int>(whole));
 }
 
 class Stepper {
@@ -37,7 +45,8 @@ class Stepper {
   DrivenEquations equations;
 
   // Steps have a share of their usual length, a power of two.
-  explicit Stepper(double share = 1.0) : share_(share) {}
+  // `in_full`: the first terms are sums of two doubles, whatever time it takes.
+  explicit Stepper(double share = 1.0, bool in_full = false) : share_(share), in_full_(in_full) {}
 
   void step(const Knot& knot, int direction, Piece& piece) {
     if (!expand(knot, direction, piece)) return;
@@ -60,24 +69,42 @@ class Stepper {
     }
     int exponent = 0;
     if (rate) std::frexp(1 / rate, &exponent);
-    set_unit(std::ldexp(1.0, exponent));
-    piece.unit = unit_;
-    const SumOf<Lanes> rates = scale(knot.now.rates, Lanes{unit_, unit_, unit_, 1.0});
-    piece.terms[0][0] = knot.now.q.high, piece.rests[0][0] = knot.now.q.low;
-    piece.terms[0][1] = rates.high, piece.rests[0][1] = rates.low;
-    series_.expand(in_unit_, equations.share, equations.has_torque, piece);
-    if (!is_moving(piece)) {
-      piece.rest_until(direction * INFINITY);
-      return false;
+    const double usual = make_power(exponent);
+    double unit = knot.unit ? knot.unit : usual, length = 0.0;
+    for (int tries = 0; tries < MOST_TRIES; tries++) {
+      expand_in(unit, piece);
+      if (!is_moving(piece)) {
+        piece.rest_until(direction * INFINITY);
+        return false;
+      }
+      length = share_ * find_length(piece.terms, LONGEST * usual / unit_);
+      if (in_full_ || (length > SHORTEST_PART && length < LONGEST_PART)) break;
+      unit = unit_ * find_power(length);
     }
-    piece.end = knot.t + direction * share_ * find_length(piece.terms) * unit_;
+    piece.end = knot.t + direction * length * unit_;
+    if (!in_full_) piece.following.unit = unit_ * find_power(length);
     return true;
   }
 
  private:
   double share_, unit_ = 0.0;
+  bool in_full_;
   Coefficients in_unit_;
   TaylorSeries series_;
+
+  void expand_in(double unit, Piece& piece) {
+    set_unit(unit);
+    piece.unit = unit_;
+    piece.put_first();
+    series_.expand(in_unit_, equations.share, equations.has_torque, in_full_, piece);
+  }
+
+  // The power of two next to a length.
+  static double find_power(double length) {
+    int exponent;
+    const double digits = std::frexp(length, &exponent);
+    return make_power(exponent - (digits < 0x1.6ap-1));
+  }
 
   void set_unit(double unit) {
     if (unit != unit_) in_unit_ = equations.coefficients.in_unit(unit);
@@ -109,12 +136,12 @@ class Stepper {
     }
   };
 
-  double find_length(const Lanes terms[][2]) const {
+  double find_length(const Lanes terms[][2], double longest) const {
     const Lanes q = terms[0][0], rates = terms[0][1];
     const double spin = equations.share.high * rates[OMEGA_Z];
     const double turn = std::sqrt(rates[OMEGA_X] * rates[OMEGA_X] +
                                   rates[OMEGA_Y] * rates[OMEGA_Y] + spin * spin);
-    double length = LARGEST_TURN / std::fmax(turn, LARGEST_TURN / LONGEST);
+    double length = LARGEST_TURN / std::fmax(turn, LARGEST_TURN / longest);
     const double axial = std::fmax(1.0, std::fabs(rates[OMEGA_Z]));
     // cos^2 and sin^2 of half the tilt: tan(theta/2)^2 = lower/upper.
     const double upper = q[W] * q[W] + q[Z] * q[Z], lower = q[X] * q[X] + q[Y] * q[Y];
@@ -123,15 +150,14 @@ class Stepper {
     const double size = swings ? swing.measure(terms) : 1.0;
     for (int order = DRIVEN_TERMS - 1; order <= DRIVEN_TERMS; order++) {
       const Lanes *row = terms[order];
-      double largest = std::fabs(row[1][OMEGA_Z]) / axial;
-      for (int k = W; k <= Z; k++) largest = std::fmax(largest, std::fabs(row[0][k]));
-      for (int k = OMEGA_X; k <= OMEGA_Y; k++) largest = std::fmax(largest, std::fabs(row[1][k]));
+      double largest = find_largest_lane(find_larger(
+          find_size(row[0]), find_size(row[1]) * Lanes{1.0, 1.0, 1 / axial, 0.0}));
       if (swings) largest = std::fmax(largest, swing.find_largest(row) / size);
       if (largest) length = std::fmin(length, find_root(LAST / largest, order));
     }
     int exponent;
     const double fraction = std::frexp(length, &exponent);
-    return std::ldexp(std::floor(std::ldexp(fraction, LENGTH_BITS)), exponent - LENGTH_BITS);
+    return std::floor(fraction * (1 << LENGTH_BITS)) * make_power(exponent - LENGTH_BITS);
   }
 };
 
