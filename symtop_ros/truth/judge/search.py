@@ -248,10 +248,23 @@ class Search:
         for each, sign in product(good, (1, -1)):
             for name in each.parameters:  # a turned world may turn the other way round
                 value = getattr(each.offset, name) * (sign if name in TURNING else 1)
-                rounded = f"{value:.{SAME_VALUE}g}"
-                kinds[name, rounded] = set_parameter(self.fit.start, name, value)
+                for same in self._list_periods(value) if name == "delay" else [value]:
+                    rounded = f"{same:.{SAME_VALUE}g}"
+                    kinds[name, rounded] = set_parameter(self.fit.start, name, same)
         for (kind, start), level in product(kinds.items(), PERMUTED_LEVELS):
             yield from self._permute(level, kind[:1], start)
+
+    def _list_periods(self, delay: float) -> list[float]:
+        """Return a delay and those that differ by periods of the nutation, which are as good.
+
+        With two free rotations they are; without them one alone is.
+        """
+        period = self.truth.period
+        if period is None:
+            return [delay]
+        most = int(2 * MOST_DELAY / period)
+        values = delay + period * np.arange(-most, most + 1, dtype=np.float64)
+        return list(map(float, values[np.abs(values) <= MOST_DELAY]))
 
     def _permute(self, level: str, parameters: tuple[str, ...], start: Offset) -> Iterator[Cause]:
         """Yield the best of the permutations with a parameter and with rotations of a level."""
@@ -274,11 +287,8 @@ class Search:
         """
         late = [each for each in causes if "delay" in each.parameters]
         best = min(late, key=lambda each: each.cost, default=None)
-        period = self.truth.period
-        if best is not None and period is not None and best.level == "both":
-            most = int(2 * MOST_DELAY / period)
-            values = best.offset.delay + period * np.arange(-most, most + 1, dtype=np.float64)
-            values = values[np.abs(values) <= MOST_DELAY]
+        if best is not None and self.truth.period is not None and best.level == "both":
+            values = np.array(self._list_periods(best.offset.delay))
             yield from self.search(best.change, "delay", best.offset, values)
 
     def search(
