@@ -2,7 +2,7 @@
 # unchanged, but for pip's cache.
 PYTHON ?= python3
 BIN := .venv/bin
-HOUSE := $(CURDIR)
+CHECKOUT := $(CURDIR)
 include workshop/environment.mk
 
 # `$(SET_UP) NAME` makes what is missing or no longer fits. It runs with the Python of .venv, unless

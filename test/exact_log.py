@@ -31,7 +31,7 @@ def assert_exact(path: Path) -> int:
     counts = [each.samples for each in deviations.values()]
     is_finished = "symtop_ros.end" in log.file.metadata
     assert max(counts) - min(counts) <= (not is_finished)
-    assert not (is_finished and log.account.problems)
+    assert not (is_finished and log.catalog.problems)
     assert min(counts) > 0
     return min(counts)
 
@@ -41,14 +41,14 @@ def assert_no_deviation(path: Path, node: str | None = None) -> TopLog:
     log = TopLog(McapFile(path), node)
     found = compare_samples(log).values()
     assert all(each.samples and not (each.largest or each.unchecked) for each in found)
-    assert log.account.problems == (), log.account.problems
+    assert log.catalog.problems == (), log.catalog.problems
     return log
 
 
 def assert_agrees(log: TopLog, samples: int) -> None:
     """Assert that a log is sound, with so many samples of each topic, exact and in their order."""
     deviations = compare_samples(log)
-    assert log.account.problems == (), log.account.problems
+    assert log.catalog.problems == (), log.catalog.problems
     assert set(deviations) == set(STATES)
     for each in deviations.values():
         found = each.samples, each.largest, each.unchecked, each.unreached

@@ -9,13 +9,13 @@ import pytest
 from documents import ROOT
 
 PACKAGE = ROOT / "symtop_ros"
-# Files next to the rooms, and what every folder may use of the ground floor.
+# Files next to the packages, and what every folder may use of `base`.
 TOP = {"__init__", "__main__", "programs"}
 GROUND = {
     f"base/{name}"
     for name in ("arrays", "counts", "header", "measured", "progress", "refusals", "units")
 }
-# Rooms of several folders.
+# Packages of several folders.
 DIVIDED = ("run", "ros", "page", "truth")
 # Folder -> folders of the package, and files of `base` | other packages. Each entry is exact: an
 # import that is missing here fails, and so does an entry that is not used.
@@ -75,7 +75,7 @@ def read_nodes(path):
 
 
 def name_place(module):
-    """Return the folder of a module of the package, or its file if that is on the ground floor."""
+    """Return the folder of a module of the package, or its file if that is in `base`."""
     first, *others = module.split(".")[1:] or ["__init__"]
     return "/".join([first, *others[:1]]) if first in (*DIVIDED, "base") else first
 
@@ -96,12 +96,14 @@ def imports(folder):
 
 
 def list_folders():
-    """Yield the rooms, and the folders of those that are divided."""
-    for room in [path.parent for path in PACKAGE.glob("*/__init__.py")]:
-        if room.name in DIVIDED:
-            yield from (f"{room.name}/{path.parent.name}" for path in room.glob("*/__init__.py"))
-        elif room.name != "base":
-            yield room.name
+    """Yield the packages, and the folders of those that are divided."""
+    for package in [path.parent for path in PACKAGE.glob("*/__init__.py")]:
+        if package.name in DIVIDED:
+            yield from (
+                f"{package.name}/{path.parent.name}" for path in package.glob("*/__init__.py")
+            )
+        elif package.name != "base":
+            yield package.name
 
 
 @pytest.mark.parametrize("folder", ARROWS)

@@ -160,7 +160,8 @@ def test_a_program_that_pip_has_installed_is_left_alone(checkout):
 def test_one_extra_more_has_those_before(checkout):
     status, printed, asked = set_up(checkout, "test")
     assert (status, printed[0].partition(":")[0]) == (0, "Setting up .venv")
-    assert asked[-1].endswith("--editable .[ros,playback,report,test,lint]")
+    wanted = "--editable .[ros,playback,report,test,lint] --constraint test/constraints.txt"
+    assert asked[-1].endswith(wanted)
     (checkout / "asked").unlink()
     assert set_up(checkout, "ros", "report", "quick", "panel") == (0, [], [])
 

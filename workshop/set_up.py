@@ -46,6 +46,7 @@ LIBRARY = "symtop_ros/physics/kernel/libsymtop.*"
 ZIG = re.search(r'ZIG = "(.+?)"', (ROOT / "build_kernel.py").read_text())[1]  # type: ignore[index]
 # The first that needs no `wheel`; without a build environment pip asks for nothing from PyPI.
 SETUPTOOLS = "setuptools>=70.1"
+CONSTRAINTS = "test/constraints.txt"  # of the tools of tests, which a new version may turn red
 TOOLS = ("pytest", "hypothesis", "mpmath", "python-flint", "rosbags", "coverage")
 IDENTIFY = "import os, sys; print(f'Python {sys.version_info[0]}.{sys.version_info[1]}"
 IDENTIFY += "{sys.abiflags} in {os.path.realpath(sys.base_prefix)}')"
@@ -74,7 +75,7 @@ class SetUp:
     packages: tuple[str, ...] = ()  # of PyPI
     programs: tuple[str, ...] = ()  # that run from the checkout, without an installation
     script: tuple[str, ...] = ()  # a command in the checkout
-    made_of: tuple[str, ...] = ()  # files that decide what the script makes
+    made_of: tuple[str, ...] = ()  # files that decide what is made
     place: str = ""  # folder of a separate environment in .venv
     needs: tuple[str, ...] = ()  # other set-ups
 
@@ -103,10 +104,12 @@ SET_UPS = {
     "quick": SetUp(
         "ROS 2, NumPy, SciPy, Rerun, plots and tools of the quick tests (about 1.4 GB, once)",
         extras=("ros", "playback", "report", "test"),
+        made_of=(CONSTRAINTS,),
     ),
     "test": SetUp(
         "tools for style, types and workspaces (about 0.1 GB, once)",
         extras=("ros", "playback", "report", "test", "lint"),
+        made_of=(CONSTRAINTS,),
     ),
     "docs": SetUp("Sphinx (once)", extras=("ros", "playback", "docs")),
     "messages": SetUp(
@@ -228,7 +231,8 @@ def _make(name: str, set_up: SetUp) -> None:
     elif set_up.extras:
         _install(set_up.place, SETUPTOOLS, "--quiet")
         extras = f".[{','.join(set_up.extras)}]"
-        _install(set_up.place, "--editable", extras, *set_up.packages)
+        pins = ("--constraint", CONSTRAINTS) if CONSTRAINTS in set_up.made_of else ()
+        _install(set_up.place, "--editable", extras, *set_up.packages, *pins)
         _write(_package_of(set_up.place))
     elif set_up.packages:
         _install(set_up.place, *set_up.packages)

@@ -14,7 +14,7 @@ from symtop_ros.run.check.mismatch import Mismatch
 from symtop_ros.run.check.run import Findings, check_run
 from symtop_ros.run.check.samples import Deviation
 from symtop_ros.run.check.starts import SolvedStarts
-from symtop_ros.run.log.account import Account
+from symtop_ros.run.log.catalog import Catalog
 from symtop_ros.run.log.names import KNOWN
 from symtop_ros.run.log.reader import LogError, list_problems
 from symtop_ros.run.log.top_log import TopLog
@@ -29,7 +29,7 @@ def check(log: TopLog, strict: bool = False, header: Mapping[str, Any] | None = 
 
     With a header they are JSON that begins with it.
     """
-    account = log.account
+    catalog = log.catalog
     found = check_run(log)
     unreached = sum(each.unreached for each in found.deviations.values())
     if unreached:
@@ -39,32 +39,32 @@ def check(log: TopLog, strict: bool = False, header: Mapping[str, Any] | None = 
         )
     elif not any(each.samples for each in found.deviations.values()):
         raise LogError("nothing can be checked: no sample follows an event")
-    for line in list_problems([_describe(account, each) for each in found.mismatches]):
+    for line in list_problems([_describe(catalog, each) for each in found.mismatches]):
         _print_problem(line)
-    is_whole = not (account.problems or account.doubts or found.unjudged)
-    lacks = strict and bool(account.never_recorded)
+    is_whole = not (catalog.problems or catalog.doubts or found.unjudged)
+    lacks = strict and bool(catalog.never_recorded)
     agrees = found.samples_agree and found.laws_hold and not found.mismatches
     is_good = agrees and is_whole and not lacks
     if header is not None:
-        print(json.dumps({**header, **_list_facts(account, found, is_good)}, indent=1))
+        print(json.dumps({**header, **_list_facts(catalog, found, is_good)}, indent=1))
         return int(not is_good)
     _print_verdict(found)
     if found.samples_agree and not is_whole:
-        print(_describe_damage(account, found))
-    _print_topics(account, found)
+        print(_describe_damage(catalog, found))
+    _print_topics(catalog, found)
     _print_laws(found.laws)
     _print_starts(found.starts)
     return int(not is_good)
 
 
-def _list_facts(account: Account, found: Findings, is_good: bool) -> dict[str, Any]:
+def _list_facts(catalog: Catalog, found: Findings, is_good: bool) -> dict[str, Any]:
     """Return the results for JSON."""
     topics = {
         topic.name: _describe_topic(found, name, topic.count)
-        for name, topic in account.topics.items()
+        for name, topic in catalog.topics.items()
     }
     return {
-        "node": account.node,
+        "node": catalog.node,
         "good": is_good,
         "samples_agree": found.samples_agree,
         "laws_hold": found.laws_hold,
@@ -76,11 +76,11 @@ def _list_facts(account: Account, found: Findings, is_good: bool) -> dict[str, A
         "first_event": found.first or None,
         "foreign_events": found.foreign,
         "other_versions": found.versions,
-        "problems": [*map(one_line, account.lines)],
+        "problems": [*map(one_line, catalog.lines)],
         "mismatches": [asdict(each) for each in found.mismatches],
         "topics": topics,
-        "never_recorded": [KNOWN[name].ros_name for name in account.never_recorded],
-        "others": sorted(map(one_line, account.others)),
+        "never_recorded": [KNOWN[name].ros_name for name in catalog.never_recorded],
+        "others": sorted(map(one_line, catalog.others)),
     }
 
 
@@ -121,37 +121,37 @@ def _print_verdict(found: Findings) -> None:
         print(f"{events} of {by}: {their} words and verdicts are not judged")
 
 
-def _describe_damage(account: Account, found: Findings) -> str:
+def _describe_damage(catalog: Catalog, found: Findings) -> str:
     """Return what kind of damage a log has, or may have."""
-    if found.unjudged or (account.problems and not account.lacks_only_its_end):
+    if found.unjudged or (catalog.problems and not catalog.lacks_only_its_end):
         return "the log is damaged or incomplete"
-    if not account.problems:
+    if not catalog.problems:
         return "the log may be incomplete"
-    return "the log ends early" + ", and samples before its end may be lost" * bool(account.doubts)
+    return "the log ends early" + ", and samples before its end may be lost" * bool(catalog.doubts)
 
 
-def _describe(account: Account, mismatch: Mismatch) -> str:
+def _describe(catalog: Catalog, mismatch: Mismatch) -> str:
     is_event = mismatch.topic == EVENTS.name
-    topic = account.topics[EVENTS.name].name if is_event else mismatch.topic
+    topic = catalog.topics[EVENTS.name].name if is_event else mismatch.topic
     right, got = one_line(mismatch.expected, 100), one_line(mismatch.got, 100)
     return f"{topic} at {mismatch.stamp} ns: {mismatch.field} must be {right}, got {got}"
 
 
-def _print_topics(account: Account, found: Findings) -> None:
+def _print_topics(catalog: Catalog, found: Findings) -> None:
     """Print a line for each topic: how much of it was compared, or why it was not."""
-    for name, topic in account.topics.items():
+    for name, topic in catalog.topics.items():
         if name in found.deviations:
             print(_row(topic.name, found.deviations[name]))
         else:
             print(f"{one_line(topic.name):{WIDTH}}{_describe_text(name, topic.count, found)}")
-    lacking = "it is not in what is left of the log" if account.losses else "it is not in the log"
-    for name in account.never_recorded:
-        if name not in account.topics:
+    lacking = "it is not in what is left of the log" if catalog.losses else "it is not in the log"
+    for name in catalog.never_recorded:
+        if name not in catalog.topics:
             print(f"{KNOWN[name].ros_name:{WIDTH}} not compared: {lacking}")
-    others = sorted(map(one_line, account.others))
+    others = sorted(map(one_line, catalog.others))
     if others:
         more = f" and {len(others) - MAX_OTHERS} more" if len(others) > MAX_OTHERS else ""
-        print(f"not compared, as not of {account.node}: {', '.join(others[:MAX_OTHERS])}{more}")
+        print(f"not compared, as not of {catalog.node}: {', '.join(others[:MAX_OTHERS])}{more}")
 
 
 def _print_laws(laws: Mapping[str, Agreement]) -> None:

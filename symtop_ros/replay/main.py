@@ -14,8 +14,8 @@ from symtop_ros.base.refusals import number
 from symtop_ros.page.web.join import write_file
 from symtop_ros.replay.check import check
 from symtop_ros.replay.options import make_parser, view_options
-from symtop_ros.run.log.account import Account, read_account
 from symtop_ros.run.log.bags import open_run
+from symtop_ros.run.log.catalog import Catalog, read_catalog
 from symtop_ros.run.log.names import Names
 from symtop_ros.run.log.reader import LogError, McapFile, log_errors
 from symtop_ros.run.log.repair import repair
@@ -47,7 +47,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.repair:
         return _repair(McapFile(_only_file(options.files)), options.repair)
     with _open_file(options.files, options.node) as log:
-        _print_problems(log.account)
+        _print_problems(log.catalog)
         return _check(log, options) if options.check else _show(log, options)
 
 
@@ -61,9 +61,9 @@ def _only_file(paths: Sequence[Path]) -> Path:
 
 
 def _repair(file: McapFile, target: Path) -> int:
-    account = read_account(file, Names(file))
-    _print_problems(account)
-    print(f"wrote {repair(file, target, account)} to {target}")
+    catalog = read_catalog(file, Names(file))
+    _print_problems(catalog)
+    print(f"wrote {repair(file, target, catalog)} to {target}")
     return 0
 
 
@@ -100,9 +100,9 @@ def _show(log: TopLog, options: argparse.Namespace) -> int:
         return viewer.show(recording, options.web)
 
 
-def _print_problems(account: Account) -> None:
+def _print_problems(catalog: Catalog) -> None:
     """Print what is wrong with a log, before anything else."""
-    for line in account.lines:
+    for line in catalog.lines:
         print(f"top_replay: {line}", file=sys.stderr)
 
 
@@ -129,13 +129,13 @@ def _open_file(paths: Sequence[Path], node: str | None) -> Iterator[TopLog]:
 
 def _save_page(log: TopLog, path: Path) -> None:
     """Write the page with the run of a log in it."""
-    account = log.account
-    shown = account.list_continuous()
+    catalog = log.catalog
+    shown = catalog.list_continuous()
     if not shown:
         raise LogError(f"{log.file.path}: a run must have an event to be saved")
-    last = 0 if account.end is None else account.end
+    last = 0 if catalog.end is None else catalog.end
     end = min(last, shown[-1].end)
-    if end < last and shown[-1] is not account.stretches[-1]:
+    if end < last and shown[-1] is not catalog.stretches[-1]:
         text = f"the page ends at {end} ns: how the top moved then is not known"
         print(f"top_replay: {text}", file=sys.stderr)
     run, reached = record_run((each.event for each in shown if each.event), end)

@@ -191,14 +191,14 @@ def replay(
         raise LogError(
             f"cannot write {target}: {getattr(error, 'strerror', None) or error}"
         ) from None
-    account = log.account
-    view = View(recording, options=options, unknown=[*account.unknown, *account.undecided])
+    catalog = log.catalog
+    view = View(recording, options=options, unknown=[*catalog.unknown, *catalog.undecided])
     for batch in log.batches():
         view.send(batch)
         _show_progress(log.file.offset, log.file.size)
     if points:
-        view.send_points(points, account.stretches)
-    for problem in account.lines:
+        view.send_points(points, catalog.stretches)
+    for problem in catalog.lines:
         view.log_text(problem)
     recording.flush()
     view.close()

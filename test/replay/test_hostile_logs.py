@@ -93,7 +93,7 @@ def test_an_event_of_absurd_numbers_is_told_in_one_sentence(change, tmp_path, ca
     for way in (("--repair", tmp_path / "whole.mcap"), ("--save", tmp_path / "run.rrd")):
         status, lines = asked(capsys, path, *way)
         assert status == 0
-        assert sentence in "".join(lines[:1] or [sentence])  # an account computes no motion
+        assert sentence in "".join(lines[:1] or [sentence])  # a catalog computes no motion
 
 
 @pytest.mark.parametrize("examples", trials(30, 100))
@@ -105,7 +105,7 @@ def test_any_numbers_in_an_event_are_checked_or_refused(examples, tmp_path_facto
     def check(changes):
         log = TopLog(McapFile(with_event(tmp_path_factory.mktemp("odd"), changes)))
         compare_samples(log)
-        assert all(map(str.isprintable, log.account.lines))
+        assert all(map(str.isprintable, log.catalog.lines))
 
     check()
 
@@ -232,7 +232,7 @@ def test_joints_that_are_not_three_are_not_those_of_a_top(tmp_path, capsys):
     log = TopLog(McapFile(path))
     (batch,) = log.batches()
     assert batch.columns["euler_angles"].numbers.shape == (1, 6)
-    assert "euler_angles: 3 messages: JointState must have 3 joints, got 0" in log.account.problems
+    assert "euler_angles: 3 messages: JointState must have 3 joints, got 0" in log.catalog.problems
     assert asked(capsys, path, "--save", tmp_path / "run.rrd")[0] == 0
 
 

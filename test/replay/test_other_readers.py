@@ -6,7 +6,7 @@ from programs import execute
 from run.log.test_bag import split_with_heads
 
 from symtop_ros.replay import viewer
-from symtop_ros.run.log.account import read_account
+from symtop_ros.run.log.catalog import read_catalog
 from symtop_ros.run.log.names import Names
 from symtop_ros.run.log.reader import McapFile
 from symtop_ros.run.log.repair import repair
@@ -19,7 +19,7 @@ def test_rerun_finds_no_fault_in_a_log_that_is_complete_or_repaired(part, tmp_pa
     if part < 1:
         assert execute([viewer.PROGRAM, "mcap", "check", path]).returncode == 1
         file = McapFile(path)
-        repair(file, path := tmp_path / "repaired.mcap", read_account(file, Names(file)))
+        repair(file, path := tmp_path / "repaired.mcap", read_catalog(file, Names(file)))
     done = execute([viewer.PROGRAM, "mcap", "check", "--full", path])
     assert done.returncode == 0, done.stdout
     assert all(topic(name) in done.stdout for name in LAYOUTS)

@@ -151,7 +151,7 @@ def test_stopped_again_and_again_it_counts_what_is_missed_and_the_log_is_exact(t
     assert gaps.min() == MS
     # The stamp of the diagnostics is that of the next tick: all before it were published or missed.
     # The start's own stamp: that of the first tick, which a slow start may have missed.
-    begin = TopLog(McapFile(path)).account.events[0].stamp
+    begin = TopLog(McapFile(path)).catalog.events[0].stamp
     # Of the first stop, of 3 s, 100 samples are sent late.
     assert missed == (end - begin) // MS - sum(each < end for each in stamps) > 2800
     assert_exact(path)

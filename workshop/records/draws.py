@@ -13,6 +13,8 @@ from workshop.records.sensors import Gyroscope
 Draw = np.random.Generator
 FRAMES, SAMPLES = 120.0, 200.0  # a second, of a film and of a sensor
 SECONDS = 3.0
+RANGES = np.radians([125.0, 250.0, 500.0, 1000.0, 2000.0])  # rad/s, of sensors that one can buy
+FINE = 4000  # rows a second, among which the highest places of an axis are looked for
 PIXELS = (0.2, 0.5, 1.0)  # deviations of the noise
 AXES, RATES = 0.003, 0.02  # the same in lengths of the axis, and in rad/s
 
@@ -215,10 +217,39 @@ def _sense_with(**fault: object) -> Callable[[Draw], Drawn]:
     return make
 
 
-def _saturate(draw: Draw) -> Drawn:
+def find_nutation(start: Start) -> float:
+    """Return the mean time between the highest places of an axis, in s."""
+    times = np.arange(round(SECONDS * FINE)) / FINE
+    heights = start.follow().at(times)[0][:, 2, 2]
+    before, here, after = heights[:-2], heights[1:-1], heights[2:]
+    tops = np.flatnonzero((before < here) & (here >= after))
+    curves = before[tops] - 2 * here[tops] + after[tops]
+    places = tops + 1 + (before[tops] - after[tops]) / (2 * curves)
+    return float((places[-1] - places[0]) / (len(places) - 1) / FINE)
+
+
+def _cut_spin(draw: Draw) -> Drawn:
+    """Rates with the spin beyond a range of sensors, or beyond any other limit."""
     start = draw_start(draw)
-    limit = float(draw.uniform(0.5, 0.95) * abs(start.rates[2]))
-    return sense(draw, start, Gyroscope(limit=limit))
+    spin = abs(start.rates[2])
+    below = RANGES[0.95 * spin > RANGES]
+    limit = below[-1] if len(below) and draw.uniform() < 0.5 else draw.uniform(0.5, 0.95) * spin
+    drawn = sense(draw, start, Gyroscope(limit=float(limit)))
+    ratio = drawn.truth["Iz/Ix"] + 1e-4 * draw.normal()
+    known = ("--Iz-Ix", f"{ratio:.9f}", "1e-4") if draw.uniform() < 0.5 else ()
+    constant = (2 - drawn.truth["Iz/Ix"]) * start.rates[2]
+    more = {"nutation_period": find_nutation(start), "cut": constant}
+    return replace(drawn, options=known, truth={**drawn.truth, **more})
+
+
+def _cut_swings(draw: Draw) -> Drawn:
+    """Rates whose spin is within the range, and whose largest rates across the axis are not."""
+    start = draw_start(draw)
+    start = replace(start, rates=(start.rates[0], start.rates[1], start.rates[2] / 8))
+    rates = np.abs(start.follow().at(np.arange(600) / SAMPLES)[1])
+    across = rates[:, :2].max()
+    limit = max(0.85 * across, 1.05 * abs(start.rates[2]))
+    return sense(draw, start, Gyroscope(limit=float(limit)))
 
 
 #: Records without a fault, by name.
@@ -248,7 +279,8 @@ FAULTS: dict[str, Callable[[Draw], Drawn]] = {
     "linear friction, axis": _rub,
     "gains": _sense_with(gains=(1.0, 1.02, 1.0)),
     "tilted sensor": _sense_with(tilt=(0.01, 0.005, 0.0)),
-    "saturated": _saturate,
+    "spin beyond the range": _cut_spin,
+    "swings beyond the range": _cut_swings,
 }
 
 

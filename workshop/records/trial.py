@@ -36,12 +36,18 @@ def try_record(name: str, seed: int) -> dict[str, Any]:
     if not out.getvalue():
         return row | {"verdict": "refused", "text": err.getvalue().strip(), "pulls": {}}
     found = json.loads(out.getvalue())
+    values = found["values"] | {
+        each["kind"]: {"value": each["numbers"][0], "deviation": each["numbers"][1]}
+        for each in found["unknown"]
+        if each["kind"] == "cut"
+    }
     return row | {
         "verdict": found["model"]["verdict"],
         "text": found["model"]["text"],
         "unknown": [each["text"] for each in found["unknown"]],
-        "pulls": dict(_list_pulls(found["values"], drawn.truth, "deviation")),
-        "totals": dict(_list_pulls(found["values"], drawn.truth, "total")),
+        "notes": found["notes"],
+        "pulls": dict(_list_pulls(values, drawn.truth, "deviation")),
+        "totals": dict(_list_pulls(values, drawn.truth, "total")),
         "wider": {
             name: each["total"] / each["deviation"]
             for name, each in found["values"].items()

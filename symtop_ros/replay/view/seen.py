@@ -8,7 +8,7 @@ import rerun as rr
 from symtop_ros.base.arrays import Mask, Places, Real
 from symtop_ros.physics import State
 from symtop_ros.replay.view import entities
-from symtop_ros.run.log.stretches import Stretch
+from symtop_ros.run.log.intervals import Stretch
 from symtop_ros.run.simulation.points import SEEN, Points
 
 RADIUS = 0.011  # scene units

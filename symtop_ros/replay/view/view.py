@@ -15,7 +15,7 @@ from symtop_ros.replay.view.ghost import GhostView
 from symtop_ros.replay.view.plots import Plots, describe_motion, describe_nothing
 from symtop_ros.replay.view.seen import send_points
 from symtop_ros.run.log.batch import Batch, Columns, choose
-from symtop_ros.run.log.stretches import Stretch, Unknown
+from symtop_ros.run.log.intervals import Stretch, Unknown
 from symtop_ros.run.simulation.events import RESTARTS, Event
 from symtop_ros.run.simulation.points import Points
 from symtop_ros.run.simulation.segment import Segment

@@ -17,10 +17,10 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from symtop_ros.base.arrays import Mask, Real, Stamps, axis_of
 from symtop_ros.run.check.stencils import EPS, MARGIN, find_slopes
-from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.batch import Batch
-from symtop_ros.run.log.chronicle import Chronicle
-from symtop_ros.run.log.stretches import Unknown
+from symtop_ros.run.log.catalog import Catalog
+from symtop_ros.run.log.event_order import EventOrder
+from symtop_ros.run.log.intervals import Unknown
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.wire.layout import NANOSECONDS
 
@@ -87,10 +87,10 @@ class Rows:
 class DifferenceCheck:
     """The laws of motion, tried with the samples of a log."""
 
-    def __init__(self, account: Account) -> None:
+    def __init__(self, catalog: Catalog) -> None:
         self.laws = {name: Agreement() for name in UNITS}
-        self._chronicle = Chronicle(account.events, account.ordered.places)
-        self._unknown = Unknown(account.unknown)
+        self._event_order = EventOrder(catalog.events, catalog.ordered.places)
+        self._unknown = Unknown(catalog.unknown)
         self._rows: Rows | None = None  # those before the next batch
         self._judged = 0  # of these, the rows whose derivatives have been compared
 
@@ -115,7 +115,7 @@ class DifferenceCheck:
         found = {}
         for name in VECTORS.keys() & batch.columns.keys():
             columns = batch.columns[name]
-            owners = self._chronicle.find_owners(columns.stamps, columns.places)
+            owners = self._event_order.find_owners(columns.stamps, columns.places)
             is_known = (owners >= 0) & ~self._unknown.find(columns.stamps, columns.places)
             keys = np.stack([owners, columns.stamps], axis=1)[is_known]
             _, first, counts = np.unique(keys, axis=0, return_index=True, return_counts=True)
@@ -139,7 +139,7 @@ class DifferenceCheck:
     def _compare_terms(self, rows: Rows) -> None:
         for owner in np.unique(rows.owners).tolist():
             part = rows.select(_find_slice(rows.owners == owner))
-            segment = self._chronicle.segment(owner)
+            segment = self._event_order.segment(owner)
             self._compare_momentum(part, segment)
             self._compare_torque(part, segment)
 
@@ -181,7 +181,7 @@ class DifferenceCheck:
         pieces = np.zeros(len(rows.stamps))
         for owner in np.unique(rows.owners).tolist():
             mine = _find_slice(rows.owners == owner)
-            pieces[mine] = _count_pushes(self._chronicle.segment(owner), rows.stamps[mine])
+            pieces[mine] = _count_pushes(self._event_order.segment(owner), rows.stamps[mine])
         steps = np.diff(rows.stamps)
         is_same = (np.diff(rows.owners) == 0) & (np.diff(pieces) == 0) & (steps > 0)
         usual = np.median(steps[is_same]) if is_same.any() else 0.0
@@ -190,7 +190,7 @@ class DifferenceCheck:
 
     def _compare_stretch(self, rows: Rows, begin: int, end: int) -> None:
         """Compare the derivatives at the rows from one to before another of a stretch."""
-        segment = self._chronicle.segment(int(rows.owners[0]))
+        segment = self._event_order.segment(int(rows.owners[0]))
         if not segment.running:
             return
         times = (rows.stamps - rows.stamps[0]) * (segment.factor / NANOSECONDS)

@@ -10,8 +10,8 @@ from symtop_ros.run.check.mismatch import Mismatch, is_of_this_version, list_oth
 from symtop_ros.run.check.samples import Deviation, LogCheck
 from symtop_ros.run.check.starts import SolvedStarts, solve_again
 from symtop_ros.run.check.texts import TextCheck
-from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.batch import BatchReader
+from symtop_ros.run.log.catalog import Catalog
 from symtop_ros.run.log.contents import DECODED
 from symtop_ros.run.log.reader import LogError
 from symtop_ros.run.log.top_log import TopLog
@@ -59,10 +59,10 @@ def check_run(log: TopLog) -> Findings:
     LogError
         If the log has events without fields: the version that wrote them checks it.
     """
-    account = log.account
-    _demand_fields(log, account)
+    catalog = log.catalog
+    _demand_fields(log, catalog)
     samples, texts, differences = check_messages(log)
-    events = account.events
+    events = catalog.events
     own = sum(map(is_of_this_version, events))
     compared = Counter(texts.compared) + Counter({EVENTS.name: own})
     starts = solve_again(events)
@@ -81,10 +81,10 @@ def check_run(log: TopLog) -> Findings:
 
 def check_messages(log: TopLog) -> tuple[LogCheck, TextCheck, DifferenceCheck]:
     """Compare all messages of a log but the events with what these give."""
-    samples, texts = LogCheck(log.account), TextCheck(log.account)
-    differences = DifferenceCheck(log.account)
+    samples, texts = LogCheck(log.catalog), TextCheck(log.catalog)
+    differences = DifferenceCheck(log.catalog)
     reader = BatchReader()
-    reader.frame = log.account.frame
+    reader.frame = log.catalog.frame
     for run in log.list_messages():
         chosen = [each for each in run if each[1] in DECODED]
         data = [(name, message.data) for _, name, message in chosen]
@@ -97,8 +97,8 @@ def check_messages(log: TopLog) -> tuple[LogCheck, TextCheck, DifferenceCheck]:
     return samples, texts, differences
 
 
-def _demand_fields(log: TopLog, account: Account) -> None:
-    if not all(event.has_fields for event in account.events):
+def _demand_fields(log: TopLog, catalog: Catalog) -> None:
+    if not all(event.has_fields for event in catalog.events):
         own = log.file.metadata.get(METADATA, {}).get("version", "")
         version = one_line(own or LAST_WITHOUT_FIELDS, 20)
         raise LogError(

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from symtop_ros.base.arrays import Places, Real
-from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.batch import Batch, Columns
-from symtop_ros.run.log.chronicle import Chronicle
-from symtop_ros.run.log.stretches import Unknown
+from symtop_ros.run.log.catalog import Catalog
+from symtop_ros.run.log.event_order import EventOrder
+from symtop_ros.run.log.intervals import Unknown
 from symtop_ros.run.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
@@ -64,10 +64,10 @@ def _largest(numbers: Real) -> float:
 class LogCheck:
     """The samples of a log, compared with what its events say."""
 
-    def __init__(self, account: Account) -> None:
+    def __init__(self, catalog: Catalog) -> None:
         self.deviations: dict[str, Deviation] = {}
-        self._chronicle = Chronicle(account.events, account.ordered.places)
-        self._unknown = Unknown(account.unknown)
+        self._event_order = EventOrder(catalog.events, catalog.ordered.places)
+        self._unknown = Unknown(catalog.unknown)
         self._budget = StepBudget(SPARE_STEPS)
 
     def add_batch(self, batch: Batch) -> None:
@@ -79,7 +79,7 @@ class LogCheck:
     def add(self, name: str, columns: Columns) -> None:
         """Compare samples of a topic."""
         deviation = self.deviations.setdefault(name, Deviation())
-        owners = self._chronicle.find_owners(columns.stamps, columns.places)
+        owners = self._event_order.find_owners(columns.stamps, columns.places)
         follows = owners >= 0
         deviation.unchecked += int((~follows).sum())
         unknown = self._unknown.find(columns.stamps, columns.places) & follows
@@ -94,7 +94,7 @@ class LogCheck:
     def _add_known(self, deviation: Deviation, name: str, left: Columns, owners: Places) -> None:
         """Compare samples that follow from an event that is there."""
         # Where stamps are repeated two events may agree up to rounding: the exact one holds.
-        for bound in [BOUND] if self._chronicle.is_ordered else [0.0, BOUND]:
+        for bound in [BOUND] if self._event_order.is_ordered else [0.0, BOUND]:
             left, owners = self._take_agreeing(deviation, name, left, owners, bound)
         for number in np.unique(owners).tolist():
             self._take_all(deviation, name, left.select(owners == number), number)
@@ -110,9 +110,9 @@ class LogCheck:
         """Take the samples that agree with an event within a bound; return the others."""
         if not len(owners):
             return left, owners
-        for number in self._chronicle.candidates(left.stamps, owners):
-            chosen = self._chronicle.holds(number, left.stamps)
-            segment = self._chronicle.segment(number)
+        for number in self._event_order.candidates(left.stamps, owners):
+            chosen = self._event_order.holds(number, left.stamps)
+            segment = self._event_order.segment(number)
             part = left.select(chosen)
             if not chosen.any() or not self._budget.reach_stamps(segment, part.stamps):
                 continue
@@ -125,7 +125,7 @@ class LogCheck:
 
     def _take_all(self, deviation: Deviation, name: str, part: Columns, number: int) -> None:
         """Take samples of an event whether they agree or not."""
-        segment = self._chronicle.segment(number)
+        segment = self._event_order.segment(number)
         if not self._budget.reach_stamps(segment, part.stamps):
             deviation.unreached += len(part.stamps)
             return

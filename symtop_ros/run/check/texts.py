@@ -14,10 +14,10 @@ from mcap.records import Message
 
 from symtop_ros.physics import Top
 from symtop_ros.run.check.mismatch import Mismatch, compare_fields, is_of_this_version
-from symtop_ros.run.log.account import Account
-from symtop_ros.run.log.chronicle import Chronicle
+from symtop_ros.run.log.catalog import Catalog
 from symtop_ros.run.log.contents import LATEST
-from symtop_ros.run.log.stretches import NO_BEGINNING, NOT_RECORDED, Unknown
+from symtop_ros.run.log.event_order import EventOrder
+from symtop_ros.run.log.intervals import NO_BEGINNING, NOT_RECORDED, Unknown
 from symtop_ros.run.models.urdf import robot_description
 from symtop_ros.run.session.diagnostics import balance_status, motion_status
 from symtop_ros.run.session.outputs import list_fixed_frames
@@ -59,27 +59,27 @@ ROUNDING = ("energy.balance", "angular_momentum.balance")
 class TextCheck:
     """The messages of one node that are neither events nor samples."""
 
-    def __init__(self, account: Account) -> None:
+    def __init__(self, catalog: Catalog) -> None:
         self.mismatches: list[Mismatch] = []
         self.compared: Counter[str] = Counter()  # messages by our names of topics
         self.reasons = dict(REASONS)  # why others were not compared
-        self._account = account
+        self._catalog = catalog
         self._budget = StepBudget(SPARE_STEPS)
-        self._unknown = Unknown(account.unknown)
-        self._chronicle = Chronicle(account.events, account.ordered.places)
+        self._unknown = Unknown(catalog.unknown)
+        self._event_order = EventOrder(catalog.events, catalog.ordered.places)
         self._judges: dict[str, Callable[[str, Message, int], Found]] = {
             DESCRIPTION.name: self._judge_description,
             TF_STATIC.name: self._judge_frames,
             DIAGNOSTICS.name: self._judge_diagnostics,
-            **({} if account.guess else {CLOCK.name: self._judge_clock}),
+            **({} if catalog.guess else {CLOCK.name: self._judge_clock}),
         }
-        self._kinds = list(dict.fromkeys(map(_kind, account.events)))
+        self._kinds = list(dict.fromkeys(map(_kind, catalog.events)))
         # Of a run with an event that is missing, the top of a description may not be known.
         harmless = NOT_RECORDED, NO_BEGINNING
-        self._is_whole = all(each.reason in harmless for each in account.unknown)
-        if not account.events:
+        self._is_whole = all(each.reason in harmless for each in catalog.unknown)
+        if not catalog.events:
             self._judges.clear()
-        if not all(map(is_of_this_version, account.events)):
+        if not all(map(is_of_this_version, catalog.events)):
             for name in (DESCRIPTION.name, TF_STATIC.name):
                 self._judges.pop(name, None)
                 self.reasons[name] = OTHER_VERSION
@@ -87,7 +87,7 @@ class TextCheck:
     def add(self, place: int, name: str, message: Message) -> None:
         """Compare a message, given with its place in the log and our name of its topic."""
         if name in self._judges:
-            topic = self._account.topics[name].name
+            topic = self._catalog.topics[name].name
             try:
                 found = self._judges[name](topic, message, place)
                 self.compared[name] += found is not None
@@ -142,7 +142,7 @@ class TextCheck:
         found: list[Found] = []
         for status in decode_statuses(message.data):
             owner, _, kind = status.name.rpartition(": ")
-            if owner == (self._account.node or "").lstrip("/") and kind in STATUSES:
+            if owner == (self._catalog.node or "").lstrip("/") and kind in STATUSES:
                 found.append(self._judge_status(name, status, kind, place))
         judged = [each for each in found if each is not None]
         return [one for each in judged for one in each] if judged else None
@@ -151,8 +151,8 @@ class TextCheck:
         """Return the fields of a status that are those of no event that can hold."""
         found: list[list[Mismatch]] = []
         for number in self._list_owners(status.stamp, place):
-            event = self._account.events[number]
-            segment = self._chronicle.segment(number)
+            event = self._catalog.events[number]
+            segment = self._event_order.segment(number)
             if not is_of_this_version(event):
                 self.reasons.setdefault(DIAGNOSTICS.name, OTHER_VERSION)
                 return None
@@ -172,15 +172,15 @@ class TextCheck:
         """Return the events that can hold at a stamp: by their place in the log, and by stamps."""
         stamps = np.array([stamp])
         places = np.array([place], dtype=np.intp)
-        owner = int(self._chronicle.find_owners(stamps, places)[0])
-        latest = int(self._chronicle.find_latest(places)[0])
+        owner = int(self._event_order.find_owners(stamps, places)[0])
+        latest = int(self._event_order.find_latest(places)[0])
         # What takes effect at the stamp itself may have come after the diagnostics, and an event
         # may come late.
         found = dict.fromkeys((latest, owner, owner - 1, latest + 1))
         return [each for each in found if self._may_hold(each, stamp)]
 
     def _may_hold(self, number: int, stamp: int) -> bool:
-        events = self._account.events
+        events = self._catalog.events
         return 0 <= number < len(events) and stamp >= min(
             events[number].stamp, events[number].previous_end
         )

@@ -1,4 +1,4 @@
-"""The contents of a log that its account is made of, gathered while every message is read once."""
+"""The contents of a log that its catalog is made of, gathered while every message is read once."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -9,11 +9,11 @@ import numpy as np
 from mcap.records import Message
 
 from symtop_ros.run.log.batch import BatchReader
-from symtop_ros.run.log.chronicle import Placed
+from symtop_ros.run.log.event_order import Placed
+from symtop_ros.run.log.intervals import Mark
 from symtop_ros.run.log.names import Names
 from symtop_ros.run.log.source import MessageSource
 from symtop_ros.run.log.stamps import StampRows
-from symtop_ros.run.log.stretches import Mark
 from symtop_ros.run.simulation.events import WHOLE
 from symtop_ros.run.simulation.topics import DIAGNOSTICS, EVENTS, SAMPLE_TOPICS
 from symtop_ros.run.wire.diagnostics import Status, decode_statuses

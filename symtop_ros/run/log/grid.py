@@ -15,10 +15,10 @@ import numpy as np
 
 from symtop_ros.base.arrays import Mask, Places, Real, Stamps
 from symtop_ros.run.log.batch import TF
-from symtop_ros.run.log.chronicle import Chronicle, Ordered
-from symtop_ros.run.log.passes import Passes
+from symtop_ros.run.log.event_order import EventOrder, Ordered
 from symtop_ros.run.log.source import MessageSource
 from symtop_ros.run.log.stamps import StampRows
+from symtop_ros.run.log.time_order import TimeOrder
 from symtop_ros.run.log.writer import BEGUN_ENTRY, FILE_ENTRY, METADATA
 from symtop_ros.run.simulation.events import MAX_STAMP, WHOLE, Event
 from symtop_ros.run.wire.layout import NANOSECONDS
@@ -106,10 +106,10 @@ class Grid:
     """The grid of stamps of a log."""
 
     def __init__(self, ordered: Ordered, recordings: Sequence[Recording]) -> None:
-        self._chronicle = Chronicle(ordered.events, ordered.places)
+        self._event_order = EventOrder(ordered.events, ordered.places)
         self._periods = np.array([*_list_periods(ordered, recordings)])  # first before all events
         is_own_time = any(each.is_own_time for each in recordings)
-        self.passes = Passes(ordered)
+        self.passes = TimeOrder(ordered)
         # Times without samples, each with the number of the event that says so.
         empty = [
             *_list_jumps(ordered.events),
@@ -149,21 +149,21 @@ class Grid:
     def _count_too_many(self, stamps: Stamps) -> int:
         """Return how many samples are there beyond one for each event that holds at their stamp."""
         times, counts = np.unique(stamps, return_counts=True)
-        allowed = np.maximum(self._chronicle.count_holding(times), 1)
+        allowed = np.maximum(self._event_order.count_holding(times), 1)
         return int(np.maximum(counts - allowed, 0).sum())
 
     def _find_rate(self, rows: StampRows) -> float | None:
         """Return the samples per s of the first ones."""
         stamps = np.array([row.first for row in rows.rows[:1]], dtype=np.int64)
         places = np.array([row.first_place for row in rows.rows[:1]], dtype=np.int64)
-        owners = self._chronicle.find_owners(stamps, places)
+        owners = self._event_order.find_owners(stamps, places)
         (period,) = self._find_periods(owners, _find_usual_period(rows)).tolist()
         return NANOSECONDS / period if period else None
 
     def _list_returns(self, stamps: Stamps, places: Places) -> Iterator[int]:
-        if not self._chronicle.is_in_log_order:  # chunks or messages are in another order
+        if not self._event_order.is_in_log_order:  # chunks or messages are in another order
             return
-        latest = self._chronicle.find_latest(places)
+        latest = self._event_order.find_latest(places)
         for k in np.flatnonzero(stamps[1:] < stamps[:-1]).tolist():
             # An event may come late.
             if not self._explains_return(range(int(latest[k]) + 1, int(latest[k + 1]) + 2)):
@@ -280,7 +280,7 @@ def _list_jumps(events: Sequence[Event]) -> Iterator[Empty]:
             yield number, event.stamp, min(int(to), MAX_STAMP)
 
 
-def _list_pauses(events: Sequence[Event], passes: Passes) -> Iterator[Empty]:
+def _list_pauses(events: Sequence[Event], passes: TimeOrder) -> Iterator[Empty]:
     """Yield the pauses of a recording."""
     records = (number for number, event in enumerate(events) if event.name == "record")
     for before, after in pairwise(records):

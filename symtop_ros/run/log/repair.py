@@ -1,6 +1,6 @@
 """Repair of a damaged log: everything readable is written to a new, complete file.
 
-What is lost is written as well, with its place, so that the new file has the account of the old.
+What is lost is written as well, with its place, so that the new file has the catalog of the old.
 """
 
 import json
@@ -15,7 +15,7 @@ from pathlib import Path
 from mcap.writer import CompressionType, Writer
 
 from symtop_ros.base.counts import write_count
-from symtop_ros.run.log.account import Account
+from symtop_ros.run.log.catalog import Catalog
 from symtop_ros.run.log.reader import LOST_BEFORE, LogError, McapFile, log_errors
 from symtop_ros.run.log.source import Loss
 from symtop_ros.run.log.writer import REPAIR, REPAIR_LOSSES
@@ -38,7 +38,7 @@ class Repaired:
         return ", ".join([write_count(self.messages, "message"), *some])
 
 
-def repair(file: McapFile, target: Path, account: Account) -> Repaired:
+def repair(file: McapFile, target: Path, catalog: Catalog) -> Repaired:
     """Write the readable parts of a log with new indexes and checksums, and what is lost."""
     with log_errors("write", target):
         if target.exists():
@@ -47,7 +47,7 @@ def repair(file: McapFile, target: Path, account: Account) -> Repaired:
             undo.callback(target.unlink)
             writer = Writer(stream, compression=CompressionType.ZSTD)
             writer.start(file.profile, "symtop_ros top_replay --repair")
-            found = _copy(file, writer, account.losses)
+            found = _copy(file, writer, catalog.losses)
             writer.finish()  # type: ignore[no-untyped-call]
             undo.pop_all()  # the file stays
     return found

@@ -9,8 +9,8 @@ from dataclasses import replace
 from functools import cached_property
 
 from symtop_ros.base.refusals import one_line
-from symtop_ros.run.log.account import Account, read_account
 from symtop_ros.run.log.batch import Batch, BatchReader
+from symtop_ros.run.log.catalog import Catalog, read_catalog
 from symtop_ros.run.log.contents import DECODED, Chosen, select
 from symtop_ros.run.log.names import Names
 from symtop_ros.run.log.reader import LogError
@@ -31,9 +31,9 @@ class TopLog:
         self._names = Names(file, node)
 
     @cached_property
-    def account(self) -> Account:
+    def catalog(self) -> Catalog:
         """All that is known of the log; LogError if it has no run of a top."""
-        found = read_account(self.file, self._names)
+        found = read_catalog(self.file, self._names)
         if not found.has_top:
             topics = sorted(channel.topic for channel in self.file.channels.values())
             known = ", ".join(topics[:20]) or "none"
@@ -43,10 +43,10 @@ class TopLog:
         return found
 
     def batches(self) -> Iterator[Batch]:
-        """Yield the run from its start to its end, with the events of the account: each once."""
+        """Yield the run from its start to its end, with the events of the catalog: each once."""
         reader = BatchReader()
-        reader.frame = self.account.frame
-        ordered = self.account.ordered
+        reader.frame = self.catalog.frame
+        ordered = self.catalog.ordered
         own = {*map(_key, ordered.places, ordered.events)}
         for run in self.list_messages():
             chosen = [each for each in run if each[1] in DECODED]
@@ -63,7 +63,7 @@ class TopLog:
         LogError
             If they are damaged.
         """
-        topic = self.account.topics.get(POINTS.name)
+        topic = self.catalog.topics.get(POINTS.name)
         if topic is None or not topic.count:
             return None
         chunks = (select(self._names, chunk, 0) for chunk in self.file.chunks())
@@ -77,7 +77,7 @@ class TopLog:
         """Yield the messages of the top in runs that keep the topics of each sample together."""
         messages: list[Chosen] = []
         topics = sum(
-            each.count > 0 for name, each in self.account.topics.items() if name in DECODED
+            each.count > 0 for name, each in self.catalog.topics.items() if name in DECODED
         )
         most = ROWS * max(1, topics)
         place = 0

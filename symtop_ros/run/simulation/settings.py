@@ -23,6 +23,7 @@ from symtop_ros.run.simulation.sensor.imu import (
     ALONG,
     CENTRE,
     EARTH,
+    LARGEST_LIMIT,
     MAX_DISTANCE,
     MAX_FIELD,
     Imu,
@@ -134,6 +135,10 @@ def _noise(description: str, unit: str) -> Parameter:
     return _fix(_number(0.0, description, unit, 0.0, MAX_NOISE))
 
 
+def _limit(description: str, unit: str) -> Parameter:
+    return _fix(_number(0.0, description, unit, 0.0, LARGEST_LIMIT))
+
+
 def _whole(largest: int, name: str, value: Any) -> int:
     try:
         whole = number(name, value, "", 0, largest)
@@ -219,6 +224,10 @@ PARAMETERS: dict[str, Parameter] = {
     "imu.noise.accelerometer_noise_density": _noise("white noise", "m/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_random_walk": _noise("random walk of the bias", "m/s^3/sqrt(Hz)"),
     "imu.noise.seed": SEED,
+    "imu.limits.gyroscope_range": _limit("largest rate that is shown; 0: any", "rad/s"),
+    "imu.limits.gyroscope_resolution": _limit("step of the rates; 0: none", "rad/s"),
+    "imu.limits.accelerometer_range": _limit("largest force that is shown; 0: any", "m/s^2"),
+    "imu.limits.accelerometer_resolution": _limit("step of the forces; 0: none", "m/s^2"),
     "magnetic_field.enabled": _flag(False, "publish ~/magnetic_field", read_only=True),
     "magnetic_field.vector": _fix(_vector("magnetic field, world frame", 3, MAX_FIELD, "T")),
     "magnetic_field.noise.magnetometer_noise_density": _noise("white noise", "T/sqrt(Hz)"),
@@ -380,6 +389,7 @@ def _build_imu(clean: Mapping[str, Any]) -> Imu | None:
             clean["imu.position"] or CENTRE,
             clean["imu.orientation"] or ALONG,
             **_group(clean, "imu.noise."),
+            **_group(clean, "imu.limits."),
             magnetometer=magnetometer,
         )
     except ValueError as error:

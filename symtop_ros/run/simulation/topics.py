@@ -131,10 +131,8 @@ def _imu(samples: Samples) -> Real:
     orientation, rates, force = imu.measure(
         samples.segment.motion, samples.state, samples.segment.rig.gravity
     )
-    if imu.has_noise:
-        errors = imu.noise(samples.stamps)
-        rates, force = rates + errors[..., :3], force + errors[..., 3:]
-    measured = zip(imu.covariances, (orientation, rates, force), strict=True)
+    shown = imu.show(np.concatenate((rates, force), axis=-1), samples.stamps)
+    measured = zip(imu.covariances, (orientation, shown[..., :3], shown[..., 3:]), strict=True)
     variances = {f"{name}_covariance": each for name, each in imu.covariances.items()}
     return messages.IMU.arrange(shape, {**dict(measured), **variances})
 

@@ -16,7 +16,8 @@ from symtop_ros.truth.fit.starts import Starts, fill
 
 SPARSE = 4.0  # rows in a nutation, below which a different motion may show the same rows
 NYQUIST = 2.0  # rows in a nutation, more than which are assumed of two motions that fit as well
-RATES = "rates", "inertial"  # kinds whose rows show the spin itself
+SPINS = "rates", "inertial"  # kinds whose rows show the spin itself
+RATES = *SPINS, "across"  # kinds of a gyroscope
 NEAR = np.linspace(0.8, 1.2, 33)  # of p_psi/Ix of a start
 
 

@@ -1,7 +1,6 @@
 """Starts of the search for records of the body, as rates or attitudes, and of theta alone."""
 
-import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
 
@@ -10,15 +9,17 @@ from scipy.ndimage import median_filter
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real, compose, find_rotation_vectors, invert
+from symtop_ros.truth.fit.across import measure_across, turn_upright
 from symtop_ros.truth.fit.camera_starts import list_camera_starts
 from symtop_ros.truth.fit.kinds import KINDS
-from symtop_ros.truth.fit.model import Model, find_axis, point_along
+from symtop_ros.truth.fit.model import Model, find_axis, name_parameters, point_along
 from symtop_ros.truth.fit.record import Record
 from symtop_ros.truth.fit.starts import Starts, fill, fill_axis_starts, list_axis_starts
 
 RATIOS = (0.25, 1.0, 1.7)  # Iz/Ix of starts
 ALLOWED = 0.01, 2.0  # Iz/Ix of bodies that spin
 WHOLE = 0, 1, -1, 2, -2  # turns from row to row, besides those that are seen
+FACTORS = np.linspace(0.85, 1.15, 7)  # of a constant by the rule of trapezoids
 PAD = 8  # by which a spectrum is finer
 
 
@@ -26,6 +27,7 @@ def list_starts(record: Record) -> Iterator[Starts]:
     """Yield starts for a record of any kind."""
     makers = {
         "rates": list_rate_starts,
+        "across": list_across_starts,
         "attitude": list_attitude_starts,
         "theta": list_tilt_starts,
         "pixels": list_camera_starts,
@@ -45,21 +47,12 @@ def list_rate_starts(record: Record) -> Iterator[Starts]:
     columns, w = _integrate(record.times, record.values, rates[:, 2])
     x = np.linalg.lstsq(columns.reshape(-1, 6), w.ravel(), rcond=None)[0]
     weight = float(np.linalg.norm(x[1:4]))
-    model = Model(record, _turn_upright(x[1:4]))
+    model = Model(record, turn_upright(np.asarray(x[1:4], dtype=float)))
     rows = [
         {"Mgl/Ix": weight, "Iz/Ix": ratio, "wx": x[4], "wy": x[5], "spin": spin}
         for ratio in (float(np.clip(x[0], 0.01, 1.99)), *RATIOS)
     ]
     yield Starts(model, np.array([fill(model, row) for row in rows]))
-
-
-def _turn_upright(vertical: Iterable[float]) -> Real:
-    """Return the quaternion of the smallest rotation that takes a vector to the z axis."""
-    x, y, z = map(float, vertical)
-    across = math.hypot(x, y)
-    half = math.atan2(across, z) / 2
-    a, b = (y / across, -x / across) if across else (1.0, 0.0)
-    return np.array([math.cos(half), a * math.sin(half), b * math.sin(half), 0.0])
 
 
 def _integrate(times: Real, rates: Real, spins: Real) -> tuple[Real, Real]:
@@ -87,6 +80,16 @@ def _sum_up(rows: Real, steps: Real) -> Real:
     """Return the integrals (n, m) of rows by the rule of trapezoids, from the first one on."""
     parts = (rows[1:] + rows[:-1]) / 2 * steps[:, np.newaxis]
     return np.concatenate([np.zeros((1, rows.shape[1])), np.cumsum(parts, axis=0)])
+
+
+def list_across_starts(record: Record) -> Iterator[Starts]:
+    """Yield starts for rates across the axis alone, by their constants of motion."""
+    seen = measure_across(record.times, record.values[:, 0] + 1j * record.values[:, 1])
+    ratio = record.known.get("Iz/Ix", (1.0, 0.0))[0]
+    for factor in FACTORS:
+        motion = replace(seen, k=factor * seen.k).find_motion(ratio)
+        model = Model(record, np.asarray(motion.start.orientation))
+        yield Starts(model, np.array([fill(model, name_parameters(motion))]))
 
 
 def list_attitude_starts(record: Record) -> Iterator[Starts]:

@@ -24,6 +24,7 @@ POINTS = 2000  # of a record that are drawn
 COLOURS = (BLUE, RED, GOLD, INK, GREY, PALE)
 UNITS = {
     "rates": "rad/s",
+    "across": "rad/s",
     "inertial": "rad/s, m/s^2",
     "pixels": "pixels",
     "axis": "",

@@ -17,8 +17,8 @@ class Kind:
         True if the body is seen, and not only its axis.
     shows_azimuth : bool
         True if the record shows in which direction the axis is tilted.
-    residuals : int
-        Numbers that are compared in each row.
+    residuals : tuple of str
+        Names of the numbers that are compared in each row.
     rounds : float
         Period of the last column, in rad; 0: it is not periodic.
     """
@@ -27,7 +27,7 @@ class Kind:
     columns: tuple[str, ...]
     shows_spin: bool = False
     shows_azimuth: bool = True
-    residuals: int = 0
+    residuals: tuple[str, ...] = ()
     rounds: float = 0.0
 
     @property
@@ -38,15 +38,18 @@ class Kind:
 
 def _kind(name: str, **more: bool | float) -> Kind:
     seen = SEEN[name]
-    return Kind(name, seen.columns, residuals=len(seen.residuals), **more)  # type: ignore[arg-type]
+    return Kind(name, seen.columns, residuals=seen.residuals, **more)  # type: ignore[arg-type]
 
 
+#: Rates across the axis alone, of a gyroscope whose range ends below the spin.
+ACROSS = Kind("across", ("wx", "wy"), True, False, ("wx", "wy"))
 KINDS = {
     kind.name: kind
     for kind in (
         _kind("attitude", shows_spin=True),
         _kind("rates", shows_spin=True, shows_azimuth=False),
         _kind("inertial", shows_spin=True, shows_azimuth=False),
+        ACROSS,
         _kind("axis"),
         _kind("angles", rounds=6.283185307179586),
         _kind("pixels"),

@@ -1,27 +1,40 @@
 """Rows of a sensor at its limit, which are no measurements."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from scipy.ndimage import binary_dilation
 
+from symtop_ros.base.arrays import Mask, Real
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.fit.aliases import RATES
+from symtop_ros.truth.fit.check import Check
 from symtop_ros.truth.fit.files import Rows
-from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.fitting import fit_motion
+from symtop_ros.truth.fit.kinds import ACROSS, KINDS
+from symtop_ros.truth.fit.record import Record
+from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.residuals import saturation
 from symtop_ros.truth.residuals.saturation import Saturation, find_saturated, find_saturations
 
 MOST = 0.5  # of the rows that may be left out
+SPIN = 2  # column of the rate about the axis
+# A spin next to a limit is beyond it if the noise is up: the rows that are left would be those with
+# noise that is down. Where one of so many rows on either side is at the limit, none is taken.
+BESIDE = 8
 
 
 def leave_out_saturated(rows: Rows) -> Rows:
-    """Return the rows within the range of the sensor, with a note on those that are not.
+    """Return what is within the range of the sensor, with a note on what is not.
+
+    The rate about the axis is left out if it is beyond the range in most rows.
 
     Raises
     ------
     RefusedError
-        If more than half of the rows are at a limit.
+        If more than half of the rows are at another limit.
     """
     if rows.kind not in RATES or not len(rows.values):
         return rows
@@ -30,15 +43,57 @@ def leave_out_saturated(rows: Rows) -> Rows:
     found = (*rates, *(replace(each, column=each.column + 3) for each in forces))
     if not found:
         return rows
-    good = ~find_saturated(rows.values, found).any(axis=1)
+    both = (rows.values[:, :3], rates), (rows.values[:, 3:], forces)
+    bad = np.concatenate([find_saturated(*each) for each in both], axis=1)
+    at_limit = int(bad.any(axis=1).sum())
+    bad[:, SPIN] = binary_dilation(bad[:, SPIN], iterations=BESIDE)
+    if rows.kind == "rates" and bad[:, SPIN].mean() > MOST:
+        rows = _leave_out_spin(rows, _describe_spin(rows.values[bad[:, SPIN], SPIN]))
+        found, bad = tuple(each for each in found if each.column != SPIN), bad[:, :SPIN]
     parts = ", ".join(_describe(each, rows) for each in found)
-    if good.mean() < 1 - MOST:
+    is_bad = np.asarray(bad.any(axis=1))
+    beside = ", or next to it" if is_bad.sum() > at_limit else ""
+    why = f"at the limit of the sensor{beside}: left out ({parts})"
+    return _leave_out(rows, is_bad, why, parts)
+
+
+def _leave_out(rows: Rows, bad: Mask, why: str, parts: str) -> Rows:
+    """Return the other rows."""
+    if bad.mean() > MOST:
         raise RefusedError(f"a record must be within the range of its sensor, got {parts}")
-    left_out = write_count(int((~good).sum()), "row", "are")
-    note = f"{left_out} at the limit of the sensor: left out ({parts})"
-    return replace(
-        rows, times=rows.times[good], values=rows.values[good], notes=(*rows.notes, note)
-    )
+    if not bad.any():
+        return rows
+    note = f"{write_count(int(bad.sum()), 'row', 'are')} {why}"
+    times, values = rows.times[~bad], rows.values[~bad]
+    return replace(rows, times=times, values=values, notes=(*rows.notes, note))
+
+
+def _leave_out_spin(rows: Rows, note: str) -> Rows:
+    """Return the rates across the axis."""
+    steps = None if rows.steps is None else rows.steps[:SPIN]
+    return Rows(ACROSS.name, rows.times, rows.values[:, :SPIN], (*rows.notes, note), steps)
+
+
+def fit_record(record: Record, report: Callable[[float], None]) -> Fit:
+    """Return the motion that explains a record.
+
+    That of the rates across the axis, if the one about it does not change although others have
+    noise: the sensor is at a limit that is not one of the usual ones.
+    """
+    fit = fit_motion(record, report)
+    if record.kind.name != "rates" or SPIN not in Check(fit).still:
+        return fit
+    notes = *record.notes, _describe_spin(record.values[:, SPIN])
+    values = record.values[:, :SPIN]
+    steps = None if record.steps is None else record.steps[:SPIN]
+    return fit_motion(replace(record, kind=ACROSS, values=values, notes=notes, steps=steps), report)
+
+
+def _describe_spin(values: Real) -> str:
+    """Return the note on rates (n,) about the axis that are at the limit of the sensor."""
+    limit = float(np.median(values))
+    at = f"wz at {limit:.5g} rad/s ({np.degrees(limit):.5g} deg/s)"
+    return f"{at}, the limit of the sensor: the spin is beyond it, and wz is left out"
 
 
 def _describe(found: Saturation, rows: Rows) -> str:

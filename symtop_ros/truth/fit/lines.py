@@ -41,10 +41,14 @@ def name_frequencies(fit: Fit) -> dict[str, float]:
         nutation, precession = TURN / motion.nutation_period, motion.mean_precession_rate
     except ValueError:  # along the separatrix, or through a pole
         return {}
-    rates = {"nutation": float(nutation), "precession": float(precession)}
+    rates = {"nutation": float(nutation)}
+    if not fit.model.lacks_ratio:
+        rates["precession"] = float(precession)
     if fit.model.kind.shows_spin:
         times = PHASES * motion.nutation_period
         spin = float(np.mean(motion.at(times).euler_rates.psi_dot))
-        rates |= {"spin": spin, "sum": spin + precession, "difference": spin - precession}
+        rates["spin"] = spin
+    if {"spin", "precession"} <= {*rates}:
+        rates |= {"sum": spin + precession, "difference": spin - precession}
     rates |= {f"twice_{name}": 2 * rates[name] for name in TWICE if name in rates}
     return {name: abs(rate) / TURN for name, rate in rates.items() if np.isfinite(rate)}

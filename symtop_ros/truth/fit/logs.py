@@ -13,13 +13,13 @@ from symtop_ros.run.log.bags import open_run
 from symtop_ros.run.log.reader import list_problems
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.run.wire.messages import IMU
-from symtop_ros.truth.fit.aliases import RATES
+from symtop_ros.truth.fit.aliases import SPINS
 from symtop_ros.truth.fit.files import Rows
 from symtop_ros.truth.topics.estimates import decode_estimates, read_messages
 from symtop_ros.truth.topics.measured import find_absent, read_measured
 
 SENSED = ("angular_velocity", "linear_acceleration")
-SEEN = ("attitude", *RATES)  # kinds of which there are messages
+SEEN = ("attitude", *SPINS)  # kinds of which there are messages
 
 
 def read_log(path: Path, topic: str | None, frame: str | None, kind: str | None) -> Rows:

@@ -13,13 +13,13 @@ import numpy as np
 from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
 from symtop_ros.base.progress import Progress
 from symtop_ros.base.refusals import RefusedError, refuse
-from symtop_ros.truth.fit.aliases import RATES
+from symtop_ros.run.simulation.points import SEEN
+from symtop_ros.truth.fit.aliases import SPINS
 from symtop_ros.truth.fit.camera import CENTRE
 from symtop_ros.truth.fit.check import FAILS
 from symtop_ros.truth.fit.files import Rows, read_rows
-from symtop_ros.truth.fit.fitting import fit_motion
 from symtop_ros.truth.fit.kinds import KINDS
-from symtop_ros.truth.fit.limits import leave_out_saturated
+from symtop_ros.truth.fit.limits import fit_record, leave_out_saturated
 from symtop_ros.truth.fit.plan_options import add_options, make_plan, refuse_plan_options
 from symtop_ros.truth.fit.plan_report import PlanReport
 from symtop_ros.truth.fit.record import MOST, Known, Record, make_record
@@ -60,7 +60,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--example", action="store_true", help=f"copy a record to ./{EXAMPLE} and fit it"
     )
-    parser.add_argument("--kind", choices=KINDS, help="kind of record if its columns do not say it")
+    parser.add_argument("--kind", choices=SEEN, help="kind of record if its columns do not say it")
     parser.add_argument("--topic", help="full name of a topic of a log")
     parser.add_argument("--frame", help="child frame of the top, for /tf")
     parser.add_argument("--friction", action="store_true", help="look for linear friction as well")
@@ -161,7 +161,7 @@ def _run(options: argparse.Namespace) -> int:
         options.kind = "inertial"
     rows = read(path, options, progress)
     record = fill_record(rows, options)
-    fit = fit_motion(record, lambda part: progress.report(part, "fitting"))
+    fit = fit_record(record, lambda part: progress.report(part, "fitting"))
     given = {name: known for name, known in find_given(options).items() if known}
     report = Report.compare(str(path), len(record), fit, given)
     progress.end()
@@ -169,12 +169,19 @@ def _run(options: argparse.Namespace) -> int:
     if options.plot:
         draw(report, options.plot)
     if options.run:
-        if report.fit.model.record.has_kick:
-            raise RefusedError("--run must have one free motion, got two that a kick joins")
+        refuse_run(report.fit.model.record)
         run = make_run(report.fit, len(record), given)
         run.write(options.run)
         print(run.describe(options.run), file=sys.stderr if options.json else sys.stdout)
     return int(report.verdict == FAILS)
+
+
+def refuse_run(record: Record) -> None:
+    """Refuse to write a fit that is not one motion with all its numbers."""
+    if record.has_kick:
+        raise RefusedError("--run must have one free motion, got two that a kick joins")
+    if record.kind.name not in SEEN:
+        raise RefusedError("--run must have rates about the axis, got none within the range")
 
 
 def copy_example() -> Path:
@@ -224,7 +231,7 @@ def describe_record(kind: str, options: argparse.Namespace) -> dict[str, Any]:
 
 def _refuse_options(kind: str, options: argparse.Namespace) -> None:
     """Refuse options that say something of a different kind of record."""
-    if options.mount is not None and kind not in RATES:
+    if options.mount is not None and kind not in SPINS:
         raise RefusedError(f"--mount must have a record of rates, got {kind}")
     if kind == "inertial" and not options.position:
         raise RefusedError("--position must be the place of the accelerometer, got none")

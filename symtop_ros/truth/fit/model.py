@@ -22,7 +22,7 @@ from symtop_ros.physics import (
     specific_force,
 )
 from symtop_ros.truth.fit.camera import CAMERA, CENTRE, project
-from symtop_ros.truth.fit.kinds import Kind
+from symtop_ros.truth.fit.kinds import ACROSS, Kind
 from symtop_ros.truth.fit.record import Record
 
 MOUNT = ("bias_x", "bias_y", "bias_z", "tilt_x", "tilt_y")  # of a gyroscope
@@ -60,7 +60,9 @@ class Model:
     def names(self) -> tuple[str, ...]:
         """Names of the parameters."""
         spins = self.kind.shows_spin
-        core = ("Mgl/Ix", "Iz/Ix", "spin") if spins else ("Mgl/Ix", "p_psi/Ix")
+        core: tuple[str, ...] = ("Mgl/Ix", "Iz/Ix", "spin") if spins else ("Mgl/Ix", "p_psi/Ix")
+        if self.lacks_ratio:
+            core = "Mgl/Ix", "spin"
         camera = tuple(n for n in CAMERA if self._seeks(n))
         is_inertial = self.kind.name == "inertial"
         return (
@@ -76,6 +78,11 @@ class Model:
             *(FORCE_BIASES if is_inertial and self.record.has_mount else ()),
             *(camera if self.kind.name == "pixels" else ()),
         )
+
+    @property
+    def lacks_ratio(self) -> bool:
+        """True if Iz/Ix is taken as one: rates across the axis show the same with any other."""
+        return self.kind is ACROSS and "Iz/Ix" not in self.record.known
 
     def _seeks(self, name: str) -> bool:
         """Return True if a number of the camera is looked for."""
@@ -182,8 +189,8 @@ class Model:
     def _see(self, state: State, x: Real) -> Real:
         if self.kind.name == "attitude":
             return state.orientation
-        if self.kind.name == "rates":
-            return self._mount(state.angular_velocity, x)
+        if self.kind.name in {"rates", ACROSS.name}:
+            return self._mount(state.angular_velocity, x)[..., : self.kind.width]
         axis = find_axis(state.orientation)
         if self.kind.name == "axis":
             return axis * np.exp(self.take(x, LENGTH))[:, np.newaxis, np.newaxis]
@@ -233,7 +240,7 @@ class Model:
         try:
             return np.asarray(self.compare(self.show(x[np.newaxis]))[0])
         except ValueError:  # numbers beyond those of a top
-            return np.full((len(self.record), self.kind.residuals), BAD)
+            return np.full((len(self.record), len(self.kind.residuals)), BAD)
 
     def find_scales(self, x: Real) -> Real:
         """Return the size (p,) of each parameter: rates are those of the motion."""
@@ -318,7 +325,8 @@ def find_momentum(model: Model, x: Real) -> float:
     place = model.place
     if "p_psi/Ix" in place:
         return float(x[place["p_psi/Ix"]])
-    return float(x[place["Iz/Ix"]] * x[place["spin"]])
+    ratio = 1.0 if model.lacks_ratio else x[place["Iz/Ix"]]
+    return float(ratio * x[place["spin"]])
 
 
 def name_parameters(motion: Motion) -> dict[str, float]:

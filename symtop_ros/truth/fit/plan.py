@@ -13,6 +13,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion, State, regular_precession_rates
+from symtop_ros.truth.fit.across import Across
 from symtop_ros.truth.fit.model import Model, find_momentum, name_parameters
 from symtop_ros.truth.fit.record import FEWEST, Record
 from symtop_ros.truth.fit.refine import Fit, find_sizes, find_spectrum
@@ -67,6 +68,9 @@ class Plan:
         Deviations of the noise of each residual, which is white.
     camera : mapping
         Of pixels: the camera, by the names of `camera.CAMERA`.
+    limits : ndarray (m,) or float
+        Largest size of the values of each column that the sensor shows; rows beyond it show
+        nothing.
 
     Examples
     --------
@@ -89,6 +93,7 @@ class Plan:
     record: Record
     noise: Real
     camera: Mapping[str, float]
+    limits: Real | float = math.inf
 
     @cached_property
     def fit(self) -> Planned:
@@ -98,12 +103,14 @@ class Plan:
     def expect(self, motion: Motion, record: Record) -> Planned:
         """Return a motion with the exact record of it."""
         model = Model(record, np.asarray(motion.start.orientation))
+        if model.lacks_ratio:  # the motion with Iz = Ix that shows the same
+            motion = Across.of(motion).find_motion(1.0)
+            model = Model(record, np.asarray(motion.start.orientation))
         x = fill(model, {**name_parameters(motion), **self.camera})
         exact = replace(record, values=model.show(x[np.newaxis])[0])
-        rows = len(record)
         noise = Noise(
-            kept=np.ones(rows, dtype=bool),
-            before=np.zeros(rows, dtype=int),
+            kept=np.asarray((np.abs(exact.values) <= self.limits).all(axis=1)),
+            before=np.zeros(len(record), dtype=int),
             sigma=self.noise,
             partial=np.zeros((0, len(self.noise))),
             outliers=0,
@@ -123,9 +130,10 @@ class Plan:
         """
         fit, of = self._longest, dict(list_quantities(self._longest))[name]
         slope, most = find_slope(fit, of), PRECISE * abs(of(fit.x))
+        shown = np.cumsum(fit.noise.kept)
 
         def reaches(rows: int) -> bool:
-            return find_bound(fit.columns[:rows], fit.priors, slope) <= most
+            return find_bound(fit.columns[: shown[rows - 1]], fit.priors, slope) <= most
 
         if not reaches(LONGEST):
             return None
@@ -142,7 +150,9 @@ class Plan:
 
     @cached_property
     def starts(self) -> list[Start]:
-        """Starts of the same top, the best first."""
+        """Starts of the same top, the best first; none if no start shows p_psi."""
+        if self.fit.model.lacks_ratio:
+            return []
         found = [self._try(*each) for each in self._list_starts()]
         return sorted(found, key=lambda each: (not each.is_straight, each.deviation))
 

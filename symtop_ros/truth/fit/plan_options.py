@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,9 +13,12 @@ from symtop_ros.base.refusals import RefusedError, find_nearest, one_line, refus
 from symtop_ros.physics import Motion
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.settings import PARAMETERS, Settings
-from symtop_ros.truth.fit.kinds import KINDS, Kind
+from symtop_ros.truth.fit import record
+from symtop_ros.truth.fit.aliases import SPINS
+from symtop_ros.truth.fit.kinds import ACROSS, KINDS, Kind
+from symtop_ros.truth.fit.limits import MOST, SPIN
 from symtop_ros.truth.fit.plan import Plan
-from symtop_ros.truth.fit.record import FEWEST, MOST, Record
+from symtop_ros.truth.fit.record import FEWEST, Record
 from symtop_ros.truth.fit.search import NEAREST
 
 CAMERA = (300.0, 30.0, 10.0)  # pixels of the axis, degrees of elevation, lengths of the distance
@@ -22,8 +26,8 @@ RATE, SECONDS = 120.0, 3.0
 # Deviations of noise: rad of angles, parts of the length of the axis, pixels, rad/s
 USUAL = {"angles": 0.005, "theta": 0.005, "axis": 0.005, "pixels": 1.0, "attitude": 0.005}
 SENSOR = (0.01, 0.1)  # rad/s and m/s^2
-ACROSS = 1e-6  # rad; an axis nearer to the vertical has no phi'
-ASKED = "rate", "noise", "seconds", "camera"  # options that only a plan has
+UPRIGHT = 1e-6  # rad; an axis nearer to the vertical has no phi'
+ASKED = "rate", "noise", "seconds", "camera", "range", "resolution"  # options of a plan alone
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -55,6 +59,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         f"looks for; {' '.join(f'{each:g}' for each in CAMERA)}",
     )
 
+    for name, what in (("range", "largest number"), ("resolution", "step of the numbers")):
+        group.add_argument(
+            f"--{name}",
+            type=positive,
+            nargs="+",
+            metavar="LIMIT",
+            help=f"{what} that a gyroscope shows, rad/s, and that an accelerometer shows, m/s^2",
+        )
+
 
 def refuse_plan_options(options: argparse.Namespace) -> None:
     """Refuse options of a plan without one."""
@@ -78,7 +91,7 @@ def _refuse_odd(motion: Motion, has_friction: bool) -> None:
         raise RefusedError(
             "--plan must have a top that gravity and friction move, got a driven one"
         )
-    if abs(np.sin(float(motion.start.euler_angles.theta))) < ACROSS:
+    if abs(np.sin(float(motion.start.euler_angles.theta))) < UPRIGHT:
         raise RefusedError("--plan must have a tilted axis at the start, got a vertical one")
     rates = motion.friction.axial, motion.friction.transverse
     if has_friction and not all(rates):  # a fit looks for friction that is not negative
@@ -103,13 +116,48 @@ def _read_change(text: str) -> tuple[str, str | float]:
 
 def find_noise(kind: Kind, given: Sequence[float] | None) -> Real:
     """Return the deviation (r,) of each residual."""
-    numbers = given or ([USUAL[kind.name]] if kind.name in USUAL else SENSOR[: kind.residuals // 3])
+    numbers = given or (
+        [USUAL[kind.name]] if kind.name in USUAL else SENSOR[: len(kind.residuals) // 3]
+    )
     units = 2 if kind.name == "inertial" else 1
     if len(numbers) != units:
         raise RefusedError(
             f"--noise must have {write_count(units, 'number')} of {kind.name}, got {len(numbers)}"
         )
-    return np.repeat(np.asarray(numbers, dtype=float), kind.residuals // units)
+    return spread(numbers, kind)
+
+
+def find_limits(name: str, kind: Kind, given: Sequence[float] | None, default: float) -> Real:
+    """Return a range or a resolution (m,) of each column of a sensor."""
+    if given and kind.name not in SPINS:
+        raise RefusedError(f"--{name} must have a record of rates, got {kind.name}")
+    numbers, units = [*(given or ())], max(kind.width // 3, 1)
+    if len(numbers) > units:
+        count = write_count(units, "number")
+        raise RefusedError(f"--{name} must have at most {count} of {kind.name}, got {len(numbers)}")
+    return spread([*numbers, *[default] * (units - len(numbers))], kind)
+
+
+def spread(numbers: Sequence[float], kind: Kind) -> Real:
+    """Return numbers (r,) of the residuals of a kind, from one of each unit."""
+    return np.repeat(np.asarray(numbers, dtype=float), len(kind.residuals) // len(numbers))
+
+
+def limit_plan(plan: Plan) -> Plan:
+    """Return a plan without what is beyond the range of the sensor, as a fit leaves it out."""
+    values = np.abs(plan.fit.model.record.values)
+    shares = (values > plan.limits).mean(axis=0)
+    note, kind = "wz is beyond the range of the sensor: it will be left out", plan.record.kind
+    if kind.name == "rates" and shares[SPIN] > MOST:
+        record = replace(plan.record, kind=ACROSS, notes=(note,))
+        two = [np.asarray(each)[:SPIN] for each in (plan.noise, plan.limits)]
+        return limit_plan(Plan(plan.motion, record, two[0], plan.camera, two[1]))
+    share = float((values > plan.limits).any(axis=1).mean())
+    if share > MOST:
+        raise RefusedError(f"--range must show most of the rows, got {share:.0%} beyond it")
+    note = f"{share:.0%} of the rows are beyond the range of the sensor: they will be left out"
+    notes = (*plan.record.notes, note) if share else plan.record.notes
+    return replace(plan, record=replace(plan.record, notes=notes))
 
 
 def find_plan_camera(kind: Kind, options: argparse.Namespace) -> dict[str, float]:
@@ -133,8 +181,11 @@ def make_plan(options: argparse.Namespace, kind: str, more: Mapping[str, object]
     """Return the plan that the options ask for; `more` are attributes of its record."""
     motion, found = read_motion(options.plan, options.friction), KINDS[kind]
     rows = round((options.seconds or SECONDS) * (options.rate or RATE)) + 1
-    if not FEWEST <= rows <= MOST:
-        raise refuse("--seconds times --rate", f"{FEWEST} to {MOST} rows", rows)
+    if not FEWEST <= rows <= record.MOST:
+        raise refuse("--seconds times --rate", f"{FEWEST} to {record.MOST} rows", rows)
     times = np.arange(rows) / (options.rate or RATE)
-    record = Record(times, np.zeros((rows, found.width)), found, **more)  # type: ignore[arg-type]
-    return Plan(motion, record, find_noise(found, options.noise), find_plan_camera(found, options))
+    planned = Record(times, np.zeros((rows, found.width)), found, **more)  # type: ignore[arg-type]
+    camera, noise = find_plan_camera(found, options), find_noise(found, options.noise)
+    steps = find_limits("resolution", found, options.resolution, 0.0)
+    ends = find_limits("range", found, options.range, np.inf)
+    return limit_plan(Plan(motion, planned, np.hypot(noise, steps / np.sqrt(12)), camera, ends))

@@ -81,6 +81,7 @@ class PlanReport:
             },
             "unknown": [describe_unknown(each) for each in self.unknown],
             "starts": [vars(each) for each in self.plan.starts],
+            "notes": list(record.notes),
         }
 
     def format(self) -> str:
@@ -97,7 +98,8 @@ class PlanReport:
         lines = [write("plan", head), *write_legend(known), *map(self._write_row, known)]
         lines += [f"not known: {write_unknown(each)}" for each in self.unknown]
         lines += [self._write_late(each) for each in self.values if self._is_late(each)]
-        return "\n".join([*lines, *map(self._write_start, self.plan.starts)])
+        notes = [f"note: {note}" for note in record.notes]
+        return "\n".join([*lines, *map(self._write_start, self.plan.starts), *notes])
 
     def _write_row(self, value: Value) -> str:
         row = write_row(value)

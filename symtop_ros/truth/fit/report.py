@@ -11,11 +11,10 @@ import numpy as np
 from symtop_ros.base.counts import write_count
 from symtop_ros.base.header import make_header
 from symtop_ros.base.measured import format_measured, write_measured
-from symtop_ros.run.simulation.points import SEEN
 from symtop_ros.truth.fit.check import FAILS, HOLDS, UNCLEAR, Check
 from symtop_ros.truth.fit.record import Known
 from symtop_ros.truth.fit.refine import Fit
-from symtop_ros.truth.fit.rivals import Rival, find_rivals
+from symtop_ros.truth.fit.rivals import Rival, find_calm, find_rivals
 from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import Value, convert, list_values
 from symtop_ros.truth.residuals.lines import Line
@@ -65,6 +64,9 @@ class Report:
     def compare(cls, source: str, rows: int, fit: Fit, given: dict[str, Known]) -> "Report":
         """Return the report of a fit of one free motion, or of what explains the record better."""
         rivals = find_rivals(fit, Check(fit))
+        calm = find_calm(fit, rivals)
+        if calm is not fit:
+            fit, rivals = calm, find_rivals(calm, Check(calm))
         best = next((each for each in rivals if each.explains), None)
         best = best or next((each for each in rivals if each.loses_spin), None)
         if best is None:
@@ -153,7 +155,7 @@ class Report:
 
     def _name(self, line: Line) -> str:
         """Return the name of the column of the residuals that has a line."""
-        return SEEN[self.fit.model.kind.name].residuals[line.column]
+        return self.fit.model.kind.residuals[line.column]
 
     def _describe_line(self, line: Line) -> dict[str, Any]:
         at = {"kind": line.name} if line.name else None
@@ -241,7 +243,7 @@ def write_systematic(value: Value) -> str:
 def write_unknown(unknown: Unknown) -> str:
     """Return what a record does not show, and why, in a sentence."""
     record: dict[str, Any] = {f"n{k}": number for k, number in enumerate(unknown.numbers)}
-    if unknown.kind in {"weak", "together"}:  # the last two are a value with its deviation
+    if unknown.kind in {"weak", "together", "cut"}:  # the last two are a value with its deviation
         value, deviation = unknown.numbers[-2:]
         record["value"] = format_measured(value, deviation)
     if unknown.kind == "together":

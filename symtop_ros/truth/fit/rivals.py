@@ -16,7 +16,7 @@ from scipy.stats import chi2
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.check import HOLDS, Check
-from symtop_ros.truth.fit.fitting import sum_squares
+from symtop_ros.truth.fit.fitting import choose_twin, is_better, sum_squares
 from symtop_ros.truth.fit.kicks import find_best, find_reach
 from symtop_ros.truth.fit.model import FRICTION, KICK, Model
 from symtop_ros.truth.fit.record import FEWEST, Record
@@ -97,6 +97,18 @@ def find_rivals(fit: Fit, check: Check) -> list[Rival]:
         part = refine(fit.model.move(record.thin(MANY)), fit.x)
         return [extend(each, record) for each in compare(part, check)]
     return compare(fit, check)
+
+
+def find_calm(fit: Fit, rivals: Sequence[Rival]) -> Fit:
+    """Return the free motion next to a rival if it leaves less than the fit; else the fit.
+
+    All searches may have missed it: then a rival gains much, by a kick that is none.
+    """
+    for rival in rivals:
+        calm = choose_twin(refine(*_move(rival.fit, fit.model.record)))
+        if is_better(calm, fit):
+            fit = calm
+    return fit
 
 
 def extend(rival: Rival, record: Record) -> Rival:

@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from symtop_ros.base.arrays import Real
+from symtop_ros.truth.fit.aliases import RATES
 from symtop_ros.truth.fit.camera import CENTRE, project
 from symtop_ros.truth.fit.model import find_axis
 from symtop_ros.truth.fit.refine import Fit
@@ -80,7 +81,7 @@ def list_changes(fit: Fit) -> Iterator[tuple[str, Real]]:
     if record.kind.name == "pixels":
         yield from _list_of_pictures(fit)
         yield from _list_of_cameras(fit)
-    if record.kind.name in {"rates", "inertial"}:
+    if record.kind.name in RATES:
         yield from _list_of_sensors(fit)
 
 
@@ -145,10 +146,13 @@ def _see(fit: Fit, camera: Mapping[str, float]) -> Real:
 
 def _list_of_sensors(fit: Fit) -> Iterator[tuple[str, Real]]:
     """Yield what gains and a tilt of a gyroscope do, with changes (n, r)."""
-    rates = fit.model.show(fit.x[np.newaxis])[0][:, :3]
-    others = np.zeros((len(rates), fit.residuals.shape[1] - 3))
-    for axis in np.eye(3):
-        yield "gain", np.hstack([GAIN * rates * axis, others])
+    shown = fit.model.show(fit.x[np.newaxis])[0]
+    width = shown.shape[1]
+    spins = shown[:, 2] if width > 2 else np.full(len(shown), fit.x[fit.model.place["spin"]])
+    rates = np.column_stack([shown[:, :2], spins])
+    others = np.zeros((len(rates), max(width - 3, 0)))
+    for axis in np.eye(3)[:width]:
+        yield "gain", np.hstack([GAIN * rates * axis, others])[:, :width]
     if not fit.model.record.has_mount:
         for axis in np.eye(3)[:2]:
-            yield "tilt", np.hstack([TILT * np.cross(rates, axis), others])
+            yield "tilt", np.hstack([TILT * np.cross(rates, axis), others])[:, :width]

@@ -10,6 +10,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion
+from symtop_ros.truth.fit.across import Across
 from symtop_ros.truth.fit.aliases import count_rows, is_alias
 from symtop_ros.truth.fit.camera import project
 from symtop_ros.truth.fit.model import find_axis, find_momentum
@@ -29,18 +30,27 @@ from symtop_ros.truth.fit.twins import (
     turn_camera,
     turn_over,
 )
-from symtop_ros.truth.fit.values import ALIASED, Value, find_slope, is_level, is_sparse
+from symtop_ros.truth.fit.values import (
+    ACROSS_HIDDEN,
+    ALIASED,
+    Value,
+    find_slope,
+    is_level,
+    is_sparse,
+)
 
 EXACT = 1e-9  # of the size of a record; twins agree to rounding, which grows with time
 ROWS = 50  # at which twins are compared
 STRONG = 0.98  # correlation of two numbers that are only known together
 ABOVE = 4.0  # deviations within which a camera may be straight above
+RATIO = 0.5  # Iz/Ix of a twin
 BIAS = 0.01  # of the spin, by which the gyroscope of a twin is wrong
 OF_CAMERAS = "mirrored", "upright", "high", "above"
 #: The twins of each kind.
 EXACT_TWINS: dict[str, tuple[str, ...]] = {
     "attitude": ("moments",),
     "rates": ("moments", "over", "azimuth", "bias"),
+    "across": ("moments", "over", "azimuth", "cut"),
     "inertial": ("moments", "azimuth"),
     "axis": ("moments", "spin"),
     "angles": ("moments", "spin"),
@@ -109,6 +119,7 @@ def _is_settled(fit: Fit, kind: str, given: dict[str, Known]) -> bool:
     settled = {
         "moments": "Ix" in given or "Mgl" in given,
         "spin": "Iz/Ix" in given,
+        "cut": not fit.model.lacks_ratio,
         "bias": fit.model.record.has_mount,
         "upright": "roll" in fit.model.record.camera,
         "high": "elevation" in fit.model.record.camera,
@@ -146,7 +157,19 @@ def make_body_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
         return Twin(show(fit, turn_over(motion)), "sign of Mgl")
     if kind == "azimuth":
         return Twin(show(fit, turn_azimuth(motion, 1.0)), "phi")
+    if kind == "cut":
+        shown = show(fit, Across.of(motion).find_motion(RATIO))
+        return Twin(shown, ", ".join(("Iz/Ix", *ACROSS_HIDDEN)), measure_constant(fit))
     return make_momentum_twin(fit, motion, kind)
+
+
+def measure_constant(fit: Fit) -> tuple[float, float]:
+    """Return (2 - Iz/Ix) wz, which rates across the axis show, with its deviation."""
+
+    def find(x: Real) -> float:
+        return Across.of(fit.model.find_motion(x)).k
+
+    return find(fit.x), fit.find_deviation(find_slope(fit, find))
 
 
 def make_momentum_twin(fit: Fit, motion: Motion, kind: str) -> Twin:
@@ -194,6 +217,8 @@ def show(fit: Fit, motion: Motion) -> Real:
     state = motion.at(_choose_times(fit))
     if kind == "rates":
         return np.asarray(state.angular_velocity)
+    if kind == "across":
+        return np.asarray(state.angular_velocity[:, :2])
     if kind == "inertial":  # its forces follow from the rates and the vertical
         return np.concatenate([state.angular_velocity, state.vertical], axis=-1)
     if kind == "attitude":

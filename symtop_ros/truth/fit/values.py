@@ -20,6 +20,10 @@ SURE = 0.15  # of the scale of a number; one with a larger deviation is not know
 LEVEL = 4.0  # deviations within which an elevation may be zero
 SIDES = "p_psi/Ix", "phi_dot", "mean_precession_rate"  # change with the sign of p_psi
 ALIASED = "Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin", "theta_dot", "phi_dot", "nutation_period"
+# Rates across the axis show no number of the top but the period of its nutation.
+ACROSS_HIDDEN = (
+    *("Mgl/Ix", "p_psi/Ix", "spin", "theta", "theta_dot", "phi_dot", "mean_precession_rate"),
+)
 # Numbers of a top, whose zero is no choice: a relative deviation means something.
 SIZED = (
     *("Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin", "mean_precession_rate", "nutation_period", "scale"),
@@ -131,6 +135,8 @@ def agree(value: Value, rival: float) -> bool:
 
 def find_hidden(fit: Fit) -> tuple[str, ...]:
     """Return names that an exact twin has with a different value."""
+    if fit.model.lacks_ratio:
+        return ACROSS_HIDDEN
     if fit.model.kind.name == "theta":
         return *SIDES, *(ALIASED if is_sparse(fit) else ())
     level = (*SIDES, "phi", "elevation") if is_level(fit) else ()

@@ -15,7 +15,13 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.physics import State
-from symtop_ros.run.simulation.sensor.imu import EXACT, EXACT_FIELD, MAGNETOMETER_NOISE, NOISE
+from symtop_ros.run.simulation.sensor.imu import (
+    EXACT,
+    EXACT_FIELD,
+    LIMITS,
+    MAGNETOMETER_NOISE,
+    NOISE,
+)
 from symtop_ros.run.simulation.topics import (
     EVENTS,
     SENSOR_TOPICS,
@@ -73,7 +79,8 @@ def write_folder(record: ImuRecord, folder: Path) -> None:
     imu = record.imu
     stamps = record.stamps.tolist()
     _write_csv(inertial / "data.csv", EUROC_IMU, stamps, [record.measured])
-    (inertial / "sensor.yaml").write_text(_describe("imu", imu.rate, imu, NOISE), encoding="utf-8")
+    names = *NOISE, *(name for name in LIMITS if getattr(imu, name))
+    (inertial / "sensor.yaml").write_text(_describe("imu", imu.rate, imu, names), encoding="utf-8")
     states = [record.positions, record.orientations, record.velocities, record.biases]
     _write_csv(truth / "data.csv", EUROC_TRUTH, stamps, states)
     if record.measured_fields is not None:
@@ -93,7 +100,7 @@ def write_events(record: ImuRecord, path: Path) -> None:
 
 
 def _describe(kind: str, rate: float, sensor: object, names: Sequence[str]) -> str:
-    """Return sensor.yaml: the noise by its names in EuRoC and in Kalibr."""
+    """Return sensor.yaml: the noise by its names in EuRoC and in Kalibr, and the limits."""
     lines = ["%YAML:1.0", f"sensor_type: {kind}", f"rate_hz: {rate!r}"]
     return "\n".join([*lines, *(f"{name}: {getattr(sensor, name)!r}" for name in names), ""])
 
@@ -147,7 +154,7 @@ def _contents(record: ImuRecord) -> Iterator[Content]:
     exact = np.concatenate((record.rates, record.forces), axis=1)
     yield "orientation", STATE_TOPICS["orientation"], (WORLD,), record.attitudes[:, [1, 2, 3, 0]]
     variances = tuple(imu.covariances.values())[1:]
-    yield _inertial("imu", record, exact + imu.noise(record.stamps), variances)
+    yield _inertial("imu", record, imu.show(exact, record.stamps), variances)
     if record.means is not None:
         yield _inertial("imu_average", record, record.measured, variances)
         yield _inertial("imu_average_exact", record, record.means)

@@ -16,6 +16,7 @@ from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.truth.imu.files import write_folder, write_log, write_table
 from symtop_ros.truth.imu.record import ImuRecord, record_imu
 
+INSTRUMENTS = "gyroscope", "accelerometer"
 MAX_BYTES = 65_536  # of a file with noise
 DESCRIPTION = """Write what an inertial sensor on the top measures, next to the exact truth: a log
 (FILE.mcap), a table (FILE.csv, with the event of the run in FILE.json), or a folder with the CSV
@@ -51,6 +52,7 @@ def make_record(options: argparse.Namespace) -> ImuRecord:
         magnetic_field__vector=options.magnetic_field or (),
         magnetic_field__noise__seed=options.seed,
         **noise,
+        **find_limits(options),
     )
     assert settings.imu  # it is enabled
     return record_imu(
@@ -60,6 +62,20 @@ def make_record(options: argparse.Namespace) -> ImuRecord:
         gravity=settings.gravity,
         average=options.average,
     )
+
+
+def find_limits(options: argparse.Namespace) -> dict[str, float]:
+    """Return the parameters of the range and of the resolution that are given."""
+    found: dict[str, float] = {}
+    for name in ("range", "resolution"):
+        numbers = getattr(options, name)
+        if len(numbers) > len(INSTRUMENTS):
+            raise refuse(f"--{name}", "one number or two", len(numbers))
+        found |= {
+            f"imu__limits__{instrument}_{name}": number
+            for instrument, number in zip(INSTRUMENTS, numbers, strict=False)
+        }
+    return found
 
 
 def read_noise(name: str | None) -> dict[str, Any]:
@@ -132,6 +148,15 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--noise", metavar="FILE", help="consumer, or YAML in Kalibr's form; default: exact"
     )
+    for name, what in (("range", "largest component"), ("resolution", "step of the numbers")):
+        parser.add_argument(
+            f"--{name}",
+            type=decimal,
+            nargs="+",
+            default=(),
+            metavar=("RAD/S", "M/S^2"),
+            help=f"{what} of the gyroscope, and of the accelerometer; default: none",
+        )
     parser.add_argument("--seed", type=integer, default=0, help="seed of the noise, default 0")
     parser.add_argument(
         "--average",

@@ -50,7 +50,8 @@ class ImuRecord:
     biases : ndarray (n, 6)
         Biases of the gyroscope and the accelerometer.
     measured : ndarray (n, 6)
-        Rates and forces (their means, if there are means) with biases and noise.
+        Rates and forces (their means, if there are means) with biases and noise, within the limits
+        of the sensor.
     fields, measured_fields : ndarray (n, 3) or None
         Exact and measured magnetic field in T, in the sensor frame.
     event : Event
@@ -136,7 +137,7 @@ def record_imu(
         forces,
         means,
         imu.biases(stamps),
-        exact + imu.noise(stamps),
+        imu.show(exact, stamps),
         fields,
         measured_fields,
         start_event(motion, Rig(gravity, imu)),

@@ -3,7 +3,7 @@
 A mistake of convention is found by undoing it.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,6 +13,8 @@ from symtop_ros.base.arrays import Real, compose, invert
 from symtop_ros.truth.judge.alignment import PARAMETERS, Alignment
 from symtop_ros.truth.judge.compare import NONE, Offset
 from symtop_ros.truth.judge.permutations import list_permutations
+from symtop_ros.truth.judge.stamps import Steps
+from symtop_ros.truth.judge.swing import Swing
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.topics.estimates import Estimates
 
@@ -45,11 +47,15 @@ class Cause:
     # were not asked for, or cannot be given
     deviations: tuple[float, ...] = ()
     turn_deviations: tuple[float, ...] = ()
+    # what changes the model by as much as is left, of the same, where there are no deviations
+    seen: tuple[float, ...] = ()
+    turn_seen: float | None = None
     independent: float | None = (
         None  # number of independent estimates, if deviations were asked for
     )
     fault: str = ""  # why there are no deviations: "few", "wanders"
     correlation_time: float = 0.0  # s
+    rms: float | None = None  # rad, of the angles that are left, if deviations were asked for
 
     @property
     def weight(self) -> float:
@@ -58,8 +64,8 @@ class Cause:
 
     @property
     def residual(self) -> float:
-        """Root mean square of the angle that is left in rad."""
-        return float(np.sqrt(4 * self.cost))
+        """Root mean square of the angle that is left in rad; nearly, if it was not computed."""
+        return float(np.sqrt(4 * self.cost)) if self.rms is None else self.rms
 
     @property
     def turns(self) -> float:
@@ -100,12 +106,26 @@ class Finding:
     hidden: tuple[str, ...] = ()
     explained: bool = True  # False: most of the error is left
     fault: str = ""  # why no cause is given: "few", "wanders"
-    # a cause that is significant and leaves clearly less, but not noise: it may be only a part
+    # a cause that gains more than chance does, but leaves more than noise: it explains a part
     candidate: Cause | None = None
     still: bool = False  # True: the estimates do not move, and the top does
+    aliases: tuple[Cause, ...] = ()  # the same with other delays, which are as good
     period: float | None = None  # s; delays that differ by it are as good, with `repeated`
     repeated: Offset = NONE
-    nearest: Cause | None = None  # what leaves least, if it is not named
+    repeats: int = 1  # number of periods after which it is
+    heading_step: float | None = None  # rad; the heading grows by it, and no other rotation
+    nearest: Cause | None = None  # what leaves least, if nothing is said
+    share: float = 0.0  # part of the root mean square that any cause explains, if none is said
+    same: Cause | None = None  # rotations that are the same as the delay in a steady motion
+    # rates (rad/s) of `precession` and `spin`, by which an unknown delay turns world and body
+    turning: Mapping[str, float] | None = None
+    steps: Steps | None = None  # of stamps, which explain the rest
+    swing: Swing | None = None  # the strongest line of what is left, unless all is explained
+
+    @property
+    def said(self) -> Cause:
+        """The one cause of which all sentences and keys speak: named, or else a candidate."""
+        return self.candidate or self.best
 
 
 def set_parameter(offset: Offset, name: str, value: float) -> Offset:

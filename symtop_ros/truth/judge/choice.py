@@ -11,26 +11,43 @@ Each line is a step with its thresholds; causes that do not pass it go where its
     the best of them                                                              (`choose`)
       PER_PARAMETER estimates for each of its numbers              -> nothing is explained
       an error CLEAR times smaller than without a cause            => it is named
-      numbers SIGNIFICANT times their deviations, and a rest with
-      the shape of noise, in which all of the run agrees on them   -> nothing is explained
-      a rest that is white                                         => it is named
-      squares LESS times smaller than without a cause              => it is a candidate
+      numbers SIGNIFICANT times their deviations, and a rest that
+      is white, has the shape of noise, and agrees on them         => it is named   (`judge`)
+      a gain SURER times that of chance, in each half of the run
+      by the other one, in errors that last LASTING times          => it is a candidate
+                                                                            (`explains_part`)
                                                                    -> nothing is explained
-                                                                                  (`judge`)
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
 
 from symtop_ros.truth.judge.alignment import PARAMETERS, Alignment
 from symtop_ros.truth.judge.causes import Cause
+from symtop_ros.truth.residuals.bootstrap import draw_gains
+from symtop_ros.truth.residuals.influence import find_influences
 from symtop_ros.truth.residuals.residuals import CHANCE, PER_PARAMETER
 
 SIMPLER = 4.0  # if no noise is left, simpler causes count with at most twice the error (squared)
+# Errors that last: of those that wander, as flicker, fewer are independent than it seems.
+LASTS = 4.0
 TIE = 1.5  # explanations that are as good, by their mean squares
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
 SMALL = 1e-3  # rad; smaller rotations count as zero in a comparison of explanations
-LESS = 4.0  # the squares become so many times smaller: the cause is worth a sentence
+LASTING = 100.0  # the squares become so many times smaller, of errors that last or have a mistake
+SURER = 4.0  # a gain is so many times larger than by chance: many kinds and values are tried
 CLEAR = 1000.0  # the error becomes so many times smaller: its cause is clear, whatever is left
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """The simplest cause, others that are as simple and good, and the least cost of any."""
+
+    best: Cause
+    others: tuple[Cause, ...]
+    lowest: float
 
 
 def select(found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: float) -> list[Cause]:
@@ -38,7 +55,8 @@ def select(found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: floa
     lowest = min(found, key=lambda each: each.cost)
     left = fits[lowest.change].find_remainder(lowest.offset)
     is_noise = not left.find_fault(lowest.count) and left.has_shape_of_noise
-    factor = min(1 + CHANCE / left.numbers, SIMPLER) if is_noise else SIMPLER
+    chance = CHANCE if left.is_white else LASTS * CHANCE
+    factor = min(1 + chance / left.numbers, SIMPLER) if is_noise else SIMPLER
     most = factor * lowest.cost + rounding
     known = fits[lowest.change].exact(lowest.offset)[1]
     if known.all():
@@ -47,9 +65,7 @@ def select(found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: floa
     return [each for each in found if fits[each.change].cost_where(each.offset, known) <= most]
 
 
-def choose(
-    found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: float
-) -> tuple[Cause, list[Cause]]:
+def choose(found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: float) -> Choice:
     """Return the simplest of the good explanations, and others that are as simple and good.
 
     The one with the smallest rotations comes first; then the order of parameters and the delay
@@ -74,21 +90,56 @@ def choose(
         if (each.turns <= largest and each.change != best.change)
         or each.parameters != best.parameters
     }
-    return best, [*reversed(ties.values())]
+    lowest = min(each.cost for each in enough)
+    return Choice(best, tuple(reversed(ties.values())), lowest)
 
 
-def judge(best: Cause, start: Cause, fit: Alignment) -> tuple[bool, bool]:
-    """Return whether an explanation is named, and else whether it would leave clearly less.
-
-    It is named if it is significant, and leaves noise or next to nothing. What is left may be
-    correlated because a filter's errors are, or because there is another cause.
-    """
+def judge(best: Cause, start: Cause, fit: Alignment) -> bool:
+    """Return whether an explanation is named: it is significant, and leaves noise or nothing."""
     if len(fit.some) < PER_PARAMETER * best.count:
-        return False, False
+        return False
     if best.kind != start.kind and best.cost * CLEAR**2 <= start.cost:
-        return True, False
+        return True
+    return _is_sound(best, fit) and fit.find_remainder(best.offset).is_white
+
+
+def _is_sound(best: Cause, fit: Alignment) -> bool:
+    """Return whether a cause is significant, in errors of one kind that agree on it."""
     left = fit.find_remainder(best.offset)
-    is_sound = not best.fault and best.is_significant and left.has_shape_of_noise
-    if not (is_sound and left.agrees_on(fit.derive_vectors(best.offset, best.columns))):
-        return False, False
-    return left.is_white, best.cost * LESS <= start.cost
+    if best.fault or not (best.is_significant and left.has_shape_of_noise):
+        return False
+    return left.agrees_on(fit.derive_vectors(best.offset, best.columns))
+
+
+def explains_part(best: Cause, start: Cause, fit: Alignment, plain: Alignment) -> bool:
+    """Return whether an explanation that leaves more than noise explains a part of the error.
+
+    What is left may be the errors of a filter, or those of another cause. The parameters must gain
+    more than in such errors by chance, and those of each half of the run must fit the other half.
+    Of errors that last too long for deviations, and of mistakes of convention, the squares must
+    become LASTING times smaller as well.
+    """
+    is_far = best.change or not _is_sound(best, fit)
+    wanted = 1 / LASTING if is_far else (1 + best.cost / start.cost) / 2
+    if best.kind == start.kind or best.cost > wanted * start.cost:
+        return False
+    if not best.count:
+        return True
+    gain = (start.cost - best.cost) / best.cost
+    left = fit.find_remainder(best.offset)
+    frames = fit.derive_frames(best.offset, best.columns)
+    chance = max(float(draw_gains(*each, left.independent).max()) for each in frames)
+    squares = (plain.find_left(start.offset) ** 2).sum(axis=1)
+    return gain > SURER * chance and all(
+        predicted <= wanted * half.mean()
+        for predicted, half in zip(_predict(best, fit), np.array_split(squares, 2), strict=True)
+    )
+
+
+def _predict(best: Cause, fit: Alignment) -> Iterator[float]:
+    """Yield the mean squares that are left in each half, by the parameters of the other."""
+    columns, left = fit.derive_vectors(best.offset, best.columns), fit.find_left(best.offset)
+    halves = [*zip(np.array_split(columns, 2), np.array_split(left, 2), strict=True)]
+    for (own, rest), (other, known) in zip(halves, reversed(halves), strict=True):
+        step = find_influences(other, known).sum(axis=0)
+        yield float(((rest - own @ step) ** 2).sum(axis=1).mean())

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from symtop_ros.base.arrays import Real, compose, find_rotation_vectors, invert
+from symtop_ros.base.arrays import Places, Real, compose, find_rotation_vectors, invert
 from symtop_ros.truth.judge.alignment import MOST_DELAY
 from symtop_ros.truth.judge.causes import set_parameter
 from symtop_ros.truth.judge.compare import IDENTITY, NONE, Offset, Scaling
@@ -147,3 +147,24 @@ def _guess_bodies(q: Real, exact: Real, known: Real) -> Real:
     u, _, vt = np.linalg.svd(np.swapaxes(theirs * both, 1, 2) @ (ours * both))
     u[..., -1] *= np.linalg.det(u @ vt)[:, np.newaxis]  # a rotation, not a reflection
     return np.asarray(Rotation.from_matrix(u @ vt).as_quat()[:, [3, 0, 1, 2]])
+
+
+def find_minima(costs: Real, most: int, limit: float) -> Places:
+    """Return the places of the lowest minima of costs (g,), at most so many, below a limit."""
+    padded = np.pad(costs, 1, constant_values=np.inf)
+    low = (costs <= padded[:-2]) & (costs <= padded[2:]) & (costs <= limit)
+    places = np.flatnonzero(low)
+    return np.asarray(places[np.argsort(costs[places], kind="stable")][:most])
+
+
+def find_depths(costs: Real) -> tuple[Places, Real]:
+    """Return the lowest of each row of costs (v, k), and the least of the parabola next to it."""
+    rows = np.arange(len(costs))
+    best = costs.argmin(axis=1)
+    middle = np.clip(best, 1, costs.shape[1] - 2)
+    low, own, high = (costs[rows, middle + step] for step in (-1, 0, 1))
+    with np.errstate(invalid="ignore"):  # next to delays at which nothing is known
+        bend, tilt = low - 2 * own + high, (high - low) / 2
+        depths = own - np.where(bend > 0, tilt**2 / np.where(bend > 0, 2 * bend, 1.0), 0.0)
+    known = np.isfinite(depths) & (best == middle)
+    return best, np.where(known, depths, costs[rows, best])

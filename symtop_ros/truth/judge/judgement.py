@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from symtop_ros.base.arrays import Real, find_rotation_vectors
+from symtop_ros.base.arrays import Real
 from symtop_ros.base.counts import write_count
-from symtop_ros.base.measured import format_measured
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.causes import Cause, Finding
@@ -18,14 +17,13 @@ from symtop_ros.truth.judge.mistakes import find_mistakes
 from symtop_ros.truth.judge.outliers import count_outliers, trim
 from symtop_ros.truth.judge.relative import LABEL, Relative, measure_relative
 from symtop_ros.truth.judge.search import find_causes
+from symtop_ros.truth.judge.sentences import choose_key, list_parts, list_sentences, write_fault
 from symtop_ros.truth.judge.summary import format_row, summarize
 from symtop_ros.truth.judge.truth import Truth
-from symtop_ros.truth.judge.turns import describe_axis
 from symtop_ros.truth.judge.wanted import align, explain, find_nearest
 from symtop_ros.truth.topics.estimates import Estimates
 from symtop_ros.words import write
 
-NOTHING = 1e-6  # rad; an error below this is not worth a sentence
 YEAR = 366 * 86_400 * NANOSECONDS
 QUANTITIES = {  # name -> label
     "attitude": "attitude (rad)",
@@ -95,25 +93,16 @@ class Judgement:
     def _explain(self) -> str:
         """Return what explains the errors, and what the motion hides, in sentences."""
         if self.found is None:
-            parts = _list_parts(self.fitted) if self.fitted else []
+            parts = list_parts(self.fitted) if self.fitted else []
             record = {
                 "model": self.aligned,
                 "parts": {"several": parts} if parts else None,
                 "residual": summarize(self.errors.total)["rms"],
-                "fault": _write_fault(self.fitted),
+                "fault": write_fault(self.fitted),
             }
             return write("found.aligned", record)
-        found = self.found
-        best = self.found.best
-        key = _choose_key(found) if len(self.errors.total) > 1 else "single"
-        lines = [write(f"found.{key}", _write_whole(best))]
-        if found.candidate:
-            lines.append(write("candidate", _write_whole(found.candidate)))
-        if found.period is not None:
-            world, body = found.repeated.angles
-            lines.append(write("repeats", {"period": found.period, "world": world, "body": body}))
-        lines += [write("or", {"parts": _list_parts(each)}) for each in found.others]
-        return "\n".join([*lines, *(f"not identifiable: {HIDDEN[name]}" for name in found.hidden)])
+        key = choose_key(self.found) if len(self.errors.total) > 1 else "single"
+        return "\n".join(list_sentences(self.found, key))
 
     def _remarks(self) -> list[str]:
         counts = (
@@ -134,12 +123,6 @@ class Judgement:
         counted = write_count(self.outliers, "estimate", "are")
         record = {"counted": counted, "robust": self.robust}
         return [write("outliers", record)] if self.outliers or self.robust else []
-
-
-HIDDEN = {
-    "delay": "the delay (in this steady motion it is the same as constant rotations)",
-    "rotations": "the rotations of world and body alone (only together)",
-}
 
 
 def judge(
@@ -201,73 +184,6 @@ def _explain(used: Estimates, truth: Truth, removed: tuple[str, ...]) -> _Said:
     return _Said(found.nearest or found.best, taken, found, mistakes=tuple(mistakes))
 
 
-def _choose_key(found: Finding) -> str:
-    if found.still:
-        return "still"
-    if not found.explained:
-        return found.fault or "unexplained"
-    if found.best.weight:
-        return "explained"
-    return "exact" if found.best.residual < NOTHING else "nothing"
-
-
-UNITS = {"delay": 1e3, "clock": 1e6, "scale": 100.0}  # ms, ppm and %; others are in SI units
-
-
-def _list_parts(cause: Cause) -> list[dict[str, Any]]:
-    """Return the parts of an explanation as records for sentences."""
-    change = [{"kind": "change"}] if cause.change else []
-    parameters = [
-        {
-            "kind": name,
-            "value": _write_parameter(name, getattr(cause.offset, name), deviation),
-            "begin": cause.offset.begin / NANOSECONDS,
-        }
-        for name, deviation in zip_longest(cause.parameters, cause.deviations)
-    ]
-    turns = {"kind": cause.level, **_write_turns(cause)}
-    return [*change, *parameters, *([turns] if cause.level != "none" else [])]
-
-
-def _write_parameter(name: str, value: float, deviation: float | None) -> str:
-    unit = UNITS.get(name, 1.0)
-    return format_measured(unit * value, unit * deviation if deviation else None)
-
-
-def _write_turns(cause: Cause) -> dict[str, Any]:
-    """Return the angles of the rotations, and their axes; the angle of a heading has a sign."""
-    offset = cause.offset
-    world, body = offset.angles
-    if cause.level == "heading":
-        world = float(find_rotation_vectors(cause.offset.world)[2])
-    found: dict[str, Any] = {}
-    turns = zip_longest((world, body), cause.turn_deviations)
-    for name, q, (angle, deviation) in zip(
-        ("world", "body"), (offset.world, offset.body), turns, strict=True
-    ):
-        found[name] = format_measured(angle, deviation)
-        found[f"{name}_axis"] = describe_axis(q, deviation)
-    return found
-
-
-def _write_whole(cause: Cause) -> dict[str, Any]:
-    """Return a cause with all that a sentence may say of it."""
-    whole = _write_counted(cause)
-    correlation = whole if cause.correlation_time else None
-    parts = _list_parts(cause)
-    return {**whole, "parts": parts, "residual": cause.residual, "correlation": correlation}
-
-
-def _write_counted(cause: Cause) -> dict[str, Any]:
-    """Return the fields of a cause, with a whole number of independent estimates."""
-    return {**vars(cause), "independent": round(cause.independent or 0)}
-
-
-def _write_fault(cause: Cause | None) -> dict[str, Any] | None:
-    """Return why a cause has no deviations, as a record for a sentence."""
-    return {**_write_counted(cause), "kind": cause.fault} if cause and cause.fault else None
-
-
 def _describe_cause(cause: Cause) -> dict[str, Any]:
     """Return what was fitted, for JSON, with standard deviations."""
     offset = cause.offset
@@ -293,25 +209,37 @@ def _describe_turn(angle: float, deviation: float | None, q: Real) -> dict[str, 
 
 
 def _describe_finding(found: Finding) -> dict[str, Any]:
-    """Return what was found, for JSON."""
-    best = found.best
-    is_hidden = "delay" in found.hidden and "delay" not in best.parameters
+    """Return what was found, for JSON: the cause of which the sentences speak."""
+    said = found.said
+    is_hidden = "delay" in found.hidden and "delay" not in said.parameters
     return {
         "explained": found.explained,
         "no_cause_as": found.fault or None,
         "candidate": _describe_candidate(found.candidate),
+        "share": _find_share(found),
         "estimates_move": not found.still,
-        "mistake": best.change or None,
-        **_describe_cause(best),
+        "mistake": said.change or None,
+        **_describe_cause(said),
         **({"delay": None} if is_hidden else {}),
         "delay_period": found.period,
+        "heading_step": found.heading_step,
+        "other_delays": [each.offset.delay for each in found.aliases],
         "not_identifiable": list(found.hidden),
-        "residual_rms": best.residual,
+        "residual_rms": said.residual,
+        "stamp_steps": found.steps and vars(found.steps),
+        "line": found.swing and vars(found.swing),
     }
 
 
+def _find_share(found: Finding) -> float | None:
+    """Return the part of the root mean square that a candidate explains, or any cause at most."""
+    if found.explained:
+        return None
+    return 1 - found.said.residual / found.best.residual if found.candidate else found.share
+
+
 def _describe_candidate(cause: Cause | None) -> dict[str, Any] | None:
-    """Return a cause that is not named, as it leaves no noise, for JSON."""
+    """Return a cause that explains a part, for JSON."""
     if cause is None:
         return None
     return {

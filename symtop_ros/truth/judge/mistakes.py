@@ -9,6 +9,7 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.truth.judge.alignment import SAMPLES
 from symtop_ros.truth.judge.causes import CHANGES, PERMUTED, Finding
 from symtop_ros.truth.judge.compare import NONE, Errors, Offset, compare
+from symtop_ros.truth.judge.saturated import find_saturated
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.testset.score import turn_to_body
 from symtop_ros.truth.topics.estimates import Estimates
@@ -27,19 +28,23 @@ SMALL = 0.05  # part of the rates; smaller errors are no mistakes of convention
 
 
 def find_mistakes(estimates: Estimates, truth: Truth, found: Finding) -> list[str]:
-    """Return the likely mistakes as sentences: that of the attitude, then that of the rates."""
+    """Return the likely mistakes as sentences: that of the attitude, then that of the rates.
+
+    Rates of a sensor at its limit are no mistake of units or frames.
+    """
     some = estimates.thin(SAMPLES)
-    change = found.best.change
+    change = found.said.change
     mended = CHANGES[change][2](some)
     # Rates are in the frame of the body, which a half turn of the attitude has not turned.
-    offset = NONE if change else found.best.offset
+    offset = NONE if change else found.said.offset
     rates = [] if estimates.angular_velocities is None else [*_find_rates(mended, truth, offset)]
-    return [*_name_changes(found, some.of_sensor), *rates]
+    limit = find_saturated(estimates, truth)
+    return [*_name_changes(found, some.of_sensor), *([limit.describe()] if limit else rates)]
 
 
 def _name_changes(found: Finding, of_sensor: bool) -> list[str]:
     """Return the mistake of the attitude, with others that would explain as much."""
-    several = {each.change: each for each in (found.best, *found.others)}
+    several = {each.change: each for each in (found.said, *found.others)}
     if list(several) == [""]:
         return []
     names = {"": "none", "frame": "body" if of_sensor else "sensor"}

@@ -40,11 +40,26 @@ def make_sure(fit: Alignment, cause: Cause) -> Cause:
     left = fit.find_remainder(cause.offset)
     found = replace(
         cause,
+        rms=left.rms,
         independent=left.independent,
         correlation_time=left.correlation_time,
         fault=left.find_fault(cause.count),
     )
-    return found if found.fault or not found.count else weigh(fit, found, left)
+    if not found.count:
+        return found
+    return see(fit, found) if found.fault else weigh(fit, found, left)
+
+
+def see(fit: Alignment, cause: Cause) -> Cause:
+    """Return a cause with the changes of its numbers that change the model by what is left.
+
+    They are no deviations: errors that last may hide more.
+    """
+    columns = fit.derive_vectors(cause.offset, cause.columns)
+    sizes = np.sqrt((columns**2).sum(axis=1).mean(axis=0)) + np.finfo(float).tiny
+    seen = dict(zip(cause.columns, (cause.residual / sizes).tolist(), strict=True))
+    own = tuple(seen[PARAMETERS[name]] for name in cause.parameters)
+    return replace(cause, seen=own, turn_seen=cause.residual)
 
 
 def weigh(fit: Alignment, cause: Cause, left: Residuals) -> Cause:
@@ -58,7 +73,8 @@ def weigh(fit: Alignment, cause: Cause, left: Residuals) -> Cause:
         values = find_white_influences(fit, moved, cause.columns)
         moved = move(moved, values.sum(axis=0))
     if fit.cost(moved) <= most:
-        cause = replace(cause, offset=moved, cost=fit.cost(moved))
+        rms = fit.find_remainder(moved).rms
+        cause = replace(cause, offset=moved, cost=fit.cost(moved), rms=rms)
     else:
         values = fit.find_influences(cause.offset, cause.columns)
     # The power of slow noise is as uncertain as so few estimates make it, also after whitening.

@@ -24,27 +24,27 @@ from symtop_ros.truth.tables.forms import is_table
 from symtop_ros.truth.topics.estimates import Estimates, read_topic
 
 if TYPE_CHECKING:  # logs need mcap
-    from symtop_ros.run.log.account import Account, TopicAccount
+    from symtop_ros.run.log.catalog import Catalog, CatalogTopic
 
 BODY, SENSOR = ATTITUDES = "body", "sensor"
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """A run, and the account of its log; None for one that is in no log."""
+    """A run, and the catalog of its log; None for one that is in no log."""
 
     truth: Truth
-    account: Account | None = None
+    catalog: Catalog | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """Estimates of a topic or a file, and the account of the log in which they are."""
+    """Estimates of a topic or a file, and the catalog of the log in which they are."""
 
     name: str
     estimates: Estimates
-    account: Account | None = None
-    topic: TopicAccount | None = None  # if they are those of a top of this log
+    catalog: Catalog | None = None
+    topic: CatalogTopic | None = None  # if they are those of a top of this log
 
 
 def read_run(options: argparse.Namespace) -> Run:
@@ -56,11 +56,11 @@ def read_run(options: argparse.Namespace) -> Run:
     from symtop_ros.run.log.bags import open_run  # logs need mcap
     from symtop_ros.run.log.top_log import TopLog
 
-    account = TopLog(open_run(options.files), options.node).account
-    print_problems(account)
-    if not account.events:
-        raise RefusedError(f"{account.path} must have the events of a top (~/events), got none")
-    return Run(Truth.of(account), account)
+    catalog = TopLog(open_run(options.files), options.node).catalog
+    print_problems(catalog)
+    if not catalog.events:
+        raise RefusedError(f"{catalog.path} must have the events of a top (~/events), got none")
+    return Run(Truth.of(catalog), catalog)
 
 
 def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
@@ -72,14 +72,14 @@ def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
         return [Source(str(other), read_times(table, run.truth, str(other), of_sensor))]
     if not options.topic:
         raise RefusedError(f"--topic must name the estimates in {other}, got none")
-    from symtop_ros.run.log.account import read_account  # logs need mcap
     from symtop_ros.run.log.bags import open_run
+    from symtop_ros.run.log.catalog import read_catalog  # logs need mcap
     from symtop_ros.run.log.names import Names
 
     file = open_run([other] if other else options.files)
-    account = read_account(file, Names(file)) if other else run.account
-    if account and other:
-        print_problems(account)
+    catalog = read_catalog(file, Names(file)) if other else run.catalog
+    if catalog and other:
+        print_problems(catalog)
     found = (
         (topic, read_topic(file, topic, options.frame).count_once()) for topic in options.topic
     )
@@ -87,8 +87,8 @@ def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
         Source(
             name,
             _choose_frame(each, options.attitude_of),
-            account,
-            _find_topic(account, name, options.frame),
+            catalog,
+            _find_topic(catalog, name, options.frame),
         )
         for name, each in found
     ]
@@ -102,10 +102,10 @@ def _read_table(path: Path, order: str | None) -> AttitudeTable:
     return table
 
 
-def _find_topic(account: Account | None, name: str, frame: str | None) -> TopicAccount | None:
+def _find_topic(catalog: Catalog | None, name: str, frame: str | None) -> CatalogTopic | None:
     """Return what is known of a topic of the top; on /tf other frames are not of it."""
-    is_other = account is not None and frame is not None and frame != account.frame
-    topic = account.find_topic(name) if account else None
+    is_other = catalog is not None and frame is not None and frame != catalog.frame
+    topic = catalog.find_topic(name) if catalog else None
     return None if topic and is_other and topic.type == TRANSFORM.type else topic
 
 
@@ -113,16 +113,16 @@ def _choose_frame(estimates: Estimates, attitude_of: str | None) -> Estimates:
     return replace(estimates, of_sensor=attitude_of == SENSOR) if attitude_of else estimates
 
 
-def print_problems(account: Account) -> None:
+def print_problems(catalog: Catalog) -> None:
     """Print what is wrong with a log, before anything else."""
-    for line in account.problem_lines:
+    for line in catalog.problem_lines:
         print(f"top_judge: {line}", file=sys.stderr)
 
 
 def report_faults(run: Run, sources: list[Source]) -> int:
     """Print what is wrong with the estimates; return 1 if anything is, else 0."""
     faults = [f"{each.name}: {text}" for each in sources for text in _list_faults(each, run)]
-    guessed = [run.account.guess] if run.account and run.account.guess else []
+    guessed = [run.catalog.guess] if run.catalog and run.catalog.guess else []
     for line in [*faults, *guessed]:
         print(f"top_judge: {line}", file=sys.stderr)
     return 1 if faults else 0
@@ -130,14 +130,14 @@ def report_faults(run: Run, sources: list[Source]) -> int:
 
 def _list_faults(source: Source, run: Run) -> Iterator[str]:
     """Yield why estimates of a source are damaged, missing or cannot be judged."""
-    estimates, account, topic = source.estimates, source.account, source.topic
+    estimates, catalog, topic = source.estimates, source.catalog, source.topic
     for number, reason in _count_unjudged(estimates, run):
         if number:
             yield f"{write_count(number, 'estimate')} cannot be judged: {reason}"
     if estimates.unreadable:
         yield f"{write_count(estimates.unreadable, 'message')} cannot be read"
-    if account and account.lacks_messages:
-        how = "ends early" if account.lacks_only_its_end else "is damaged"
+    if catalog and catalog.lacks_messages:
+        how = "ends early" if catalog.lacks_only_its_end else "is damaged"
         yield f"estimates may be missing: the log {how}"
     if topic and topic.missing:
         least = "at least " if topic.is_least else ""
@@ -160,6 +160,6 @@ def _count_unjudged(estimates: Estimates, run: Run) -> Iterator[tuple[int, str]]
     within = estimates.select(~unjudged)
     inside = len(within) - sum(truth.count_outside(within.stamps))
     yield inside - len(truth.select(within)), "the motion takes too long to integrate"
-    if run.account and run.account.lacks_its_end:
+    if run.catalog and run.catalog.lacks_its_end:
         late = truth.count_outside(stamps)[1]
         yield late, "they are after the part of the log that is left"

@@ -6,6 +6,7 @@ delay. Each kind is tried with all values of its parameter, and refined next to 
 found is said of all.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import product
@@ -14,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.base.arrays import Real, compose
+from symtop_ros.truth.judge.aliases import describe_family, gather
 from symtop_ros.truth.judge.alignment import MOST_DELAY, PARAMETERS, SAMPLES, Alignment
 from symtop_ros.truth.judge.causes import (
     CHANGES,
@@ -24,19 +26,41 @@ from symtop_ros.truth.judge.causes import (
     Fits,
     set_parameter,
 )
-from symtop_ros.truth.judge.choice import SIMPLER, SMALL, choose, judge, select
+from symtop_ros.truth.judge.choice import (
+    SIMPLER,
+    SMALL,
+    Choice,
+    choose,
+    explains_part,
+    judge,
+    select,
+)
 from symtop_ros.truth.judge.compare import MOST_STEPS, NONE, STEP, Offset, compare
-from symtop_ros.truth.judge.grid import COARSE, HOPELESS, Tables, fit_levels, fit_rotations
+from symtop_ros.truth.judge.grid import (
+    COARSE,
+    HOPELESS,
+    Tables,
+    find_depths,
+    find_minima,
+    fit_levels,
+    fit_rotations,
+)
 from symtop_ros.truth.judge.refine import refine
+from symtop_ros.truth.judge.stamps import find_steps
+from symtop_ros.truth.judge.swing import find_swing
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.residuals.residuals import PER_PARAMETER
 from symtop_ros.truth.topics.estimates import Estimates
 
 MOST_SAMPLES = 200_000  # estimates from which a cause that was found is estimated again
 TURNING = {"drift", "spin", "scale"}  # parameters with a direction in space
+TURNED = {"body", "both"}  # levels at which the body is turned
 SAME_VALUE = 4  # digits in which values of a parameter are one
 PERMUTED_LEVELS = CHANGES[next(iter(PERMUTED))][1]
 VALLEYS, FINER = 4, 31  # of each table that are refined, and values that are tried in each
+LINED = 16_384  # estimates in which lines are looked for, from the first on
+PROFILED = 10_000  # estimates; of more the minima of the delay are those of a search
+MOST_VALLEYS = 100  # of delays, of which the deepest are found in finer steps
 # Estimates that stay this close (rad) to one attitude do not move, and the exact attitudes move so
 # many times as far.
 STILL, MOVED = 0.05, 10.0
@@ -76,13 +100,32 @@ class Search:
 
     def find(self) -> Finding:
         """Return the simplest of all explanations, with what it leaves of all estimates."""
-        found = self.find_in_more()
+        found = self._find_whole(self.find_in_more())
+        if found.explained or found.still or len(self.run) < PER_PARAMETER:
+            return found
+        first = self.run.select(np.arange(len(self.run)) < LINED)
+        fit = Alignment(CHANGES[found.said.change][2](first), self.truth)
+        return replace(found, swing=find_swing(fit, found.said.offset))
+
+    def _find_whole(self, found: Finding) -> Finding:
+        """Return a finding with what is left of all estimates."""
         if len(self.run) == len(self.more):
             return found
-        fit = Alignment(CHANGES[found.best.change][2](self.run), self.truth)
-        whole = replace(found.best, cost=fit.cost(found.best.offset))
-        is_alike = whole.cost <= SIMPLER * found.best.cost + self.fit.rounding
-        return replace(found, best=whole, explained=found.explained and is_alike)
+        whole: dict[str, Any] = {
+            name: replace(each, cost=self._find_cost(each), rms=None)
+            for name in ("best", "candidate")
+            if (each := getattr(found, name))
+        }
+        is_alike = whole["best"].cost <= SIMPLER * found.best.cost + self.fit.rounding
+        if found.explained and not is_alike:
+            start = replace(whole["best"], change="", offset=self.fit.start)
+            whole["share"] = max(1 - math.sqrt(whole["best"].cost / self._find_cost(start)), 0.0)
+        return replace(found, **whole, explained=found.explained and is_alike)
+
+    def _find_cost(self, cause: Cause) -> float:
+        """Return the mean square that a cause leaves of all estimates."""
+        fit = Alignment(CHANGES[cause.change][2](self.run), self.truth)
+        return fit.cost(cause.offset)
 
     def find_in_more(self) -> Finding:
         """Return the simplest of all explanations of some estimates, as more of them show it."""
@@ -93,17 +136,74 @@ class Search:
             return Finding(start, (), self.hidden)
         if len(self.more) < PER_PARAMETER:
             return Finding(start, (), self.hidden, explained=False, fault="few")
-        best, others = self.choose()
-        best = self.refine(best.kind, best.offset, with_more=True)
-        is_named, is_less = judge(best, start, self.of_more[best.change])
-        if not is_named:
-            candidate = best if is_less else None
-            found = Finding(start, (), self.hidden, False, best.fault, candidate=candidate)
-            return replace(found, nearest=best)
-        equals = tuple(self.refine(each.kind, each.offset, with_more=True) for each in others)
-        return replace(Finding(best, equals, self.hidden), **self.find_period(best))
+        choice = self.choose()
+        best, *others = self.profile(choice.best)
+        is_named = judge(best, start, self.of_more[best.change])
+        if not is_named and (found := self.find_stepped(best)):
+            return found
+        if not (is_named or explains_part(best, start, self.fits[best.change], self.fit)):
+            fault = "few" if len(self.more) < PER_PARAMETER * best.count else start.fault
+            share = max(1 - math.sqrt(choice.lowest / start.cost), 0.0)
+            return Finding(start, (), self.hidden, False, fault, nearest=best, share=share)
+        equals = tuple(self._refine_again(each) for each in choice.others)
+        found = Finding(best, equals) if is_named else Finding(start, equals, (), False)
+        found = replace(found, candidate=None if is_named else best)
+        is_valley = "delay" in choice.best.parameters and not best.parameters
+        return replace(found, **self.find_delays(best, others, is_valley=is_valley))
 
-    def choose(self) -> tuple[Cause, list[Cause]]:
+    def find_stepped(self, best: Cause) -> Finding | None:
+        """Return a cause with a delay and stamps in steps, if they explain the rest."""
+        if best.parameters not in ((), ("delay",)):
+            return None
+        late = self.refine((best.change, best.level, ("delay",)), best.offset, with_more=True)
+        steps = find_steps(self.of_more[best.change], late.offset)
+        return Finding(late, (), (), steps=steps) if steps else None
+
+    def _refine_again(self, cause: Cause) -> Cause:
+        return self.refine(cause.kind, cause.offset, with_more=True)
+
+    def profile(self, best: Cause) -> list[Cause]:
+        """Return a cause and those like it whose delays leave as little, the smallest delay first.
+
+        If the body is turned as well, and no delay at all leaves as little, the delay is unknown:
+        then it is the cause without one.
+        """
+        if best.parameters != ("delay",):
+            return [self._refine_again(best)]
+        levels = self.find_valleys(best.change, "delay", NONE, None, MOST_VALLEYS)
+        found = [best, *(self.refine(best.kind, each) for each in levels.get(best.level, []))]
+        if best.level in TURNED:
+            found += self.find_still(best)
+        good = select(found, self.fits, self.fit.rounding)
+        if len(self.more) <= PROFILED:
+            good = self.select_in_more(good)
+            good = select(good, self.of_more, self.fit.rounding)
+        if without := [each for each in good if not each.parameters]:
+            return [self._refine_again(without[0])]
+        first, *others = gather(good, self.fit.fastest)
+        return [self._refine_again(first), *others]
+
+    def find_still(self, best: Cause) -> list[Cause]:
+        """Return rotations of both frames in place of those of a cause and its delay."""
+        return [each for each in self.search(best.change, "") if each.level == "both"]
+
+    def find_delays(
+        self, best: Cause, others: Sequence[Cause], *, is_valley: bool
+    ) -> dict[str, Any]:
+        """Return what else the delay of a cause may be, by the names of a finding."""
+        if "delay" not in best.parameters:
+            hidden = tuple(dict.fromkeys([*self.hidden, *["delay"] * is_valley]))
+            is_turned = hidden == ("delay",) and best.level in TURNED
+            return {"hidden": hidden, "turning": self.truth.rates if is_turned else None}
+        hidden = tuple(name for name in self.hidden if name != "delay")
+        found: dict[str, Any] = {"hidden": hidden, "aliases": tuple(others)}
+        if "delay" in self.hidden and (still := self.find_still(best)):
+            found["same"] = self._refine_again(still[0])
+        elif not others:
+            found |= self.find_period(best)
+        return found | (describe_family([best, *others]) if others else {})
+
+    def choose(self) -> Choice:
         """Return the best explanation and its equals: found in some estimates, chosen by more.
 
         What noise hides in some of them more may show.
@@ -185,23 +285,44 @@ class Search:
         self, change: str, name: str, known: Offset = NONE, values: Real | None = None
     ) -> Iterator[Cause]:
         """Yield explanations with a change and a parameter, or none, next to those of an offset."""
-        some = self.fits[change].some
-        values, models = self.tables.tabulate(some, name, known, values)
-        for level, fitted in fit_levels(models, CHANGES[change][1]).items():
-            costs = np.pad(fitted[0], 1, constant_values=np.inf)
-            valleys = (costs[1:-1] <= costs[:-2]) & (costs[1:-1] <= costs[2:])
-            valleys &= (costs[1:-1] <= HOPELESS) | (not name)
-            for place in sorted(np.flatnonzero(valleys), key=costs[1:-1].__getitem__)[:VALLEYS]:
-                # Again in finer steps: a kick makes a valley narrow.
-                tried = values[place] + np.ptp(values[:2]) * np.linspace(-1, 1, FINER)
-                tried, finer = self.tables.tabulate(some, name, known, tried)
-                left, worlds, bodies = fit_rotations(finer, level)
-                best = int(left.argmin())
-                start = replace(
-                    self.fit.start, drift=known.drift, world=worlds[best], body=bodies[best]
-                )
-                start = set_parameter(start, name, float(tried[best]))
+        # Those of a delay are as deep up to the nutation, and the steps hide which one is deepest.
+        most = MOST_VALLEYS if name == "delay" else VALLEYS
+        for level, valleys in self.find_valleys(change, name, known, values, most).items():
+            for start in valleys[:VALLEYS]:
                 yield self.refine((change, level, (name,) if name else ()), start)
+
+    def find_valleys(
+        self, change: str, name: str, known: Offset, values: Real | None, most: int
+    ) -> dict[str, list[Offset]]:
+        """Return where little is left by levels, the deepest first, of at most so many."""
+        some, levels = self.fits[change].some, CHANGES[change][1]
+        values, models = self.tables.tabulate(some, name, known, values)
+        places = {
+            level: find_minima(costs, most, HOPELESS if name else np.inf)
+            for level, (costs, *_) in fit_levels(models, levels).items()
+        }
+        all_places = np.unique(np.concatenate([*places.values()]))
+        if not len(all_places):
+            return {}
+        # Again in finer steps: a kick makes a valley narrow.
+        finer = np.ptp(values[:2]) * np.linspace(-1, 1, FINER)
+        tried = (values[all_places, np.newaxis] + finer).ravel()
+        tried, models = self.tables.tabulate(some, name, known, tried)
+        found = {}
+        for level, (costs, worlds, bodies) in fit_levels(models, levels).items():
+            rows = np.searchsorted(all_places, places[level])
+            chosen, depths = find_depths(costs.reshape(-1, FINER)[rows])
+            order = np.argsort(depths, kind="stable")
+            starts = (rows * FINER + chosen)[order].tolist()
+            found[level] = [
+                set_parameter(
+                    replace(self.fit.start, drift=known.drift, world=worlds[k], body=bodies[k]),
+                    name,
+                    float(tried[k]),
+                )
+                for k in starts
+            ]
+        return found
 
     def refine(
         self, kind: tuple[str, str, tuple[str, ...]], offset: Offset, *, with_more: bool = False

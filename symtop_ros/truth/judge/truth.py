@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
@@ -12,7 +13,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Mask, Places, Real, Stamps, compose
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.run.log.stretches import partition
+from symtop_ros.run.log.intervals import partition
 from symtop_ros.run.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.events import Event, start_event
@@ -21,7 +22,7 @@ from symtop_ros.run.simulation.settings import Settings
 from symtop_ros.truth.topics.estimates import Estimates
 
 if TYPE_CHECKING:  # logs need mcap
-    from symtop_ros.run.log.account import Account
+    from symtop_ros.run.log.catalog import Catalog
 
 
 class Truth:
@@ -58,13 +59,13 @@ class Truth:
             column.append(value)
 
     @classmethod
-    def of(cls, account: Account) -> Truth:
-        """Return what the account of a log knows, up to its last sample."""
-        truth = cls(end=account.end)
+    def of(cls, catalog: Catalog) -> Truth:
+        """Return what the catalog of a log knows, up to its last sample."""
+        truth = cls(end=catalog.end)
         segments = {
-            id(each.event): cache(each.event.segment) for each in account.stretches if each.event
+            id(each.event): cache(each.event.segment) for each in catalog.stretches if each.event
         }
-        for begin, holding in partition(account.stretches):
+        for begin, holding in partition(catalog.stretches):
             event = holding[0].event if len(holding) == 1 else None
             truth._add(begin, segments[id(event)] if event else None, len(holding) > 1)
         return truth
@@ -104,6 +105,26 @@ class Truth:
             return None
         period = segment.motion.nutation_period / segment.factor
         return float(period) if np.isfinite(period) and period > 0 else None
+
+    @property
+    def rates(self) -> dict[str, float]:
+        """Mean rates in rad/s of the motion of a run of one motion, by name; empty for others."""
+        segment = self._only
+        if segment is None or segment.motion.is_driven:
+            return {}
+        motion = segment.motion
+        rates = {
+            "nutation": motion.nutation_rate,
+            "spin": motion.mean_spin_rate,
+            "precession": motion.mean_precession_rate,
+        }
+        found = {name: float(rate) * segment.factor for name, rate in rates.items()}
+        return {name: rate for name, rate in found.items() if math.isfinite(rate)}
+
+    @property
+    def frequencies(self) -> dict[str, float]:
+        """Frequencies in Hz of these rates."""
+        return {name: abs(rate) / math.tau for name, rate in self.rates.items() if rate}
 
     def find_unjudged(self, stamps: Stamps) -> Mask:
         """Return the mask of the stamps within the run at which the motion is not known."""

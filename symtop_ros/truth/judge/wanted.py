@@ -89,4 +89,4 @@ def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = No
 
 def find_nearest(run: Estimates, truth: Truth, model: str | None) -> Cause:
     """Return what leaves least, whether it is named or not: of a stated model, or of all causes."""
-    return Search(run, truth).choose()[0] if model is None else align(run, truth, model)
+    return Search(run, truth).choose().best if model is None else align(run, truth, model)

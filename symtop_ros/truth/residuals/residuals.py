@@ -51,6 +51,11 @@ class Residuals:
         return max(sum_correlations(each) for each in self.frames)
 
     @property
+    def rms(self) -> float:
+        """Root mean square of the angles in rad."""
+        return float(np.sqrt((self.frames[0] ** 2).sum(axis=1).mean()))
+
+    @property
     def independent(self) -> float:
         """Number of estimates that are independent: n if the noise is white."""
         # The correlations r^k of an autoregression add up to twice their squares, if r is near 1.

@@ -50,7 +50,8 @@ def find_time_step(stamps: Stamps) -> float:
     if len(steps) < FEWEST or not np.ptp(steps):
         return 0.0
     step = int(np.gcd.reduce(steps))
-    is_coarse = step >= FINEST and np.median(steps) >= WITHIN * step
+    # none of two steps is a row that is missing: the rows would have had one in each of them
+    is_coarse = step >= FINEST and (np.median(steps) >= WITHIN * step or steps.min() > step)
     return step / NANOSECONDS if is_coarse else 0.0
 
 

@@ -18,6 +18,7 @@ FEWEST = 12  # rows at a limit, and different numbers of a column that has one
 RATES = np.radians([125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0])  # rad/s
 FORCES = 9.80665 * np.array([2.0, 4.0, 8.0, 16.0, 32.0])  # m/s^2
 NEAR = 1.5e-3  # of a limit
+COUNT = 2.0**-14  # of a limit; two counts of 16 bits
 
 
 @dataclass(frozen=True)
@@ -43,11 +44,14 @@ def find_saturations(values: Real, ranges: Real) -> tuple[Saturation, ...]:
 
 
 def find_saturated(values: Real, found: tuple[Saturation, ...]) -> Mask:
-    """Return True (n, m) for numbers that are at a limit."""
-    saturated = np.zeros(values.shape, dtype=bool)
-    for each in found:
-        saturated[:, each.column] |= values[:, each.column] == each.limit
-    return saturated
+    """Return True (n, m) for numbers of a sensor that are at a limit of any of its columns.
+
+    The axes of a sensor have one range, to both sides but for one count: where one of them has a
+    heap at the end, a number of another that is there a few times is at the limit, too.
+    """
+    ends = np.array([abs(each.limit) for each in found])
+    sizes = np.abs(values)[..., np.newaxis]
+    return np.asarray((np.abs(sizes - ends) <= COUNT * ends).any(axis=-1))
 
 
 def _list_limits(numbers: Real, ranges: Real) -> list[float]:

@@ -208,8 +208,12 @@ class Score:
             f"(mean {self.angles.mean():.1e}), {self.in_limits.max():.2g} limits "
             f"({self.in_float32_limits.max():.2g} of float32)"
             f"{'' if rates is None else f'; angular velocity {rates.max():.1e} rad/s at most'}"
-            f"{self.start and f'; the row at t = 0 is not the start: {self.start}'}"
+            f"{self.start and f'; {self.format_start()}'}"
         )
+
+    def format_start(self) -> str:
+        """Return that a row at t = 0 is not the start, and how it differs."""
+        return f"the row at t = 0 is not the start: {self.start}"
 
 
 def read_problems(path: Path = FILE) -> dict[str, Problem]:

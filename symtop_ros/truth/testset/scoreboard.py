@@ -80,11 +80,20 @@ def read_entries(problems: dict[str, Problem], folder: Path) -> list[Entry]:
         Entry(path.stem, score_trajectory(path, problem))
         for problem in _list_described(problems)
         for path in sorted((folder / problem.facts["name"]).glob("*.csv"))
-        if path.name not in TABLES  # the problem and its exact motion are no entries
+        if not _is_table(path)
     ]
     if not entries:
         raise ValueError(f"{folder} must have trajectories PROBLEM/NAME.csv, got none")
     return entries
+
+
+def _is_table(path: Path) -> bool:
+    """Return True for a table of the set: the problem and its exact motion are no entries.
+
+    An engine's trajectory may have the name of one, but its rows do not begin with a problem's.
+    """
+    with path.open("rb") as file:
+        return path.name in TABLES and file.readline().startswith(b"name,")
 
 
 def _list_described(problems: dict[str, Problem]) -> Iterator[Problem]:
@@ -212,11 +221,16 @@ def format_table(entries: Sequence[Entry], problems: Mapping[str, Problem]) -> s
         f"{each.error:>11.1e}{each.limits:>10.2g}"
         for each in entries
     ]
+    starts = [
+        f"{each.problem['name']}, {each.name}: {each.score.format_start()}"
+        for each in entries
+        if each.score.start
+    ]
     orders = [
         order.describe(problem, method) for (problem, method), order in find_orders(entries).items()
     ]
     head = f"{'problem':{width}}{'level':>5}  {'entry':24}{'error, rad':>11}{'limits':>10}"
-    lines = [head, *scores, *orders]
+    lines = [head, *scores, *starts, *orders]
     for (problem, name), errors in find_differences(entries).items():
         each = ", ".join(f"{description} {error:.2g}" for description, error in errors.items())
         lines.append(f"descriptions of {problem} differ in {name}: {each} rad")

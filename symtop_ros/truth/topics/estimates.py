@@ -31,7 +31,6 @@ from symtop_ros.run.wire.messages import (
 from symtop_ros.truth.residuals.sampling import (
     describe_repeats,
     describe_time_step,
-    find_repeats,
     find_time_step,
 )
 from symtop_ros.truth.topics.measured import read_measured
@@ -43,6 +42,7 @@ MAX_STAMP = 2**62  # ns
 MAX_ESTIMATES = 20_000_000
 LARGEST_NORM_ERROR = 0.1  # of a quaternion; one further from 1 is no attitude
 ODD_NORM = 1e-3  # off 1, beyond which a quaternion was rounded no more, but meant otherwise
+ALIKE = 2e-5  # distance of quaternions of one attitude that has five decimals
 NORM_ROUNDING = 2.0**-50  # of a quaternion that is normalised
 
 
@@ -102,10 +102,11 @@ class Estimates:
         )
 
     def count_once(self) -> Estimates:
-        """Return the estimates without those that are there a second time, as in merged bags."""
-        rates = self.angular_velocities
-        numbers = self.orientations if rates is None else np.hstack([self.orientations, rates])
-        again = find_repeats(self.stamps, numbers)
+        """Return the estimates without those that are there a second time, as in merged bags.
+
+        One of two may have fewer decimals, or the quaternion of the other sign.
+        """
+        again = self._find_repeats()
         seconds = self.stamps / NANOSECONDS
         found = self.select(~again)
         times, counts = np.unique(found.stamps, return_counts=True)
@@ -116,6 +117,16 @@ class Estimates:
             notes.append(f"{others} {rows} a time, among them {first:.9g} s")
         notes += describe_time_step(find_time_step(found.stamps))
         return replace(found, notes=(*self.notes, *notes))
+
+    def _find_repeats(self) -> Mask:
+        """Return True (n,) for estimates, in order, that are those of a row before, but rounded."""
+        again = np.zeros(len(self), dtype=bool)
+        lag, q = 1, self.orientations
+        while (same := self.stamps[lag:] == self.stamps[:-lag]).any():
+            dots = np.abs((q[lag:] * q[:-lag]).sum(axis=1))
+            again[lag:] |= same & (2 * (1 - dots) < ALIKE**2)
+            lag += 1
+        return again
 
     def thin(self, most: int) -> Estimates:
         """Return at least so many of the estimates, and less than twice, spread over the run.

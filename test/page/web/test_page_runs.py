@@ -174,7 +174,7 @@ def test_the_page_reads_the_runs_of_sessions_as_python_wrote_them(opened, tmp_pa
         folder = tmp_path / str(seed)
         folder.mkdir()
         path, stamp = move(Numbers(seed), folder)
-        content = write_run(*record_run(TopLog(open_run([path])).account.events, stamp))
+        content = write_run(*record_run(TopLog(open_run([path])).catalog.events, stamp))
         content = json.loads(json.dumps(content))
         opened.drop(content)
         opened.until(partial(has_read, opened, content))

@@ -45,7 +45,7 @@ def read_events(logs, folder):
     """The events of a run that is not damaged."""
     folder.mkdir()
     paths = [log.write(folder / f"{number}.mcap") for number, log in enumerate(logs)]
-    return TopLog(open_run(paths)).account.events
+    return TopLog(open_run(paths)).catalog.events
 
 
 def list_ghosts(events):
@@ -88,7 +88,7 @@ def test_nothing_is_drawn_of_a_motion_that_is_not_known(seed, record, tmp_path):
                 replay(log, target)
         except LogError:
             continue  # one sentence, which other tests have
-        assert_right(target, read_events(logs, folder / "whole"), log.account.events)
+        assert_right(target, read_events(logs, folder / "whole"), log.catalog.events)
 
 
 def assert_right(target, events, left):

@@ -101,7 +101,7 @@ def test_a_scene_is_made_of_what_there_is(missing, tmp_path):
     target = tmp_path / "part.rrd"
     with strict():
         replay(log, target)
-    assert any(missing in problem for problem in log.account.problems)
+    assert any(missing in problem for problem in log.catalog.problems)
     assert len(rows(target, entities.BODY, "Transform3D:quaternion")[0]) == 400
 
 
@@ -193,7 +193,7 @@ def test_where_an_event_is_lost_the_motion_is_said_to_be_unknown(tmp_path):
     whole = Log.read(path)
     lost = whole.without([whole.places("/events")[2]]).write(tmp_path / "lost.mcap")
     log = TopLog(McapFile(lost))
-    (unknown,) = log.account.unknown
+    (unknown,) = log.catalog.unknown
     target = tmp_path / "run.rrd"
     replay(log, target, ViewOptions(fictitious=True))
     times, texts = rows(target, entities.PANEL, "TextDocument:text")
@@ -234,7 +234,7 @@ def test_the_sentence_is_that_of_the_last_event_that_changed_the_motion(tmp_path
     target = tmp_path / "run.rrd"
     replay(log, target)
     said = [text[0] for text in rows(target, entities.SENTENCE, "TextDocument:text")[1]]
-    events = {event.name: event for event in log.account.events}
+    events = {event.name: event for event in log.catalog.events}
     names = "start", "kick", "clamp", "unclamp"
     assert said == [events[name].verdict for name in names]
     # A hand that holds the precession changes p_phi: there is no effective potential.
@@ -273,6 +273,6 @@ def test_after_a_release_the_potential_is_that_of_the_pushes_that_were_given(tmp
     log = TopLog(McapFile(*recorded.close()))
     replay(log, tmp_path / "run.rrd")
     _, labels = rows(tmp_path / "run.rrd", f"{entities.POTENTIAL}/marks", "Points2D:labels")
-    low, _ = log.account.events[-1].segment().final_motion.turning_angles
+    low, _ = log.catalog.events[-1].segment().final_motion.turning_angles
     assert labels[-1][0] == f"{low:.3f} rad"
     assert labels[-1] != labels[-2]

@@ -116,8 +116,8 @@ def test_two_tops_and_two_nodes_of_a_user_share_an_executor(kind, context, tmp_p
         log = TopLog(open_run([*folder.iterdir()]))
         found = check_run(log)
         assert (found.mismatches, found.samples_agree, found.laws_hold) == ([], True, True)
-        assert log.account.problems == ()
-        assert [each.name for each in log.account.events] == ["start", *["kick"] * KICKS]
+        assert log.catalog.problems == ()
+        assert [each.name for each in log.catalog.events] == ["start", *["kick"] * KICKS]
 
 
 # Faults of a top, and its manners as a guest
@@ -223,8 +223,8 @@ def test_a_top_that_fails_says_so_and_the_others_continue(kind, break_it, contex
         # The log is complete before the node is destroyed.
         log = TopLog(open_run([*folders[0].iterdir()]))
         assert check_run(log).mismatches == []
-        assert log.account.problems == ()
-        event = log.account.events[-1]
+        assert log.catalog.problems == ()
+        event = log.catalog.events[-1]
         assert (event.name, event.verdict, event.number) == ("failure", reason, number)
         assert (event.stamp > last, event.segment().running) == (True, False)
     finally:

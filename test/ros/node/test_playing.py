@@ -109,8 +109,8 @@ def test_a_bag_of_a_log_in_a_loop_is_exact_and_said_to_be_repeated(storage, play
     assert found.mismatches == []
     assert {each.largest for each in found.deviations.values()} == {0.0}
     for name, each in found.deviations.items():
-        count = sum(topic == log.account.topics[name].name for topic, _ in player.messages)
+        count = sum(topic == log.catalog.topics[name].name for topic, _ in player.messages)
         assert each.samples + each.unjudged == LOOPS * count
-        assert log.account.topics[name].repeated == (LOOPS - 1) * count
-    (line,) = (each for each in log.account.problems if "the stamps of others: repeated" in each)
+        assert log.catalog.topics[name].repeated == (LOOPS - 1) * count
+    (line,) = (each for each in log.catalog.problems if "the stamps of others: repeated" in each)
     assert all(name in line for name in found.deviations)

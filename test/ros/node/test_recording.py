@@ -130,6 +130,6 @@ def test_kill_9_at_any_moment_loses_no_more_than_the_last_flush(tmp_path, attemp
         latest = max(message.log_time for chunk in file.chunks() for message in chunk)
         (problem,) = file.problems
         assert "messages after" in problem
-        assert TopLog(McapFile(path)).account.lacks_only_its_end
+        assert TopLog(McapFile(path)).catalog.lacks_only_its_end
         machine.demand(0.1)  # the condition of docs/logs.md
         assert stamp_of(published[-1]) - latest <= 5 * 10**8

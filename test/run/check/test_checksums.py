@@ -94,6 +94,6 @@ def test_a_check_of_a_run_names_the_damage(log, tmp_path):
     assert findings.samples_agree
     assert findings.mismatches == []
     assert not findings.foreign
-    first, second = log.account.problems
+    first, second = log.catalog.problems
     assert "index of messages" in first
     assert "checksum of the data" in second

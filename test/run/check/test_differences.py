@@ -33,8 +33,8 @@ LAWS = (MOMENTUM, ATTITUDE, INERTIA, WEIGHT)
 
 def try_laws(log):
     """How each law holds in a log: computed by NumPy alone."""
-    check, reader = DifferenceCheck(log.account), BatchReader()
-    reader.frame = log.account.frame
+    check, reader = DifferenceCheck(log.catalog), BatchReader()
+    reader.frame = log.catalog.frame
     for run in log.list_messages():
         chosen = [each for each in run if each[1] in DECODED]
         data = [(name, message.data) for _, name, message in chosen]

@@ -42,7 +42,7 @@ FREE = (
 
 @pytest.fixture(scope="module")
 def events(path):
-    return list(TopLog(McapFile(path)).account.events)
+    return list(TopLog(McapFile(path)).catalog.events)
 
 
 def alter(rng, text):

@@ -38,7 +38,7 @@ def judge(memory):
     findings = check_run(log)
     assert findings.samples_agree
     assert findings.mismatches == []
-    return log.account, findings
+    return log.catalog, findings
 
 
 def test_all_messages_of_a_whole_run_are_compared_and_judged(memory):
@@ -79,8 +79,8 @@ def test_diagnostics_may_be_of_before_an_event_of_their_stamp_and_behind_it_in_t
 @pytest.mark.parametrize("lost", [(3,), (4, 5, 6), (9,), (12, 13)])
 def test_missing_events_are_named_and_what_follows_from_them_is_not_judged(memory, lost):
     stamps = without_events(memory, *lost)
-    account, findings = judge(memory)
-    (text,) = account.problems
+    catalog, findings = judge(memory)
+    (text,) = catalog.problems
     which = f"event {lost[0]} is" if len(lost) == 1 else f"events {lost[0]} to {lost[-1]} are"
     before, after = stamps[lost[0] - 2], stamps[lost[-1]]
     assert text.startswith(f"{which} missing, between {before} and {after} ns; ")
@@ -115,7 +115,7 @@ def test_an_event_that_cannot_be_read_is_named_and_the_status_is_1(memory, numbe
     message.data = replace(event, values={**event.values, field: "x"}).encode("world")
     log = TopLog(memory)
     assert check(log) == 1
-    assert any(text.startswith("events: ") for text in log.account.problems)
+    assert any(text.startswith("events: ") for text in log.catalog.problems)
     assert "DO NOT" not in capsys.readouterr().out
 
 
@@ -170,7 +170,7 @@ def test_in_a_log_that_names_no_rate_the_first_samples_say_the_period(tmp_path):
     run = Run(hurried=False)
     lost = run.places("torque")[30:50]
     run.messages = [each for k, each in enumerate(run.messages) if k not in lost]
-    (found,) = run.open(tmp_path).account.problems
+    (found,) = run.open(tmp_path).catalog.problems
     assert found.startswith("torque: 20 samples are missing, ")
 
 

@@ -11,11 +11,11 @@ from symtop_ros.physics import Friction, Motion, State, Top
 from symtop_ros.replay.main import main
 from symtop_ros.run.check.run import check_run
 from symtop_ros.run.check.samples import LogCheck
-from symtop_ros.run.log.account import Account
 from symtop_ros.run.log.batch import Columns
-from symtop_ros.run.log.chronicle import Ordered
+from symtop_ros.run.log.catalog import Catalog
+from symtop_ros.run.log.event_order import Ordered
+from symtop_ros.run.log.intervals import Stretch
 from symtop_ros.run.log.reader import LogError, McapFile
-from symtop_ros.run.log.stretches import Stretch
 from symtop_ros.run.log.top_log import TopLog
 from symtop_ros.run.simulation.changes.follow import Act, Change
 from symtop_ros.run.simulation.events import MAX_STAMP, Event, start_event
@@ -28,10 +28,10 @@ EPS = np.finfo(float).eps
 
 
 def make_account(events, places, stretches=()):
-    """The account of a log that has some events, all of one run."""
+    """The catalog of a log that has some events, all of one run."""
     ordered = Ordered(tuple(events), tuple(places), (0,) * len(events))
-    others = dict.fromkeys((field.name for field in fields(Account)), ())
-    return Account(**others | {"ordered": ordered, "stretches": tuple(stretches)})
+    others = dict.fromkeys((field.name for field in fields(Catalog)), ())
+    return Catalog(**others | {"ordered": ordered, "stretches": tuple(stretches)})
 
 
 def deviations_of(run, folder):
@@ -111,7 +111,7 @@ def test_a_message_with_another_frame_is_damage(tmp_path):
     _, stamp, data = run.messages[k]
     run.messages[k] = "torque", stamp, data.replace(b"world", b"vorld")
     log = TopLog(McapFile(run.write(tmp_path)))
-    (damage,) = log.account.problems
+    (damage,) = log.catalog.problems
     assert damage.startswith("torque: 1 ")
     assert "vorld" in damage
 

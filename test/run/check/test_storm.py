@@ -105,7 +105,7 @@ def test_a_log_of_a_busy_machine_with_acts_in_quick_succession_is_sound(seed, tm
 
 def assert_sound(recorded):
     log = TopLog(open_run(recorded.close()))
-    assert (log.account.problems, log.account.doubts) == ((), ())
+    assert (log.catalog.problems, log.catalog.doubts) == ((), ())
     found = check_run(log)
     assert found.samples_agree
     assert (found.mismatches, found.unjudged) == ([], 0)

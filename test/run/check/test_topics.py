@@ -96,12 +96,12 @@ def test_a_damaged_message_is_told(name, log, tmp_path, capsys):
 
 
 def test_all_names_are_in_the_metadata_and_in_the_account(log, tmp_path):
-    account = TopLog(open_run([log.write(tmp_path / "run.mcap")])).account
-    assert {name: topic.name for name, topic in account.topics.items()} == {
+    catalog = TopLog(open_run([log.write(tmp_path / "run.mcap")])).catalog
+    assert {name: topic.name for name, topic in catalog.topics.items()} == {
         name: f"/other/{name}s" for name in KNOWN
     }
-    assert (account.node, account.guess, account.problems) == ("/top", "", ())
-    counts = {account.topics[name].count for name in SAMPLE_TOPICS}
+    assert (catalog.node, catalog.guess, catalog.problems) == ("/top", "", ())
+    counts = {catalog.topics[name].count for name in SAMPLE_TOPICS}
     assert counts == {len(log.places("/other/imus"))}
 
 
@@ -126,5 +126,5 @@ def test_a_description_where_rviz_looks_for_it_is_read_in_a_log_without_names(na
     bag = replace(Log.read(path), metadata={})
     found = TopLog(open_run([bag.write(tmp_path / "bag.mcap")]))
     findings = check_run(found)
-    assert (found.account.node, findings.mismatches) == (node, [])
+    assert (found.catalog.node, findings.mismatches) == (node, [])
     assert findings.compared["robot_description"] == 1

@@ -82,8 +82,8 @@ def test_the_default_node_does_not_depend_on_the_order_of_files(tmp_path):
     for order in itertools.permutations(files):
         log = TopLog(open_run(order))
         assert all(each.largest == 0.0 for each in compare_samples(log).values())
-        assert log.account.node == "/a"
-        (note,) = log.account.notes
+        assert log.catalog.node == "/a"
+        (note,) = log.catalog.notes
         assert note.endswith(": /b")
 
 
@@ -116,7 +116,7 @@ def test_damage_is_reported_with_the_name_of_its_file(tmp_path):
     second.write_bytes(second.read_bytes()[: second.stat().st_size // 2])
     log = TopLog(open_run([first, second]))
     assert all(each.largest == 0.0 for each in compare_samples(log).values())
-    assert any(text.startswith(f"{second.name}: the file ends") for text in log.account.problems)
+    assert any(text.startswith(f"{second.name}: the file ends") for text in log.catalog.problems)
 
 
 def test_a_damaged_database_is_read_up_to_the_damage(tmp_path):
@@ -124,7 +124,7 @@ def test_a_damaged_database_is_read_up_to_the_damage(tmp_path):
     data = bytearray(file.read_bytes())
     data[len(data) // 2 : len(data) // 2 + 40_000] = bytes(40_000)
     file.write_bytes(data)
-    problems = TopLog(open_run([file])).account.problems
+    problems = TopLog(open_run([file])).catalog.problems
     assert any("damaged" in each for each in problems)
 
 
@@ -179,7 +179,7 @@ def test_a_bag_of_compressed_messages_is_read(storage, tmp_path):
     """As `ros2 bag record --compression-mode message --compression-format zstd` writes it."""
     log = TopLog(open_run([write(tmp_path / "bag", compressed(), storage)]))
     findings = check_run(log)
-    assert (findings.mismatches, log.account.problems) == ([], ())
+    assert (findings.mismatches, log.catalog.problems) == ([], ())
     found = {(each.samples, each.largest) for each in findings.deviations.values()}
     assert found == {(300, 0.0)}
 
@@ -212,8 +212,8 @@ def test_what_is_lost_before_the_node_is_started_again_is_told(first, said, tmp_
     begin, end = (RUN.places("orientation")[k] for k in (first, first + 20))
     kept = [*RUN.messages[:begin], *RUN.messages[end:]]
     log = TopLog(open_run([write(tmp_path / "bag", restarted(3 * SECOND, kept))]))
-    assert log.account.problems == ()
-    assert any(said in each for each in log.account.doubts)
+    assert log.catalog.problems == ()
+    assert any(said in each for each in log.catalog.doubts)
 
 
 @pytest.fixture(name="copies")
@@ -311,7 +311,7 @@ def test_compressed_messages_that_are_damaged_are_counted(tmp_path):
     name, stamp, data = messages[40]
     messages[40] = name, stamp, data[:8] + b"\xff" * 8
     log = TopLog(open_run([write(tmp_path / "bag", messages)]))
-    first, _ = log.account.problems
+    first, _ = log.catalog.problems
     assert first == "messages that cannot be decompressed: 1"
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from run.log.test_chronicle import KICKS, START, event, order
+from run.log.test_event_order import KICKS, START, event, order
 
 from symtop_ros.run.log.grid import Grid, Recording
 from symtop_ros.run.log.stamps import ROUNDING, StampRows

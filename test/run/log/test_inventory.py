@@ -60,7 +60,7 @@ def keep_in_log(bag, kept):
 
 
 def read_problems(bag):
-    return list(TopLog(open_run([bag])).account.problems)
+    return list(TopLog(open_run([bag])).catalog.problems)
 
 
 def read_losses(bag):

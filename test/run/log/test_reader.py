@@ -169,16 +169,16 @@ def test_topics_are_found_in_any_namespace_and_between_others(tmp_path):
     ]
     log = write(tmp_path, {"/lab/one/top": SECOND_RUN}, others=others)
     columns = columns_of(log)
-    assert log.account.node == "/lab/one/top"
+    assert log.catalog.node == "/lab/one/top"
     assert len(columns["orientation"]) == 200
-    assert (log.account.problems, log.account.notes) == ((), ())
+    assert (log.catalog.problems, log.catalog.notes) == ((), ())
 
 
 def test_of_several_tops_one_is_chosen_and_the_others_are_listed(tmp_path):
     slow = Run(seconds=1.0, rate=50.0)
     log = write(tmp_path, {"/a": SECOND_RUN, "/b": slow})
     assert len(columns_of(log)["torque"]) == 200
-    (note,) = log.account.notes
+    (note,) = log.catalog.notes
     assert "/a;" in note
     assert note.endswith("--node: /b")
     assert len(columns_of(TopLog(log.file, "b"))["torque"]) == 50  # the slash may be left out
@@ -187,12 +187,12 @@ def test_of_several_tops_one_is_chosen_and_the_others_are_listed(tmp_path):
 def test_the_top_of_a_file_that_has_lost_its_index_is_found_in_its_chunks(good, tmp_path):
     log = TopLog(McapFile(save(tmp_path, good.read_bytes()[:-20])))
     assert len(columns_of(log)["torque"]) == 200
-    assert log.account.node == "/top"
+    assert log.catalog.node == "/top"
 
 
 def test_of_several_tops_that_of_the_default_name_is_chosen(tmp_path):
     log = write(tmp_path, {"/a": SECOND_RUN, "/top": SECOND_RUN})
-    assert log.account.node == "/top"
+    assert log.catalog.node == "/top"
 
 
 @pytest.mark.parametrize("shift", [1, 60, -60])
@@ -213,7 +213,7 @@ def test_missing_topics_are_listed(tmp_path):
     log = write(tmp_path, {"/top": part})
     assert set(columns_of(log)) == {"orientation"}
     missing = ", ".join(f"no {name}" for name in STATES[1:])
-    assert log.account.notes == (f"the log has {missing}",)
+    assert log.catalog.notes == (f"the log has {missing}",)
 
 
 def test_a_log_without_a_top_is_refused_with_a_list_of_its_topics(tmp_path):
@@ -236,7 +236,7 @@ def test_messages_that_cannot_be_decoded_are_reported_and_the_others_used(cut, t
         run.messages[place] = name, stamp, data[:-3]
     log = write(tmp_path, {"/top": run})
     assert len(columns_of(log)["torque"]) == 200 - cut
-    (problem,) = log.account.problems
+    (problem,) = log.catalog.problems
     assert problem.startswith(f"torque: {write_count(cut, 'message')}: ")
     assert "are not a geometry_msgs/msg/WrenchStamped" in problem
 

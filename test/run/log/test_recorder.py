@@ -21,7 +21,7 @@ from rosbags.interfaces import QosDurability, QosReliability
 from waiting import TIMEOUT, until
 
 from symtop_ros.run.log import recorder as module
-from symtop_ros.run.log.account import read_account
+from symtop_ros.run.log.catalog import read_catalog
 from symtop_ros.run.log.names import Names
 from symtop_ros.run.log.reader import LOST_BEFORE, LogError, McapFile
 from symtop_ros.run.log.recorder import Recorder
@@ -258,8 +258,8 @@ def test_a_log_that_was_given_up_ends_as_a_file_without_checksum_and_index(tmp_p
 RUN = Run()
 
 
-def account_of(file):
-    return read_account(file, Names(file))
+def catalog_of(file):
+    return read_catalog(file, Names(file))
 
 
 @pytest.fixture
@@ -273,7 +273,7 @@ def cut(tmp_path):
 def test_the_readable_messages_become_a_complete_file_for_every_reader(cut, tmp_path):
     target = tmp_path / "whole.mcap"
     file = McapFile(cut)
-    count = repair(file, target, account_of(file)).messages
+    count = repair(file, target, catalog_of(file)).messages
     assert 0 < count < len(RUN.messages)
     assert "messages after" in file.problems[0]
     assert [data for *_, data in contents(target)] == [data for *_, data in RUN.messages[:count]]
@@ -325,13 +325,13 @@ def test_the_target_is_never_overwritten(cut, tmp_path):
     target = tmp_path / "there.mcap"
     target.write_text("mine")
     with pytest.raises(LogError, match=r"there\.mcap must not exist \(nothing is overwritten\)"):
-        repair(file := McapFile(cut), target, account_of(file))
+        repair(file := McapFile(cut), target, catalog_of(file))
     assert target.read_text() == "mine"
 
 
 def test_a_target_that_cannot_be_written_is_reported(cut, tmp_path):
     with pytest.raises(LogError, match=os.strerror(errno.ENOENT)):
-        repair(file := McapFile(cut), tmp_path / "none" / "whole.mcap", account_of(file))
+        repair(file := McapFile(cut), tmp_path / "none" / "whole.mcap", catalog_of(file))
 
 
 def test_messages_of_a_channel_without_a_description_are_omitted_and_reported(tmp_path):
@@ -344,9 +344,9 @@ def test_messages_of_a_channel_without_a_description_are_omitted_and_reported(tm
         writer.add_message(known + 1, 2, b"whose", 2)
         writer.finish()
     file = McapFile(path)
-    account = account_of(file)
-    assert str(repair(file, tmp_path / "whole.mcap", account)) == "1 message"
-    assert account.problems == (f"channel {known + 1} is not described: its messages are lost",)
+    catalog = catalog_of(file)
+    assert str(repair(file, tmp_path / "whole.mcap", catalog)) == "1 message"
+    assert catalog.problems == (f"channel {known + 1} is not described: its messages are lost",)
     assert [data for *_, data in contents(tmp_path / "whole.mcap")] == [b"mine"]
 
 

@@ -97,7 +97,7 @@ def test_a_description_of_another_body_is_sent_and_the_sensors_follow(tmp_path):
     assert np.linalg.norm(pulled) == pytest.approx(0.03, rel=1e-12)
     log = TopLog(open_run([path]))
     found = check_run(log)
-    assert (found.mismatches, found.samples_agree, log.account.problems) == ([], True, ())
+    assert (found.mismatches, found.samples_agree, log.catalog.problems) == ([], True, ())
     assert found.compared["robot_description"] == 3
 
 
@@ -126,7 +126,7 @@ def test_a_run_keeps_the_body_and_one_of_before_has_none(tmp_path):
     again, *_ = read_run(path)
     assert [(each.mass, each.gravity) for each in again] == [(0.0, 9.81), (2.6, 9.80)]
     write_run_log(again, end, tmp_path / "run.mcap")
-    last = TopLog(open_run([tmp_path / "run.mcap"])).account.events[-1].segment()
+    last = TopLog(open_run([tmp_path / "run.mcap"])).catalog.events[-1].segment()
     assert (last.rig.mass, last.rig.gravity) == (2.6, 9.80)
     content["events"][1]["mass"] = 1e-6
     path.write_text(json.dumps(content))

@@ -54,8 +54,8 @@ def test_of_acts_at_one_time_only_the_last_has_a_sample_and_what_is_undone_is_no
     log = read(path)
     found = check_run(log)
     assert found.samples_agree
-    assert (found.mismatches, log.account.problems) == ([], ())
-    events, _ = record_run(log.account.events, END)
+    assert (found.mismatches, log.catalog.problems) == ([], ())
+    events, _ = record_run(log.catalog.events, END)
     assert [event.kind for event in events] == ["start", "start", "kick", "torque"]
 
 
@@ -214,8 +214,8 @@ def check(path):
     assert found.mismatches == []
     assert all(each.differing == 0 for each in found.deviations.values())
     assert found.laws_hold
-    assert log.account.problems == ()
-    return list(log.account.events)
+    assert log.catalog.problems == ()
+    return list(log.catalog.events)
 
 
 def list_exact(event):

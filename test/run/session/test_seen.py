@@ -146,9 +146,9 @@ def test_a_log_with_each_question_agrees_and_its_run_has_the_starts(tmp_path, ca
     path, stamp = record(tmp_path, *ASKED)
     log = TopLog(open_run([path]))
     found = check_run(log)
-    assert (found.mismatches, found.samples_agree, log.account.problems) == ([], True, ())
+    assert (found.mismatches, found.samples_agree, log.catalog.problems) == ([], True, ())
     assert (found.starts.compared, found.starts.foreign) == (len(ASKED), 0)
-    events, _ = record_run(log.account.events, stamp)
+    events, _ = record_run(log.catalog.events, stamp)
     assert [each.kind for each in events] == ["start"] * (1 + len(ASKED))
     assert main([str(path), "--check"]) == 0
     assert "solved starts" in capsys.readouterr().out

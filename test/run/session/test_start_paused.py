@@ -35,9 +35,9 @@ def close(session):
     log = TopLog(open_run([path]))
     findings = check_run(log)
     assert (findings.mismatches, findings.samples_agree, findings.laws_hold) == ([], True, True)
-    assert log.account.problems == ()
+    assert log.catalog.problems == ()
     (batch, *_) = log.batches()
-    return [event.name for event in log.account.events], batch
+    return [event.name for event in log.catalog.events], batch
 
 
 def test_it_stands_still_at_its_start_however_long_it_waits(tmp_path):

@@ -18,6 +18,7 @@ from symtop_ros.run.simulation.sensor.imu import (
     EARTH,
     EXACT,
     EXACT_FIELD,
+    LIMITS,
     MAGNETOMETER_NOISE,
     NOISE,
     Imu,
@@ -139,6 +140,7 @@ BEYOND = [
     (Imu, "rate", (0.0, 1e7, math.nan), "0.001 to 1e\\+06 Hz"),
     (Magnetometer, "seed", (-1, 2**63), "0 to "),
     *((Imu, name, (-1e-9, 1.1e6, math.inf), "0 to 1e\\+06 in SI units") for name in NOISE),
+    *((Imu, name, (-1e-9, 1.1e9, math.inf), "0 to 1e\\+09 in SI units") for name in LIMITS),
     *(
         (Magnetometer, name, (-1e-9, 1.1e6, math.inf), "0 to 1e\\+06 in SI units")
         for name in MAGNETOMETER_NOISE
@@ -171,6 +173,36 @@ def test_noise_shows_in_the_covariances():
     assert numbers[0, 16] == pytest.approx((2e-3) ** 2 * 400, rel=4 * EPS)
     assert numbers[0, 28] == pytest.approx(0.02**2 * 400, rel=4 * EPS)
     assert numbers[0, 4] == EXACT  # the attitude is still exact
+
+
+# 2000 deg/s are 34.9; both ends are multiples of the steps, which are powers of two
+LIMITED = dict(zip(LIMITS, (34.875, 0.125, 400.0, 0.25), strict=True))
+
+
+def test_a_sensor_shows_multiples_of_its_step_and_no_more_than_its_range():
+    free = measured("imu", segment_of(NOISY))
+    shown = measured("imu", segment_of(replace(NOISY, **LIMITED)))
+    for first, end, step in ((13, 34.875, 0.125), (25, 400.0, 0.25)):
+        values, exact = shown[:, first : first + 3], free[:, first : first + 3]
+        assert (values % step == 0).all()
+        assert (np.abs(values) <= end).all()
+        within = np.abs(exact) < end
+        assert within.any()
+        assert not within.all()
+        assert (np.abs(values - exact)[within] <= step / 2).all()
+        assert (values[~within] == np.copysign(end, exact[~within])).all()
+
+
+def test_rounding_is_in_the_covariances():
+    numbers = measured("imu", segment_of(Imu(**LIMITED)))
+    assert numbers[0, 16] == pytest.approx(0.125**2 / 12, rel=4 * EPS)
+    assert numbers[0, 28] == pytest.approx(0.25**2 / 12, rel=4 * EPS)
+
+
+def test_the_limits_of_a_sensor_are_in_the_event_of_a_run():
+    rig = Rig(9.81, replace(NOISY, **LIMITED))
+    assert Rig.from_values(rig.values) == rig
+    assert "imu.limits" not in Rig(9.81, NOISY).values
 
 
 def test_an_exact_magnetometer_has_the_field_of_the_world_in_its_frame():

@@ -68,6 +68,12 @@ def test_a_number_may_be_at_the_limits_of_its_range_and_is_refused_beyond_them(n
         assert refusal({name: 0.5}) == f"{name} must be {parameter.condition}, got 0.5"
 
 
+LIMITS = (
+    "imu.limits.gyroscope_range",
+    "imu.limits.gyroscope_resolution",
+    "imu.limits.accelerometer_range",
+    "imu.limits.accelerometer_resolution",
+)
 NOISE = (
     "imu.noise.gyroscope_noise_density",
     "imu.noise.gyroscope_random_walk",
@@ -93,6 +99,7 @@ RANGES = {
     ("mass",): (0.0, 1e30),
     ("gravity",): (1e-3, 1e3),
     NOISE: (0.0, 1e6),
+    LIMITS: (0.0, 1e9),
     ("imu.noise.seed", "magnetic_field.noise.seed"): (0, 2**53),
     ("scheduling_priority",): (0, 99),
 }

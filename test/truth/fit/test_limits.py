@@ -1,5 +1,7 @@
 """A sensor at its limit: rows that are left out, and records that are refused."""
 
+import re
+
 import numpy as np
 import pytest
 from drawn import Numbers
@@ -36,11 +38,64 @@ def test_rows_at_the_limit_are_left_out_with_their_range_and_share():
     assert note.endswith("in 10% of the rows)")
 
 
-def test_a_spin_beyond_the_range_is_refused(tmp_path, capsys):
-    path = write_table(tmp_path / "fast.csv", np.minimum(see_rates(), RANGE), head="t,wx,wy,wz")
-    assert main([str(path)]) == 1
-    said = "a record must be within the range of its sensor, got wz at 34.907 rad/s (2000 deg/s)"
-    assert capsys.readouterr().err == f"top_fit: {said} in 100% of the rows\n"
+def read_number(text, name):
+    """Return a number and its deviation from the line of a report that begins with its name."""
+    (line,) = [each.strip() for each in text.splitlines() if each.strip().startswith(name)]
+    value, deviation = line[len(name) :].split("+-")[:2]
+    return float(value), float(deviation.split()[0])
+
+
+def write_clipped(tmp_path):
+    return write_table(tmp_path / "fast.csv", np.minimum(see_rates(), RANGE), head="t,wx,wy,wz")
+
+
+def test_a_spin_beyond_the_range_is_left_out_and_what_the_others_show_is_printed(tmp_path, capsys):
+    assert main([str(write_clipped(tmp_path))]) == 0
+    text = capsys.readouterr().out
+    assert "note: wz at 34.907 rad/s (2000 deg/s), the limit of the sensor" in text
+    period, deviation = read_number(text, "nutation period")
+    assert abs(period - CUSPS.nutation_period) < 5 * deviation
+    # no number of the top stands among those that are known
+    assert not [each for each in ("  Mgl/Ix", "  spin", "  theta") if f"\n{each}" in text]
+    value, deviation = re.search(r"only \(2 - Iz/Ix\) spin = (\S+) \+- (\S+) rad/s", text).groups()
+    top, spin = CUSPS.top, float(CUSPS.start.angular_velocity[2])
+    assert abs(float(value) - (2 - top.Iz / top.Ix) * spin) < 5 * float(deviation)
+
+
+def test_a_known_ratio_of_moments_gives_the_other_numbers_without_the_spin(tmp_path, capsys):
+    top, spin = CUSPS.top, float(CUSPS.start.angular_velocity[2])
+    ratio = f"{top.Iz / top.Ix:.12f}"
+    assert main([str(write_clipped(tmp_path)), "--Iz-Ix", ratio, "1e-5"]) == 0
+    text = capsys.readouterr().out
+    for name, true in (("spin (omega_z)", spin), ("Mgl/Ix", top.Mgl / top.Ix)):
+        value, deviation = read_number(text, name)
+        assert abs(value - true) < 5 * deviation
+        assert deviation < 0.01 * abs(true)
+
+
+def test_what_lacks_a_spin_is_no_run(tmp_path, capsys):
+    path = write_clipped(tmp_path)
+    assert main([str(path), "--run", str(tmp_path / "run.json")]) == 1
+    assert (
+        "--run must have rates about the axis, got none within the range" in capsys.readouterr().err
+    )
+    assert not (tmp_path / "run.json").exists()
+
+
+def test_a_spin_next_to_the_range_is_left_out_with_its_neighbours():
+    """Rows below the range by chance alone would show a spin that is too slow."""
+    values = see_rates()
+    limit = float(np.percentile(values[:, 2], 70))
+    values[:, 2] = np.minimum(values[:, 2], limit)
+    found = leave_out_saturated(make_rows(values))
+    assert (found.kind, found.values.shape) == ("across", (len(TIMES), 2))
+    slow = see_rates()
+    slow[60:, 2] -= 1.0  # in the first rows alone it is beyond
+    slow[:, 2] = np.minimum(slow[:, 2], limit)
+    found = leave_out_saturated(make_rows(slow))
+    assert found.kind == "rates"
+    assert len(TIMES) - 60 - 8 <= len(found.times) <= len(TIMES) - 60
+    assert "or next to it" in found.notes[0]
 
 
 def test_an_accelerometer_has_limits_of_its_own():

@@ -114,6 +114,30 @@ def test_a_plan_names_twins_and_where_deviations_do_not_hold(capsys):
     assert float(spin[2]) == pytest.approx(0.04 * float(spin[1]), rel=0.06)
 
 
+def test_a_sensor_whose_range_ends_below_the_spin_shows_what_its_other_axes_do(capsys):
+    words = "cusps --kind rates --rate 200 --noise 0.02 --range 34.9"
+    plan = read_plan(words)
+    assert [each.name for each in read_values(plan).values() if each.is_known] == [
+        "nutation_period"
+    ]
+    assert read_values(plan)["nutation_period"].value == pytest.approx(
+        plan.motion.nutation_period, rel=1e-12
+    )
+    assert "note: wz is beyond the range of the sensor: it will be left out" in run(words, capsys)
+    with_ratio = read_plan(f"{words} --Iz-Ix 0.25087719298 0.001")
+    spin = read_values(with_ratio)["spin"]
+    assert spin.value == pytest.approx(plan.motion.start.angular_velocity[2], rel=1e-9)
+
+
+def test_a_resolution_is_noise_of_its_own():
+    fine, coarse = (
+        read_values(read_plan(f"cusps --kind rates --noise 0.02{each}"))["Mgl/Ix"].deviation
+        for each in ("", " --resolution 0.3")
+    )
+    # 0.3/sqrt(12) is 0.0866: with 0.02 they are 0.0889
+    assert coarse / fine == pytest.approx(0.0889 / 0.02, rel=0.01)
+
+
 @pytest.mark.slow
 def test_a_scene_with_friction_says_when_the_spin_is_half(capsys):
     plan = read_plan("friction --kind attitude --friction --seconds 4")
@@ -135,6 +159,9 @@ REFUSED = {
     "cusps --kind pixels --camera 0 30 10": "--camera must have PIXELS > 0 and LENGTHS > 1.11, "
     "got 0 and 10",
     "cusps --scale 100": "--scale must have a record of pixels, got axis",
+    "cusps --range 4": "--range must have a record of rates, got axis",
+    "cusps --kind rates --range 4 5": "--range must have at most 1 number of rates, got 2",
+    "cusps --kind rates --range 1": "--range must show most of the rows, got",
     "cusps --plot a.png": "--plot must have a record, got --plan",
 }
 

@@ -185,6 +185,27 @@ def test_a_magnetometer_is_in_every_form_of_the_record(tmp_path, capsys):
     assert "/top/magnetic_field               250 samples, largest difference 0" in found
 
 
+def test_a_sensor_with_limits_is_in_every_form_of_the_record(tmp_path, capsys):
+    limits = "--range", "34.9", "150", "--resolution", "0.001"
+    for name in ("run.csv", "run.mcap", "run"):
+        assert main([*SHORT, *MOUNTED, *NOISY, *limits, "-o", str(tmp_path / name)]) == 0
+    head, rows = read(tmp_path / "run.csv")
+    table = np.array(rows, dtype=float)
+    spins = np.abs(table[:, head.index("wy")])  # the mount turns the axis to y
+    assert spins.min() > 100
+    shown = table[:, head.index("measured_wx") :][:, :3]
+    assert (np.abs(shown[:, 1]) == 34.9).all()
+    # a product of a whole number and 0.001 is written with all its digits
+    assert np.abs(shown - np.round(shown, 3)).max() < 1e-14
+    assert "gyroscope_range: 34.9" in (tmp_path / "run/imu0/sensor.yaml").read_text()
+    capsys.readouterr()
+    assert replay([str(tmp_path / "run.mcap"), "--check"]) == 0
+    assert "/top/imu                          250 samples" in capsys.readouterr().out
+    assert main([*SHORT, "--range", "1", "2", "3", "-o", str(tmp_path / "no.csv")]) == 1
+    refusal = "top_imu: --range must be one number or two, got 3\n"
+    assert capsys.readouterr().err == refusal
+
+
 def test_noise_may_be_in_a_file_of_kalibr(tmp_path, capsys):
     noise = tmp_path / "imu.yaml"
     noise.write_text("rostopic: /imu0\naccelerometer_noise_density: 0.01\nupdate_rate: 200.0\n")

@@ -11,7 +11,7 @@ from truth.judge.cases import SECOND, TILT, Made, heading, make_estimates, turn_
 
 from symtop_ros.base.arrays import compose, rotate
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.run.log.stretches import Stretch
+from symtop_ros.run.log.intervals import Stretch
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.events import start_event
 from symtop_ros.run.simulation.settings import Settings

@@ -153,7 +153,7 @@ def test_a_cause_in_the_noise_of_a_filter_is_a_candidate_with_its_size(time):
     assert not judgement.found.explained
     assert candidate.kind == ("", "none", ("delay",))
     assert abs(candidate.offset.delay - 5e-3) < 5 * candidate.deviations[0]
-    assert " ms would leave 1." in judgement.format()
+    assert " ms leaves 1" in judgement.format()
     assert judgement.facts()["found"]["candidate"]["delay"] == candidate.offset.delay
 
 

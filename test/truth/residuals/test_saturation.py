@@ -32,6 +32,15 @@ def test_a_column_that_is_cut_at_a_limit_is_named_with_its_rows(limit, sign):
     assert find_saturated(values, (found,)).sum() == found.rows
 
 
+def test_a_number_of_another_column_at_either_end_is_at_the_limit_too():
+    values = np.concatenate(
+        [np.minimum(make_columns(LIMIT - 1, 5.0), LIMIT), make_columns(0.0, 20.0)], axis=1
+    )
+    values[[3, 50], 1] = -LIMIT, -LIMIT * 32768 / 32767
+    (found,) = find_saturations(values, RATES)
+    assert np.flatnonzero(find_saturated(values, (found,))[:, 1]).tolist() == [3, 50]
+
+
 def test_both_ends_may_be_cut():
     values = np.clip(make_columns(0.0, 50.0), -LIMIT, LIMIT)
     assert [each.limit for each in find_saturations(values, RATES)] == [-LIMIT, LIMIT]

@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from truth.testset.trajectories import NAMES, write
 
 from symtop_ros.physics import Motion, State, Top
+from symtop_ros.truth.testset.folders import write_problem
 from symtop_ros.truth.testset.main import main
 from symtop_ros.truth.testset.score import find_problem, read_problems
 from symtop_ros.truth.testset.scoreboard import Entry
@@ -174,3 +175,26 @@ def test_a_folder_without_trajectories_is_refused_in_one_line(tmp_path, capsys):
     assert main(["all", str(tmp_path)]) == 1
     reason = "must have trajectories PROBLEM/NAME.csv, got none"
     assert capsys.readouterr().err == f"top_testset: {tmp_path} {reason}\n"
+
+
+def test_what_is_wrong_with_a_start_is_said_of_each_entry(tmp_path, capsys):
+    facts = find_problem(read_problems(), "cusps").facts
+    q = np.array([facts["orientation"], *facts["orientations"]], dtype=float) * [1, -1, -1, -1]
+    table = np.column_stack(([0.0, *facts["times"]], q / np.linalg.norm(q, axis=1)[:, np.newaxis]))
+    (tmp_path / "cusps").mkdir()
+    (tmp_path / "cusps" / "engine.csv").write_text(write(table, NAMES[:5]))
+    write_entry(tmp_path, "cusps", "good", 1e-3)
+    assert main(["cusps", str(tmp_path / "cusps" / "engine.csv")]) == 0
+    alone = capsys.readouterr().out.splitlines()[0].partition("; ")[2]
+    assert alone.startswith("the row at t = 0 is not the start: ")
+    assert main(["all", str(tmp_path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line for line in lines if "t = 0" in line] == [f"cusps, engine: {alone}"]
+
+
+def test_a_trajectory_with_the_name_of_a_table_of_the_set_is_scored(tmp_path, capsys):
+    write_problem(read_problems(), "cusps", tmp_path / "cusps")
+    write_entry(tmp_path, "cusps", "world", 1e-3)
+    capsys.readouterr()
+    assert main(["all", str(tmp_path), "--json"]) == 0
+    assert [each["entry"] for each in json.loads(capsys.readouterr().out)["scores"]] == ["world"]

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
+import numpy as np
+
 from symtop_ros.base.arrays import Real, Vector, compose
 from symtop_ros.base.refusals import number, vector
 from symtop_ros.physics import DEFAULT_GRAVITY, Body, Motion, State, Top, specific_force
@@ -26,6 +28,14 @@ NOISE = (
     "accelerometer_noise_density",
     "accelerometer_random_walk",
 )
+LIMITS = (
+    "gyroscope_range",
+    "gyroscope_resolution",
+    "accelerometer_range",
+    "accelerometer_resolution",
+)
+PARTS = slice(0, 3), slice(3, 6)  # of a sample: rates, and specific forces
+LARGEST_LIMIT = 1e9  # rad/s or m/s^2
 # T; x east, y north, z up (REP-103): north and down, as in central Europe
 EARTH: Vector = (0.0, 2e-5, -4.5e-5)
 MAX_FIELD = 1e3  # T
@@ -100,7 +110,8 @@ class Imu:
     """An inertial measurement unit on a top.
 
     Noise densities and random walks are in the units of datasheets and of Kalibr's YAML. A sample
-    has white noise of a density times the root of the rate.
+    has white noise of a density times the root of the rate. It is then rounded to a resolution, and
+    what is beyond the range is shown as the end of the range, as sensors do.
 
     Attributes
     ----------
@@ -116,6 +127,10 @@ class Imu:
         White noise in m/s^2/sqrt(Hz).
     accelerometer_random_walk : float
         Random walk of the bias in m/s^3/sqrt(Hz).
+    gyroscope_range, accelerometer_range : float
+        Largest size of a component that is shown, in rad/s and m/s^2; 0: any.
+    gyroscope_resolution, accelerometer_resolution : float
+        Step of the numbers that are shown, in rad/s and m/s^2; 0: none.
     seed : int
         Of the noise, >= 0.
     rate : float
@@ -133,8 +148,8 @@ class Imu:
     Examples
     --------
     >>> from symtop_ros.truth.imu import Imu
-    >>> Imu(position=(0, 0, 0.02), rate=1000).has_noise
-    False
+    >>> Imu(position=(0, 0, 0.02), rate=1000).is_exact
+    True
     >>> Imu(rate=0)
     Traceback (most recent call last):
     symtop_ros.base.refusals.RefusedError: rate must be 0.001 to 1e+06 Hz, got 0
@@ -146,6 +161,10 @@ class Imu:
     gyroscope_random_walk: float = 0.0
     accelerometer_noise_density: float = 0.0
     accelerometer_random_walk: float = 0.0
+    gyroscope_range: float = 0.0
+    gyroscope_resolution: float = 0.0
+    accelerometer_range: float = 0.0
+    accelerometer_resolution: float = 0.0
     seed: int = 0
     rate: float = 200.0
     begin: int = 0
@@ -157,18 +176,24 @@ class Imu:
         number("seed", self.seed, "", 0, 2**63 - 1)
         for name in NOISE:
             number(name, getattr(self, name), "in SI units", 0.0, MAX_NOISE)
+        for name in LIMITS:
+            number(name, getattr(self, name), "in SI units", 0.0, LARGEST_LIMIT)
         _ = self.mount  # refused here if it is no unit quaternion
 
     @property
-    def has_noise(self) -> bool:
-        """True if the gyroscope or the accelerometer is not exact."""
-        return any((*self._noise.densities, *self._noise.walks))
+    def is_exact(self) -> bool:
+        """True if the gyroscope and the accelerometer show what there is."""
+        return not any(getattr(self, name) for name in (*NOISE, *LIMITS))
 
     @property
     def covariances(self) -> dict[str, float]:
-        """Variance of each axis of what is measured, by the names in the message."""
+        """Variance of each axis of what is measured, by the names in the message.
+
+        Rounding has the variance of a number anywhere in a step, resolution^2/12.
+        """
         gyroscope, accelerometer = (
-            density * density * self.rate if density else EXACT for density in self._noise.densities
+            density * density * self.rate + step * step / 12 or EXACT
+            for density, (_, step) in zip(self._noise.densities, self._limits, strict=True)
         )
         return {
             "orientation": EXACT,
@@ -186,6 +211,14 @@ class Imu:
             self.begin,
         )
 
+    @property
+    def _limits(self) -> tuple[tuple[float, float], ...]:
+        """Range and resolution of the gyroscope and of the accelerometer."""
+        return (
+            (self.gyroscope_range, self.gyroscope_resolution),
+            (self.accelerometer_range, self.accelerometer_resolution),
+        )
+
     @cached_property
     def mount(self) -> State:
         """The orientation as a state: `mount.to_body` turns components into the sensor frame."""
@@ -201,8 +234,20 @@ class Imu:
         )
 
     def noise(self, stamps: Any) -> Real:
-        """Return the errors of angular velocity and acceleration at stamps."""
+        """Return the errors of angular velocity and acceleration at stamps, before rounding."""
         return self._noise.draw(stamps)
+
+    def show(self, exact: Real, stamps: Any) -> Real:
+        """Return what the sensor shows of exact rates and forces (..., 6) at stamps."""
+        if self.is_exact:
+            return exact
+        shown = np.array(exact + self.noise(stamps))
+        for part, (end, step) in zip(PARTS, self._limits, strict=True):
+            if step:
+                shown[..., part] = np.rint(shown[..., part] / step) * step
+            if end:
+                shown[..., part] = np.clip(shown[..., part], -end, end)
+        return shown
 
     def biases(self, stamps: Any) -> Real:
         """Return the slow part of the errors: the random walks."""
@@ -242,6 +287,9 @@ class Rig:
                 "imu.seed": str(imu.seed),
                 "imu.begin": str(imu.begin),
             }
+            limits = [getattr(imu, name) for name in LIMITS]
+            if any(limits):
+                values["imu.limits"] = write_text(limits)
             if found := imu.magnetometer:
                 values |= {
                     "magnetic_field.vector": write_text(found.vector),
@@ -271,10 +319,12 @@ class Rig:
 def _read_imu(values: Mapping[str, str]) -> Imu:
     a, b, c, x, y, z, w = map(float, values["imu.mount"].split())
     *noise, rate = map(float, values["imu.noise"].split())
+    limits = map(float, values.get("imu.limits", "0 0 0 0").split())
     return Imu(
         (a, b, c),
         (x, y, z, w),
         **dict(zip(NOISE, noise, strict=True)),
+        **dict(zip(LIMITS, limits, strict=True)),
         seed=int(values["imu.seed"]),
         rate=rate,
         begin=int(values["imu.begin"]),

@@ -1,4 +1,4 @@
-"""The account of logs of other writers, and of logs that are odd and sound."""
+"""The catalog of logs of other writers, and of logs that are odd and sound."""
 
 import random
 import re
@@ -18,8 +18,8 @@ from trials import seeds
 
 from symtop_ros.base.counts import write_count
 from symtop_ros.run.check.run import check_run
-from symtop_ros.run.log.account import read_account
 from symtop_ros.run.log.bags import open_run
+from symtop_ros.run.log.catalog import read_catalog
 from symtop_ros.run.log.names import Names
 from symtop_ros.run.log.reader import RECORD_START, LogError, McapFile
 from symtop_ros.run.log.repair import repair
@@ -39,9 +39,9 @@ def log(tmp_path_factory):
     return Log.read(path)
 
 
-def account_of(path):
+def catalog_of(path):
     file = McapFile(path)
-    return file, read_account(file, Names(file))
+    return file, read_catalog(file, Names(file))
 
 
 def test_there_are_all_variants_of_the_conformance_tests():
@@ -54,9 +54,9 @@ def test_every_legal_variant_is_sound_and_repaired_with_all_that_it_has(name, tm
         path = tmp_path / "odd.mcap"
         target = tmp_path / f"{number}.mcap"
         path.write_bytes(write_variant(name, features))
-        file, account = account_of(path)
-        assert (account.problems, account.notes) == ((), ()), features
-        found = repair(file, target, account)
+        file, catalog = catalog_of(path)
+        assert (catalog.problems, catalog.notes) == ((), ()), features
+        found = repair(file, target, catalog)
         counts = found.messages, found.attachments, found.metadata
         own = INPUTS[name]
         expected = (sum(isinstance(each, kind) for each in own) for kind in KEPT)
@@ -71,8 +71,8 @@ def test_every_legal_variant_is_sound_and_repaired_with_all_that_it_has(name, tm
 def test_a_repair_keeps_attachments_and_says_so(log, tmp_path):
     notes = Attachment(0, 0, "notes.txt", "text/plain", b"a fine run")
     path = replace(log, attachments=[notes]).write(tmp_path / "run.mcap")
-    file, account = account_of(path)
-    found = repair(file, tmp_path / "whole.mcap", account)
+    file, catalog = catalog_of(path)
+    found = repair(file, tmp_path / "whole.mcap", catalog)
     assert str(found) == f"{len(log.messages)} messages, 1 attachment"
     assert list(McapFile(tmp_path / "whole.mcap").attachments()) == [notes]
 
@@ -81,9 +81,9 @@ def test_a_damaged_attachment_is_told_and_not_copied(log, tmp_path):
     notes = Attachment(0, 0, "notes.txt", "text/plain", b"a fine run")
     path = replace(log, attachments=[notes]).write(tmp_path / "run.mcap")
     path.write_bytes(path.read_bytes().replace(b"a fine run", b"a fine rum"))
-    file, account = account_of(path)
-    assert account.problems[0].startswith("the record before byte ")
-    assert repair(file, tmp_path / "whole.mcap", account).attachments == 0
+    file, catalog = catalog_of(path)
+    assert catalog.problems[0].startswith("the record before byte ")
+    assert repair(file, tmp_path / "whole.mcap", catalog).attachments == 0
 
 
 def write_large(path, log, size):
@@ -103,9 +103,9 @@ def write_large(path, log, size):
 def test_an_attachment_of_any_size_is_passed_over(log, tmp_path):
     path = tmp_path / "run.mcap"
     write_large(path, log, 300 * 2**20)
-    _, account = account_of(path)
-    assert account.problems == ()
-    assert account.topics["orientation"].count == len(log.places("/orientation"))
+    _, catalog = catalog_of(path)
+    assert catalog.problems == ()
+    assert catalog.topics["orientation"].count == len(log.places("/orientation"))
 
 
 def test_messages_between_chunks_are_read(log, tmp_path):
@@ -126,9 +126,9 @@ def test_messages_between_chunks_are_read(log, tmp_path):
                 writer.add_message(message.channel_id, each.log_time, each.data, each.publish_time)
         writer.add_metadata("symtop_ros.end", log.metadata["symtop_ros.end"])
         writer.finish()
-    _, account = account_of(path)
-    assert account.problems == ()
-    assert account.topics["torque"].count == len(log.places("/torque"))
+    _, catalog = catalog_of(path)
+    assert catalog.problems == ()
+    assert catalog.topics["torque"].count == len(log.places("/torque"))
 
 
 @pytest.mark.parametrize("repeated", [1, 2, 3])
@@ -148,9 +148,9 @@ def test_events_that_a_recorder_repeats_at_the_begin_of_each_file_are_none_too_m
     paths = [tmp_path / "a.mcap", tmp_path / "b.mcap"]
     replace(whole, messages=whole.messages[:half]).write(paths[0])
     replace(whole, messages=head + whole.messages[half:]).write(paths[1])
-    assert TopLog(open_run(paths)).account.problems == ()
+    assert TopLog(open_run(paths)).catalog.problems == ()
     twice = replace(whole, messages=whole.messages[:half] + head + whole.messages[half:])
-    problems = TopLog(open_run([twice.write(tmp_path / "c.mcap")])).account.problems
+    problems = TopLog(open_run([twice.write(tmp_path / "c.mcap")])).catalog.problems
     assert problems == (f"{write_count(len(head), 'event', 'are')} repeated",)
 
 
@@ -161,7 +161,7 @@ def test_an_event_of_another_file_that_differs_is_told(log, tmp_path):
     other = replace(event, data=event.data.replace(b"closed form", b"closed farm"))
     assert other != event
     changed = replace(log, messages=[*log.messages[:half], other, *log.messages[half:]])
-    problems = TopLog(McapFile(changed.write(tmp_path / "run.mcap"))).account.problems
+    problems = TopLog(McapFile(changed.write(tmp_path / "run.mcap"))).catalog.problems
     assert problems == ("event 2 at 1210000000 ns is there twice, and the two differ",)
 
 
@@ -174,9 +174,9 @@ def test_a_node_that_was_started_again_has_two_runs_in_one_folder(tmp_path):
         recorded.run(0.5)
         recorded.close()
     paths = sorted(tmp_path.glob("*/*.mcap"))
-    account = TopLog(open_run(paths)).account
-    assert account.problems == ()
-    assert [event.number for event in account.events] == [1, 2, 3, 1, 2, 3]
+    catalog = TopLog(open_run(paths)).catalog
+    assert catalog.problems == ()
+    assert [event.number for event in catalog.events] == [1, 2, 3, 1, 2, 3]
 
 
 KINDS = [
@@ -203,26 +203,26 @@ def test_without_numbers_in_diagnostics_nothing_is_known_after_a_loss(log, tmp_p
         )
     path = old.write(tmp_path / "run.mcap")
     zero_chunk(path, 1_600_000_000)
-    _, account = account_of(path)
-    (line,) = (text for text in account.problems if "is not known" in text)
+    _, catalog = catalog_of(path)
+    (line,) = (text for text in catalog.problems if "is not known" in text)
     assert line.startswith("from 1490000001 ns on the motion is not known: nothing that follows")
     assert line.endswith("the diagnostics of this log do not number the events")
-    (stretch,) = account.unknown
+    (stretch,) = catalog.unknown
     assert (stretch.begin, stretch.end) == (1_490_000_001, 2_500_000_001)
     path = old.write(tmp_path / "early.mcap")
     zero_chunk(path, 700_000_000)
-    assert account_of(path)[1].unknown == ()
+    assert catalog_of(path)[1].unknown == ()
 
 
 def test_diagnostics_after_a_loss_prove_that_no_event_was_lost(log, tmp_path):
     path = log.write(tmp_path / "run.mcap")
     zero_chunk(path, 1_600_000_000)
-    _, account = account_of(path)
-    assert account.unknown == ()
-    assert [each.event.number for each in account.stretches] == [1, 2]
-    assert account.stretches[-1].end == account.end + 1 == 2_500_000_001
-    assert 0 <= account.stretches[0].begin < account.stretches[0].end == 1_210_000_000
-    assert account.topics["orientation"].rate == 100.0
+    _, catalog = catalog_of(path)
+    assert catalog.unknown == ()
+    assert [each.event.number for each in catalog.stretches] == [1, 2]
+    assert catalog.stretches[-1].end == catalog.end + 1 == 2_500_000_001
+    assert 0 <= catalog.stretches[0].begin < catalog.stretches[0].end == 1_210_000_000
+    assert catalog.topics["orientation"].rate == 100.0
 
 
 MISSING = re.compile(
@@ -240,12 +240,12 @@ def test_samples_are_said_to_be_missing_where_they_are(seed, log, tmp_path):
     for _ in range(rng.randrange(1, 6)):
         begin = rng.randrange(len(places))
         lost |= {*places[begin : begin + rng.choice((1, 2, 10, 40))]}
-    _, account = account_of(log.without(lost).write(tmp_path / "run.mcap"))
+    _, catalog = catalog_of(log.without(lost).write(tmp_path / "run.mcap"))
     stamps = [log.messages[k].log_time for k in sorted(lost)]
-    if not account.problems:  # the first sample, the last one or both may never have been recorded
+    if not catalog.problems:  # the first sample, the last one or both may never have been recorded
         assert lost <= {places[0], places[-1]}
         return
-    name, is_least, count, way, gaps, *ends = MISSING.fullmatch(*account.problems).groups()
+    name, is_least, count, way, gaps, *ends = MISSING.fullmatch(*catalog.problems).groups()
     first, last = map(int, ends)
     inside = sum(first <= each <= last for each in stamps)
     at_an_end = bool(lost & {places[0], places[-1]})
@@ -273,10 +273,10 @@ def record_a_stop(folder, seconds, *, is_kicked=False):
 def test_samples_behind_the_last_count_of_the_node_are_an_open_question(seconds, count, tmp_path):
     """The node counts once a second: the second log has its count, the first one ends before."""
     path = cut_end(record_a_stop(tmp_path, seconds).write(tmp_path / "run.mcap"))
-    _, account = account_of(path)
-    assert account.lacks_only_its_end
-    assert len(account.doubts) == (2 if count else 0)
-    found = {(each.missing, each.uncounted) for each in account.topics.values() if each.rate}
+    _, catalog = catalog_of(path)
+    assert catalog.lacks_only_its_end
+    assert len(catalog.doubts) == (2 if count else 0)
+    found = {(each.missing, each.uncounted) for each in catalog.topics.values() if each.rate}
     assert found == {(0, count)}
 
 
@@ -285,10 +285,10 @@ def test_a_topic_that_lacks_more_than_the_others_has_lost_it(tmp_path):
     lost = [
         k for k in log.places("/torque") if 1_600_000_000 < log.messages[k].log_time < 18 * 10**8
     ]
-    _, account = account_of(cut_end(log.without(lost).write(tmp_path / "run.mcap")))
-    assert not account.lacks_only_its_end
-    assert account.topics["torque"].missing == 49 + len(lost) > 49
-    assert account.topics["orientation"].uncounted == 49
+    _, catalog = catalog_of(cut_end(log.without(lost).write(tmp_path / "run.mcap")))
+    assert not catalog.lacks_only_its_end
+    assert catalog.topics["torque"].missing == 49 + len(lost) > 49
+    assert catalog.topics["orientation"].uncounted == 49
 
 
 def test_an_event_that_is_lost_behind_the_last_count_is_found_by_its_samples(tmp_path):
@@ -301,9 +301,9 @@ def test_an_event_that_is_lost_behind_the_last_count_is_found_by_its_samples(tmp
 
 def test_a_log_of_another_recorder_without_a_later_count_leaves_it_open(tmp_path):
     foreign = replace(record_a_stop(tmp_path, 0.2), metadata={})
-    _, account = account_of(foreign.write(tmp_path / "run.mcap"))
-    assert account.problems == ()
-    assert "; no count of the node follows in the log: it may have missed" in account.doubts[1]
+    _, catalog = catalog_of(foreign.write(tmp_path / "run.mcap"))
+    assert catalog.problems == ()
+    assert "; no count of the node follows in the log: it may have missed" in catalog.doubts[1]
 
 
 def test_attachments_behind_damage_are_repaired(log, tmp_path):
@@ -316,9 +316,9 @@ def test_attachments_behind_damage_are_repaired(log, tmp_path):
     begin = [begin for kind, begin, _ in list_records(data) if kind == Opcode.CHUNK][2]
     data[begin - RECORD_START.size] = 0
     path.write_bytes(data)
-    file, account = account_of(path)
-    assert "a chunk is lost" in account.problems[0]
-    assert repair(file, tmp_path / "whole.mcap", account).attachments == 1
+    file, catalog = catalog_of(path)
+    assert "a chunk is lost" in catalog.problems[0]
+    assert repair(file, tmp_path / "whole.mcap", catalog).attachments == 1
     assert [each.data for each in McapFile(tmp_path / "whole.mcap").attachments()] == [b"hello"]
 
 
@@ -333,8 +333,8 @@ def test_metadata_of_one_name_are_repaired_one_and_all(log, tmp_path):
         for each in log.messages:
             writer.add_message(numbers[each.channel_id], each.log_time, each.data, 0)
         writer.finish()
-    file, account = account_of(path)
-    repair(file, tmp_path / "whole.mcap", account)
+    file, catalog = catalog_of(path)
+    repair(file, tmp_path / "whole.mcap", catalog)
     found = [*McapFile(tmp_path / "whole.mcap").list_metadata()]
     assert found == [("notes", {"note": "one"}), ("notes", {"note": "other"})]
 
@@ -349,10 +349,10 @@ def test_a_file_of_a_recording_that_is_not_there_is_named(lost, log, tmp_path):
         }
         part = replace(log, messages=log.messages[number * third :][:third], metadata=about)
         paths.append(part.write(tmp_path / f"{number}.mcap"))
-    account = TopLog(open_run(paths)).account
+    catalog = TopLog(open_run(paths)).catalog
     # The last one may never have been.
     expected = [] if lost in (2, None) else [f"file {lost + 1} of the recording is not in the log"]
-    assert [each for each in account.notes if each.startswith("file")] == expected
+    assert [each for each in catalog.notes if each.startswith("file")] == expected
 
 
 def test_messages_that_cannot_be_read_are_counted_in_all_chunks(log, tmp_path):
@@ -360,8 +360,8 @@ def test_messages_that_cannot_be_read_are_counted_in_all_chunks(log, tmp_path):
     odd = log
     for place in places:
         odd = odd.change(place, lambda data: data[:-3])
-    _, account = account_of(odd.write(tmp_path / "run.mcap"))
-    unreadable = account.topics["torque"].unreadable
+    _, catalog = catalog_of(odd.write(tmp_path / "run.mcap"))
+    unreadable = catalog.topics["torque"].unreadable
     assert unreadable.startswith(f"{len(places)} messages: ")
     assert len(list_chunks(tmp_path / "run.mcap")) > 3
 
@@ -373,14 +373,14 @@ def test_samples_before_and_after_a_jump_back_are_counted_apart(tmp_path):
         recorded.run(1.0)
     (path,) = recorded.close()
     log = Log.read(path)
-    assert account_of(path)[1].problems == ()
+    assert catalog_of(path)[1].problems == ()
     places = log.places("/torque")
     again = {places[k] for k in (10, 90, 120, 250)}  # some of them at stamps of two passes
     pairs = [(each,) * (1 + (k in again)) for k, each in enumerate(log.messages)]
     twice = replace(log, messages=[each for pair in pairs for each in pair])
-    _, account = account_of(twice.write(tmp_path / "twice.mcap"))
-    assert account.problems == ("torque: 4 samples are repeated, at the stamps of others",)
+    _, catalog = catalog_of(twice.write(tmp_path / "twice.mcap"))
+    assert catalog.problems == ("torque: 4 samples are repeated, at the stamps of others",)
     lost = log.without([places[99], places[100], places[150]])
-    _, account = account_of(lost.write(tmp_path / "lost.mcap"))
-    (problem,) = account.problems
+    _, catalog = catalog_of(lost.write(tmp_path / "lost.mcap"))
+    (problem,) = catalog.problems
     assert problem.startswith("torque: at least 3 samples are missing, ")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from symtop_ros.physics import Motion, State, Top
-from symtop_ros.run.log.chronicle import Chronicle, order_events
+from symtop_ros.run.log.event_order import EventOrder, order_events
 from symtop_ros.run.simulation.events import start_event
 
 FIRST = start_event(Motion(Top(2e-4, 1e-4, 0.05), State.from_euler(theta=0.5, psi_dot=100.0)))
@@ -60,15 +60,15 @@ def test_events_without_numbers_stay_in_the_order_of_the_log():
 
 def test_the_latest_event_before_a_place_is_that_of_the_log():
     found = order(START, KICKS[1], KICKS[0])
-    chronicle = Chronicle(found.events, found.places)
-    assert not chronicle.is_in_log_order
-    assert chronicle.find_latest(np.array([-1, 0, 1, 2, 9])).tolist() == [-1, 0, 2, 1, 1]
+    event_order = EventOrder(found.events, found.places)
+    assert not event_order.is_in_log_order
+    assert event_order.find_latest(np.array([-1, 0, 1, 2, 9])).tolist() == [-1, 0, 2, 1, 1]
 
 
 def test_an_event_before_others_that_are_missing_may_hold_at_any_later_stamp():
     stamps = np.array([0, 25, 35, 99])
     whole, part = (
-        Chronicle(each, range(len(each))) for each in ([START, *KICKS], [START, KICKS[2]])
+        EventOrder(each, range(len(each))) for each in ([START, *KICKS], [START, KICKS[2]])
     )
     assert whole.holds(0, stamps).tolist() == [True, False, False, False]
     assert part.holds(0, stamps).tolist() == [True] * 4
@@ -77,8 +77,8 @@ def test_an_event_before_others_that_are_missing_may_hold_at_any_later_stamp():
 
 def test_stamps_are_repeated_between_the_end_of_a_jump_and_its_begin():
     back = event(2, 5, "clock", **{"from": 40, "to": 5})
-    chronicle = Chronicle([START, back], [0, 1])
-    assert not chronicle.is_ordered
-    assert chronicle.count_holding(np.array([0, 4, 5, 39, 40])).tolist() == [1, 1, 2, 2, 1]
-    assert list(chronicle.candidates(np.array([3]), np.array([0]))) == [0]
-    assert set(chronicle.candidates(np.array([20]), np.array([0]))) == {0, 1}
+    event_order = EventOrder([START, back], [0, 1])
+    assert not event_order.is_ordered
+    assert event_order.count_holding(np.array([0, 4, 5, 39, 40])).tolist() == [1, 1, 2, 2, 1]
+    assert list(event_order.candidates(np.array([3]), np.array([0]))) == [0]
+    assert set(event_order.candidates(np.array([20]), np.array([0]))) == {0, 1}

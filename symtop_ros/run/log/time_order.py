@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from symtop_ros.base.arrays import Mask, Places, Stamps
-from symtop_ros.run.log.chronicle import Ordered
+from symtop_ros.run.log.event_order import Ordered
 from symtop_ros.run.log.stamps import ROUNDING
 from symtop_ros.run.simulation.events import MAX_STAMP, Event
 
@@ -18,7 +18,7 @@ QUARTILES = 0.25, 0.75
 NEAR = 20  # samples of a topic next to a jump: messages may be exchanged
 
 
-class Passes:
+class TimeOrder:
     """The passes of a log, of which the events say where they begin and end."""
 
     def __init__(self, ordered: Ordered) -> None:

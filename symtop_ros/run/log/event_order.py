@@ -83,7 +83,7 @@ def _find_end(event: Event, after: Event) -> int:
     return after.previous_end if is_next else MAX_STAMP
 
 
-class Chronicle:
+class EventOrder:
     """The events of a run in their order, with their places in the log."""
 
     def __init__(self, events: Sequence[Event], places: Sequence[int]) -> None:

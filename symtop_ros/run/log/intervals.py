@@ -14,7 +14,7 @@ from operator import itemgetter
 import numpy as np
 
 from symtop_ros.base.arrays import Mask, Places, Stamps
-from symtop_ros.run.log.chronicle import Ordered
+from symtop_ros.run.log.event_order import Ordered
 from symtop_ros.run.log.stamps import Row, StampRows
 from symtop_ros.run.simulation.events import MAX_STAMP, Event
 

@@ -1,4 +1,4 @@
-"""The account of a log: all that is known of it, found out once, for everything that reads it.
+"""The catalog of a log: all that is known of it, found out once, for everything that reads it.
 
 For each stretch of time it has the motion that is known, or why none is; for each topic its name,
 its rate and its count; what is damaged, missing or there twice; and what the log leaves open.
@@ -16,8 +16,8 @@ import numpy as np
 from symtop_ros.base.arrays import Places, Stamps
 from symtop_ros.base.counts import write_count
 from symtop_ros.run.log.checksums import find_damage
-from symtop_ros.run.log.chronicle import Ordered, order_events
 from symtop_ros.run.log.contents import Contents, read_contents
+from symtop_ros.run.log.event_order import Ordered, order_events
 from symtop_ros.run.log.grid import (
     Gap,
     Grid,
@@ -26,11 +26,7 @@ from symtop_ros.run.log.grid import (
     list_absent_files,
     list_recordings,
 )
-from symtop_ros.run.log.names import KNOWN, TELLING, Names, read_names
-from symtop_ros.run.log.reader import list_problems
-from symtop_ros.run.log.source import Loss, MessageSource
-from symtop_ros.run.log.stamps import ROUNDING, StampRows
-from symtop_ros.run.log.stretches import (
+from symtop_ros.run.log.intervals import (
     NO_BEGINNING,
     NO_PROOF,
     NOWHERE,
@@ -42,6 +38,10 @@ from symtop_ros.run.log.stretches import (
     find_missing,
     partition,
 )
+from symtop_ros.run.log.names import KNOWN, TELLING, Names, read_names
+from symtop_ros.run.log.reader import list_problems
+from symtop_ros.run.log.source import Loss, MessageSource
+from symtop_ros.run.log.stamps import ROUNDING, StampRows
 from symtop_ros.run.log.writer import ENDING, METADATA
 from symtop_ros.run.simulation.events import WHOLE, Event
 from symtop_ros.run.simulation.topics import DESCRIPTION, DIAGNOSTICS, EVENTS, STATE_TOPICS
@@ -53,8 +53,8 @@ GUESSED = (
 
 
 @dataclass(frozen=True, slots=True)
-class TopicAccount:
-    """The account of a topic of the top."""
+class CatalogTopic:
+    """The catalog of a topic of the top."""
 
     name: str  # full name
     type: str
@@ -70,12 +70,12 @@ class TopicAccount:
 
 
 @dataclass(frozen=True)
-class Account:
+class Catalog:
     """All that is known of a log."""
 
     path: Path
     node: str | None  # full name; None: the log has no top
-    topics: Mapping[str, TopicAccount]  # those of the top that the log has, by our names
+    topics: Mapping[str, CatalogTopic]  # those of the top that the log has, by our names
     guess: str  # what is said if the log does not name the topics of the top; else empty
     others: Mapping[str, str]  # types of the other topics of the log, by their full names
     ordered: Ordered  # its events
@@ -149,13 +149,13 @@ class Account:
         """The first problems and doubts, each in one line, and the number of the others."""
         return list_problems([*self.problems, *self.doubts])
 
-    def find_topic(self, full: str) -> TopicAccount | None:
+    def find_topic(self, full: str) -> CatalogTopic | None:
         """Return what the log has of a topic of the top, by its full name."""
         return next((each for each in self.topics.values() if each.name == full), None)
 
 
-def read_account(file: MessageSource, names: Names) -> Account:
-    """Return the account of a log."""
+def read_catalog(file: MessageSource, names: Names) -> Catalog:
+    """Return the catalog of a log."""
     contents = read_contents(file, names)
     return _Conclusions(file, names, contents).conclude()
 
@@ -188,8 +188,8 @@ class _Conclusions:
         self._stretches = tuple(finder.list_stretches())
         self._topics = self._list_topics()
 
-    def conclude(self) -> Account:
-        """Return the account."""
+    def conclude(self) -> Catalog:
+        """Return the catalog."""
         file, names = self._file, self._names
         others = {
             channel.topic: schema.name if (schema := file.schemas.get(channel.schema_id)) else ""
@@ -197,7 +197,7 @@ class _Conclusions:
             if not names.find(number)
         }
         lacking = tuple(self._list_never_recorded())
-        return Account(
+        return Catalog(
             path=file.path,
             node=names.node,
             topics=self._topics,
@@ -301,7 +301,7 @@ class _Conclusions:
 
     # Topics
 
-    def _list_topics(self) -> dict[str, TopicAccount]:
+    def _list_topics(self) -> dict[str, CatalogTopic]:
         channels: dict[str, str] = {}
         for number, channel in self._file.channels.items():
             channels.setdefault(self._names.find(number), channel.topic)
@@ -309,7 +309,7 @@ class _Conclusions:
             name: self._describe_topic(name, channels[name]) for name in KNOWN if name in channels
         }
 
-    def _describe_topic(self, name: str, full: str) -> TopicAccount:
+    def _describe_topic(self, name: str, full: str) -> CatalogTopic:
         found = self._found.get(name, GridFindings())
         gaps = self._list_gaps(name)
         missing = _count_missing(gaps)
@@ -318,7 +318,7 @@ class _Conclusions:
         is_open = any(gap.has_event or gap.place == NOWHERE for gap in gaps)
         is_open |= any(loss.place in (0, self._file.count) for loss in self._file.losses)
         is_open |= any(each.reason == NO_BEGINNING for each in self._stretches)
-        return TopicAccount(
+        return CatalogTopic(
             name=full,
             type=KNOWN[name].type,
             count=self._contents.counts[name],
@@ -472,7 +472,7 @@ class _Conclusions:
                 lines.setdefault(text, []).append(name)
         yield from _join(lines)
 
-    def _describe_missing(self, name: str, topic: TopicAccount) -> str:
+    def _describe_missing(self, name: str, topic: CatalogTopic) -> str:
         """Return how many samples of a topic are missing, at least, and where."""
         count = ("at least " if topic.is_least else "") + _count_samples(topic.missing)
         where = _describe_where(self._list_gaps(name))
@@ -538,7 +538,7 @@ def _overlaps(gap: Gap, absent: Gap) -> bool:
     return gap.before <= absent.after and absent.before <= gap.after
 
 
-def _describe_repeated(topic: TopicAccount) -> str:
+def _describe_repeated(topic: CatalogTopic) -> str:
     least = "at least " if topic.has_more else ""
     if topic.is_repeat:
         return f"{least}{_count_samples(topic.repeated)} repeated, at the stamps of others"

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from run.log.test_chronicle import START, event, order
+from run.log.test_event_order import START, event, order
 
-from symtop_ros.run.log.passes import Passes
+from symtop_ros.run.log.time_order import TimeOrder
 
 MS = 1_000_000
 FIRST = [k * 10 * MS for k in range(100)]
@@ -18,17 +18,17 @@ def find(stamps, place=BACK_PLACE):
     places = np.arange(1, len(stamps) + 1)
     places[places >= place] += 1
     ordered = order_at(place)
-    return Passes(ordered).find(np.array(stamps), places)
+    return TimeOrder(ordered).find(np.array(stamps), places)
 
 
 def order_at(place):
-    from symtop_ros.run.log.chronicle import order_events
+    from symtop_ros.run.log.event_order import order_events
 
     return order_events([(0, START), (place, BACK)], (0,))
 
 
 def test_without_a_jump_there_is_one_pass_whatever_the_order():
-    assert not Passes(order(START)).find(np.array(FIRST[::-1]), np.arange(100)).any()
+    assert not TimeOrder(order(START)).find(np.array(FIRST[::-1]), np.arange(100)).any()
 
 
 @pytest.mark.parametrize("late", [-30, -1, 0, 1, 30])

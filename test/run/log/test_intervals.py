@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from run.log.test_chronicle import KICKS, START, event, order
+from run.log.test_event_order import KICKS, START, event, order
 from run.log.test_grid import rows_of
 
-from symtop_ros.run.log.stretches import (
+from symtop_ros.run.log.intervals import (
     NO_BEGINNING,
     NO_EVENTS,
     NO_NUMBERS,
@@ -35,7 +35,7 @@ def find(events, marks=(), breaks=(), stamps=STAMPS, places=None):
 
 
 def order_at(events, places):
-    from symtop_ros.run.log.chronicle import order_events
+    from symtop_ros.run.log.event_order import order_events
 
     return order_events(list(zip(places, events, strict=True)), (0,))
 

@@ -1,0 +1,1 @@
+"""Trials of `top_judge`: files of a generator that shares no formula with it, and what it says."""
