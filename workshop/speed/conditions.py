@@ -28,7 +28,7 @@ def find_machine() -> str:
 
 
 def find_load() -> str:
-    """Return how many programs wanted a processor in the last quarter of an hour, and of how many."""
+    """Return how many programs wanted a processor in the last quarter of an hour."""
     return f"{os.getloadavg()[2]:.1f} on {os.cpu_count()} processors"
 
 
