@@ -1,14 +1,14 @@
-"""Why the first ten terms of a step have sums of two doubles, for a turn of at most 2 rad.
+"""Why the first ten terms of a step have more digits than a double, for a turn of at most 2 rad.
 
-A step of a driven motion is a Taylor series of thirty terms, and its error must be far below the
+A step of a driven motion is a Taylor series of 34 terms, and its error must be far below the
 rounding of a double, because errors of one sign add up over the steps. A term in doubles is off by
 2^-53 of its size; so the terms that need more digits are those that are not small. Each line has
 the largest error of exp(i x), x up to the turn of a step, if the first terms are exact and the
 others are doubles, in parts of 2^-53.
 
 Beyond the largest terms each further one gains a factor of about n/x. A turn of 2 rad with ten
-terms errs as little as one of 3.5 rad with fourteen; and a term in two doubles costs as much as
-some five in one, so that the shorter steps take less time (`kernel/driven/piece.hpp`). The last
+terms errs as little as one of 3.5 rad with fourteen; and a term with more digits costs as much as
+some three in one double, so that the shorter steps take less time (`kernel/driven/piece.hpp`). The last
 terms of a step are 1e-20, which is 9e-5 of 2^-53: with eight terms, 8e-4, rounding would be the
 larger part of what adds up.
 """
@@ -17,7 +17,7 @@ from fractions import Fraction
 
 EPS = Fraction(1, 2**53)
 TURNS = (2.0, 3.5)  # rad
-TERMS, PLACES = 30, 16
+TERMS, PLACES = 34, 16
 
 
 def sum_series(x: Fraction, exact_terms: int) -> tuple[Fraction, Fraction]:

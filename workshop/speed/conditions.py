@@ -1,5 +1,6 @@
 """The machine, the day and the versions of a measurement."""
 
+import os
 import platform
 from collections.abc import Iterable
 from datetime import UTC, datetime
@@ -24,6 +25,11 @@ def find_machine() -> str:
         lines = cpuinfo.read_text(encoding="utf-8").splitlines()
         names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
     return f"{next(filter(None, names), 'an unnamed processor')}, {platform.system()}"
+
+
+def find_load() -> str:
+    """Return how many programs wanted a processor in the last quarter of an hour."""
+    return f"{os.getloadavg()[2]:.1f} on {os.cpu_count()} processors"
 
 
 def find_date() -> str:

@@ -36,6 +36,7 @@ class Environment:
     versions: dict[str, str]  # versions of Python and of every package that was measured
     missing: list[str]  # peers that are not installed
     limit: float  # seconds that one run of a peer could take
+    load: str = ""  # programs that wanted a processor, at the end
 
 
 def format_document(results: Results, motion: ReferenceMotion, environment: Environment) -> str:
@@ -88,6 +89,7 @@ def _format_environment(environment: Environment) -> str:
         machine=environment.machine,
         date=environment.date,
         versions=", ".join(named),
+        load=environment.load or "unknown",
         missing=f"Not installed: {missing}." if missing else "",
     )
 

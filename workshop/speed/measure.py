@@ -8,7 +8,7 @@ from pathlib import Path
 from symtop_ros import __version__
 from workshop.pictures.pack import pack
 from workshop.speed.benchmarks import FULL, QUICK, Results, Scope, list_steps
-from workshop.speed.conditions import find_date, find_machine, find_versions
+from workshop.speed.conditions import find_date, find_load, find_machine, find_versions
 from workshop.speed.document import Environment, format_chapters, format_document, format_summary
 from workshop.speed.many import NAME as MANY
 from workshop.speed.many import tabulate
@@ -56,7 +56,7 @@ def measure(folder: Path, scope: Scope, command: str, docs: Path | None = None) 
     for _, work in track(list(list_steps(scope, peers, results)), lambda step: step[0]):
         work()
         _write_tables(folder, results, environment)  # what is measured can be read at once
-    _write(folder, results, environment, docs)
+    _write(folder, results, replace(environment, load=find_load()), docs)
     print(f"{folder / 'report.md'}, report.json and plots")
     failures = results.list_failures()
     for failure in failures:

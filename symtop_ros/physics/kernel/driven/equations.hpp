@@ -17,8 +17,8 @@
 //   The directions in N are quadratic in q, and friction is linear in omega.
 //
 // An error of the angular velocity grows with time, therefore rounding must not accumulate in it. The
-// state between two steps, the largest terms of the series and the constants have 32 digits, as sums
-// of two doubles, with the same bits on every machine.
+// state between two steps and the constants have 32 digits, as sums of two doubles, and the largest terms
+// of the series 23 or 32 (parts.hpp), with the same bits on every machine.
 #pragma once
 
 #include "double2.hpp"

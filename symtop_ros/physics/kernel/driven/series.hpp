@@ -95,9 +95,15 @@ class TaylorSeries {
   //   2 y' =  z Omega_x + w Omega_y - x Omega_z
   //   2 z' = -y Omega_x + x Omega_y + w Omega_z
   // of the sums of q by each of the three.
-  static SYMTOP_INLINE Lanes turn_by_x(Lanes a) { return negate(order<X, W, Z, Y>(a), Lanes{-0.0, 0.0, 0.0, -0.0}); }
-  static SYMTOP_INLINE Lanes turn_by_y(Lanes a) { return negate(order<Y, Z, W, X>(a), Lanes{-0.0, -0.0, 0.0, 0.0}); }
-  static SYMTOP_INLINE Lanes turn_by_z(Lanes a) { return negate(order<Z, Y, X, W>(a), Lanes{-0.0, 0.0, -0.0, 0.0}); }
+  static SYMTOP_INLINE Lanes turn_by_x(Lanes a) {
+    return negate(order<X, W, Z, Y>(a), Lanes{-0.0, 0.0, 0.0, -0.0});
+  }
+  static SYMTOP_INLINE Lanes turn_by_y(Lanes a) {
+    return negate(order<Y, Z, W, X>(a), Lanes{-0.0, -0.0, 0.0, 0.0});
+  }
+  static SYMTOP_INLINE Lanes turn_by_z(Lanes a) {
+    return negate(order<Z, Y, X, W>(a), Lanes{-0.0, 0.0, -0.0, 0.0});
+  }
 
   // y z + w x and w y - x z of the weight's products.
   static SYMTOP_INLINE Lanes take_first(Lanes a) { return SYMTOP_ORDER(a, Lanes{}, WX, WY, 4, 4); }

@@ -18,20 +18,22 @@ const double LONGEST = 16.0;  // in units of about 1/rate; so the powers of a st
 // rounding with them.
 const double LARGEST_TURN = 2.0;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;
-// A step is expanded again in a unit next to its length if the unit was not within these parts of it.
+// The unit of time is next to the length of the step before, so that terms in parts are about 1 in size
+// (parts.hpp). A step is expanded again if its length is not between these in its unit.
 const double SHORTEST_PART = 0.35, LONGEST_PART = 2.0;
 const int MOST_TRIES = 4;
 const int LENGTH_BITS = 10;  // a length has so few bits that the sum of lengths, the time, is exact
 const double LARGEST_SPIN = 1e15;  // rad of half the spin angle; far beyond, no digit of it is left
 
-// The root of order n of x, 0.6 % off at most for n >= 29: a length needs no more, and the last bit of
-// the C library's power depends on the version. The logarithm to base 2 runs straight between powers
-// of two, at most 0.09 below itself, and 2^f on 0 to 1 is a parabola, at most 0.3 % off.
+// A power of two; the library's function takes as long as ten products.
 inline double make_power(int exponent) {
   if (exponent < -1000 || exponent > 1000) return std::ldexp(1.0, exponent);
   return read_bits_as<double>(static_cast<uint64_t>(exponent + 1023) << 52);
 }
 
+// The root of order n of x, 0.6 % off at most for n >= 29: a length needs no more, and the last bit of
+// the C library's power depends on the version. The logarithm to base 2 runs straight between powers
+// of two, at most 0.09 below itself, and 2^f on 0 to 1 is a parabola, at most 0.3 % off.
 inline double find_root(double x, int n) {
   int exponent;
   const double digits = std::frexp(x, &exponent);
@@ -44,8 +46,8 @@ class Stepper {
  public:
   DrivenEquations equations;
 
-  // Steps have a share of their usual length, a power of two.
-  // `in_full`: the first terms are sums of two doubles, whatever time it takes.
+  // Steps have a share of their usual length, a power of two. `in_full`: their first terms are sums of two
+  // doubles, whatever time it takes, in a unit of about 1/rate.
   explicit Stepper(double share = 1.0, bool in_full = false) : share_(share), in_full_(in_full) {}
 
   void step(const Knot& knot, int direction, Piece& piece) {
