@@ -57,6 +57,7 @@ TIME_UNITS = {
 }
 CLOCKS = ("utc", "iso", "unix", "epoch")  # words that say what a time is, and not its unit
 UNSAID = ("", "1", "-")
+FIRST = re.compile("_?0$")  # of the name of the first number of a covariance
 DEGREE = math.pi / 180
 ANGLE_UNITS = {
     **dict.fromkeys((*UNSAID, "rad", "radian", "radians"), 1.0),
@@ -142,6 +143,20 @@ def find_name_separator(line: str) -> str | None:
 def _shorten(unit: str) -> str:
     """Return a unit in small letters, without blanks, with s for sec."""
     return SEC.sub("s", unit.lower().replace(" ", "").replace("·", ""))
+
+
+def find_flags(names: Row, places: Sequence[int]) -> tuple[int, ...]:
+    """Return the places of numbers that say whether a quantity was measured.
+
+    In sensor_msgs/Imu a covariance that begins with -1 says that there is none. Tables name its
+    numbers orientation_covariance[0], _0 or 0.
+    """
+    wanted = {f"{names[place].rpartition('.')[0]}_covariance" for place in places}
+    found: dict[str, int] = {}
+    for place, name in enumerate(names):
+        if (quantity := FIRST.sub("", name)) in wanted:
+            found.setdefault(quantity, place)
+    return tuple(found.values())
 
 
 def find_times(head: Head) -> tuple[tuple[int, ...], str]:

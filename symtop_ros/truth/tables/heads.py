@@ -24,7 +24,25 @@ STAMP = ("header.stamp.sec", "header.stamp.nanosec", "header.frame_id")
 TURN = tuple(f"orientation.{each}" for each in (*XYZ, "w"))
 POSE = (*POSITION, *TURN)
 TWIST = (*("_",) * 3, *(f"angular.{each}" for each in XYZ))
-NINE, MANY = ("_",) * 9, ("_",) * 36  # covariances
+MANY = ("_",) * 36  # covariances
+
+
+def _name_covariance(quantity: str) -> tuple[str, ...]:
+    """Return names of a covariance, of which the first number may say that there is none."""
+    return (f"{quantity}_covariance_0", *("_",) * 8)
+
+
+IMU = tuple(
+    name
+    for quantity, parts in (
+        ("orientation", TURN),
+        *(
+            (quantity, tuple(f"{quantity}.{each}" for each in XYZ))
+            for quantity in ("angular_velocity", "linear_acceleration")
+        ),
+    )
+    for name in (*parts, *_name_covariance(quantity))
+)
 ECHOES: dict[int, tuple[str, tuple[str, ...]]] = {
     len(STAMP) + len(names): (kind, names)
     for kind, names in (
@@ -33,13 +51,7 @@ ECHOES: dict[int, tuple[str, tuple[str, ...]]] = {
         ("TwistStamped", TWIST),
         ("PoseStamped", POSE),
         ("TransformStamped", ("_", *POSE)),
-        (
-            "Imu",
-            (
-                *(*TURN, *NINE, *(f"angular_velocity.{each}" for each in XYZ), *NINE),
-                *(*(f"linear_acceleration.{each}" for each in XYZ), *NINE),
-            ),
-        ),
+        ("Imu", IMU),
         ("PoseWithCovarianceStamped", (*POSE, *MANY)),
         ("Odometry", ("_", *POSE, *MANY, *TWIST, *MANY)),
     )

@@ -22,9 +22,11 @@ from symtop_ros.truth.tables.cells import (
     split_cells,
     split_lines,
 )
+from symtop_ros.truth.tables.columns import find_flags
 from symtop_ros.truth.tables.table import Found, Line, Table
 from symtop_ros.truth.tables.times import SplitStampError, TimeReader
 
+ABSENT = -1.0  # the first number of a covariance
 MOST = 300  # decimals of a double, nearly
 SHOWN = 80  # characters of a row in a message
 WRONG = (ValueError, DecimalException, OverflowError)  # of cells that are no numbers
@@ -46,10 +48,13 @@ class RowReader:
     empty: int = 0
     unreadable: int = 0
     odd: int = 0  # number of the first line with nan
+    absent: int = 0  # rows whose covariance says that nothing was measured
+    flags: tuple[int, ...] = ()  # places of the numbers that say so
 
     def __post_init__(self) -> None:
         """Make a place for each column."""
         self.numbers = [array("d") for _ in self.found.columns.places]
+        self.flags = find_flags(self.found.head.names, self.found.columns.places)
 
     def read(self, block: list[Line]) -> None:
         """Read lines; the first one shows what separates the cells."""
@@ -82,6 +87,8 @@ class RowReader:
         ]
         times, cells = columns[: len(self.time)], columns[len(self.time) :]
         numbers = [read_numbers(column) for column in cells]
+        if any(self._is_absent(row) for row in rows if self.flags):
+            raise ValueError("absent")
         if any(any(map(isnan, column)) for column in numbers):
             raise ValueError("nan")
         decimals = [count_decimals(column) for column in cells]
@@ -90,6 +97,10 @@ class RowReader:
             self.numbers[k].extend(column)
             self.fewest[k] = min(self.fewest[k], decimals[k][0])
             self.most[k] = max(self.most[k], decimals[k][1])
+
+    def _is_absent(self, cells: Row) -> bool:
+        """Return True if a row says that a quantity of it was not measured."""
+        return any(read_numbers([cells[each + self.shift]])[0] == ABSENT for each in self.flags)
 
     def _add_good(self, block: list[Line], rows: Sequence[Row]) -> None:
         """Add those of some rows that have numbers, and refuse those that have words."""
@@ -103,6 +114,9 @@ class RowReader:
                 self._leave_out(number, picked)
                 continue
             try:
+                if self._is_absent(cells):
+                    self.absent += 1
+                    continue
                 self._add([cells])
             except SplitStampError:
                 wanted = "have a stamp in whole ns (seconds go under t)"
@@ -144,6 +158,9 @@ class RowReader:
         if self.empty:
             rows = write_count(self.empty, "row", "have")
             yield f"{rows} an empty cell: left out"
+        if self.absent:
+            rows = write_count(self.absent, "row", "have")
+            yield f"{rows} no measurement, as a covariance begins with -1: left out"
         if self.unreadable:
             rows = write_count(self.unreadable, "row", "have")
             yield f"{rows} nan, the first in line {self.odd}: left out"
