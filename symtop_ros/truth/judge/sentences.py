@@ -11,6 +11,7 @@ from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.causes import Cause, Finding
 from symtop_ros.truth.judge.turns import describe_axis
 from symtop_ros.words import write
+from symtop_ros.words.templates import write_number
 
 NOTHING = 1e-6  # rad; an error below this is not worth a sentence
 UNITS = {"delay": 1e3, "clock": 1e6, "scale": 100.0}  # ms, ppm and %; others are in SI units
@@ -124,7 +125,7 @@ def _write_whole(found: Finding) -> dict[str, Any]:
         "residual": said.residual,
         "correlation": correlation,
         "percent": math.ceil(100 * found.share),
-        "left": left,
+        "left": _write_size(left),
         "whole": error,
         "unit": unit,
         "steps": found.steps and {n: 1e3 * getattr(found.steps, n) for n in ("step", "jitter")},
@@ -148,6 +149,11 @@ def _scale(size: float, *values: float) -> tuple[Any, ...]:
     return (*(factor * value for value in values), unit)
 
 
+def _write_size(value: float) -> str:
+    """Return a size with two digits, and those of a larger one without an exponent."""
+    return write_number(value, "2g" if value < 99.5 else "3g")
+
+
 def _write_left(found: Finding) -> Iterator[str]:
     """Yield how large what is left is, and its strongest line."""
     said, swing = found.said, found.swing
@@ -156,11 +162,12 @@ def _write_left(found: Finding) -> Iterator[str]:
         size, unit = _scale(said.residual, swing.size)
         frequency = write_measured(swing.frequency, swing.resolution)[0]
         name = swing.name or "other"
-        line = {**vars(swing), "size": size, "unit": unit, "frequency": frequency, "name": name}
+        of_line = {"size": _write_size(size), "unit": unit, "frequency": frequency, "name": name}
+        line = {**vars(swing), **of_line}
     if found.candidate:
         left, unit = _scale(said.residual, said.residual)
         correlation = write_counted(said) if said.correlation_time else None
-        record = {"left": left, "unit": unit, "correlation": correlation}
+        record = {"left": _write_size(left), "unit": unit, "correlation": correlation}
         yield write("left", {**record, "line": line and {"swing": line}})
     elif line:
         yield write("left.all", {"swing": line})
