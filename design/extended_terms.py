@@ -9,8 +9,8 @@ others are doubles, in parts of 2^-53.
 Beyond the largest terms each further one gains a factor of about n/x. A turn of 2 rad with ten
 terms errs as little as one of 3.5 rad with fourteen; and a term with more digits costs as much as
 some three in one double, so that the shorter steps take less time (`kernel/driven/piece.hpp`). The
-last terms of a step are 1e-20, which is 9e-5 of 2^-53: with eight terms, 8e-4, rounding would be the
-larger part of what adds up.
+last terms of a step are 1e-20, which is 9e-5 of 2^-53: with eight terms, 8e-4, rounding would be
+the larger part of what adds up.
 """
 
 from fractions import Fraction
