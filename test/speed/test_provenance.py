@@ -71,7 +71,7 @@ def test_the_list_says_which_tables_have_other_sources():
 
 def test_tables_of_one_run_have_the_same_sources():
     of = {each.name: each.sources for each in FOUND}
-    assert of["chapters"] == of["summary"] == of["many motions"] == of["measured motion"]
+    assert of["chapters"] == of["summary"] == of["others ahead"] == of["measured motion"]
     assert of["node cost"] == of["measured node"]
 
 

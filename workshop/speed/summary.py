@@ -34,7 +34,8 @@ def _compare(curves: Sequence[Curve], own: str) -> str:
     compared = f"{_describe(ours)}; {_name(best)} {_describe(best[1])}"
     if not fastest:
         return compared
-    return f"{compared}, for {LEVELS[0]:.0e} {_name(fastest)} {format_ms(fastest[1].seconds)} ms"
+    cheap = f"{_name(fastest)} {format_ms(fastest[1].seconds)} ms for {LEVELS[0]:.0e} rad"
+    return f"{compared}; {cheap}"
 
 
 def _describe(point: Measurement) -> str:
