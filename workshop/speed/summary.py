@@ -30,6 +30,8 @@ def _compare(curves: Sequence[Curve], own: str) -> str:
     """Return our figures, those of the most exact other form, and of the fastest for an error."""
     ours = next(curve for curve in curves if curve.peer == own).best
     others = [curve for curve in curves if not curve.peer.startswith(OWN)]
+    if not others:  # none is installed
+        return _describe(ours)
     best, fastest = find_best(others), find_cheapest(others, LEVELS[0])
     compared = f"{_describe(ours)}; {_name(best)} {_describe(best[1])}"
     if not fastest:
