@@ -9,6 +9,7 @@ import subprocess
 import sys
 import sysconfig
 from collections import namedtuple
+from functools import partial
 
 import pytest
 from documents import ROOT
@@ -259,6 +260,8 @@ def test_ctrl_c_ends_the_set_up_and_what_it_has_started_without_a_traceback(fres
     )
     words = [sys.executable, "-S", "workshop/set_up.py", "ros"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    # A job in the background of a shell has the signal ignored, and so have its children.
+    pipes["preexec_fn"] = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
     with subprocess.Popen(words, cwd=fresh, start_new_session=True, **pipes) as process:
         until((fresh / "begun").exists)
         os.killpg(process.pid, signal.SIGINT)  # as a terminal does

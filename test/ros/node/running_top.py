@@ -193,8 +193,10 @@ class _SharedConnection(Connection):
         self._question = None
 
     def spin_until(self, done: Callable[[], bool], timeout: float) -> bool:
-        self._running.spin_until(done, timeout)
-        return done()
+        # The client asks again after a second, in which a busy machine may answer nothing.
+        deadline = time.monotonic() + timeout
+        self._running.spin_until(lambda: done() or time.monotonic() >= deadline)
+        return bool(done())
 
 
 def torque_of(x: float = 0.0, y: float = 0.0, z: float = 0.0, frame: str = "") -> WrenchStamped:
