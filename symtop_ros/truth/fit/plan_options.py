@@ -188,4 +188,6 @@ def make_plan(options: argparse.Namespace, kind: str, more: Mapping[str, object]
     camera, noise = find_plan_camera(found, options), find_noise(found, options.noise)
     steps = find_limits("resolution", found, options.resolution, 0.0)
     ends = find_limits("range", found, options.range, np.inf)
+    if found.name not in SPINS:  # an attitude has more columns than residuals, and no range
+        return Plan(motion, planned, noise, camera)
     return limit_plan(Plan(motion, planned, np.hypot(noise, steps / np.sqrt(12)), camera, ends))
