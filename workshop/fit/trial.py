@@ -12,7 +12,7 @@ import numpy as np
 from symtop_ros.truth.fit import Fit, fit_motion
 from symtop_ros.truth.fit.check import HOLDS, Check
 from symtop_ros.truth.fit.fitting import CLEAR, sum_squares
-from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.kinds import READ
 from symtop_ros.truth.fit.model import Model, name_parameters
 from symtop_ros.truth.fit.refine import refine
 from symtop_ros.truth.fit.starts import fill
@@ -75,7 +75,7 @@ def fit_from_truth(sample: Sample) -> Fit:
 def run_trial(seeds: Sequence[int], path: Path | None = None) -> list[dict[str, Any]]:
     """Return the rows of all kinds and noises, and write each at once."""
     rows = []
-    for seed, noise, kind in product(seeds, NOISES, KINDS):
+    for seed, noise, kind in product(seeds, NOISES, READ):
         rows.append(try_record(kind, noise, seed))
         if path:
             with path.open("a", encoding="utf-8") as file:
@@ -87,7 +87,7 @@ def write_table(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
     """Yield the lines of the table of docs/fit.md: pulls by kind and noise, and counts by kind."""
     yield "| " + " | ".join(["kind", *NOISES, *COUNTS]) + " |"
     yield "|---|" + "--:|" * (len(NOISES) + len(COUNTS))
-    for kind in KINDS:
+    for kind in READ:
         if mine := [row for row in rows if row["kind"] == kind]:
             yield _write_line(f"`{kind}`", mine)
     yield _write_line("all", rows)

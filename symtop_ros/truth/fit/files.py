@@ -8,8 +8,7 @@ import numpy as np
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.run.simulation.points import SEEN
-from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.kinds import KINDS, READ
 from symtop_ros.truth.residuals.sampling import (
     describe_repeats,
     find_repeats,
@@ -86,7 +85,7 @@ class WantedKind:
 
     def describe(self, path: Path, first: str) -> str:
         """Return the refusal of a table without such columns."""
-        kinds = (KINDS[name] for name in SEEN if self._takes(name))
+        kinds = (KINDS[name] for name in READ if self._takes(name))
         wanted = (", ".join(each.columns) for each in kinds)
         names = " or ".join(wanted)
         return f"{path} must have the columns t (s) or stamp (ns) and {names}, got {first}"

@@ -56,3 +56,5 @@ KINDS = {
         _kind("theta", shows_azimuth=False),
     )
 }
+#: Names of those that tables and logs have; the others are made of them.
+READ = tuple(name for name in KINDS if name in SEEN)

@@ -13,12 +13,11 @@ import numpy as np
 from symtop_ros.base.command import decimal, new_parser, positive, tell_failures
 from symtop_ros.base.progress import Progress
 from symtop_ros.base.refusals import RefusedError, refuse
-from symtop_ros.run.simulation.points import SEEN
 from symtop_ros.truth.fit.aliases import SPINS
 from symtop_ros.truth.fit.camera import CENTRE
 from symtop_ros.truth.fit.check import FAILS
 from symtop_ros.truth.fit.files import Rows, read_rows
-from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.kinds import KINDS, READ
 from symtop_ros.truth.fit.limits import fit_record, leave_out_saturated
 from symtop_ros.truth.fit.plan_options import add_options, make_plan, refuse_plan_options
 from symtop_ros.truth.fit.plan_report import PlanReport
@@ -60,7 +59,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--example", action="store_true", help=f"copy a record to ./{EXAMPLE} and fit it"
     )
-    parser.add_argument("--kind", choices=SEEN, help="kind of record if its columns do not say it")
+    parser.add_argument("--kind", choices=READ, help="kind of record if its columns do not say it")
     parser.add_argument("--topic", help="full name of a topic of a log")
     parser.add_argument("--frame", help="child frame of the top, for /tf")
     parser.add_argument("--friction", action="store_true", help="look for linear friction as well")
@@ -180,7 +179,7 @@ def refuse_run(record: Record) -> None:
     """Refuse to write a fit that is not one motion with all its numbers."""
     if record.has_kick:
         raise RefusedError("--run must have one free motion, got two that a kick joins")
-    if record.kind.name not in SEEN:
+    if record.kind.name not in READ:
         raise RefusedError("--run must have rates about the axis, got none within the range")
 
 

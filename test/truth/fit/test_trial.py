@@ -6,11 +6,11 @@ import pytest
 from trials import choose
 
 from symtop_ros.truth.fit.check import HOLDS
-from symtop_ros.truth.fit.kinds import KINDS
+from symtop_ros.truth.fit.kinds import READ
 from workshop.fit.records import NOISES
 from workshop.fit.trial import FIRST, SEEDS, list_unsaid, measure_pulls, run_trial, try_record
 
-CASES = [*product(NOISES, KINDS)]
+CASES = [*product(NOISES, READ)]
 
 
 def assert_honest(rows, low, high):
