@@ -78,10 +78,11 @@ def fit_record(record: Record, report: Callable[[float], None]) -> Fit:
     """Return the motion that explains a record.
 
     That of the rates across the axis, if the one about it does not change although others have
-    noise: the sensor is at a limit that is not one of the usual ones.
+    noise: the sensor is at a limit that is not one of the usual ones. With a mount it stays in
+    doubt, as a tilt shows as a part of the spin.
     """
     fit = fit_motion(record, report)
-    if record.kind.name != "rates" or SPIN not in Check(fit).still:
+    if record.kind.name != "rates" or record.has_mount or SPIN not in Check(fit).still:
         return fit
     notes = *record.notes, _describe_spin(record.values[:, SPIN])
     values = record.values[:, :SPIN]

@@ -41,6 +41,7 @@ NOT_GIVEN = (None, False)
 CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance", "centre", "size"
 CLICKED = {"pivot": "U and V", "scale": "the length"}  # numbers that may have a deviation
 RATIOS = ("Iz/Ix", "Ix", "Mgl")
+WITHIN = "must have rates about the axis, got none within the range"
 
 
 def main(args: list[str] | None = None) -> int:
@@ -180,7 +181,7 @@ def refuse_run(record: Record) -> None:
     if record.has_kick:
         raise RefusedError("--run must have one free motion, got two that a kick joins")
     if record.kind.name not in READ:
-        raise RefusedError("--run must have rates about the axis, got none within the range")
+        raise RefusedError(f"--run {WITHIN}")
 
 
 def copy_example() -> Path:
@@ -206,6 +207,8 @@ def fill_record(rows: Rows, options: argparse.Namespace) -> Record:
     """Return the record of some rows and of what the options know."""
     _refuse_options(rows.kind, options)
     rows = leave_out_saturated(rows.count_once())
+    if options.mount is not None and rows.kind not in SPINS:  # a tilt shows as part of the spin
+        raise RefusedError(f"--mount {WITHIN}")
     stamps = np.rint(rows.times * NANOSECONDS).astype(np.int64)
     notes = [*rows.notes, *describe_time_step(find_time_step(stamps))]
     if len(rows.times) > MOST:

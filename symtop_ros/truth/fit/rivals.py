@@ -102,7 +102,7 @@ def find_rivals(fit: Fit, check: Check) -> list[Rival]:
 def find_calm(fit: Fit, rivals: Sequence[Rival]) -> Fit:
     """Return the free motion next to a rival if it leaves less than the fit; else the fit.
 
-    All searches may have missed it: then a rival gains much, by a kick that is none.
+    All searches may have missed it: then a rival gains much, with a kick of about zero.
     """
     for rival in rivals:
         calm = choose_twin(refine(*_move(rival.fit, fit.model.record)))

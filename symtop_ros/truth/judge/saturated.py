@@ -69,7 +69,7 @@ def _find_in_turns(some: Estimates, exact: Real) -> Saturated | None:
     """Return the usual limit of sensors at which attitudes turn about an axis of the body."""
     q, steps = some.orientations, np.diff(some.stamps) / NANOSECONDS
     fast = np.abs(exact[:-1]).max(axis=1) * steps > TURN
-    if fast.any() or not len(steps):
+    if fast.any() or not steps.all():  # two attitudes at one time have no rate
         return None
     turns = find_rotation_vectors(compose(invert(q[:-1]), q[1:])) / steps[:, np.newaxis]
     for column, limit in np.ndindex(3, len(RATES)):

@@ -18,6 +18,8 @@ from symtop_ros.truth.tables.cells import (
     choose_separator,
     count_decimals,
     is_missing,
+    is_number,
+    read_number,
     read_numbers,
     split_cells,
     split_lines,
@@ -99,8 +101,12 @@ class RowReader:
             self.most[k] = max(self.most[k], decimals[k][1])
 
     def _is_absent(self, cells: Row) -> bool:
-        """Return True if a row says that a quantity of it was not measured."""
-        return any(read_numbers([cells[each + self.shift]])[0] == ABSENT for each in self.flags)
+        """Return True if a row says that a quantity of it was not measured.
+
+        A covariance may be missing: it is not read for anything else.
+        """
+        said = (cells[each + self.shift] for each in self.flags if each + self.shift < len(cells))
+        return any(is_number(cell) and read_number(cell) == ABSENT for cell in said)
 
     def _add_good(self, block: list[Line], rows: Sequence[Row]) -> None:
         """Add those of some rows that have numbers, and refuse those that have words."""

@@ -73,6 +73,12 @@ def test_a_known_ratio_of_moments_gives_the_other_numbers_without_the_spin(tmp_p
         assert deviation < 0.01 * abs(true)
 
 
+def test_a_mount_needs_the_spin(tmp_path, capsys):
+    assert main([str(write_clipped(tmp_path)), "--mount", "0.1"]) == 1
+    refusal = "top_fit: --mount must have rates about the axis, got none within the range\n"
+    assert capsys.readouterr().err == refusal
+
+
 def test_what_lacks_a_spin_is_no_run(tmp_path, capsys):
     path = write_clipped(tmp_path)
     assert main([str(path), "--run", str(tmp_path / "run.json")]) == 1

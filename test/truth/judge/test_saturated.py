@@ -55,6 +55,13 @@ def test_nothing_is_said_of_rates_within_the_range_and_of_units():
     assert find_saturated(degrees, TRUTH) is None
 
 
+def test_two_attitudes_at_one_time_have_no_rate():
+    stamps = STAMPS.copy()
+    stamps[7] = stamps[6]
+    twice = replace(integrate(np.clip(EXACT.angular_velocities, -LIMIT, LIMIT)), stamps=stamps)
+    assert find_saturated(twice, TRUTH) is None
+
+
 def test_turns_that_may_be_more_than_are_seen_say_nothing():
     """At 10 Hz 200 rad/s are three turns and more from row to row."""
     few = integrate(np.clip(EXACT.angular_velocities, -LIMIT, LIMIT)).select(

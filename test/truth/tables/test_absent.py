@@ -39,6 +39,21 @@ def test_a_quantity_that_is_not_read_may_be_absent(tmp_path, kind, place):
     assert (rows.values == read_rows(ECHO, kind).values).all()
 
 
+@pytest.mark.parametrize("cell", ["", "nan", "unknown"])
+def test_a_covariance_that_is_no_number_says_nothing(tmp_path, cell):
+    rows = [[*row[:RATES], cell, *row[RATES + 1 :]] for row in ROWS]
+    path = write(tmp_path / "a.csv", rows, ORIENTATION, ())
+    assert len(read_rows(path, "rates").values) == len(ROWS)
+
+
+def test_a_row_that_ends_before_its_covariance_says_nothing(tmp_path):
+    head = ["t", *NAMES[1 : RATES + 1]]
+    rows = [[f"{row[0]}.{int(row[1]):09d}", *row[1:RATES]] for row in ROWS]
+    path = write(tmp_path / "a.csv", rows, ORIENTATION, ())
+    path.write_text(",".join(head) + "\n" + path.read_text(), encoding="utf-8")
+    assert len(read_rows(path, "rates").values) == len(ROWS)
+
+
 def test_names_of_a_covariance_say_the_same(tmp_path):
     path = write(tmp_path / "a.csv", ROWS, RATES, (1,))
     head = [*NAMES, *(f"_{k}" for k in range(len(ROWS[0]) - len(NAMES)))]
