@@ -144,7 +144,7 @@ def test_the_same_is_given_as_json(tmp_path, capsys):
         for step in ("0.1", "0.01", "1e-3"):
             write_entry(tmp_path, problem, f"rk4-{step}", 0.5 * float(step) ** 4)
     write_entry(tmp_path, "cusps", "euler-0.01", 3.0)
-    (tmp_path / "cusps" / "states.csv").write_text("no entry")
+    (tmp_path / "cusps" / "states.csv").write_text("name,t\n")  # the exact motion of the set
     assert main(["all", str(tmp_path), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert len(facts["scores"]) == 7
