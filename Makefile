@@ -106,7 +106,7 @@ test-cyclone:  ## tests of the node on CycloneDDS; CYCLONE=FOLDER: its libraries
 	$(SET_UP) test
 	@$(BIN)/python test/cyclone.py '$(CYCLONE)'
 
-lint: style types  ## ruff, codespell and mypy; Biome and TypeScript for the page
+lint: style types  ## ruff, clang-format, codespell and mypy; Biome and TypeScript for the page
 
 style types:
 	$(SET_UP) test js

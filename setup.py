@@ -105,6 +105,7 @@ DOCS = [
 LINT = [
     "mypy>=1.11",
     "ruff>=0.6",
+    "clang-format>=18",  # the kernel, by .clang-format
     "scipy-stubs>=1.14",  # types for SciPy
     "codespell>=2.2",
     # a test builds the package in a workspace, as with --packages-select and setup.bash

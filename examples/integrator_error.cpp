@@ -8,15 +8,19 @@
 using State = std::array<double, 7>;  // w, x, y, z (body to world), wx, wy, wz (body frame)
 
 // The article's top, let go at rest with theta = 0.5 rad and spinning at 200 rad/s.
-const symtop_start START = {0.000228, 0.0000572, 0.068, {0.9689124, 0.2474040, 0, 0},
-                            {0, 0, 200}, {0, 0}, {0, 0, 0}};
+const symtop_start START = {0.000228,    0.0000572, 0.068,    {0.9689124, 0.2474040, 0, 0},
+                            {0, 0, 200}, {0, 0},    {0, 0, 0}};
 
 State slope(const State& s) {  // q' = q omega/2, and Euler's equations
   const auto [w, x, y, z, a, b, c] = s;
   const double Ix = START.Ix, Iz = START.Iz, Mgl = START.Mgl;
-  return {(-x * a - y * b - z * c) / 2, (w * a + y * c - z * b) / 2, (w * b + z * a - x * c) / 2,
-          (w * c + x * b - y * a) / 2, ((Ix - Iz) * b * c + 2 * Mgl * (y * z + w * x)) / Ix,
-          ((Iz - Ix) * c * a - 2 * Mgl * (x * z - w * y)) / Ix, 0};
+  return {(-x * a - y * b - z * c) / 2,
+          (w * a + y * c - z * b) / 2,
+          (w * b + z * a - x * c) / 2,
+          (w * c + x * b - y * a) / 2,
+          ((Ix - Iz) * b * c + 2 * Mgl * (y * z + w * x)) / Ix,
+          ((Iz - Ix) * c * a - 2 * Mgl * (x * z - w * y)) / Ix,
+          0};
 }
 
 State add(State s, double factor, const State& other) {

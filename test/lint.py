@@ -61,11 +61,13 @@ def list_commands(*chosen: str) -> list[list[str]]:
         name.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
         for name in select(programs, *TYPED)
     ]
+    kernel = select(paths, "*.hpp", "*.h", "*.cpp", "*.c", "*.cu")
     page = ["sh", str(ROOT / "test/check_js.sh"), str(Path(sys.prefix, "js"))]
     commands = {
         "style": [
             [str(BIN / "ruff"), "check", *programs, "pyproject.toml"],
             [str(BIN / "ruff"), "format", "--check", *programs, *select(paths, "*.md")],
+            [str(BIN / "clang-format"), "--dry-run", "--Werror", *kernel],
             [str(BIN / "codespell"), *paths],
             [*page, "style"],
         ],

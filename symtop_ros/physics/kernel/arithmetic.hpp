@@ -37,7 +37,8 @@ inline bool rounds_to_nearest() {
   // Read from the register that decides: there a sum with a subnormal number can take as long as a
   // state. The bits are those of the rounding (two), of flushed results and of flushed arguments.
   uint32_t control;
-  asm volatile("stmxcsr %0" : "=m"(control));  // the compiler's own function is taken for a constant
+  // The compiler's own function is taken for a constant
+  asm volatile("stmxcsr %0" : "=m"(control));
   return (control & 0xe040) == 0;
 #else
   const double one = hide(1.0), below_half = hide(0x1p-54), above_half = hide(0x1.8p-53);
@@ -61,8 +62,8 @@ inline bool keeps_order() {
          a * a - square == 0.0 &&             // -ffp-contract=fast
          read_bits(hide(-0.0) + 0.0) == 0 &&  // -fno-signed-zeros
          quotients[0] == 1.0 && quotients[1] == 2.0 && quotients[2] == 3.0 &&
-         quotients[3] == 4.0 &&                        // -freciprocal-math
-         !std::isfinite(infinite) && !(nan == nan);    // -ffinite-math-only
+         quotients[3] == 4.0 &&                      // -freciprocal-math
+         !std::isfinite(infinite) && !(nan == nan);  // -ffinite-math-only
 }
 
 inline bool is_sound() { return rounds_to_nearest() && keeps_order(); }

@@ -23,15 +23,16 @@ SYMTOP_CLONES inline void fill_lanes(const ClosedForm& motion, const double* tim
   motion.evaluate(t, phases, values);
   const AttitudeOf<Lanes> state = motion.complete(values);
   for (int i = 0; i < LANES; i++)
-    write_state({state.w[i], state.x[i], state.y[i], state.z[i], state.omega_x[i],
-                 state.omega_y[i]}, motion.start.wz, to.from(i));
+    write_state(
+        {state.w[i], state.x[i], state.y[i], state.z[i], state.omega_x[i], state.omega_y[i]},
+        motion.start.wz, to.from(i));
 }
 
 // The times in s to a few roundings.
 inline double find_rough_time(const double* times, int64_t i) { return times[i]; }
 
-// True if some of the times lie in the first instants, or if they are so many that to look at all of them
-// would take longer than to prepare for it.
+// True if some of the times lie in the first instants, or if they are so many that to look at all
+// of them would take longer than to prepare for it.
 template <class Times>
 bool needs_first_instants(const ClosedForm& motion, const Times& times, int64_t count) {
   bool needs = count > LANES;
@@ -60,8 +61,10 @@ inline int64_t fill(const ClosedForm& motion, const double* times, int64_t count
       for (int lane = 0; lane < LANES; lane++) {
         Phase phases[FUNCTIONS];
         find_phases(motion.steps, FUNCTIONS, times[i + lane], phases);
-        for (int k = 0; k < FUNCTIONS; k++)
-          turns[k][lane] = phases[k].turns, rests[k][lane] = phases[k].rest;
+        for (int k = 0; k < FUNCTIONS; k++) {
+          turns[k][lane] = phases[k].turns;
+          rests[k][lane] = phases[k].rest;
+        }
       }
       fill_lanes(motion, times + i, turns, rests, to.from(i));
       i += LANES;
@@ -91,7 +94,9 @@ struct Stamps {
   double elapsed_seconds;
 
   Stamps(const int64_t* given, const Clock& of_clock)
-      : stamps(given), clock(of_clock), elapsed(find_elapsed(clock)),
+      : stamps(given),
+        clock(of_clock),
+        elapsed(find_elapsed(clock)),
         elapsed_seconds(to_seconds(elapsed)) {}
 
   double find_rough_seconds(int64_t i) const {
@@ -101,7 +106,9 @@ struct Stamps {
   double find_seconds(int64_t i) const { return to_seconds(find_exact_time(i)); }
 };
 
-inline double find_rough_time(const Stamps& stamps, int64_t i) { return stamps.find_rough_seconds(i); }
+inline double find_rough_time(const Stamps& stamps, int64_t i) {
+  return stamps.find_rough_seconds(i);
+}
 
 // States at stamps. Between the first instants and the first time that is too far, LANES at once.
 class StampedStates {
@@ -111,7 +118,8 @@ class StampedStates {
       : motion_(motion),
         stamps_(stamps),
         steps_(motion.steps, FUNCTIONS, stamps.clock),
-        half_turn_(needs_first ? motion.first_instants.half_turn : Steps(), needs_first, stamps.clock) {}
+        half_turn_(needs_first ? motion.first_instants.half_turn : Steps(), needs_first,
+                   stamps.clock) {}
 
   int64_t fill(int64_t count, const Target& to) const {
     for (int64_t i = 0; i < count;) {

@@ -8,12 +8,13 @@
 
 namespace symtop {
 
-const int ELAPSED_PARTS = 4;  // that a caller gives
+const int ELAPSED_PARTS = 4;         // that a caller gives
 const uint64_t SECOND = 1000000000;  // ns
 
 struct Clock {
-  double factor;                  // time of the motion per time of the clock
-  // Their sum is the time of the motion in ns at stamp 0; the last one takes off the begin of a stretch.
+  double factor;  // time of the motion per time of the clock
+  // Their sum is the time of the motion in ns at stamp 0; the last one takes off the begin of a
+  // stretch.
   double elapsed[ELAPSED_PARTS + 1];
 };
 
@@ -35,7 +36,8 @@ inline double to_seconds(const Exact& time) {
   std::memcpy(limbs + 1, time.limbs, sizeof time.limbs);
   const bool has_rest = divide_by_second(limbs, 25);
   Exact seconds;
-  seconds.sign = time.sign, seconds.exponent = time.exponent;
+  seconds.sign = time.sign;
+  seconds.exponent = time.exponent;
   normalize(limbs, seconds);
   seconds.limbs[0] |= has_rest;
   return seconds.to_double();
@@ -84,7 +86,8 @@ inline void scale_step(const uint64_t step[STEP_LIMBS], double x, int exponent,
   carry = 0;
   for (int i = 0; i < STEP_LIMBS; i++) {
     const Wide sum = static_cast<Wide>(size[i]) * mantissa + carry;
-    product[i] = static_cast<uint64_t>(sum), carry = static_cast<uint64_t>(sum >> 64);
+    product[i] = static_cast<uint64_t>(sum);
+    carry = static_cast<uint64_t>(sum >> 64);
   }
   product[STEP_LIMBS] = carry;
   bool has_rest = false;
@@ -96,8 +99,10 @@ inline void scale_step(const uint64_t step[STEP_LIMBS], double x, int exponent,
     const int place = i + places;
     if (place < 0)
       has_rest |= limb != 0;
-    else if (place < LIMBS)
-      limbs[place] = limb, used = place + 1;
+    else if (place < LIMBS) {
+      limbs[place] = limb;
+      used = place + 1;
+    }
   }
   has_rest |= divide_by_second(limbs, used);
   // The whole part of a negative number is below it.
@@ -138,7 +143,8 @@ class ClockSteps {
       uint64_t carry = 0;
       for (int i = 0; i < STEP_LIMBS; i++) {
         const Wide total = static_cast<Wide>(sum[i]) + part[i] + carry;
-        sum[i] = static_cast<uint64_t>(total), carry = static_cast<uint64_t>(total >> 64);
+        sum[i] = static_cast<uint64_t>(total);
+        carry = static_cast<uint64_t>(total >> 64);
       }
     }
     return sum[STEP_LIMBS - 1];

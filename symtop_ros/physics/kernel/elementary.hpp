@@ -1,9 +1,9 @@
 // Elementary functions of doubles, the same to the last bit on every machine.
 //
 // Sums, products, quotients and square roots of doubles round in the same way on every machine if a
-// compiler does not fuse them (-ffp-contract=off, arithmetic.hpp). The elementary functions of the C
-// library do not: their last bit depends on the version and on the processor. Those here are made of
-// sums, products and quotients alone. For the same reason complex numbers are pairs of reals.
+// compiler does not fuse them (-ffp-contract=off, arithmetic.hpp). The elementary functions of the
+// C library do not: their last bit depends on the version and on the processor. Those here are made
+// of sums, products and quotients alone. For the same reason complex numbers are pairs of reals.
 #pragma once
 
 #include "precise.hpp"
@@ -52,10 +52,12 @@ inline double find_modulus(Pair a) {
 
 template <class R>
 SYMTOP_INLINE PairOf<R> cosine_and_sine_near_0(R x, R rest) {
-  static const double SINE[] = {1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800,
-                                -1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6};
-  static const double VERSINE[] = {-1.0 / 20922789888000, 1.0 / 87178291200, -1.0 / 479001600,
-                                   1.0 / 3628800, -1.0 / 40320, 1.0 / 720, -1.0 / 24, 1.0 / 2};
+  static const double SINE[] = {
+      1.0 / 355687428096000, -1.0 / 1307674368000, 1.0 / 6227020800, -1.0 / 39916800,
+      1.0 / 362880,          -1.0 / 5040,          1.0 / 120,        -1.0 / 6};
+  static const double VERSINE[] = {
+      -1.0 / 20922789888000, 1.0 / 87178291200, -1.0 / 479001600, 1.0 / 3628800,
+      -1.0 / 40320,          1.0 / 720,         -1.0 / 24,        1.0 / 2};
   const R square = x * x;
   R versine = VERSINE[0] * square, series = SINE[0] * square;
   for (int n = 1; n < 8; n++) {
@@ -65,8 +67,8 @@ SYMTOP_INLINE PairOf<R> cosine_and_sine_near_0(R x, R rest) {
   return {1.0 - (versine + x * rest), x + (x * series + rest)};
 }
 
-// For |x| up to some thousand turns: quarter turns are subtracted in two parts, of which the product
-// with the first is exact.
+// For |x| up to some thousand turns: quarter turns are subtracted in two parts, of which the
+// product with the first is exact.
 template <class R>
 SYMTOP_INLINE PairOf<R> cosine_and_sine(R x) {
   const R quarters = round_to_integer(x * QUARTERS);
@@ -85,8 +87,8 @@ const double LEAST_EXPONENT = -708.0;  // below, exp(x) is no normal double; it 
 template <class R>
 SYMTOP_INLINE PairOf<R> expand_exponential(R x) {
   static const double SERIES[] = {1.0 / 6227020800, 1.0 / 479001600, 1.0 / 39916800, 1.0 / 3628800,
-                                  1.0 / 362880, 1.0 / 40320, 1.0 / 5040, 1.0 / 720, 1.0 / 120,
-                                  1.0 / 24, 1.0 / 6, 1.0 / 2};
+                                  1.0 / 362880,     1.0 / 40320,     1.0 / 5040,     1.0 / 720,
+                                  1.0 / 120,        1.0 / 24,        1.0 / 6,        1.0 / 2};
   const R bounded = choose(x > LEAST_EXPONENT, x, repeat<R>(LEAST_EXPONENT));
   const R doublings = round_to_integer(bounded * DOUBLINGS);
   const R y = (bounded - doublings * LN2_HIGH) - doublings * LN2_LOW;
@@ -127,8 +129,8 @@ const double HALF_PI_HIGH = 0x1.921fb54442d18p+0, HALF_PI_LOW = 0x1.1a62633145c0
 // tangents are eighths; the Taylor series of what is left has the sixteenth part of the argument at
 // most (DLMF 4.24.3). Signs of zero are those of atan2.
 inline double arc_tangent(double y, double x) {
-  static const double SERIES[] = {-1.0 / 15, 1.0 / 13, -1.0 / 11, 1.0 / 9, -1.0 / 7, 1.0 / 5,
-                                  -1.0 / 3};
+  static const double SERIES[] = {-1.0 / 15, 1.0 / 13, -1.0 / 11, 1.0 / 9,
+                                  -1.0 / 7,  1.0 / 5,  -1.0 / 3};
   const double height = std::fabs(y), width = std::fabs(x);
   const double large = height > width ? height : width, small = height > width ? width : height;
   const double ratio = large > 0 ? small / large : 0.0, place = round_to_integer(8.0 * ratio);
@@ -145,18 +147,21 @@ inline double arc_tangent(double y, double x) {
   return std::copysign(angle, y);
 }
 
-// R_F(x, y, 1) in doubles; infinite for x = y = 0, when both have underflowed. The series is that of
-// DLMF 19.36.1 up to the seventh power.
+// R_F(x, y, 1) in doubles; infinite for x = y = 0, when both have underflowed. The series is that
+// of DLMF 19.36.1 up to the seventh power.
 inline double integrate_rf_in_doubles(double x, double y) {
   if (x == 0 && y == 0) return INFINITY;
   double z = 1.0, mean, dx, dy;
   for (;;) {
     mean = (x + y + z) / 3;
-    dx = (mean - x) / mean, dy = (mean - y) / mean;
+    dx = (mean - x) / mean;
+    dy = (mean - y) / mean;
     if (std::fmax(std::fmax(std::fabs(dx), std::fabs(dy)), std::fabs(dx + dy)) < 0.006) break;
     const double rx = std::sqrt(x), ry = std::sqrt(y), rz = std::sqrt(z);
     const double shift = rx * ry + rx * rz + ry * rz;
-    x = (x + shift) / 4, y = (y + shift) / 4, z = (z + shift) / 4;
+    x = (x + shift) / 4;
+    y = (y + shift) / 4;
+    z = (z + shift) / 4;
   }
   const double dz = -(dx + dy), e2 = dx * dy - dz * dz, e3 = dx * dy * dz;
   const double square = e2 * e2, cube = e3 * e3;
@@ -165,8 +170,8 @@ inline double integrate_rf_in_doubles(double x, double y) {
 }
 
 // The complete elliptic integral K from the complementary modulus sqrt(1 - m): pi/2 divided by the
-// arithmetic-geometric mean of 1 and it (DLMF 19.8.5). In terms of m it would lose its digits towards
-// m = 1. Convergence is quadratic: after a gap of 1e-8 the next mean is right to rounding.
+// arithmetic-geometric mean of 1 and it (DLMF 19.8.5). In terms of m it would lose its digits
+// towards m = 1. Convergence is quadratic: after a gap of 1e-8 the next mean is right to rounding.
 inline double quarter_period(double modulus) {
   if (modulus == 0) return INFINITY;
   double a = 1.0, b = modulus;

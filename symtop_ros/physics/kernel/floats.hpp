@@ -6,7 +6,8 @@
 #include "lanes.hpp"
 
 // Sums and products are calls in WebAssembly: inlined they would make a module twice as large. The
-// compiler of a graphics processor would inline and unroll all of a set-up, and never come to an end.
+// compiler of a graphics processor would inline and unroll all of a set-up, and never come to an
+// end.
 #if defined(__wasm__) || defined(__CUDACC__)
 #define SYMTOP_CALL __attribute__((noinline))
 #else
@@ -119,14 +120,13 @@ SYMTOP_SET_UP Float<N> operator*(const Float<N>& a, const Float<N>& b) {
   const bool is_full = product[2 * N - 1] >> 63;
   SYMTOP_ROLLED
   for (int i = 0; i < N; i++)
-    result.limbs[i] =
-        is_full ? product[N + i] : product[N + i] << 1 | product[N + i - 1] >> 63;
+    result.limbs[i] = is_full ? product[N + i] : product[N + i] << 1 | product[N + i - 1] >> 63;
   if (!is_full) result.exponent--;
   return result;
 }
 
-// The same for three limbs, from six of the nine products. Two of those left out reach a last bit each,
-// or two of a product that is shifted.
+// The same for three limbs, from six of the nine products. Two of those left out reach a last bit
+// each, or two of a product that is shifted.
 SYMTOP_CALL inline Float<3> operator*(const Float<3>& a, const Float<3>& b) {
   Float<3> result;
   result.sign = a.sign * b.sign;
@@ -139,17 +139,20 @@ SYMTOP_CALL inline Float<3> operator*(const Float<3>& a, const Float<3>& b) {
   const Wide a2b2 = static_cast<Wide>(a.limbs[2]) * b.limbs[2];
   const auto low = [](Wide x) { return static_cast<Wide>(static_cast<uint64_t>(x)); };
   const Wide second = low(a0b2) + low(a1b1) + low(a2b0);
-  const Wide third = (second >> 64) + (a0b2 >> 64) + (a1b1 >> 64) + (a2b0 >> 64) + low(a1b2) +
-                     low(a2b1);
+  const Wide third =
+      (second >> 64) + (a0b2 >> 64) + (a1b1 >> 64) + (a2b0 >> 64) + low(a1b2) + low(a2b1);
   const Wide fourth = (third >> 64) + (a1b2 >> 64) + (a2b1 >> 64) + low(a2b2);
   const uint64_t p2 = static_cast<uint64_t>(second), p3 = static_cast<uint64_t>(third);
   const uint64_t p4 = static_cast<uint64_t>(fourth);
   const uint64_t p5 = static_cast<uint64_t>((fourth >> 64) + (a2b2 >> 64));
   result.exponent = a.exponent + b.exponent;
   if (p5 >> 63) {
-    result.limbs[0] = p3, result.limbs[1] = p4, result.limbs[2] = p5;
+    result.limbs[0] = p3;
+    result.limbs[1] = p4;
+    result.limbs[2] = p5;
   } else {
-    result.limbs[0] = p3 << 1 | p2 >> 63, result.limbs[1] = p4 << 1 | p3 >> 63;
+    result.limbs[0] = p3 << 1 | p2 >> 63;
+    result.limbs[1] = p4 << 1 | p3 >> 63;
     result.limbs[2] = p5 << 1 | p4 >> 63;
     result.exponent--;
   }
@@ -231,13 +234,14 @@ SYMTOP_SET_UP Float<N> operator+(const Float<N>& x, const Float<N>& y) {
 SYMTOP_CALL inline Float<3> operator+(const Float<3>& x, const Float<3>& y) {
   if (!x.sign) return y;
   if (!y.sign) return x;
-  const auto upper = [](const Float<3>& f) { return static_cast<Wide>(f.limbs[2]) << 64 | f.limbs[1]; };
+  const auto upper = [](const Float<3>& f) {
+    return static_cast<Wide>(f.limbs[2]) << 64 | f.limbs[1];
+  };
   const auto lower = [](const Float<3>& f) { return static_cast<Wide>(f.limbs[0]) << 64; };
   const Wide upper_x = upper(x), upper_y = upper(y);
-  const bool is_first =
-      x.exponent != y.exponent
-          ? x.exponent > y.exponent
-          : upper_x != upper_y ? upper_x > upper_y : x.limbs[0] >= y.limbs[0];
+  const bool is_first = x.exponent != y.exponent ? x.exponent > y.exponent
+                        : upper_x != upper_y     ? upper_x > upper_y
+                                                 : x.limbs[0] >= y.limbs[0];
   const Float<3>&a = is_first ? x : y, &b = is_first ? y : x;
   const int distance = a.exponent - b.exponent;
   if (distance >= 194) return a;
@@ -269,12 +273,12 @@ SYMTOP_CALL inline Float<3> operator+(const Float<3>& x, const Float<3>& y) {
     high = high - small_high - borrow;
     if (!high) {
       if (!low) return Float<3>();
-      high = low, low = 0;
+      high = low;
+      low = 0;
       result.exponent -= 128;
     }
     const uint64_t top = static_cast<uint64_t>(high >> 64);
-    const int bits = top ? __builtin_clzll(top)
-                         : 64 + __builtin_clzll(static_cast<uint64_t>(high));
+    const int bits = top ? __builtin_clzll(top) : 64 + __builtin_clzll(static_cast<uint64_t>(high));
     if (bits) {
       high = high << bits | low >> (128 - bits);
       low <<= bits;
@@ -298,12 +302,20 @@ Float<N> size(const Float<N>& a) {
 }
 
 template <int N>
-bool operator<(const Float<N>& a, const Float<N>& b) { return compare(a, b) < 0; }
+bool operator<(const Float<N>& a, const Float<N>& b) {
+  return compare(a, b) < 0;
+}
 template <int N>
-bool operator<=(const Float<N>& a, const Float<N>& b) { return compare(a, b) <= 0; }
+bool operator<=(const Float<N>& a, const Float<N>& b) {
+  return compare(a, b) <= 0;
+}
 template <int N>
-bool operator>(const Float<N>& a, const Float<N>& b) { return compare(a, b) > 0; }
+bool operator>(const Float<N>& a, const Float<N>& b) {
+  return compare(a, b) > 0;
+}
 template <int N>
-bool operator>=(const Float<N>& a, const Float<N>& b) { return compare(a, b) >= 0; }
+bool operator>=(const Float<N>& a, const Float<N>& b) {
+  return compare(a, b) >= 0;
+}
 
 }  // namespace symtop

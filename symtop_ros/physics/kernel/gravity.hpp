@@ -13,12 +13,13 @@
 namespace symtop {
 
 struct Rates {
-  double nutation_period, mean_precession_rate, mean_spin_rate, precession_per_nutation, mean_cosine;
+  double nutation_period, mean_precession_rate, mean_spin_rate, precession_per_nutation,
+      mean_cosine;
   bool spin_reverses;
 };
 
-// Mean rates of the nutation, and of the arguments of A and B in the frame that does not turn by c: after
-// a whole nutation they have turned, and all else is as it was.
+// Mean rates of the nutation, and of the arguments of A and B in the frame that does not turn by c:
+// after a whole nutation they have turned, and all else is as it was.
 struct Turning {
   Precise nutation, of_A, of_B;
 };
@@ -64,11 +65,13 @@ class GravityMotion {
     const Zero &near = zeros[from_below ? OF_A : OF_B], &far = zeros[from_below ? OF_B : OF_A];
     const double upper = 2 * find_half_angle(near.from_u2, far.from_u2);
     const double lower = 2 * find_half_angle(near.from_u1, far.from_u1);
-    angles[0] = from_below ? lower : upper, angles[1] = from_below ? upper : lower;
+    angles[0] = from_below ? lower : upper;
+    angles[1] = from_below ? upper : lower;
   }
 
-  // |omega_xy| at the same turning points, and the horizontal part of L over Ix, in rad/s. Where the
-  // axis comes to rest, or L is vertical, differences of doubles would leave the root of rounding.
+  // |omega_xy| at the same turning points, and the horizontal part of L over Ix, in rad/s. Where
+  // the axis comes to rest, or L is vertical, differences of doubles would leave the root of
+  // rounding.
   void find_rates_at_ends(double across[2], double level[2]) {
     prepare(SOLVED);
     const Nutation& n = is_free_ ? free_.nutation : closed_.nutation;
@@ -96,11 +99,12 @@ class GravityMotion {
     rate[1] = rest_of(exact, rate[0]);
   }
 
-  // In a world that was turned over, A was conj(B), and B was -conj(A). Without a torque a turn about L,
-  // of which the quaternion has half the angle, is a nutation.
+  // In a world that was turned over, A was conj(B), and B was -conj(A). Without a torque a turn
+  // about L, of which the quaternion has half the angle, is a nutation.
   Turning find_turning() {
     prepare(SOLVED);
-    if (is_free_) return {free_.nutation_rate, free_.nutation_rate.scale(-1), free_.nutation_rate.scale(-1)};
+    if (is_free_)
+      return {free_.nutation_rate, free_.nutation_rate.scale(-1), free_.nutation_rate.scale(-1)};
     const Precise &A = closed_.means[OF_A], &B = closed_.means[OF_B];
     if (is_turned_over_) return {closed_.nutation_rate, -B, -A};
     return {closed_.nutation_rate, A, B};
@@ -163,8 +167,9 @@ class GravityMotion {
     const double rate = closed_.nutation_rate.to_double();
     const double turns =
         closed_.nutation_rate.sign ? (mean.precession / closed_.nutation_rate).to_double() : NAN;
-    return {rate ? 2 * PI / rate : INFINITY, mean.precession.to_double(), mean.spin.to_double(),
-            turns, find_mean_cosine(closed_), symtop::spin_reverses(closed_)};
+    return {rate ? 2 * PI / rate : INFINITY, mean.precession.to_double(),
+            mean.spin.to_double(),           turns,
+            find_mean_cosine(closed_),       symtop::spin_reverses(closed_)};
   }
 
   // Of a motion without a torque: the means are whole half turns of arg A and arg B about L.
@@ -175,8 +180,11 @@ class GravityMotion {
     const Precise half = free_.nutation_rate.scale(-1);
     const Precise precession = Precise(double(upper + lower)) * half;
     const Precise spin = Precise(double(upper - lower)) * half + free_.turning_rate;
-    return {returns ? 2 * PI / rate : INFINITY, precession.to_double(), spin.to_double(),
-            free_.nutation_rate.sign ? (upper + lower) / 2.0 : NAN, free_.find_mean_cosine(),
+    return {returns ? 2 * PI / rate : INFINITY,
+            precession.to_double(),
+            spin.to_double(),
+            free_.nutation_rate.sign ? (upper + lower) / 2.0 : NAN,
+            free_.find_mean_cosine(),
             free_.kind != SLEEPING && symtop::spin_reverses(free_)};
   }
 };

@@ -6,9 +6,9 @@
 #include "arithmetic.hpp"
 
 // Two variants are compiled where the processor may have wider registers. They differ in speed
-// only: nothing is fused, and sums keep their order. A template is inlined into both. A program that
-// is for AVX-512 needs no second variant, and GCC 12 fails with an internal error over it. One that is
-// watched for races would choose the variant before its watcher has started, and crash.
+// only: nothing is fused, and sums keep their order. A template is inlined into both. A program
+// that is for AVX-512 needs no second variant, and GCC 12 fails with an internal error over it. One
+// that is watched for races would choose the variant before its watcher has started, and crash.
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && __GNUC__ >= 12 && \
     !defined(__AVX512F__) && !defined(__SANITIZE_THREAD__)
 #define SYMTOP_CLONES __attribute__((target_clones("arch=x86-64-v3", "default")))
@@ -57,17 +57,22 @@ SYMTOP_INLINE To read_bits_as(const From& from) {
 }
 
 #ifdef SYMTOP_LANES
-// The lanes of a in another order. Written lane by lane GCC 12 takes each of them out and puts it back.
+// The lanes of a in another order. Written lane by lane GCC 12 takes each of them out and puts it
+// back.
 #if defined(__clang__) || __GNUC__ >= 12
 #define SYMTOP_ORDER(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
 #else
 #define SYMTOP_ORDER(a, b, i, j, k, l) __builtin_shuffle(a, b, IntegerLanes{i, j, k, l})
 #endif
 template <int I, int J, int K, int L>
-SYMTOP_INLINE Lanes order(Lanes a) { return SYMTOP_ORDER(a, a, I, J, K, L); }
+SYMTOP_INLINE Lanes order(Lanes a) {
+  return SYMTOP_ORDER(a, a, I, J, K, L);
+}
 
 template <int I>
-SYMTOP_INLINE Lanes spread(Lanes a) { return SYMTOP_ORDER(a, a, I, I, I, I); }
+SYMTOP_INLINE Lanes spread(Lanes a) {
+  return SYMTOP_ORDER(a, a, I, I, I, I);
+}
 
 // Lanes with the other sign where `signs` has one.
 SYMTOP_INLINE Lanes negate(Lanes a, Lanes signs) {
@@ -129,10 +134,14 @@ SYMTOP_INLINE void read_row(const double (*rows)[4], IntegerLanes k, Lanes entri
 
 // A constant in every lane. Subtracting 0 keeps the sign of a zero.
 template <class R>
-SYMTOP_INLINE R repeat(double x) { return x - R{}; }
+SYMTOP_INLINE R repeat(double x) {
+  return x - R{};
+}
 
 template <class R>
-SYMTOP_INLINE R find_sign(R x) { return copy_sign(repeat<R>(1.0), x); }
+SYMTOP_INLINE R find_sign(R x) {
+  return copy_sign(repeat<R>(1.0), x);
+}
 
 // The nearest integer; the even one of two. Without a call of the library, which takes longer.
 template <class R>

@@ -30,7 +30,6 @@ SYMTOP_SET_UP inline Float<3> invert(const Float<3>& a) {
   return result;
 }
 
-
 // The square root, from the reciprocal of the root, as above.
 SYMTOP_SET_UP inline Float<3> root(const Float<3>& a) {
   if (a.sign <= 0) return Float<3>();
@@ -39,7 +38,10 @@ SYMTOP_SET_UP inline Float<3> root(const Float<3>& a) {
   mantissa.exponent = odd;
   double high, low;
   split_mantissa(a, high, low);
-  if (odd) high *= 2, low *= 2;
+  if (odd) {
+    high *= 2;
+    low *= 2;
+  }
   const double inverse = 1.0 / std::sqrt(high);
   const double square = inverse * inverse, below = __builtin_fma(inverse, inverse, -square);
   const double product = high * square, lost = __builtin_fma(high, square, -product);

@@ -11,7 +11,7 @@ namespace symtop {
 
 typedef Float<3> Precise;
 typedef Float<37> Longest;  // 700 digits: see exact/mean_rates.hpp
-typedef Float<24> Exact;   // sums of products of five doubles, without rounding: a Fraction
+typedef Float<24> Exact;    // sums of products of five doubles, without rounding: a Fraction
 
 // A share below which the square is lost in rounding, but for some bits.
 template <int N>
@@ -23,13 +23,16 @@ constexpr Precise precise(uint64_t high, uint64_t middle, uint64_t low, int expo
   Precise result;
   result.sign = 1;
   result.exponent = exponent;
-  result.limbs[2] = high, result.limbs[1] = middle, result.limbs[0] = low;
+  result.limbs[2] = high;
+  result.limbs[1] = middle;
+  result.limbs[0] = low;
   return result;
 }
 
 // 2 pi, 1/(2 pi) and ln(2).
 constexpr Precise TWO_PI = precise(0xc90fdaa22168c234, 0xc4c6628b80dc1cd1, 0x29024e088a67cc74, 3);
-constexpr Precise PER_TURN = precise(0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, -2);
+constexpr Precise PER_TURN =
+    precise(0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, -2);
 constexpr Precise LN2 = precise(0xb17217f7d1cf79ab, 0xc9e3b39803f2f6af, 0x40f343267298b62d, 0);
 // The same numbers as sums of two doubles, the first of 26 bits.
 const double QUARTER_HIGH = 0x1.921fb50000000p+0;
@@ -73,13 +76,17 @@ inline Precise integrate_rf(Precise x, Precise y) {
   for (;;) {
     mean = (x + y + z) * third;
     const Precise inverse = invert(mean);
-    dx = one - x * inverse, dy = one - y * inverse;
-    const double largest = std::fmax(std::fmax(std::fabs(dx.to_double()), std::fabs(dy.to_double())),
-                                     std::fabs((dx + dy).to_double()));
+    dx = one - x * inverse;
+    dy = one - y * inverse;
+    const double largest =
+        std::fmax(std::fmax(std::fabs(dx.to_double()), std::fabs(dy.to_double())),
+                  std::fabs((dx + dy).to_double()));
     if (largest < 2e-6) break;
     const Precise rx = root(x), ry = root(y), rz = root(z);
     const Precise shift = rx * ry + rx * rz + ry * rz;
-    x = (x + shift).scale(-2), y = (y + shift).scale(-2), z = (z + shift).scale(-2);
+    x = (x + shift).scale(-2);
+    y = (y + shift).scale(-2);
+    z = (z + shift).scale(-2);
   }
   const Precise dz = -(dx + dy), e2 = dx * dy - dz * dz, e3 = dx * dy * dz;
   const Precise sum = one - e2 / Precise(10.0) + e3 / Precise(14.0) + e2 * e2 / Precise(24.0) -

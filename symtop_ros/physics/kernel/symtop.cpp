@@ -33,12 +33,14 @@ const char* symtop_describe_status(symtop_status status) {
     case SYMTOP_MORE_STEPS: return "most_steps must suffice for the way: call again to continue";
     case SYMTOP_BAD_ARITHMETIC:
       return "arithmetic must be that of IEEE 754: sums in the order of the source, rounded to the "
-             "nearest, subnormal numbers kept (no option such as -fassociative-math, no library that "
+             "nearest, subnormal numbers kept (no option such as -fassociative-math, no library "
+             "that "
              "was linked with -ffast-math)";
     case SYMTOP_BAD_ANGLES: return "angles and rates must be finite";
     case SYMTOP_BAD_KICK: return "kick must be finite, and leave phi' at most 1e100 rad/s in size";
     case SYMTOP_VERTICAL:
-      return "axis must be tilted (phi' is undefined on the vertical; an angular impulse works there)";
+      return "axis must be tilted (phi' is undefined on the vertical; an angular impulse works "
+             "there)";
     case SYMTOP_BAD_POINTER: return "pointers must not be null";
     case SYMTOP_BAD_COUNT: return "count must be so small that the arrays fit into memory";
     case SYMTOP_BAD_HOLD:
@@ -54,7 +56,8 @@ const char* symtop_describe_status(symtop_status status) {
       return "a clamped motion must start with a tilted axis, without friction, torque and pushes";
     case SYMTOP_BAD_QUESTION: return "question must be one of symtop_question";
     case SYMTOP_BAD_PART:
-      return "parts must be one or more, each of a kind, with mass and size > 0, and finite numbers";
+      return "parts must be one or more, each of a kind, with mass and size > 0, and finite "
+             "numbers";
   }
   return "status must be one of symtop_status";
 }

@@ -17,19 +17,19 @@
  * reads, nor another argument that it writes: the numbers would be wrong, without a word.
  *
  * All arguments are looked at before they are used, and each refusal has a status with a sentence:
- * numbers that are not finite or out of range, orientations without norm 1, null pointers, and enums
- * that are none. Arrays without elements may be null. Only a handle that is neither null nor a motion
- * is not found. What was not computed is not written, but for the element that is refused.
+ * numbers that are not finite or out of range, orientations without norm 1, null pointers, and
+ * enums that are none. Arrays without elements may be null. Only a handle that is neither null nor
+ * a motion is not found. What was not computed is not written, but for the element that is refused.
  *
  * There is no global state. Threads may use different motions, and the same one, at the same time.
  *
  * To build it, compile symtop.cpp as C++17 with -ffp-contract=off, and link it. It takes GCC or
- * Clang, 64 bits, or Clang for WebAssembly. Without that option a compiler may fuse products and sums,
- * and the last bits are others. With -ffast-math or -Ofast it
- * does not compile: give -fno-fast-math after them. What a compiler does not announce, such as
- * -fassociative-math, and a thread that does not round to the nearest or flushes subnormal numbers
- * to zero, is found when a function is called: the status is SYMTOP_BAD_ARITHMETIC, and nothing is
- * written. (A library that was linked with fast-math sets the latter for the thread that loads it.)
+ * Clang, 64 bits, or Clang for WebAssembly. Without that option a compiler may fuse products and
+ * sums, and the last bits are others. With -ffast-math or -Ofast it does not compile: give
+ * -fno-fast-math after them. What a compiler does not announce, such as -fassociative-math, and a
+ * thread that does not round to the nearest or flushes subnormal numbers to zero, is found when a
+ * function is called: the status is SYMTOP_BAD_ARITHMETIC, and nothing is written. (A library that
+ * was linked with fast-math sets the latter for the thread that loads it.)
  */
 #ifndef SYMTOP_H
 #define SYMTOP_H
@@ -61,11 +61,11 @@ typedef enum { SYMTOP_AXIAL, SYMTOP_TRANSVERSE, SYMTOP_KINDS_OF_FRICTION } symto
 
 typedef struct {
   double Ix, Iz, Mgl;         /* moments about the pivot, across the axis and along it; weight times
-                                 distance: negative for a top that hangs below its pivot */
+                         distance: negative for a top that hangs below its pivot */
   double orientation[4];      /* at t = 0; of norm 1 within 1e-3: it is normalised */
   double angular_velocity[3]; /* at t = 0 */
   double friction[SYMTOP_KINDS_OF_FRICTION]; /* coefficients >= 0, N m s */
-  double torque[3];           /* applied torque in the world frame, constant */
+  double torque[3];                          /* applied torque in the world frame, constant */
 } symtop_start;
 
 typedef enum {
@@ -77,10 +77,11 @@ typedef enum {
   SYMTOP_BAD_FRICTION,
   SYMTOP_BAD_TORQUE,
   SYMTOP_BAD_TIME,
-  SYMTOP_TOO_FAR,   /* more than 1e15 turns from the start */
-  SYMTOP_TOO_FAST,  /* the driven motion becomes too fast on the way */
-  SYMTOP_TOO_STIFF, /* friction stops the top so soon that the way takes too many steps */
-  SYMTOP_MORE_STEPS, /* the allowed steps did not suffice: call again, and the integration goes on */
+  SYMTOP_TOO_FAR,        /* more than 1e15 turns from the start */
+  SYMTOP_TOO_FAST,       /* the driven motion becomes too fast on the way */
+  SYMTOP_TOO_STIFF,      /* friction stops the top so soon that the way takes too many steps */
+  SYMTOP_MORE_STEPS,     /* the allowed steps did not suffice: call again, and the integration goes
+                            on */
   SYMTOP_BAD_ARITHMETIC, /* of the compiler or of the calling thread: see above */
   SYMTOP_BAD_ANGLES,
   SYMTOP_BAD_KICK,
@@ -95,7 +96,7 @@ typedef enum {
   SYMTOP_BAD_DISC,
   SYMTOP_BAD_PUSHES,
   SYMTOP_BAD_CLAMP,
-  SYMTOP_BAD_QUESTION,  /* no symtop_question */
+  SYMTOP_BAD_QUESTION, /* no symtop_question */
   SYMTOP_BAD_PART
 } symtop_status;
 
@@ -108,27 +109,28 @@ SYMTOP_API const char* symtop_describe_status(symtop_status status);
 /* Make a motion. On success it is written to *motion and has to be freed, else *motion is null. */
 SYMTOP_API symtop_status symtop_new(const symtop_start* start, symtop_motion** motion);
 
-/* Equal pushes on the axle, as SYMTOP_AXLE_IMPULSE: the first one at t = 0, the others at the nearest
- * whole nanoseconds to multiples of 1/rate. */
+/* Equal pushes on the axle, as SYMTOP_AXLE_IMPULSE: the first one at t = 0, the others at the
+ * nearest whole nanoseconds to multiples of 1/rate. */
 typedef struct {
   double impulse; /* angular impulse of each, N m s */
   double rate;    /* pushes in a second: 0.01 to 1000 */
   double number;  /* of all, with the first one: 1 to 1000, whole */
 } symtop_pushes;
 
-/* Make a motion that is pushed again and again. It starts with the state that the first push leaves;
- * it is as exact as other motions, as 32 digits are carried from one push to the next; the start of a piece
- * that symtop_find_piece writes is rounded to doubles. From a push on that cannot be (the axis is vertical,
- * or the top would be too fast) there are no states: their status says why. */
+/* Make a motion that is pushed again and again. It starts with the state that the first push
+ * leaves; it is as exact as other motions, as 32 digits are carried from one push to the next; the
+ * start of a piece that symtop_find_piece writes is rounded to doubles. From a push on that cannot
+ * be (the axis is vertical, or the top would be too fast) there are no states: their status says
+ * why. */
 SYMTOP_API symtop_status symtop_new_pushed(const symtop_start* start, const symtop_pushes* pushes,
                                            symtop_motion** motion);
 
-/* Make a motion whose precession is held: a hand clamps the outer ring of the gimbal, so that the axis
- * stays in its vertical plane. The clamp takes phi' at t = 0 in an instant, and holds theta' and the
- * spin momentum; then the axis falls as a pendulum does, and the body turns about it at the constant
- * rate omega_z. Through the vertical the plane stays, and phi jumps by pi. The axis must be tilted at
- * t = 0, and neither friction nor a torque acts: SYMTOP_BAD_CLAMP. The angular momentum about the
- * vertical is not constant. */
+/* Make a motion whose precession is held: a hand clamps the outer ring of the gimbal, so that the
+ * axis stays in its vertical plane. The clamp takes phi' at t = 0 in an instant, and holds theta'
+ * and the spin momentum; then the axis falls as a pendulum does, and the body turns about it at the
+ * constant rate omega_z. Through the vertical the plane stays, and phi jumps by pi. The axis must
+ * be tilted at t = 0, and neither friction nor a torque acts: SYMTOP_BAD_CLAMP. The angular
+ * momentum about the vertical is not constant. */
 SYMTOP_API symtop_status symtop_new_clamped(const symtop_start* start, symtop_motion** motion);
 
 SYMTOP_API void symtop_free(symtop_motion* motion); /* null is allowed */
@@ -136,38 +138,39 @@ SYMTOP_API void symtop_free(symtop_motion* motion); /* null is allowed */
 /* Make the motion that goes on from a time with another torque, such as a hand that begins to push,
  * and without further pushes. Its times count from there. */
 SYMTOP_API symtop_status symtop_continue(symtop_motion* motion, double t, const double torque[3],
-                              symtop_motion** continued);
+                                         symtop_motion** continued);
 
 /* The state at one time in s of either sign. A driven motion is integrated as far as it takes, but
  * not if more than 1e7 steps seem to be left, up to a minute: SYMTOP_TOO_LONG. To go further, first
  * reach times on the way. */
 SYMTOP_API symtop_status symtop_state(symtop_motion* motion, double t, double orientation[4],
-                           double angular_velocity[3]);
+                                      double angular_velocity[3]);
 
 /* States at `count` times in s, in any order; driven motions take least time if they lead away from
  * the start. Orientations are (count, 4), angular velocities (count, 3). Driven motions take at
  * most `most_steps` steps, INFINITY for as many as are needed. *written is the number of states
  * written, from the first on: all of them, or those before the one that the status is about. */
 SYMTOP_API symtop_status symtop_states(symtop_motion* motion, const double* times, size_t count,
-                            double most_steps, double* orientation, double* angular_velocity,
-                            size_t* written);
+                                       double most_steps, double* orientation,
+                                       double* angular_velocity, size_t* written);
 
 /* Exact times: integers in ns, of at most 63 bits. The time of the motion is the sum of `elapsed`,
- * in ns, and factor times the stamp. Nothing of it is rounded. The factor and the parts of `elapsed`
- * are 0 or, in size, from 1e-100 to 1e100. */
+ * in ns, and factor times the stamp. Nothing of it is rounded. The factor and the parts of
+ * `elapsed` are 0 or, in size, from 1e-100 to 1e100. */
 typedef struct {
   double factor;
   double elapsed[4];
 } symtop_clock;
 
 SYMTOP_API symtop_status symtop_states_of_clock(symtop_motion* motion, const symtop_clock* clock,
-                                     const int64_t* stamps, size_t count, double most_steps,
-                                     double* orientation, double* angular_velocity,
-                                     size_t* written);
+                                                const int64_t* stamps, size_t count,
+                                                double most_steps, double* orientation,
+                                                double* angular_velocity, size_t* written);
 
 /* What moves between two pushes; without pushes the motion itself. */
 typedef struct {
-  symtop_start start; /* after the last push up to then; its torque and friction as those of the motion */
+  symtop_start start; /* after the last push up to then; its torque and friction as those of the
+                         motion */
   double begin;       /* ns of the motion at that push, whole */
   double number;      /* of the pushes up to then, with the first one; 1 without pushes */
 } symtop_piece;
@@ -178,7 +181,8 @@ SYMTOP_API symtop_status symtop_find_piece(symtop_motion* motion, const symtop_c
 
 /* Integrate towards a time in at most so many steps. *reached is the time in s up to which states
  * now take no integration; for a motion that is not driven it is the time itself. */
-SYMTOP_API symtop_status symtop_reach(symtop_motion* motion, double t, double most_steps, double* reached);
+SYMTOP_API symtop_status symtop_reach(symtop_motion* motion, double t, double most_steps,
+                                      double* reached);
 
 typedef enum {
   SYMTOP_REGULAR,          /* the tilt is constant */
@@ -206,23 +210,23 @@ typedef struct {
   double mean_precession_rate;    /* mean phi' in rad/s; NaN if the axis meets the vertical */
   double mean_spin_rate;          /* mean psi' in rad/s; NaN there as well */
   double precession_per_nutation; /* in turns; NaN there, and if theta does not return */
-  double mean_cosine;             /* mean of cos(theta); that of the pole which theta approaches for ever */
-  int spin_reverses;              /* 1 if psi' takes both signs */
+  double mean_cosine; /* mean of cos(theta); that of the pole which theta approaches for ever */
+  int spin_reverses;  /* 1 if psi' takes both signs */
 } symtop_rates;
 
 SYMTOP_API symtop_status symtop_find_rates(symtop_motion* motion, symtop_rates* rates);
 
-/* 1e15 turns of the fastest phase in s, or the time of a push that cannot be: there are no states from
- * there on. Infinite for a motion with friction or a torque. */
+/* 1e15 turns of the fastest phase in s, or the time of a push that cannot be: there are no states
+ * from there on. Infinite for a motion with friction or a torque. */
 SYMTOP_API symtop_status symtop_find_farthest_time(symtop_motion* motion, double* t);
 
 /* 2 pi over the nutation period in rad/s, as the sum of two doubles; 0 if theta does not return. */
 SYMTOP_API symtop_status symtop_find_nutation_rate(symtop_motion* motion, double rate[2]);
 
 typedef enum {
-  SYMTOP_CLOSED_FORM, /* "closed form": elliptic functions */
-  SYMTOP_FREE,        /* circular functions: Mgl is 0, or the axis rests on the vertical */
-  SYMTOP_TAYLOR,      /* series in time: friction or a torque acts */
+  SYMTOP_CLOSED_FORM,   /* "closed form": elliptic functions */
+  SYMTOP_FREE,          /* circular functions: Mgl is 0, or the axis rests on the vertical */
+  SYMTOP_TAYLOR,        /* series in time: friction or a torque acts */
   SYMTOP_UNKNOWN_ENGINE /* the motion is null */
 } symtop_engine;
 
@@ -252,8 +256,8 @@ SYMTOP_API symtop_status symtop_describe_many(const symtop_start* starts, size_t
 /* ---- States, and Euler angles ---- */
 
 /* States as all functions take them: orientations (count, 4) of norm 1, which those that have it to
- * rounding already are, bit for bit; and in these and in angular velocities (count, 3) zeros, of the
- * same sign, for numbers below 1e-100, whose squares would underflow. */
+ * rounding already are, bit for bit; and in these and in angular velocities (count, 3) zeros, of
+ * the same sign, for numbers below 1e-100, whose squares would underflow. */
 SYMTOP_API symtop_status symtop_normalize(const double* orientation, const double* angular_velocity,
                                           size_t count, double* normalized, double* rates);
 
@@ -278,8 +282,8 @@ typedef struct {
   double Ix, Iz, Mgl; /* as in symtop_start */
 } symtop_top;
 
-/* What a body on the axis is made of, thin where it has a length or a radius: a point, a rod along the
- * axis, a hoop and a disc across it, a ball. */
+/* What a body on the axis is made of, thin where it has a length or a radius: a point, a rod along
+ * the axis, a hoop and a disc across it, a ball. */
 typedef enum { SYMTOP_POINT, SYMTOP_ROD, SYMTOP_HOOP, SYMTOP_DISC, SYMTOP_BALL } symtop_part_kind;
 
 typedef struct {
@@ -293,7 +297,8 @@ typedef struct {
   double Ix, Iz;    /* kg m^2, about the centre of mass */
 } symtop_body;
 
-/* The body that parts make on an axle without mass. SYMTOP_BAD_PART: *done is how many are valid. */
+/* The body that parts make on an axle without mass. SYMTOP_BAD_PART: *done is how many are
+ * valid. */
 SYMTOP_API symtop_status symtop_find_body(const symtop_part_kind* kinds,
                                           const symtop_part_of_body* parts, size_t count,
                                           symtop_body* body, size_t* done);
@@ -332,8 +337,9 @@ SYMTOP_API symtop_status symtop_find_tilt_accelerations(const symtop_start* star
 
 /* ---- A start from what is seen ---- */
 
-/* What is known of a motion, in the order of the numbers. In the first three the tilt is constant; in
- * the next two the axis is let go at rest. The dip is how far theta goes until the weight is lowest. */
+/* What is known of a motion, in the order of the numbers. In the first three the tilt is constant;
+ * in the next two the axis is let go at rest. The dip is how far theta goes until the weight is
+ * lowest. */
 typedef enum {
   SYMTOP_TILT_AND_TURN,     /* "theta precession_period" */
   SYMTOP_TILT_AND_SPIN,     /* "theta psi_dot" */
@@ -372,9 +378,9 @@ typedef struct {
   symtop_solution each[4]; /* NaN for what there is not */
 } symtop_solutions;
 
-/* All starts of a top that have what is known: two numbers, or three, of which a function reads three.
- * Those that precess with phi' > 0, or spin with psi' > 0, come first; of one motion the start at its
- * smaller theta does. On the vertical, where phi' is undefined, it is 0. */
+/* All starts of a top that have what is known: two numbers, or three, of which a function reads
+ * three. Those that precess with phi' > 0, or spin with psi' > 0, come first; of one motion the
+ * start at its smaller theta does. On the vertical, where phi' is undefined, it is 0. */
 SYMTOP_API symtop_status symtop_solve_start(const symtop_top* top, symtop_question seen,
                                             const double known[3], symtop_solutions* solutions);
 
@@ -383,9 +389,10 @@ typedef struct {
   symtop_solution most[4];
 } symtop_spreads;
 
-/* How far the same starts move while each number that is known moves by up to its half-width, if that is
- * > 0, to both sides. All NaN if somewhere within the half-widths there are more or fewer starts, a rate of
- * regular precession changes its sign, or p_phi = p_psi or -p_psi, where phi' has no bound. */
+/* How far the same starts move while each number that is known moves by up to its half-width, if
+ * that is > 0, to both sides. All NaN if somewhere within the half-widths there are more or fewer
+ * starts, a rate of regular precession changes its sign, or p_phi = p_psi or -p_psi, where phi' has
+ * no bound. */
 SYMTOP_API symtop_status symtop_find_spreads(const symtop_top* top, symtop_question seen,
                                              const double known[3], const double half_widths[3],
                                              symtop_spreads* spreads);
@@ -397,12 +404,12 @@ typedef enum {
   SYMTOP_CHANGE_OF_RATE, /* "change": amount: what is added to phi' */
   SYMTOP_FACTOR_OF_RATE, /* "factor": amount: what phi' is multiplied by */
   SYMTOP_IMPULSE,        /* amount: an angular impulse (count, 3) in the world frame, N m s */
-  SYMTOP_AXLE_IMPULSE    /* "axle": amount: the angular impulse, N m s, of a horizontal push on the axle
-                            in the direction in which phi grows; theta' and Iz omega_z are held */
+  SYMTOP_AXLE_IMPULSE    /* "axle": amount: the angular impulse, N m s, of a horizontal push on the
+                            axle in the direction in which phi grows; theta' and Iz omega_z are held */
 } symtop_kick_kind;
 
-/* Angular velocities (count, 3) after kicks of one kind at fixed orientations (count, 4). An impulse
- * asks for no hold: any is allowed. */
+/* Angular velocities (count, 3) after kicks of one kind at fixed orientations (count, 4). An
+ * impulse asks for no hold: any is allowed. */
 SYMTOP_API symtop_status symtop_kick(const symtop_top* tops, const double* orientation,
                                      const double* angular_velocity, symtop_kick_kind kind,
                                      symtop_hold hold, const double* amounts, size_t count,
@@ -442,12 +449,12 @@ typedef enum {
   SYMTOP_DELAYED,    /* by a factor below 1: it holds if theta'' is higher */
   SYMTOP_IF_HURRIED, /* the same of a kick that is only considered */
   SYMTOP_IF_DELAYED,
-  SYMTOP_ANGULAR_IMPULSE, /* in these cases it says nothing */
-  SYMTOP_NO_PRECESSION,   /* phi' = 0 */
-  SYMTOP_UNCHANGED,       /* the factor is 1 */
-  SYMTOP_REVERSED,        /* the factor is negative */
-  SYMTOP_NO_EFFECT,       /* theta'' is the same with the kick as without it */
-  SYMTOP_WEIGHTLESS,      /* Mgl = 0: nothing rises in opposition to gravity */
+  SYMTOP_ANGULAR_IMPULSE,    /* in these cases it says nothing */
+  SYMTOP_NO_PRECESSION,      /* phi' = 0 */
+  SYMTOP_UNCHANGED,          /* the factor is 1 */
+  SYMTOP_REVERSED,           /* the factor is negative */
+  SYMTOP_NO_EFFECT,          /* theta'' is the same with the kick as without it */
+  SYMTOP_WEIGHTLESS,         /* Mgl = 0: nothing rises in opposition to gravity */
   SYMTOP_VERTICAL_UNDEFINED, /* "undefined": the axis passes the vertical */
   SYMTOP_VERTICAL_STABLE,    /* "stable": it rests there, and stays near it */
   SYMTOP_VERTICAL_UNSTABLE   /* "unstable" */
@@ -455,7 +462,8 @@ typedef enum {
 
 /* How far a kick gets that changes theta'' in one direction, where the rule holds or fails. */
 typedef enum {
-  SYMTOP_EFFECT_ENOUGH, /* "": theta'' is 0 with it, or has the sign of the change; or the rule is silent */
+  SYMTOP_EFFECT_ENOUGH, /* "": theta'' is 0 with it, or has the sign of the change; or the rule is
+                           silent */
   SYMTOP_EFFECT_UP,     /* it acts upwards, and not enough: theta'' stays positive */
   SYMTOP_EFFECT_DOWN    /* it acts downwards, and not enough: theta'' stays negative */
 } symtop_effect;
@@ -464,19 +472,19 @@ typedef enum {
 typedef struct {
   symtop_reason_kind kind;
   symtop_rule rule;
-  double before, after;                   /* phi' without the kick and with it */
+  double before, after;                  /* phi' without the kick and with it */
   double theta_ddot_without, theta_ddot; /* theta'' in rad/s^2 */
   symtop_effect effect;
-  symtop_place place;                     /* of phi' with a kick, or of phi' now if it is considered */
+  symtop_place place; /* of phi' with a kick, or of phi' now if it is considered */
 } symtop_reason;
 
 typedef struct {
-  double rate;          /* mean phi' in rad/s; NaN if undefined */
+  double rate;              /* mean phi' in rad/s; NaN if undefined */
   double precession_period; /* s, of one turn at that rate; infinite if it is 0 */
-  double turns;         /* precession in a nutation */
-  double fast_top_rate; /* Mgl/p_psi; NaN if p_psi = 0 */
-  int is_fast;          /* 1 if p_psi^2 > 4 Ix |Mgl|, Mgl not 0, that is within 30 % of rate, and the top
-                           spins faster than it precesses, in the mean */
+  double turns;             /* precession in a nutation */
+  double fast_top_rate;     /* Mgl/p_psi; NaN if p_psi = 0 */
+  int is_fast; /* 1 if p_psi^2 > 4 Ix |Mgl|, Mgl not 0, that is within 30 % of rate, and the top
+                  spins faster than it precesses, in the mean */
   int spin_reverses;
 } symtop_average;
 
@@ -489,24 +497,26 @@ typedef enum {
   SYMTOP_EXPLANATION_STEADY,  /* the torque turns L as fast as the axle goes round */
   SYMTOP_EXPLANATION_PLANE,   /* L is along the torque: a plane pendulum */
   SYMTOP_EXPLANATION_NO_SPIN, /* p_psi = 0: L is perpendicular to the axle, a spherical pendulum */
-  SYMTOP_EXPLANATION_ABOUT_MOMENTUM, /* L stays within 10 degrees of the vertical: the axle goes round L */
-  SYMTOP_EXPLANATION_WITH_MOMENTUM,  /* L stays within 30 degrees of the axle: the axle goes round with L,
-                                        and advances further in a nutation than it nods */
-  SYMTOP_EXPLANATION_CIRCLES, /* the axle turns about L, faster than the torque can turn L: loops, and
-                                 nutations that are wider than their advance */
-  SYMTOP_EXPLANATION_SWINGS   /* the torque comes more than 30 degrees from perpendicular to L, whose size
-                                 changes by more than 5 % */
+  SYMTOP_EXPLANATION_ABOUT_MOMENTUM, /* L stays within 10 degrees of the vertical: the axle goes
+                                        round L */
+  SYMTOP_EXPLANATION_WITH_MOMENTUM,  /* L stays within 30 degrees of the axle: the axle goes round
+                                       with L, and advances further in a nutation than it nods */
+  SYMTOP_EXPLANATION_CIRCLES, /* the axle turns about L, faster than the torque can turn L: loops,
+                                 and nutations that are wider than their advance */
+  SYMTOP_EXPLANATION_SWINGS   /* the torque comes more than 30 degrees from perpendicular to L,
+                               whose size changes by more than 5 % */
 } symtop_explanation;
 
-/* phi' compared with the rate at which gravity's torque would turn L, for an axis that leaves its tilt
- * with theta' = 0. */
+/* phi' compared with the rate at which gravity's torque would turn L, for an axis that leaves its
+ * tilt with theta' = 0. */
 typedef enum {
-  SYMTOP_TURN_UNSAID, /* "" */
-  SYMTOP_TURN_FASTER, /* the torque does not suffice: the weight rises */
-  SYMTOP_TURN_SLOWER, /* some of the torque is left, and lowers the weight */
-  SYMTOP_TURN_RESTS,  /* phi' = 0: all of it is left */
-  SYMTOP_TURN_VERTICAL, /* L is vertical, and the axis goes round it without a torque: all of it is left */
-  SYMTOP_TURN_AGAINST /* it goes round in the other direction: the weight falls */
+  SYMTOP_TURN_UNSAID,   /* "" */
+  SYMTOP_TURN_FASTER,   /* the torque does not suffice: the weight rises */
+  SYMTOP_TURN_SLOWER,   /* some of the torque is left, and lowers the weight */
+  SYMTOP_TURN_RESTS,    /* phi' = 0: all of it is left */
+  SYMTOP_TURN_VERTICAL, /* L is vertical, and the axis goes round it without a torque: all of it
+                           is left */
+  SYMTOP_TURN_AGAINST   /* it goes round in the other direction: the weight falls */
 } symtop_turn;
 
 /* What |phi'| does on all of the way to the next turning angle, if it changes by more than 5 %. */
@@ -528,14 +538,15 @@ typedef struct {
   symtop_explanation explanation;
   symtop_turn turn;
   symtop_pace pace;
-  double torque_share; /* of gravity's torque: what it takes to turn L as fast as the axle goes round
-                          now; NaN without a turn */
-  double rate_about_momentum; /* |L|/Ix in rad/s, at which the axle turns about L now */
+  double torque_share; /* of gravity's torque: what it takes to turn L as fast as the axle goes
+                          round now; NaN without a turn */
+  double rate_about_momentum;          /* |L|/Ix in rad/s, at which the axle turns about L now */
   double torque_from_perpendicular[2]; /* of torque and L: now, and the most in a nutation */
-  double momentum_from_axle[3]; /* from the line of the axle: now, the least and the most in a nutation */
+  double momentum_from_axle[3]; /* from the line of the axle: now, the least and the most in a
+                                   nutation */
   double omega_from_axle[3];
   double momentum_from_vertical[3]; /* from the line of the vertical */
-  unsigned constant; /* the sum of symtop_part */
+  unsigned constant;                /* the sum of symtop_part */
 } symtop_cause;
 
 typedef enum {
@@ -551,20 +562,21 @@ typedef struct {
 
 /* The sense of a push, or of one that is considered, compared with the mean precession. */
 typedef enum {
-  SYMTOP_SENSE_UNSAID,  /* "": nothing is said */
-  SYMTOP_SENSE_ALONG,   /* phi' changes in the direction of the mean precession: hurried in the mean */
-  SYMTOP_SENSE_AGAINST  /* delayed in the mean */
+  SYMTOP_SENSE_UNSAID, /* "": nothing is said */
+  SYMTOP_SENSE_ALONG,  /* phi' changes in the direction of the mean precession: hurried in the
+                          mean */
+  SYMTOP_SENSE_AGAINST /* delayed in the mean */
 } symtop_sense;
 
-/* What a change of phi' does to the means of a motion. Means are NaN where they are undefined, and where
- * more than gravity acts. */
+/* What a change of phi' does to the means of a motion. Means are NaN where they are undefined, and
+ * where more than gravity acts. */
 typedef struct {
-  symtop_sense sense; /* unsaid if phi' does not change, or theta' and the spin momentum change otherwise
-                         than by it; without weight; and if a mean phi' is undefined, zero within its
-                         error, or of the other sign with the push */
+  symtop_sense sense;      /* unsaid if phi' does not change, or theta' and the spin momentum change
+                         otherwise than by it; without weight; and if a mean phi' is undefined,
+                         zero within its error, or of the other sign with the push */
   symtop_lift_kind height; /* of the mean of cos(theta): of the axis */
-  double rates[2];    /* mean phi' in rad/s, without the push and with it */
-  double cosines[2];  /* mean of cos(theta) */
+  double rates[2];         /* mean phi' in rad/s, without the push and with it */
+  double cosines[2];       /* mean of cos(theta) */
 } symtop_means;
 
 typedef struct {
@@ -575,10 +587,10 @@ typedef struct {
   symtop_reason reason;
   symtop_average average; /* NaN for a driven motion */
   symtop_cause cause;
-  double factor;          /* of phi'; NaN for an angular impulse and on the vertical */
-  symtop_means means;     /* compared with no kick */
-  double disturbed_to;    /* rad: the tilt that the axis reaches after the least disturbance, where it rests
-                             on the vertical and is unstable; NaN elsewhere */
+  double factor;       /* of phi'; NaN for an angular impulse and on the vertical */
+  symtop_means means;  /* compared with no kick */
+  double disturbed_to; /* rad: the tilt that the axis reaches after the least disturbance, where
+                          it rests on the vertical and is unstable; NaN elsewhere */
   /* after a kick, compared with none: */
   symtop_lift highest, lowest;
 } symtop_verdict;
@@ -619,12 +631,14 @@ typedef struct {
   double angles_without[2]; /* turning angles in rad, had nothing been held */
 } symtop_held;
 
-/* What follows if the precession of a start is held: see symtop_new_clamped, which takes the same. */
+/* What follows if the precession of a start is held: see symtop_new_clamped, which takes the
+ * same. */
 SYMTOP_API symtop_status symtop_judge_clamp(const symtop_start* start, symtop_held* held);
 
 /* Where the weight goes at an instant of a nutation that is seen (more than 5e-4 rad). */
 typedef enum {
-  SYMTOP_GOING_UNSAID, /* "": no nutation, no weight, or within 5 % gravity's torque is what it takes */
+  SYMTOP_GOING_UNSAID, /* "": no nutation, no weight, or within 5 % gravity's torque is what it
+                          takes */
   SYMTOP_GOING_FALLS,
   SYMTOP_GOING_RISES,
   SYMTOP_GOING_TURNS_UP,  /* within a hundredth of the nutation period of its lowest point */
@@ -633,17 +647,20 @@ typedef enum {
 
 typedef struct {
   symtop_going going;
-  symtop_turn turn;    /* the share in a word: SYMTOP_TURN_RESTS within 5 % of zero; never VERTICAL */
-  double torque_share; /* of gravity's torque: what it takes along the line of nodes to turn L with the
-                          axle; below 1 the weight gains speed downwards; NaN if nothing is said */
+  symtop_turn turn;    /* the share in a word: SYMTOP_TURN_RESTS within 5 % of zero; never
+                          VERTICAL */
+  double torque_share; /* of gravity's torque: what it takes along the line of nodes to turn L
+                          with the axle; below 1 the weight gains speed downwards; NaN if nothing
+                          is said */
 } symtop_present;
 
 /* Why the weight speeds up, slows down or turns at this instant, under gravity alone. */
 SYMTOP_API symtop_status symtop_explain_present(const symtop_start* start, symtop_present* present);
 
-/* Whether rounding decides the kind of a motion under gravity alone: within the rounding of its start,
- * 64 * 2^-52 of it, is an asymptotic motion, and one last place of one number of the start
- * turns the axis by 0.01 rad later on. *shows_at is the time of that in s; infinite without a doubt. */
+/* Whether rounding decides the kind of a motion under gravity alone: within the rounding of its
+ * start, 64 * 2^-52 of it, is an asymptotic motion, and one last place of one number of the start
+ * turns the axis by 0.01 rad later on. *shows_at is the time of that in s; infinite without a
+ * doubt. */
 SYMTOP_API symtop_status symtop_find_doubt(const symtop_start* start, double* shows_at);
 
 /* ---- Exchange ---- */

@@ -23,11 +23,12 @@ static void launch(int64_t grid, int64_t block, Function function, Arguments... 
 
 extern "C" {
 void run_find_size_of_motion(int64_t, int64_t, int64_t* bytes) { find_size_of_motion(bytes); }
-void run_prepare_motions(int64_t grid, int64_t block, const symtop_start* s, int64_t n, DeviceMotion* m) {
+void run_prepare_motions(int64_t grid, int64_t block, const symtop_start* s, int64_t n,
+                         DeviceMotion* m) {
   launch(grid, block, prepare_motions, s, n, m);
 }
 void run_prepare_free_motions(int64_t grid, int64_t block, const symtop_start* s, int64_t n,
-                      DeviceMotion* m) {
+                              DeviceMotion* m) {
   launch(grid, block, prepare_free_motions, s, n, m);
 }
 void run_read_statuses(int64_t grid, int64_t block, const DeviceMotion* m, int64_t n, int32_t* to) {
@@ -38,11 +39,12 @@ void run_integrate(int64_t grid, int64_t block, const symtop_start* s, int64_t n
   launch(grid, block, integrate, s, n, t, steps, q);
 }
 void run_read_states(int64_t grid, int64_t block, const DeviceMotion* m, int64_t n, const double* t,
-              int64_t each, int64_t stride, double* q, double* omega, uint8_t* status) {
+                     int64_t each, int64_t stride, double* q, double* omega, uint8_t* status) {
   launch(grid, block, read_states, m, n, t, each, stride, q, omega, status);
 }
-void run_read_free_states(int64_t grid, int64_t block, const DeviceMotion* m, int64_t n, const double* t,
-                   int64_t each, int64_t stride, double* q, double* omega, uint8_t* status) {
+void run_read_free_states(int64_t grid, int64_t block, const DeviceMotion* m, int64_t n,
+                          const double* t, int64_t each, int64_t stride, double* q, double* omega,
+                          uint8_t* status) {
   launch(grid, block, read_free_states, m, n, t, each, stride, q, omega, status);
 }
 }

@@ -14,9 +14,9 @@
 
 enum { MOST = 3, WORDS = 4096, STEPS = 40 };
 
-static const double ODD[] = {0.0,    -0.0,   1.0,    -1.0,   NAN,   INFINITY, -INFINITY, 5e-324,
-                             1e-300, 1e300,  1e-100, 1e100,  0.5,   2.0,      1e-8,      1e-16,
-                             1e9,    -1e17,  1e30,   0x1p63, 1e-9,  3.0,      0.1,       1e-200};
+static const double ODD[] = {0.0,    -0.0,  1.0,    -1.0,   NAN,  INFINITY, -INFINITY, 5e-324,
+                             1e-300, 1e300, 1e-100, 1e100,  0.5,  2.0,      1e-8,      1e-16,
+                             1e9,    -1e17, 1e30,   0x1p63, 1e-9, 3.0,      0.1,       1e-200};
 static const double UNTOUCHED = -7.25;
 
 /* ---- Numbers ---- */
@@ -137,7 +137,8 @@ static void add_numbers(const double* numbers, size_t count) {
 
 /* Whether the status fits: `is_allowed` says that all arguments are. */
 static int judge(symtop_status status, int is_allowed, int line) {
-  const int has_sentence = strcmp(symtop_describe_status(status), symtop_describe_status((symtop_status)99)) != 0;
+  const int has_sentence =
+      strcmp(symtop_describe_status(status), symtop_describe_status((symtop_status)99)) != 0;
   const int is_bad_argument = status == SYMTOP_BAD_POINTER || status == SYMTOP_BAD_COUNT ||
                               status == SYMTOP_BAD_HOLD || status == SYMTOP_BAD_KICK_KIND ||
                               status == SYMTOP_BAD_TOP || status == SYMTOP_BAD_ORIENTATION ||
@@ -148,8 +149,8 @@ static int judge(symtop_status status, int is_allowed, int line) {
   /* Of buffers that overlap nothing is promised but that the call ends: a count that is written to
      one of them has another length elsewhere. */
   if (!has_overlap) add_to_hash((uint64_t)status);
-  if (!has_overlap && (!has_sentence || (status == SYMTOP_OK && !is_allowed) ||
-                       (is_allowed && is_bad_argument)))
+  if (!has_overlap &&
+      (!has_sentence || (status == SYMTOP_OK && !is_allowed) || (is_allowed && is_bad_argument)))
     fault = fault ? fault : line;
   return status == SYMTOP_OK && !has_overlap;
 }
@@ -175,7 +176,8 @@ static double* take_orientations(size_t count, int* are_allowed) {
     const double wanted = is_rare(3) ? 1 + 4e-3 * (draw_unit() - 0.5) : 1.0;
     if (!is_rare(10))
       for (int k = 0; k < 4; k++) q[k] *= wanted / sqrt(norm);
-    if (is_rare(10)) memset(q + 1, 0, 2 * sizeof q[0]); /* seldom of norm 1 then, or on the vertical */
+    if (is_rare(10))
+      memset(q + 1, 0, 2 * sizeof q[0]); /* seldom of norm 1 then, or on the vertical */
     *are_allowed &= is_unit(q);
   }
   return room;
@@ -260,7 +262,8 @@ static void try_angles(void) {
   size_t* done = take_done();
   if (angles && rates) good &= are_finite(angles, 3 * n) && are_finite(rates, 3 * n);
   const symtop_status status = symtop_from_angles(angles, rates, count, q, omega, done);
-  if (CHECK(status, allow(good, count, done) && done)) ROOM(status, q, 4 * n), ROOM(status, omega, 3 * n);
+  if (CHECK(status, allow(good, count, done) && done))
+    ROOM(status, q, 4 * n), ROOM(status, omega, 3 * n);
 }
 
 static void try_orientations(void) {
@@ -313,7 +316,8 @@ static void try_tilts(void) {
   double *thetas = take_numbers(n, 3.0), *phi_dots = take_numbers(n, 300.0);
   double *psi_dots = take_numbers(n, 300.0), *torques = take_room(4 * n);
   if (thetas && phi_dots && psi_dots)
-    good &= are_finite(thetas, n) && are_within(phi_dots, n, 1e100) && are_within(psi_dots, n, 1e100);
+    good &=
+        are_finite(thetas, n) && are_within(phi_dots, n, 1e100) && are_within(psi_dots, n, 1e100);
   symtop_status status = symtop_find_tilt_torques(tops, thetas, phi_dots, psi_dots, count, torques);
   CHECK(status, allow(good, count, &count));
   if (n < 2) ROOM(status, torques, 4 * n);
@@ -435,8 +439,8 @@ static void try_kicks(void) {
   if (amounts) good &= are_finite(amounts, width * n);
   const int is_held = is_hold(hold) || (is_impulse && hold == SYMTOP_NOTHING);
   const int is_kind = kind >= 0 && kind <= SYMTOP_AXLE_IMPULSE;
-  const symtop_status status = symtop_kick(tops, q, omega, (symtop_kick_kind)kind, (symtop_hold)hold,
-                                           amounts, count, kicked, done);
+  const symtop_status status = symtop_kick(tops, q, omega, (symtop_kick_kind)kind,
+                                           (symtop_hold)hold, amounts, count, kicked, done);
   CHECK(status, is_kind && allow(good && is_held, count, done) && done);
   if (n < 2) ROOM(status, kicked, 3 * n);
 }
@@ -447,10 +451,12 @@ static void hash_verdict(const symtop_verdict* v) {
   add_numbers(&v->cause.torque_share, 1), add_numbers(v->cause.torque_from_perpendicular, 2);
   add_numbers(v->cause.momentum_from_axle, 3), add_numbers(v->cause.momentum_from_vertical, 3);
   add_to_hash(v->cause.constant + 10u * (unsigned)v->cause.explanation);
-  add_numbers(v->means.rates, 2), add_numbers(v->means.cosines, 2), add_numbers(&v->disturbed_to, 1);
+  add_numbers(v->means.rates, 2), add_numbers(v->means.cosines, 2),
+      add_numbers(&v->disturbed_to, 1);
   add_to_hash((unsigned)v->means.sense + 10u * (unsigned)v->means.height);
   add_to_hash((unsigned)v->direction + 1000u * (unsigned)v->reason.kind);
-  if (!are_finite(v->turning_angles, 2) || v->motion > SYMTOP_DRIVEN) fault = fault ? fault : __LINE__;
+  if (!are_finite(v->turning_angles, 2) || v->motion > SYMTOP_DRIVEN)
+    fault = fault ? fault : __LINE__;
 }
 
 static void try_verdicts(void) {
@@ -495,10 +501,11 @@ static void try_map(void) {
   double *psi_dots = take_numbers(n, 300.0), *angles = take_room(2 * n);
   unsigned char* rules = (unsigned char*)take(1, 1);
   if (thetas && phi_dots && psi_dots)
-    good &= are_finite(thetas, n) && are_within(phi_dots, n, 1e100) && are_within(psi_dots, n, 1e100);
+    good &=
+        are_finite(thetas, n) && are_within(phi_dots, n, 1e100) && are_within(psi_dots, n, 1e100);
   good &= isfinite(factor) != 0;
-  const symtop_status status = symtop_compare_hurried(tops, thetas, phi_dots, psi_dots, count, factor,
-                                                      (symtop_hold)hold, angles, rules);
+  const symtop_status status = symtop_compare_hurried(tops, thetas, phi_dots, psi_dots, count,
+                                                      factor, (symtop_hold)hold, angles, rules);
   CHECK(status, allow(good && is_hold(hold), count, &count) || (!count && 1));
   if (n < 2) ROOM(status, angles, 2 * n);
   for (size_t i = 0; status == SYMTOP_OK && !has_overlap && i < n; i++)
@@ -512,7 +519,8 @@ static void try_many(void) {
   const size_t count = draw_count(&count_is_good), n = bound(count), each = draw() % (MOST + 1);
   int are_starts = 1; /* a start that is refused is left, and no refusal of the call */
   symtop_start* starts = take_starts(n, 1, &are_starts);
-  double *times = take_numbers(each, 1.0), *q = take_room(4 * n * each), *omega = take_room(3 * n * each);
+  double *times = take_numbers(each, 1.0), *q = take_room(4 * n * each),
+         *omega = take_room(3 * n * each);
   uint8_t* left = (uint8_t*)take(2, 1);
   if (times) good &= are_finite(times, each);
   symtop_status status = symtop_states_of_many(starts, count, times, each, q, omega, left);
@@ -638,10 +646,13 @@ static void try_piece(symtop_motion* given) {
   if (clock) memset(clock, 0, sizeof *clock), clock->factor = draw_number(1.0);
   const double size = clock ? fabs(clock->factor) : 1.0;
   const int64_t stamp = is_rare(30) ? INT64_MIN : (int64_t)(draw() >> 30);
-  const symtop_status status = symtop_find_piece(motion, clock, stamp, STEPS, (symtop_piece*)(void*)piece);
-  CHECK(status, !has_null && stamp != INT64_MIN && (size == 0 || (size >= 1e-100 && size <= 1e100)));
+  const symtop_status status =
+      symtop_find_piece(motion, clock, stamp, STEPS, (symtop_piece*)(void*)piece);
+  CHECK(status,
+        !has_null && stamp != INT64_MIN && (size == 0 || (size >= 1e-100 && size <= 1e100)));
   ROOM(status, piece, 17);
-  if (status == SYMTOP_OK && !has_overlap && !(piece[15] >= 0 && piece[16] >= 1)) fault = fault ? fault : __LINE__;
+  if (status == SYMTOP_OK && !has_overlap && !(piece[15] >= 0 && piece[16] >= 1))
+    fault = fault ? fault : __LINE__;
 }
 
 static void use(symtop_status status, symtop_motion* motion, int is_asked) {
@@ -672,7 +683,8 @@ static void try_pushed(void) {
     pushes->impulse = draw_number(1.0), pushes->rate = draw_number(30.0);
     pushes->number = is_rare(8) ? draw_number(30.0) : (double)(draw() % 8);
     good &= are_finite(&pushes->impulse, 1) && pushes->rate >= 0.01 && pushes->rate <= 1000;
-    good &= pushes->number >= 1 && pushes->number <= 1000 && pushes->number == floor(pushes->number);
+    good &=
+        pushes->number >= 1 && pushes->number <= 1000 && pushes->number == floor(pushes->number);
   }
   const symtop_status status = symtop_new_pushed(start, pushes, to);
   CHECK(status, good && start && pushes && to);
@@ -691,7 +703,8 @@ static void try_clamped(void) {
     memset(start->friction, 0, is_rare(4) ? 0 : sizeof start->friction);
     memset(start->torque, 0, is_rare(4) ? 0 : sizeof start->torque);
     const double *q = start->orientation, *force = start->torque, *drag = start->friction;
-    good = is_start(start) && !(is_zero(q[0]) && is_zero(q[3])) && !(is_zero(q[1]) && is_zero(q[2]));
+    good =
+        is_start(start) && !(is_zero(q[0]) && is_zero(q[3])) && !(is_zero(q[1]) && is_zero(q[2]));
     good &= force[0] == 0 && force[1] == 0 && force[2] == 0 && drag[0] == 0 && drag[1] == 0;
   }
   const symtop_status status = symtop_new_clamped(start, to);
@@ -715,11 +728,10 @@ static void try_clamped(void) {
 /* Calls with so many seeds from the first one on. Returns 0, or the line of the first fault. */
 int run(unsigned first, unsigned number);
 int run(unsigned first, unsigned number) {
-  static void (*const TRIALS[])(void) = {try_angles, try_orientations, try_regular_rates, try_tilts,
-                                         try_discs,  try_bodies,       try_starts,   try_spreads,
-                                         try_kicks,  try_verdicts,     try_map,
-                                         try_many,   try_motion,       try_pushed,        try_clamped,
-                                         try_exchange};
+  static void (*const TRIALS[])(void) = {
+      try_angles, try_orientations, try_regular_rates, try_tilts,    try_discs, try_bodies,
+      try_starts, try_spreads,      try_kicks,         try_verdicts, try_map,   try_many,
+      try_motion, try_pushed,       try_clamped,       try_exchange};
   hash = 14695981039346656037u, calls = answered = 0, fault = 0;
   for (unsigned seed = first; seed < first + number && !fault; seed++) {
     oddness = seed % 2 ? 6 : 60;
@@ -745,7 +757,8 @@ int count_answers(void) { return (int)answered; }
 
 /* Arguments: the first seed, and how many. */
 int main(int count, char** words) {
-  const int line = run(count > 1 ? (unsigned)atol(words[1]) : 1, count > 2 ? (unsigned)atol(words[2]) : 100);
+  const int line =
+      run(count > 1 ? (unsigned)atol(words[1]) : 1, count > 2 ? (unsigned)atol(words[2]) : 100);
   if (line) return fprintf(stderr, "hostile.c:%d: not as promised\n", line), 1;
   printf("%d of %d calls answered, digest %08x\n", count_answers(), count_calls(), digest());
   return 0;

@@ -32,7 +32,9 @@ static void demand(symtop_status status) {
   exit(3);
 }
 
-static void write_all(const void* from, size_t count) { fwrite(from, sizeof(double), count, stdout); }
+static void write_all(const void* from, size_t count) {
+  fwrite(from, sizeof(double), count, stdout);
+}
 
 static void write_states(const double* orientation, const double* omega, size_t count) {
   for (size_t i = 0; i < count; i++) {
@@ -79,7 +81,8 @@ static void print_states_of_clock(symtop_motion* motion) {
   size_t count, written;
   read_all(&clock, 5);
   count = read_count();
-  stamps = (int64_t*)allocate(count), orientation = allocate(4 * count), omega = allocate(3 * count);
+  stamps = (int64_t*)allocate(count), orientation = allocate(4 * count),
+  omega = allocate(3 * count);
   read_all(stamps, count);
   demand(symtop_states_of_clock(motion, &clock, stamps, count, INFINITY, orientation, omega,
                                 &written));
@@ -101,19 +104,57 @@ static void print_continued(symtop_motion* motion) {
 static void print_verdict(const symtop_verdict* v) {
   const symtop_reason* r = &v->reason;
   const symtop_cause* c = &v->cause;
-  const double numbers[] = {
-      v->subject, v->direction, v->turning_angles[0], v->turning_angles[1], v->motion,
-      r->kind, r->rule, r->before, r->after, r->theta_ddot_without, r->theta_ddot,
-      r->effect,
-      r->place.kind, r->place.rate, r->place.regular_rates[0], r->place.regular_rates[1],
-      v->average.rate, v->average.precession_period, v->average.turns, v->average.fast_top_rate, v->average.is_fast,
-      v->average.spin_reverses, c->explanation, c->turn, c->pace, c->torque_share,
-      c->rate_about_momentum, c->torque_from_perpendicular[0], c->torque_from_perpendicular[1],
-      c->momentum_from_axle[0], c->momentum_from_axle[1], c->momentum_from_axle[2], c->omega_from_axle[0],
-      c->omega_from_axle[1], c->omega_from_axle[2], c->momentum_from_vertical[0], c->momentum_from_vertical[1],
-      c->momentum_from_vertical[2], c->constant, v->factor, v->means.sense, v->means.height, v->means.rates[0],
-      v->means.rates[1], v->means.cosines[0], v->means.cosines[1], v->disturbed_to, v->highest.kind,
-      v->highest.amount, v->lowest.kind, v->lowest.amount};
+  const double numbers[] = {v->subject,
+                            v->direction,
+                            v->turning_angles[0],
+                            v->turning_angles[1],
+                            v->motion,
+                            r->kind,
+                            r->rule,
+                            r->before,
+                            r->after,
+                            r->theta_ddot_without,
+                            r->theta_ddot,
+                            r->effect,
+                            r->place.kind,
+                            r->place.rate,
+                            r->place.regular_rates[0],
+                            r->place.regular_rates[1],
+                            v->average.rate,
+                            v->average.precession_period,
+                            v->average.turns,
+                            v->average.fast_top_rate,
+                            v->average.is_fast,
+                            v->average.spin_reverses,
+                            c->explanation,
+                            c->turn,
+                            c->pace,
+                            c->torque_share,
+                            c->rate_about_momentum,
+                            c->torque_from_perpendicular[0],
+                            c->torque_from_perpendicular[1],
+                            c->momentum_from_axle[0],
+                            c->momentum_from_axle[1],
+                            c->momentum_from_axle[2],
+                            c->omega_from_axle[0],
+                            c->omega_from_axle[1],
+                            c->omega_from_axle[2],
+                            c->momentum_from_vertical[0],
+                            c->momentum_from_vertical[1],
+                            c->momentum_from_vertical[2],
+                            c->constant,
+                            v->factor,
+                            v->means.sense,
+                            v->means.height,
+                            v->means.rates[0],
+                            v->means.rates[1],
+                            v->means.cosines[0],
+                            v->means.cosines[1],
+                            v->disturbed_to,
+                            v->highest.kind,
+                            v->highest.amount,
+                            v->lowest.kind,
+                            v->lowest.amount};
   write_all(numbers, sizeof numbers / sizeof numbers[0]);
 }
 
@@ -133,7 +174,8 @@ static void print_verdicts(const symtop_start* start) {
     demand(symtop_find_regular_rates(&top, angles + 1, rates + 2, 1, (symtop_hold)hold, found));
     write_all(found, 2);
     if (symtop_kick(&top, start->orientation, start->angular_velocity, SYMTOP_FACTOR_OF_RATE,
-                    (symtop_hold)hold, &factor, 1, after.angular_velocity, &done) == SYMTOP_VERTICAL)
+                    (symtop_hold)hold, &factor, 1, after.angular_velocity,
+                    &done) == SYMTOP_VERTICAL)
       continue;
     write_all(after.angular_velocity, 3);
     demand(symtop_judge(start, &factor, 1, (symtop_hold)hold, verdicts, &done));

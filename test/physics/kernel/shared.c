@@ -28,7 +28,7 @@ static void* read_all(void* number) {
 }
 
 int main(void) {
-  symtop_start start = {0.000228, 0.0000572, 0.068,           {0.96875, 0.25, 0.0, 0.0},
+  symtop_start start = {0.000228,          0.0000572,  0.068,          {0.96875, 0.25, 0.0, 0.0},
                         {0.0, 0.0, 200.0}, {0.0, 0.0}, {0.0, 0.0, 0.0}};
   pthread_t threads[THREADS];
   size_t numbers[THREADS];

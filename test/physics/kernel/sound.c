@@ -99,7 +99,8 @@ int main(int count, char** words) {
                               &rule),
        q, 0);
   show(symtop_kick(&top, start.orientation, rates, SYMTOP_FACTOR_OF_RATE, SYMTOP_SPIN_RATE, &factor,
-                   1, omega, &done), q, 0);
+                   1, omega, &done),
+       q, 0);
   show(symtop_judge(&start, &factor, 1, SYMTOP_SPIN_RATE, &verdict, &done), q, 0);
   show(symtop_judge_kick(&start, &start, SYMTOP_SPIN_RATE, &verdict), q, 0);
   symtop_free(refused);

@@ -1,7 +1,7 @@
 // A motion under gravity that one thread sets up, whole, and that many threads may then read.
 //
-// It is a GravityMotion (gravity.hpp) without stages, locks and atomic numbers, from the same headers.
-// The same source serves the host, where its bits are compared with those of symtop.h.
+// It is a GravityMotion (gravity.hpp) without stages, locks and atomic numbers, from the same
+// headers. The same source serves the host, where its bits are compared with those of symtop.h.
 #pragma once
 
 #include "no_fma.hpp"
@@ -12,9 +12,10 @@
 namespace symtop {
 
 // A launch is about the motions that are free or about the others, never about both. Of a function
-// that had both, ptxas 13.0 and 13.5 kept an address of the stack in a uniform register and overwrote
-// it in the other arm of the branch: an illegal access where one warp took both arms. Whether it does
-// depends on the source around it; test/physics/gpu/registers.py looks for it in the machine code.
+// that had both, ptxas 13.0 and 13.5 kept an address of the stack in a uniform register and
+// overwrote it in the other arm of the branch: an illegal access where one warp took both arms.
+// Whether it does depends on the source around it; test/physics/gpu/registers.py looks for it in
+// the machine code.
 struct DeviceMotion {
   ClosedForm closed;
   FreeMotion free;

@@ -39,8 +39,7 @@ extern "C" __global__ void integrate(const symtop_start* starts, int64_t count, 
   for (int64_t step = 0; step < steps; step++) {
     const Numbers k1 = find_change(s, a), k2 = find_change(s, add(a, k1, h / 2));
     const Numbers k3 = find_change(s, add(a, k2, h / 2)), k4 = find_change(s, add(a, k3, h));
-    for (int k = 0; k < 7; k++)
-      a.v[k] += h / 6 * (k1.v[k] + 2 * k2.v[k] + 2 * k3.v[k] + k4.v[k]);
+    for (int k = 0; k < 7; k++) a.v[k] += h / 6 * (k1.v[k] + 2 * k2.v[k] + 2 * k3.v[k] + k4.v[k]);
     double square = 0;
     for (int k = 0; k < 4; k++) square += a.v[k] * a.v[k];
     const double norm = std::sqrt(square);

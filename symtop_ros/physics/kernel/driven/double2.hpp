@@ -1,8 +1,8 @@
 // Sums of two doubles, which have 32 digits: of one number, or of as many as there are lanes.
 //
-// Their products need what the product of two doubles loses in rounding. One operation gives it where
-// the processor has fused products. Elsewhere that is a function of the library, and 16 sums and
-// products of halves are faster. What is lost is a double, so both give the same one.
+// Their products need what the product of two doubles loses in rounding. One operation gives it
+// where the processor has fused products. Elsewhere that is a function of the library, and 16 sums
+// and products of halves are faster. What is lost is a double, so both give the same one.
 #pragma once
 
 #include "../elementary.hpp"
@@ -41,8 +41,9 @@ struct Split {
     return ((x * y - product) + (x * y_rest + x_rest * y)) + x_rest * y_rest;
   }
 
-  // True if all of the numbers are 0, or so far inside of the range of doubles that no part of a product
-  // of them leaves it: nor of a product of one with a sum of products, which is 0 or above 2^-452.
+  // True if all of the numbers are 0, or so far inside of the range of doubles that no part of a
+  // product of them leaves it: nor of a product of one with a sum of products, which is 0 or above
+  // 2^-452.
   static bool can_take(const Lanes* numbers, int count) {
     bool all = true;
     for (int n = 0; n < count; n++)
@@ -83,7 +84,9 @@ SYMTOP_INLINE SumOf<R> fast_sum_of(R a, R b) {  // for |a| >= |b|
 }
 
 template <class R>
-SYMTOP_INLINE SumOf<R> operator-(SumOf<R> a) { return {-a.high, -a.low}; }
+SYMTOP_INLINE SumOf<R> operator-(SumOf<R> a) {
+  return {-a.high, -a.low};
+}
 
 template <class R>
 SYMTOP_INLINE SumOf<R> operator+(SumOf<R> a, SumOf<R> b) {
@@ -94,7 +97,9 @@ SYMTOP_INLINE SumOf<R> operator+(SumOf<R> a, SumOf<R> b) {
 }
 
 template <class R>
-SYMTOP_INLINE SumOf<R> operator-(SumOf<R> a, SumOf<R> b) { return a + -b; }
+SYMTOP_INLINE SumOf<R> operator-(SumOf<R> a, SumOf<R> b) {
+  return a + -b;
+}
 
 template <class Product, class R>
 SYMTOP_INLINE SumOf<R> multiply(SumOf<R> a, SumOf<R> b) {

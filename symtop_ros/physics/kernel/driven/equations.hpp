@@ -1,24 +1,25 @@
 // The equations of motion of a driven top, with quadratic derivatives.
 //
 // The spin about the axis is split off. It is counted as an angle, and the rest is integrated in a
-// frame that turns about the axis at Iz/Ix omega_z instead of omega_z. There friction and weight have
-// the same form as in the body, and the angular velocity of a free top is constant. Steps have to
-// resolve the nutation only, however fast a slender body spins. See docs/derivation.md, section 15.
+// frame that turns about the axis at Iz/Ix omega_z instead of omega_z. There friction and weight
+// have the same form as in the body, and the angular velocity of a free top is constant. Steps have
+// to resolve the nutation only, however fast a slender body spins. See docs/derivation.md, section
+// 15.
 //
-// Let omega be the angular velocity of the body in the axes of this frame, whose own one is
-// Omega = (omega_x, omega_y, s omega_z) with s = Iz/Ix, and S the angle of spin, with S' = omega_z. The
-// body is turned in the frame by (1 - s) S about the axis. The axis is one of symmetry:
-// L = (Ix omega_x, Ix omega_y, Iz omega_z) = Ix Omega in the frame, so that Omega x L = 0. Every
-// derivative is then a polynomial of degree 2:
+// Let omega be the angular velocity of the body in the axes of this frame, whose own one is Omega =
+// (omega_x, omega_y, s omega_z) with s = Iz/Ix, and S the angle of spin, with S' = omega_z. The
+// body is turned in the frame by (1 - s) S about the axis. The axis is one of symmetry: L = (Ix
+// omega_x, Ix omega_y, Iz omega_z) = Ix Omega in the frame, so that Omega x L = 0. Every derivative
+// is then a polynomial of degree 2:
 //
 // - of the quaternion q of the frame: q' = q (0, Omega)/2,
 // - of omega, by Euler's equations in the turning frame, L' + Omega x L = N:
 //     omega_x' = N_x/Ix, omega_y' = N_y/Ix, omega_z' = N_z/Iz
 //   The directions in N are quadratic in q, and friction is linear in omega.
 //
-// An error of the angular velocity grows with time, therefore rounding must not accumulate in it. The
-// state between two steps and the constants have 32 digits, as sums of two doubles, and the largest terms
-// of the series 23 or 32 (parts.hpp), with the same bits on every machine.
+// An error of the angular velocity grows with time, therefore rounding must not accumulate in it.
+// The state between two steps and the constants have 32 digits, as sums of two doubles, and the
+// largest terms of the series 23 or 32 (parts.hpp), with the same bits on every machine.
 #pragma once
 
 #include "double2.hpp"
@@ -32,7 +33,9 @@ inline double find_length(double x, double y, double z) {
   if (!(largest > 0 && largest < INFINITY)) return largest;
   int exponent;
   std::frexp(largest, &exponent);
-  x = std::ldexp(x, -exponent), y = std::ldexp(y, -exponent), z = std::ldexp(z, -exponent);
+  x = std::ldexp(x, -exponent);
+  y = std::ldexp(y, -exponent);
+  z = std::ldexp(z, -exponent);
   return std::ldexp(std::sqrt(x * x + y * y + z * z), exponent);
 }
 
@@ -43,15 +46,16 @@ struct Variables {
   SumOf<Lanes> q, rates;
 };
 
-// Products of two components of q, in blocks of four. The weight has those of the first block alone.
+// Products of two components of q, in blocks of four. The weight has those of the first block
+// alone.
 enum { WX, XZ, WY, YZ, WW, XX, YY, ZZ, WZ, XY, SQUARES };
 
 struct DrivenArguments {
   double Ix, Iz, Mgl, axial, transverse, torque[3], orientation[4], omega[3];
 };
 
-// Coefficients of the angular accelerations, in lanes: of the rates, of the weight's two products, and
-// of all products for the torques.
+// Coefficients of the angular accelerations, in lanes: of the rates, of the weight's two products,
+// and of all products for the torques.
 struct Coefficients {
   SumOf<Lanes> friction, weight, torques[SQUARES];
 
@@ -76,7 +80,8 @@ struct Coefficients {
 struct DrivenEquations {
   bool has_torque = false;
   Coefficients coefficients = {};
-  Double2 share, half_rest;  // Iz/Ix, and (1 - Iz/Ix)/2: of S half the angle of the body in the frame
+  // Iz/Ix, and (1 - Iz/Ix)/2: of S half the angle of the body in the frame
+  Double2 share, half_rest;
   double swing, decay;
 
   void prepare(const DrivenArguments& top) {
@@ -113,8 +118,8 @@ struct DrivenEquations {
             Lanes{a[0].low, a[1].low, a[2].low, a[3].low}};
   }
 
-  // A torque along the axis `axis` of the world: its component `component` in the frame. This is the
-  // entry of the matrix of q in row `axis` and column `component`, of which q v q* gives
+  // A torque along the axis `axis` of the world: its component `component` in the frame. This is
+  // the entry of the matrix of q in row `axis` and column `component`, of which q v q* gives
   //
   //   w^2 + x^2 - y^2 - z^2   2 (x y - w z)           2 (x z + w y)
   //   2 (x y + w z)           w^2 + y^2 - x^2 - z^2   2 (y z - w x)
@@ -130,7 +135,8 @@ struct DrivenEquations {
     for (const auto& entry : ENTRIES[axis][component]) {
       SumOf<Lanes>& all = coefficients.torques[entry[0]];
       const Double2 sum = pick(all, row) + scale(size, double(entry[1]));
-      all.high[row] = sum.high, all.low[row] = sum.low;
+      all.high[row] = sum.high;
+      all.low[row] = sum.low;
     }
   }
 };

@@ -21,7 +21,9 @@ class DrivenMotion {
     if (carried) carried_ = *carried;
 
     Start s = {};
-    s.w = given.orientation[0], s.x = given.orientation[1], s.y = given.orientation[2],
+    s.w = given.orientation[0];
+    s.x = given.orientation[1];
+    s.y = given.orientation[2];
     s.z = given.orientation[3];
     start_ = normalize(s);
   }

@@ -1,17 +1,18 @@
 // Numbers as a coarse and a fine part, of which sums of products take no more than three products.
 //
-// The coarse part is a multiple of 2^-23 and at most 8 in size, so it has 26 digits: products of two
-// coarse parts are exact, and so are their sums up to 128, whatever their order and with or without
-// fused products. The fine part is a double below 2^-23 or so, whose products are rounded at 2^-77: 23
-// digits of a number of size 1, where a sum of two doubles has 32 and takes 14 operations for a
-// product. In units of a step's length all terms are of size 1 or less (derivation.md, section 15).
+// The coarse part is a multiple of 2^-23 and at most 8 in size, so it has 26 digits: products of
+// two coarse parts are exact, and so are their sums up to 128, whatever their order and with or
+// without fused products. The fine part is a double below 2^-23 or so, whose products are rounded
+// at 2^-77: 23 digits of a number of size 1, where a sum of two doubles has 32 and takes 14
+// operations for a product. In units of a step's length all terms are of size 1 or less
+// (derivation.md, section 15).
 #pragma once
 
 #include "double2.hpp"
 
 namespace symtop {
 
-const double COARSEST = 0x1.8p29;  // added and taken off, it leaves multiples of 2^-23
+const double COARSEST = 0x1.8p29;        // added and taken off, it leaves multiples of 2^-23
 const double COARSEST_POWER = 0x1.8p27;  // and of 2^-25 of powers, which are at most 2
 
 template <class R>
@@ -37,7 +38,8 @@ SYMTOP_INLINE void add_product(PartsOf<R>& sum, R coarse, R fine, R other_coarse
 
 template <class R>
 SYMTOP_INLINE void add(PartsOf<R>& sum, PartsOf<R> other) {
-  sum.coarse += other.coarse, sum.fine += other.fine;
+  sum.coarse += other.coarse;
+  sum.fine += other.fine;
 }
 
 // An exact sum and its rest as parts of a number again.

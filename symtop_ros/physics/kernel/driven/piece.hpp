@@ -6,8 +6,8 @@
 
 namespace symtop {
 
-// A frame that turns by at most 2 rad in a step has terms that fall so fast that the first ten alone
-// need more digits than a double. Longer steps want more of them, and take longer. See
+// A frame that turns by at most 2 rad in a step has terms that fall so fast that the first ten
+// alone need more digits than a double. Longer steps want more of them, and take longer. See
 // design/extended_terms.py; of 20 to 38 terms 34 take the least time (design/driven_steps.py).
 const int DRIVEN_TERMS = 34, EXTENDED_TERMS = 10;
 
@@ -17,8 +17,8 @@ struct Knot {
   double unit = 0.0;  // of the time of the step that follows, about its length; 0 if not known
 };
 
-// The terms in doubles, by the first power that is none of them: as two series of the square of u that do
-// not wait for each other.
+// The terms in doubles, by the first power that is none of them: as two series of the square of u
+// that do not wait for each other.
 SYMTOP_INLINE Lanes sum_tail(const Lanes terms[][2], int half, double u, double square) {
   static_assert(DRIVEN_TERMS % 2 == 0 && EXTENDED_TERMS % 2 == 0, "the tail has pairs of terms");
   Lanes even = terms[DRIVEN_TERMS][half], odd = terms[DRIVEN_TERMS - 1][half];
@@ -30,8 +30,8 @@ SYMTOP_INLINE Lanes sum_tail(const Lanes terms[][2], int half, double u, double 
 }
 
 // The sum of a series, for four variables: `terms` has those of eight, by powers, and the first
-// `rests` of them are lower parts. The smallest terms come first. Powers of u have 32 digits and each
-// product with them is added without loss: Horner's rule would wait for each of its roundings.
+// `rests` of them are lower parts. The smallest terms come first. Powers of u have 32 digits and
+// each product with them is added without loss: Horner's rule would wait for each of its roundings.
 template <class Product>
 SYMTOP_INLINE SumOf<Lanes> sum_series(const Lanes terms[][2], const Lanes rests[][2], int half,
                                       const Double2* powers) {
@@ -45,15 +45,14 @@ SYMTOP_INLINE SumOf<Lanes> sum_series(const Lanes terms[][2], const Lanes rests[
 template <class Product>
 SYMTOP_CLONES void sum_both(const Lanes terms[][2], const Lanes rests[][2], const Double2* powers,
                             SumOf<Lanes> sums[2]) {
-  for (int half = 0; half < 2; half++)
-    sums[half] = sum_series<Product>(terms, rests, half, powers);
+  for (int half = 0; half < 2; half++) sums[half] = sum_series<Product>(terms, rests, half, powers);
 }
 
 struct Piece {
   Knot start, following;
   double end, unit;
-  // Coefficients by powers of (t - start.t)/unit, of q and of the rates times the unit, with the spin:
-  // terms + rests.
+  // Coefficients by powers of (t - start.t)/unit, of q and of the rates times the unit, with the
+  // spin: terms + rests.
   Lanes terms[DRIVEN_TERMS + 1][2], rests[EXTENDED_TERMS + 1][2];
   // If it has parts, the first terms are sums of coarse and rests instead, up to rounding.
   Lanes coarse[EXTENDED_TERMS + 1][2];
@@ -63,8 +62,10 @@ struct Piece {
   // The terms of order 0, as sums of two doubles.
   void put_first() {
     const SumOf<Lanes> rates = scale(start.now.rates, Lanes{unit, unit, unit, 1.0});
-    terms[0][0] = start.now.q.high, rests[0][0] = start.now.q.low;
-    terms[0][1] = rates.high, rests[0][1] = rates.low;
+    terms[0][0] = start.now.q.high;
+    rests[0][0] = start.now.q.low;
+    terms[0][1] = rates.high;
+    rests[0][1] = rates.low;
   }
 
   // The variables at start.t + u unit.
@@ -118,14 +119,13 @@ struct Piece {
   }
 
  public:
-
   // A time is given as the sum of two doubles.
   Double2 locate(double t, double rest) const {
     return scale(sum_of(t, -start.t) + Double2{rest, 0.0}, 1 / unit);
   }
 
-  // The state at the end, of norm 1. The norm was 1 to rounding, so that its root is as far from 1 as
-  // half of its square.
+  // The state at the end, of norm 1. The norm was 1 to rounding, so that its root is as far from 1
+  // as half of its square.
   void find_end() {
     following.t = end;
     following.now = evaluate(locate(end, 0.0));

@@ -1,14 +1,14 @@
-// The coefficients of the Taylor series of a step, one order after the other: the first ones in parts
-// (parts.hpp) or as sums of two doubles, the others in doubles (derivation.md, section 15).
+// The coefficients of the Taylor series of a step, one order after the other: the first ones in
+// parts (parts.hpp) or as sums of two doubles, the others in doubles (derivation.md, section 15).
 //
-// The derivatives are polynomials of degree 2 of the variables (equations.hpp), so coefficient k + 1
-// of all variables follows from the products of coefficients 0 to k with those from k to 0: with
+// The derivatives are polynomials of degree 2 of the variables (equations.hpp), so coefficient k +
+// 1 of all variables follows from the products of coefficients 0 to k with those from k to 0: with
 // x = sum x_k t^k and x' = c a b, Cauchy's product gives
 //
 //   (k + 1) x_(k+1) = c (a_0 b_k + a_1 b_(k-1) + ... + a_k b_0),
 //
-// and with x' = c a it is (k + 1) x_(k+1) = c a_k. The spin is no factor of any product: S' = omega_z
-// gives (k + 1) S_(k+1) = omega_z,k.
+// and with x' = c a it is (k + 1) x_(k+1) = c a_k. The spin is no factor of any product: S' =
+// omega_z gives (k + 1) S_(k+1) = omega_z,k.
 #pragma once
 
 #include "parts.hpp"
@@ -34,8 +34,9 @@ struct Inverses {
 };
 constexpr Inverses INVERSES;
 
-// Bounds of parts, below which no sum of products exceeds 128: of three blocks of products of q and rates,
-// 3 x 40; of the weight and torques by products of q, 4 x 16, with friction by rates, 4 x 15.
+// Bounds of parts, below which no sum of products exceeds 128: of three blocks of products of q and
+// rates, 3 x 40; of the weight and torques by products of q, 4 x 16, with friction by rates, 4 x
+// 15.
 const double LARGEST_TURNED = 40.0, LARGEST_SQUARES = 16.0, LARGEST_TORQUE = 4.0;
 const double LARGEST_RATES = 15.0, LARGEST_FRICTION = 4.0;
 const double LEAST_SHARE = 0x1p-5;   // of Iz/Ix, whose parts have 77 binary digits behind the point
@@ -44,9 +45,11 @@ const double LEAST_TURN = 0x1p-90, LEAST_LATE_TURN = 0x1p-60;
 
 class TaylorSeries {
  public:
-  // The coefficients of all orders, from those of order 0 in the piece, for equations in its unit. The
-  // first of them are sums of two doubles if that is asked for, or if numbers in parts do not fit.
-  void expand(const Coefficients& equations, Double2 share, bool has_torque, bool in_full, Piece& piece) {
+  // The coefficients of all orders, from those of order 0 in the piece, for equations in its unit.
+  // The first of them are sums of two doubles if that is asked for, or if numbers in parts do not
+  // fit.
+  void expand(const Coefficients& equations, Double2 share, bool has_torque, bool in_full,
+              Piece& piece) {
     equations_ = &equations;
     share_ = share;
     if (has_torque)
@@ -56,9 +59,9 @@ class TaylorSeries {
   }
 
  private:
-  // All products of an order have a term of q on the left, whole. On the right are, spread over the lanes,
-  // omega_x, omega_y and the turn of the frame s omega_z, and from WEIGHT on components of q in another
-  // order, of which the weight needs the first block and torques need all.
+  // All products of an order have a term of q on the left, whole. On the right are, spread over the
+  // lanes, omega_x, omega_y and the turn of the frame s omega_z, and from WEIGHT on components of q
+  // in another order, of which the weight needs the first block and torques need all.
   static const int TURN = 2, WEIGHT = 3, BLOCKS = 6;
   typedef Lanes Factors[BLOCKS];
   Factors right_[DRIVEN_TERMS + 1];
@@ -68,7 +71,8 @@ class TaylorSeries {
   PartsOf<Lanes> friction_, weight_, torques_[SQUARES];
   Double2 share_;
   PartsOf<Lanes> share_in_parts_;
-  // Beyond these orders the turn of the frame has no digit that counts: by first terms, and by small ones.
+  // Beyond these orders the turn of the frame has no digit that counts: by first terms, and by
+  // small ones.
   int turning_orders_, last_turn_;
 
   template <int COUNT>
@@ -83,7 +87,9 @@ class TaylorSeries {
 
   template <int COUNT>
   static SYMTOP_INLINE void put(Lanes q, Lanes rates, Lanes turn, Factors& right) {
-    right[0] = spread<OMEGA_X>(rates), right[1] = spread<OMEGA_Y>(rates), right[TURN] = turn;
+    right[0] = spread<OMEGA_X>(rates);
+    right[1] = spread<OMEGA_Y>(rates);
+    right[TURN] = turn;
     right[WEIGHT] = order<X, Z, W, Y>(q);
     if (COUNT == 4) return;
     right[WEIGHT + 1] = q;
@@ -135,7 +141,8 @@ class TaylorSeries {
 
   template <int COUNT>
   SYMTOP_INLINE bool take_equations() {
-    friction_ = split(equations_->friction), weight_ = split(equations_->weight);
+    friction_ = split(equations_->friction);
+    weight_ = split(equations_->weight);
     share_in_parts_ = split(repeat(share_));
     Lanes size = find_size(weight_.coarse);
     if (COUNT > 4)
@@ -147,8 +154,8 @@ class TaylorSeries {
            find_largest_lane(find_size(friction_.coarse)) <= LARGEST_FRICTION;
   }
 
-  // Of an axis next to the vertical two components of q are small, whose digits should begin where they
-  // do: their parts would have them from 2^-77 on.
+  // Of an axis next to the vertical two components of q are small, whose digits should begin where
+  // they do: their parts would have them from 2^-77 on.
   static bool shows_swing(const Lanes row[2]) {
     const Lanes q = row[0];
     const double upper = q[W] * q[W] + q[Z] * q[Z], lower = q[X] * q[X] + q[Y] * q[Y];
@@ -168,7 +175,8 @@ class TaylorSeries {
   };
 
   static SYMTOP_INLINE void keep(Piece& piece, int n, int half, PartsOf<Lanes> parts) {
-    piece.coarse[n][half] = parts.coarse, piece.rests[n][half] = parts.fine;
+    piece.coarse[n][half] = parts.coarse;
+    piece.rests[n][half] = parts.fine;
     piece.terms[n][half] = parts.whole();
   }
 
@@ -183,7 +191,9 @@ class TaylorSeries {
     put<COUNT>(coarse[0], coarse[1], turn.coarse, coarse_[n]);
     put<COUNT>(fine[0], fine[1], turn.fine, rests_[n]);
     put<COUNT>(terms[0], terms[1], whole, right_[n]);
-    sizes.q += find_size(terms[0]), sizes.rates += find_size(terms[1]), sizes.turn += find_size(whole);
+    sizes.q += find_size(terms[0]);
+    sizes.rates += find_size(terms[1]);
+    sizes.turn += find_size(whole);
     if (COUNT > 4) return;
     const double size = std::fabs(whole[0]);
     if (last_turn_ == DRIVEN_TERMS && size < LEAST_LATE_TURN) last_turn_ = n;
@@ -191,19 +201,22 @@ class TaylorSeries {
   }
 
   SYMTOP_INLINE void add_parts(const Piece& piece, PartsOf<Lanes>& sum, int m, int n, int v) const {
-    add_product(sum, piece.coarse[m][0], piece.rests[m][0], coarse_[n][v], rests_[n][v], right_[n][v]);
+    add_product(sum, piece.coarse[m][0], piece.rests[m][0], coarse_[n][v], rests_[n][v],
+                right_[n][v]);
   }
 
   template <int COUNT>
   SYMTOP_INLINE void compute_parts(Piece& piece, int n) const {
     PartsOf<Lanes> sums[COUNT] = {};
     // What has just been computed comes last.
-    for (int m = 1; m < n; m++)
+    for (int m = 1; m < n; m++) {
       SYMTOP_UNROLL
       for (int v = 0; v < COUNT; v++)
         if (v != TURN || COUNT > 4) add_parts(piece, sums[v], m, n - m, v);
+    }
     if (COUNT == 4)
-      for (int m = std::min(n, turning_orders_) - 1; m > 0; m--) add_parts(piece, sums[TURN], n - m, m, TURN);
+      for (int m = std::min(n, turning_orders_) - 1; m > 0; m--)
+        add_parts(piece, sums[TURN], n - m, m, TURN);
     SYMTOP_UNROLL
     for (int v = 0; v < COUNT; v++) {
       if (n > 0) add_parts(piece, sums[v], n, 0, v);
@@ -220,7 +233,8 @@ class TaylorSeries {
     const PartsOf<Lanes> vertical =
         collect(PartsOf<Lanes>{take_first(sums[WEIGHT].coarse) + take_last(sums[WEIGHT].coarse),
                                take_first(sums[WEIGHT].fine) + take_last(sums[WEIGHT].fine)});
-    add_product(rates, weight_.coarse, weight_.fine, vertical.coarse, vertical.fine, vertical.whole());
+    add_product(rates, weight_.coarse, weight_.fine, vertical.coarse, vertical.fine,
+                vertical.whole());
     if (COUNT > 4) {
       PartsOf<Lanes> squares[BLOCKS - WEIGHT];
       for (int b = 0; b < BLOCKS - WEIGHT; b++) squares[b] = collect(sums[WEIGHT + b]);
@@ -236,8 +250,8 @@ class TaylorSeries {
 
   // ---- The first terms as sums of two doubles ----
 
-  // False if numbers are too small or too large for these products: it ends at the first of them, because
-  // the coefficients of a slow turn fall so fast that those of order 3 may be.
+  // False if numbers are too small or too large for these products: it ends at the first of them,
+  // because the coefficients of a slow turn fall so fast that those of order 3 may be.
   template <int COUNT, class Product>
   SYMTOP_CLONES bool compute(Piece& piece) {
     if (!can_take_equations<Product>()) return false;
@@ -270,7 +284,8 @@ class TaylorSeries {
   template <int COUNT, class Product>
   SYMTOP_INLINE void put_low(const Piece& piece, int n) {
     const Lanes *terms = piece.terms[n], *rests = piece.rests[n];
-    const Double2 turn = symtop::multiply<Product>(Double2{terms[1][OMEGA_Z], rests[1][OMEGA_Z]}, share_);
+    const Double2 turn =
+        symtop::multiply<Product>(Double2{terms[1][OMEGA_Z], rests[1][OMEGA_Z]}, share_);
     put<COUNT>(terms[0], terms[1], symtop::repeat<Lanes>(turn.high), right_[n]);
     put<COUNT>(rests[0], rests[1], symtop::repeat<Lanes>(turn.low), rests_[n]);
   }
@@ -278,25 +293,29 @@ class TaylorSeries {
   template <int COUNT, class Product>
   SYMTOP_INLINE void compute_low(Piece& piece, int n) const {
     SumOf<Lanes> sums[COUNT] = {};
-    for (int m = 0; m <= n; m++)
+    for (int m = 0; m <= n; m++) {
       SYMTOP_UNROLL
       for (int v = 0; v < COUNT; v++)
         add_product<Product>(sums[v], {piece.terms[m][0], piece.rests[m][0]},
                              {right_[n - m][v], rests_[n - m][v]});
+    }
     SumOf<Lanes> turned = {turn_by_x(sums[0].high), turn_by_x(sums[0].low)};
     add(turned, {turn_by_y(sums[1].high), turn_by_y(sums[1].low)});
     add(turned, {turn_by_z(sums[TURN].high), turn_by_z(sums[TURN].low)});
     const Lanes *now = piece.terms[n], *now_rests = piece.rests[n];
     SumOf<Lanes> rates = {};
-    add_product<Product>(rates, equations_->friction, {take_rates(now[1]), take_rates(now_rests[1])});
+    add_product<Product>(rates, equations_->friction,
+                         {take_rates(now[1]), take_rates(now_rests[1])});
     const SumOf<Lanes> squares = sums[WEIGHT];
     SumOf<Lanes> vertical = {take_first(squares.high), take_first(squares.low)};
     add(vertical, {take_last(squares.high), take_last(squares.low)});
     add_product<Product>(rates, equations_->weight, vertical);
-    if (COUNT > 4)
+    if (COUNT > 4) {
       SYMTOP_UNROLL
       for (int p = 0; p < SQUARES; p++)
-        add_product<Product>(rates, equations_->torques[p], repeat(pick(sums[WEIGHT + p / 4], p % 4)));
+        add_product<Product>(rates, equations_->torques[p],
+                             repeat(pick(sums[WEIGHT + p / 4], p % 4)));
+    }
     const Double2 inverse = INVERSES[n + 1];
     put_term<Product>(piece, n + 1, 0, turned, scale(inverse, 0.5));
     put_term<Product>(piece, n + 1, 1, rates, inverse);
@@ -307,16 +326,19 @@ class TaylorSeries {
                                      Double2 factor) {
     const SumOf<Lanes> term =
         symtop::multiply<Product>(fast_sum_of(sum.high, sum.low), repeat(factor));
-    piece.terms[n][half] = term.high, piece.rests[n][half] = term.low;
+    piece.terms[n][half] = term.high;
+    piece.rests[n][half] = term.low;
   }
 
   // ---- The other terms in doubles ----
 
-  // Two orders at a time: what both need of the terms before them is read once. While a term waits for its
-  // last products, the processor has those of the next two orders that need neither of both.
+  // Two orders at a time: what both need of the terms before them is read once. While a term waits
+  // for its last products, the processor has those of the next two orders that need neither of
+  // both.
   template <int COUNT>
   SYMTOP_INLINE void compute_all_high(Piece& piece) {
-    static_assert((DRIVEN_TERMS - EXTENDED_TERMS) % 2 == 0 && EXTENDED_TERMS > 2, "pairs of orders");
+    static_assert((DRIVEN_TERMS - EXTENDED_TERMS) % 2 == 0 && EXTENDED_TERMS > 2,
+                  "pairs of orders");
     Lanes sums[COUNT] = {}, next[COUNT] = {};
     add_older<COUNT>(piece, EXTENDED_TERMS, 1, EXTENDED_TERMS - 1, sums, next);
     for (int n = EXTENDED_TERMS; n < DRIVEN_TERMS; n += 2) {
@@ -330,7 +352,10 @@ class TaylorSeries {
         add_pair<COUNT>(piece, 2, n + 1, last);
       }
       SYMTOP_UNROLL
-      for (int v = 0; v < COUNT; v++) sums[v] = later[v], next[v] = last[v];
+      for (int v = 0; v < COUNT; v++) {
+        sums[v] = later[v];
+        next[v] = last[v];
+      }
     }
   }
 
@@ -376,15 +401,19 @@ class TaylorSeries {
   SYMTOP_INLINE void complete(Piece& piece, int n, Lanes sums[COUNT]) {
     const double inverse = INVERSES.high[n + 1];
     add_pair<COUNT>(piece, 0, n, sums);
-    const Lanes q = ((turn_by_x(sums[0]) + turn_by_y(sums[1])) + turn_by_z(sums[TURN])) * (0.5 * inverse);
+    const Lanes q =
+        ((turn_by_x(sums[0]) + turn_by_y(sums[1])) + turn_by_z(sums[TURN])) * (0.5 * inverse);
     const Lanes vertical = take_first(sums[WEIGHT]) + take_last(sums[WEIGHT]);
     Lanes omega = (equations_->friction.high * inverse) * take_rates(piece.terms[n][1]) +
                   (equations_->weight.high * inverse) * vertical;
-    if (COUNT > 4)
+    if (COUNT > 4) {
       SYMTOP_UNROLL
       for (int p = 0; p < SQUARES; p++)
-        omega += (equations_->torques[p].high * inverse) * symtop::repeat<Lanes>(sums[WEIGHT + p / 4][p % 4]);
-    piece.terms[n + 1][0] = q, piece.terms[n + 1][1] = omega;
+        omega += (equations_->torques[p].high * inverse) *
+                 symtop::repeat<Lanes>(sums[WEIGHT + p / 4][p % 4]);
+    }
+    piece.terms[n + 1][0] = q;
+    piece.terms[n + 1][1] = omega;
     put<COUNT>(q, omega, spread<OMEGA_Z>(omega) * share_.high, right_[n + 1]);
   }
 };

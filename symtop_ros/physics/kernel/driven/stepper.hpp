@@ -1,25 +1,26 @@
-// Steps of a driven motion, whose length follows from the last two coefficients (A. Jorba and M. Zou, A
-// software package for the numerical integration of ODEs, Experimental Mathematics 14 (2005) 99).
+// Steps of a driven motion, whose length follows from the last two coefficients (A. Jorba and M.
+// Zou, A software package for the numerical integration of ODEs, Experimental Mathematics 14 (2005)
+// 99).
 #pragma once
 
 #include "series.hpp"
 
 namespace symtop {
 
-// Size of the last terms of a step, for variables of size 1. It is far below EPS, because what is left
-// out has the same sign in many steps, while rounding has not: with 1e-19 steps would be 8 % longer,
-// and errors after a thousand seconds ten times as large.
+// Size of the last terms of a step, for variables of size 1. It is far below EPS, because what is
+// left out has the same sign in many steps, while rounding has not: with 1e-19 steps would be 8 %
+// longer, and errors after a thousand seconds ten times as large.
 const double LAST = 1e-20;
-// The terms of an axis near the vertical may be larger than this by a factor, compared with its tilt:
-// so that steps do not become shorter at ordinary tilts.
+// The terms of an axis near the vertical may be larger than this by a factor, compared with its
+// tilt: so that steps do not become shorter at ordinary tilts.
 const double CLOSER = 8.0;
 const double LONGEST = 16.0;  // in units of about 1/rate; so the powers of a step stay in range
-// rad by which the frame turns in a step. Further on the terms of a sine would exceed their sum, and
-// rounding with them.
+// rad by which the frame turns in a step. Further on the terms of a sine would exceed their sum,
+// and rounding with them.
 const double LARGEST_TURN = 2.0;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;
-// The unit of time is next to the length of the step before, so that terms in parts are about 1 in size
-// (parts.hpp). A step is expanded again if its length is not between these in its unit.
+// The unit of time is next to the length of the step before, so that terms in parts are about 1 in
+// size (parts.hpp). A step is expanded again if its length is not between these in its unit.
 const double SHORTEST_PART = 0.35, LONGEST_PART = 2.0;
 const int MOST_TRIES = 4;
 const int LENGTH_BITS = 10;  // a length has so few bits that the sum of lengths, the time, is exact
@@ -31,9 +32,9 @@ inline double make_power(int exponent) {
   return read_bits_as<double>(static_cast<uint64_t>(exponent + 1023) << 52);
 }
 
-// The root of order n of x, 0.6 % off at most for n >= 29: a length needs no more, and the last bit of
-// the C library's power depends on the version. The logarithm to base 2 runs straight between powers
-// of two, at most 0.09 below itself, and 2^f on 0 to 1 is a parabola, at most 0.3 % off.
+// The root of order n of x, 0.6 % off at most for n >= 29: a length needs no more, and the last bit
+// of the C library's power depends on the version. The logarithm to base 2 runs straight between
+// powers of two, at most 0.09 below itself, and 2^f on 0 to 1 is a parabola, at most 0.3 % off.
 inline double find_root(double x, int n) {
   int exponent;
   const double digits = std::frexp(x, &exponent);
@@ -46,22 +47,24 @@ class Stepper {
  public:
   DrivenEquations equations;
 
-  // Steps have a share of their usual length, a power of two. `in_full`: their first terms are sums of two
-  // doubles, whatever time it takes, in a unit of about 1/rate.
+  // Steps have a share of their usual length, a power of two. `in_full`: their first terms are sums
+  // of two doubles, whatever time it takes, in a unit of about 1/rate.
   explicit Stepper(double share = 1.0, bool in_full = false) : share_(share), in_full_(in_full) {}
 
   void step(const Knot& knot, int direction, Piece& piece) {
     if (!expand(knot, direction, piece)) return;
     piece.find_end();
     double length = piece.end - knot.t;
-    while (std::fabs(piece.following.now.rates.high[SPIN] * equations.half_rest.high) > LARGEST_SPIN) {
+    while (std::fabs(piece.following.now.rates.high[SPIN] * equations.half_rest.high) >
+           LARGEST_SPIN) {
       length /= 2;
       piece.end = knot.t + length;
       piece.find_end();
     }
   }
 
-  // The series of a step and its end, without the state there; false if nothing moves or all too fast.
+  // The series of a step and its end, without the state there; false if nothing moves or all too
+  // fast.
   bool expand(const Knot& knot, int direction, Piece& piece) {
     piece.start = knot;
     const double rate = equations.estimate_rate(knot.now);
@@ -119,8 +122,8 @@ class Stepper {
     return moves;
   }
 
-  // The components that say how far an axis near the vertical is from it: what is small of q, x and y
-  // above, and w and z below; and omega across.
+  // The components that say how far an axis near the vertical is from it: what is small of q, x and
+  // y above, and w and z below; and omega across.
   struct Swing {
     int q[2];
 
@@ -141,8 +144,8 @@ class Stepper {
   double find_length(const Lanes terms[][2], double longest) const {
     const Lanes q = terms[0][0], rates = terms[0][1];
     const double spin = equations.share.high * rates[OMEGA_Z];
-    const double turn = std::sqrt(rates[OMEGA_X] * rates[OMEGA_X] +
-                                  rates[OMEGA_Y] * rates[OMEGA_Y] + spin * spin);
+    const double turn =
+        std::sqrt(rates[OMEGA_X] * rates[OMEGA_X] + rates[OMEGA_Y] * rates[OMEGA_Y] + spin * spin);
     double length = LARGEST_TURN / std::fmax(turn, LARGEST_TURN / longest);
     const double axial = std::fmax(1.0, std::fabs(rates[OMEGA_Z]));
     // cos^2 and sin^2 of half the tilt: tan(theta/2)^2 = lower/upper.
@@ -151,9 +154,9 @@ class Stepper {
     const Swing swing = upper > lower ? Swing{{X, Y}} : Swing{{W, Z}};
     const double size = swings ? swing.measure(terms) : 1.0;
     for (int order = DRIVEN_TERMS - 1; order <= DRIVEN_TERMS; order++) {
-      const Lanes *row = terms[order];
-      double largest = find_largest_lane(find_larger(
-          find_size(row[0]), find_size(row[1]) * Lanes{1.0, 1.0, 1 / axial, 0.0}));
+      const Lanes* row = terms[order];
+      double largest = find_largest_lane(
+          find_larger(find_size(row[0]), find_size(row[1]) * Lanes{1.0, 1.0, 1 / axial, 0.0}));
       if (swings) largest = std::fmax(largest, swing.find_largest(row) / size);
       if (largest) length = std::fmin(length, find_root(LAST / largest, order));
     }

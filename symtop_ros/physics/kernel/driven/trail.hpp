@@ -1,7 +1,7 @@
 // The steps of an integration in one direction of time, and states at any times.
 //
-// The pieces depend on the motion alone, not on earlier requests: a state is the same to the last bit
-// whatever was asked before. Some knots and pieces are kept, so that one can go back.
+// The pieces depend on the motion alone, not on earlier requests: a state is the same to the last
+// bit whatever was asked before. Some knots and pieces are kept, so that one can go back.
 #pragma once
 
 #include <memory>
@@ -12,18 +12,16 @@
 
 namespace symtop {
 
-// Knots that are kept over the whole integration (beyond them every other one is dropped), and pieces
-// up to the present one. So few that the two arrays are no mappings of their own: for a short motion
-// that would take as long as all of its steps.
+// Knots that are kept over the whole integration (beyond them every other one is dropped), and
+// pieces up to the present one. So few that the two arrays are no mappings of their own: for a
+// short motion that would take as long as all of its steps.
 const int KEPT = 512, RECENT = 16;
-// Steps from what has been reached, up to a minute. A way is judged after the first ones, some tenths
-// of a second: friction may have slowed the top by then.
+// Steps from what has been reached, up to a minute. A way is judged after the first ones, some
+// tenths of a second: friction may have slowed the top by then.
 const double LONGEST_WAY = 1e7;
 const long UNJUDGED = 200000;
 
-enum Progress {
-  ARRIVED, IS_TOO_FAST, IS_TOO_STIFF, IS_TOO_LONG, NEEDS_STEPS, HAS_NO_MEMORY
-};
+enum Progress { ARRIVED, IS_TOO_FAST, IS_TOO_STIFF, IS_TOO_LONG, NEEDS_STEPS, HAS_NO_MEMORY };
 
 class Trail {
  public:
@@ -39,9 +37,9 @@ class Trail {
     return true;
   }
 
-  // Integrates towards a time, and returns the time reached; *steps is lowered by those taken. It stops
-  // if the motion is too fast to go on, or if more steps seem to be left than `longest`: back in time
-  // friction drives a top, and steps become shorter and shorter.
+  // Integrates towards a time, and returns the time reached; *steps is lowered by those taken. It
+  // stops if the motion is too fast to go on, or if more steps seem to be left than `longest`: back
+  // in time friction drives a top, and steps become shorter and shorter.
   double reach(double t, double* steps, double longest, Progress* progress) {
     go_back(t);
     *progress = NEEDS_STEPS;
@@ -60,7 +58,9 @@ class Trail {
   }
 
   // The variables at t + rest; the time has been reached.
-  Variables find(double t, double rest) const { return present().evaluate(present().locate(t, rest)); }
+  Variables find(double t, double rest) const {
+    return present().evaluate(present().locate(t, rest));
+  }
 
   void read(double t, double rest, double orientation[4], double omega[3]) const {
     const Variables found = find(t, rest);
@@ -74,7 +74,8 @@ class Trail {
  private:
   Stepper stepper_;
   int direction_ = 1;
-  std::unique_ptr<Knot[]> kept_;  // knots over the whole integration, with `spacing_` pieces between two
+  // Knots over the whole integration, with `spacing_` pieces between two
+  std::unique_ptr<Knot[]> kept_;
   long kept_count_ = 0, spacing_ = 1;
   std::unique_ptr<Piece[]> recent_;  // a ring: the last pieces up to the present one
   int recent_count_ = 0, last_ = 0;

@@ -7,8 +7,8 @@
 // u(t) = u1 + (u2 - u1) sn(v)^2 with v = v0 + Omega t (DLMF 22.2); the phase of the nutation is
 // x = pi v/K, 0 at the lower turning point u1 and pi at the upper one.
 //
-// The constants of a motion are computed once, with 57 digits, and evaluated often, in doubles: they
-// are those of exactly the doubles that were given, so that no error grows with time.
+// The constants of a motion are computed once, with 57 digits, and evaluated often, in doubles:
+// they are those of exactly the doubles that were given, so that no error grows with time.
 #pragma once
 
 #include "first_instants.hpp"
@@ -21,23 +21,26 @@ struct AttitudeOf {  // a state without omega_z, which is constant
 };
 typedef AttitudeOf<double> Attitude;
 
-// The state of A, B and omega_xy, with one step to norm 1. Newton's step would correct A and B by the
-// same factor, and so give a small B the error of A. Least squares correct the larger one more, by
-// |A|^2/(|A|^4 + |B|^4) of the step, and B by |B|^2 over the same; a cubic of |A|^2 = 1 - |B|^2 is
-// near enough. Of equal sizes both take the same, which removes their common error.
+// The state of A, B and omega_xy, with one step to norm 1. Newton's step would correct A and B by
+// the same factor, and so give a small B the error of A. Least squares correct the larger one more,
+// by |A|^2/(|A|^4 + |B|^4) of the step, and B by |B|^2 over the same; a cubic of |A|^2 = 1 - |B|^2
+// is near enough. Of equal sizes both take the same, which removes their common error.
 template <class R>
 SYMTOP_INLINE AttitudeOf<R> complete_attitude(const PairOf<R> values[FUNCTIONS],
                                               bool is_turned_over) {
   R w = values[OF_A].x, z = values[OF_A].y, x = values[OF_B].x, y = values[OF_B].y;
   if (is_turned_over) {  // the world that was turned by pi about x' is turned back (section 1)
     const R w_before = w, y_before = y;
-    w = x, x = -w_before, y = z, z = -y_before;
+    w = x;
+    x = -w_before;
+    y = z;
+    z = -y_before;
   }
   const R upper = w * w + z * z, lower = x * x + y * y;
   const R step = 0.5 - 0.5 * (upper + lower), share = step * (upper - lower);
   const R of_B = step - upper * share, of_A = of_B + share;
-  return {w + w * of_A, x + x * of_B, y + y * of_B, z + z * of_A, values[OF_OMEGA_XY].x,
-          values[OF_OMEGA_XY].y};
+  return {w + w * of_A, x + x * of_B,          y + y * of_B,
+          z + z * of_A, values[OF_OMEGA_XY].x, values[OF_OMEGA_XY].y};
 }
 
 // The rate of arg A or arg B; zero if rounding is all that it has.
@@ -67,13 +70,14 @@ struct ClosedForm {
   FirstInstants first_instants;
 
   void solve(const Start& given, bool turned_over) {
-    start = given, is_turned_over = turned_over;
+    start = given;
+    is_turned_over = turned_over;
     nutation = find_nutation<3>(start);
     if (start.is_clamped) drop_precession(nutation, start);
     roots = find_roots(nutation);
     find_zeros(nutation, roots, zeros);
-    // The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that would have no
-    // digits.
+    // The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that would have
+    // no digits.
     mean = compute_mean_rates(nutation, zeros, root(roots.s32 / roots.s31()), means);
     frequency = root(nutation.beta * roots.s31());
     nutation_rate = frequency * mean;
@@ -111,15 +115,16 @@ struct ClosedForm {
     first_instants.prepare(start, start_values[OF_A], start_values[OF_B], half_c);
   }
 
-  // Whole turns of omega_xy in a nutation, compared with conj(A) B. In the frame of the line of nodes
-  // omega_xy is theta' + i sin(theta) phi', which is periodic. conj(A) B has the argument of the line
-  // of nodes in the body. So the mean rates of the two arguments differ by whole turns in a nutation,
-  // one if phi' reverses. With the integer known no third phase is needed, and its rounding cannot
-  // separate omega_xy from the attitude. (The rate of arg omega_xy is -omega - p_psi/(2 Ix) - c: c
-  // cancels.)
+  // Whole turns of omega_xy in a nutation, compared with conj(A) B. In the frame of the line of
+  // nodes omega_xy is theta' + i sin(theta) phi', which is periodic. conj(A) B has the argument of
+  // the line of nodes in the body. So the mean rates of the two arguments differ by whole turns in
+  // a nutation, one if phi' reverses. With the integer known no third phase is needed, and its
+  // rounding cannot separate omega_xy from the attitude. (The rate of arg omega_xy is -omega -
+  // p_psi/(2 Ix) - c: c cancels.)
   int count_windings() const {
     if (!nutation_rate.sign) return 0;
-    const Precise difference = means[OF_A] - means[OF_B] - means[OF_OMEGA_XY] - nutation.a.scale(-1);
+    const Precise difference =
+        means[OF_A] - means[OF_B] - means[OF_OMEGA_XY] - nutation.a.scale(-1);
     return static_cast<int>(round_to_integer((difference / nutation_rate).to_double()));
   }
 
@@ -140,7 +145,9 @@ struct ClosedForm {
     const double spin = 0.5 * s.wz * (s.Iz / s.Ix), weight = 2 * (s.Mgl / s.Ix);
     const Pair of_A = multiply_by_conjugate(B, omega_xy), of_B = multiply(omega_xy, A);
     const Pair of_omega_xy = multiply_by_conjugate(B, A);
-    start_values[OF_A] = A, start_values[OF_B] = B, start_values[OF_OMEGA_XY] = omega_xy;
+    start_values[OF_A] = A;
+    start_values[OF_B] = B;
+    start_values[OF_OMEGA_XY] = omega_xy;
     changes[OF_A] = {-spin * z - of_A.x / 2, spin * w - of_A.y / 2};
     changes[OF_B] = {of_B.x / 2 + spin * y, of_B.y / 2 - spin * x};
     changes[OF_OMEGA_XY] = {weight * of_omega_xy.x - spin * s.wy,
@@ -156,8 +163,7 @@ struct ClosedForm {
     const Precise from_start[] = {n.one_plus_u, n.one_minus_u, n.omega_xy_squared / n.beta};
     compute_series(nutation_phase.start, values);
     for (int k = 0; k < FUNCTIONS; k++) {
-      const Pair at_start =
-          k == OF_OMEGA_XY ? conjugate(start_values[k]) : start_values[k];
+      const Pair at_start = k == OF_OMEGA_XY ? conjugate(start_values[k]) : start_values[k];
       const bool is_small =
           from_start[k].scale(2) <
           (zeros[k].from_u1 > zeros[k].from_u2 ? zeros[k].from_u1 : zeros[k].from_u2);
@@ -171,15 +177,18 @@ struct ClosedForm {
     factors[OF_OMEGA_XY] = conjugate(factors[OF_OMEGA_XY]);
   }
 
-  // The modulus of the factor of omega_xy, from all places where that is known to all digits: at the
-  // turning points |omega_xy|^2 is beta times the distance of the height alpha/beta. A start where
-  // omega_xy is small would give it with the rounding of that start.
+  // The modulus of the factor of omega_xy, from all places where that is known to all digits: at
+  // the turning points |omega_xy|^2 is beta times the distance of the height alpha/beta. A start
+  // where omega_xy is small would give it with the rounding of that start.
   double find_modulus_of_third_factor(double from_start) const {
     const Nutation& n = nutation;
     const Zero& zero = zeros[OF_OMEGA_XY];
     double total = 0.0;
     int count = 0;
-    const auto add = [&](double estimate) { total += estimate, count++; };
+    const auto add = [&](double estimate) {
+      total += estimate;
+      count++;
+    };
     const auto add_turning_point = [&](const Precise& square, const Location& place) {
       if (square.scale(2) < zero.from_u1) return;
       Pair values[FUNCTIONS];
@@ -193,9 +202,9 @@ struct ClosedForm {
   }
 
   // start/value. If the function nearly vanishes at the start, both have lost their digits, and the
-  // factor comes from the derivatives instead; value and derivative never vanish together. The square
-  // of a function is in proportion to the distance from its zero: above half of its largest size it
-  // has all its digits (`is_small` is false).
+  // factor comes from the derivatives instead; value and derivative never vanish together. The
+  // square of a function is in proportion to the distance from its zero: above half of its largest
+  // size it has all its digits (`is_small` is false).
   Pair find_factor(int k, Pair at_start, Pair change, Pair value, double mean,
                    bool is_small) const {
     if (is_small) {
@@ -221,8 +230,8 @@ struct ClosedForm {
     compute_series(at, series);
     values[OF_A] = multiply(multiply(factors[OF_A], series[OF_A]), turn_A);
     values[OF_B] = multiply(multiply(factors[OF_B], series[OF_B]), turn_B);
-    values[OF_OMEGA_XY] = multiply(
-        multiply_by_conjugate(factors[OF_OMEGA_XY], series[OF_OMEGA_XY]), turn_omega);
+    values[OF_OMEGA_XY] =
+        multiply(multiply_by_conjugate(factors[OF_OMEGA_XY], series[OF_OMEGA_XY]), turn_omega);
   }
 
   template <class R>

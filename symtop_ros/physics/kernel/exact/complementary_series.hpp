@@ -6,9 +6,9 @@
 // 1, h^n, E^n with E = exp(-|y|) and h = exp(|y| - pi K/K'). All of them are at most 1. At the
 // separatrix (K infinite, h = q' = 0) only the first terms remain, the hyperbolic functions.
 //
-// Each numerator is the sum over all integers n of (-1)^n q'^(n^2 - n) w^n, up to a phase, with
-// w = E exp(i phi) for A and w = h exp(-i phi) for the other two, phi = pi (K' - shift)/K'. Its terms
-// n and 1 - n have the common factor 1 - w. It vanishes if the axis passes the pole, and is written
+// Each numerator is the sum over all integers n of (-1)^n q'^(n^2 - n) w^n, up to a phase, with w =
+// E exp(i phi) for A and w = h exp(-i phi) for the other two, phi = pi (K' - shift)/K'. Its terms n
+// and 1 - n have the common factor 1 - w. It vanishes if the axis passes the pole, and is written
 // with expm1; what remains of the sum is called the cofactor here. So the digits of a quotient are
 // relative to its own size there.
 #pragma once
@@ -48,10 +48,10 @@ struct ComplementarySeries {
   static bool is_below(int k) { return k == OF_A; }
   int winding_of(int k) const { return k == OF_OMEGA_XY ? winding : 0; }
 
-  // The coefficients of a numerator divided by 1 - w: of 1 and h^n, and of E^n. The cofactor is the sum
-  // over k of (-1)^k q^(k^2 + k) (1 + w + 1/w + ... + w^k + 1/w^k). With h E = q, 1/w is h exp(-i
-  // phi)/q for A and E exp(i phi)/q for the others. The q in this denominator is divided out of
-  // q^(k^2 + k) first: h and q may both be zero.
+  // The coefficients of a numerator divided by 1 - w: of 1 and h^n, and of E^n. The cofactor is the
+  // sum over k of (-1)^k q^(k^2 + k) (1 + w + 1/w + ... + w^k + 1/w^k). With h E = q, 1/w is h
+  // exp(-i phi)/q for A and E exp(i phi)/q for the others. The q in this denominator is divided out
+  // of q^(k^2 + k) first: h and q may both be zero.
   void expand(int k, const double powers[5], const double inverses[5], const Shift& shift) {
     const double phi = shift.sign * PI * shift.complement / Kc;
     const double *of_h = is_below(k) ? inverses : powers, *of_E = is_below(k) ? powers : inverses;
@@ -69,13 +69,16 @@ struct ComplementarySeries {
   }
 
   void prepare(double K_, double Kc_, const Shift shifts[], int winding_, double root_of_nome) {
-    K = K_, Kc = Kc_, winding = winding_, root = root_of_nome;
+    K = K_;
+    Kc = Kc_;
+    winding = winding_;
+    root = root_of_nome;
     const double q = exponential(-PI * K / Kc);
     const double q2 = q * q, q4 = q2 * q2, q8 = q4 * q4, q16 = q8 * q8;
     const double q5 = q4 * q, q6 = q4 * q2, q9 = q8 * q, q10 = q8 * q2, q12 = q8 * q4;
     const double q20 = q16 * q4;
-    // Sums over k = n ... 4 of (-1)^k q^(k^2 + k), and of (-1)^k q^(k^2 + k - n): these are written out,
-    // since q may be zero, and the smallest term comes first.
+    // Sums over k = n ... 4 of (-1)^k q^(k^2 + k), and of (-1)^k q^(k^2 + k - n): these are written
+    // out, since q may be zero, and the smallest term comes first.
     const double powers[5] = {1 - (q2 - (q6 - (q12 - q20))), -(q2 - (q6 - (q12 - q20))),
                               q6 - (q12 - q20), -(q12 - q20), q20};
     const double inverses[5] = {powers[0], -(q - (q5 - (q10 * q - q16 * q2 * q))),
@@ -83,12 +86,15 @@ struct ComplementarySeries {
     for (int k = 0; k < FUNCTIONS; k++) expand(k, powers, inverses, shifts[k]);
     theta_4.rising[0] = theta_4.falling[0] = 1.0;
     raise_to_squares(q, theta_4.rising + 1);
-    theta_4.falling[1] = q2, theta_4.falling[2] = q6, theta_4.falling[3] = q12;
+    theta_4.falling[1] = q2;
+    theta_4.falling[2] = q6;
+    theta_4.falling[3] = q12;
   }
 
-  // Common parts of the three quotients at one place. The rounding of a large |y| would be an error of
-  // the small exp(-|y|/2), which is therefore sqrt(q') exp(above/2) in the upper half of the nutation.
-  // What the rounding of the distance has lost is a factor 1 + low/2, since its square is nothing.
+  // Common parts of the three quotients at one place. The rounding of a large |y| would be an error
+  // of the small exp(-|y|/2), which is therefore sqrt(q') exp(above/2) in the upper half of the
+  // nutation. What the rounding of the distance has lost is a factor 1 + low/2, since its square is
+  // nothing.
   template <class R>
   SYMTOP_INLINE BasisOf<R> find_basis(const LocationOf<R>& at) const {
     const R distance = find_size(at.below);
@@ -98,8 +104,13 @@ struct ComplementarySeries {
     decay = decay + decay * (0.5 * at.low);
     const PairOf<R> rise = expand_exponential<R>(-at.above);
     const R h = rise.x + rise.x * rise.y, E = decay * decay;
-    return {find_sign(at.below), decay, h, E, (1.0 - rise.x) - rise.x * rise.y,
-            -exponential_minus_1<R>(-distance), theta_4.sum(h, E)};
+    return {find_sign(at.below),
+            decay,
+            h,
+            E,
+            (1.0 - rise.x) - rise.x * rise.y,
+            -exponential_minus_1<R>(-distance),
+            theta_4.sum(h, E)};
   }
 
   template <class R>
@@ -107,8 +118,8 @@ struct ComplementarySeries {
     return {real[k].sum(basis.h, basis.E), basis.sign * imaginary[k].sum(basis.h, basis.E)};
   }
 
-  // 1 - w = (1 - r) + r (1 - cos(phi)) -+ i r sin(phi), with r = |w| = E or h. Both terms of the real
-  // part are positive: nothing cancels where w is near 1.
+  // 1 - w = (1 - r) + r (1 - cos(phi)) -+ i r sin(phi), with r = |w| = E or h. Both terms of the
+  // real part are positive: nothing cancels where w is near 1.
   template <class R>
   SYMTOP_INLINE PairOf<R> compute_one_minus_w(int k, const BasisOf<R>& basis) const {
     if (is_below(k))
@@ -129,9 +140,9 @@ struct ComplementarySeries {
     }
   }
 
-  // The derivative of quotient k with respect to v, with the winding held. A quotient is decay cofactor
-  // (1 - w) exp(-i phase)/divisor, without the decay for A. All but the phase depend on |y|, and
-  // d|y|/dv is sign pi/K'; the phase depends on x, dx/dv = pi/K.
+  // The derivative of quotient k with respect to v, with the winding held. A quotient is decay
+  // cofactor (1 - w) exp(-i phase)/divisor, without the decay for A. All but the phase depend on
+  // |y|, and d|y|/dv is sign pi/K'; the phase depends on x, dx/dv = pi/K.
   Pair compute_slope(int k, Location at) const {
     Pair values[FUNCTIONS];
     compute_values(at, values);

@@ -1,23 +1,24 @@
 // The theta quotients summed in the nome q, for m <= 1/2 (derivation.md, section 5).
 //
 // Each of A, B and conj(omega_xy) is th_k(v + i shift)/th4(v) times a constant and an exponential,
-// with k = 4 for A and k = 3 for the other two; th_k(v) = theta_k(pi v/(2 K) | q) are Jacobi's theta
-// functions (DLMF 20.2). The series in q = exp(-pi K'/K) converge fast for m <= 1/2 and ever more
-// slowly towards the separatrix m = 1; there complementary_series.hpp has the nome q' = exp(-pi K/K').
-// With the better of the two no nome exceeds exp(-pi) = 0.043, and the first term left out is below
-// 1e-16 of the sum (design/nomes.py).
+// with k = 4 for A and k = 3 for the other two; th_k(v) = theta_k(pi v/(2 K) | q) are Jacobi's
+// theta functions (DLMF 20.2). The series in q = exp(-pi K'/K) converge fast for m <= 1/2 and ever
+// more slowly towards the separatrix m = 1; there complementary_series.hpp has the nome q' =
+// exp(-pi K/K'). With the better of the two no nome exceeds exp(-pi) = 0.043, and the first term
+// left out is below 1e-16 of the sum (design/nomes.py).
 //
 // A sum in cos(n x) would lose a quotient near its zero, where it is a small difference of large
-// terms. Each quotient is therefore expanded about the turning point at which it may vanish: A about
-// the lower one, B and omega_xy about the upper one. Its value there is formed without cancellation,
-// and the rest are terms in 1 - cos(n delta), with delta the distance from that turning point. They
-// are products of y = sin(delta/2)^2:
+// terms. Each quotient is therefore expanded about the turning point at which it may vanish: A
+// about the lower one, B and omega_xy about the upper one. Its value there is formed without
+// cancellation, and the rest are terms in 1 - cos(n delta), with delta the distance from that
+// turning point. They are products of y = sin(delta/2)^2:
 //
 //   1 - cos(delta)   =  2 y                 1 - cos(3 delta) =  2 y (3 - 4 y)^2
 //   1 - cos(2 delta) =  8 y (1 - y)         1 - cos(4 delta) = 32 y (1 - y) cos(delta)^2
 //
-// The factors are powers of two and go into the coefficients. So the digits of a quotient are relative
-// to its own size, and the tilt of an axis that passes a pole is right to rounding of itself.
+// The factors are powers of two and go into the coefficients. So the digits of a quotient are
+// relative to its own size, and the tilt of an axis that passes a pole is right to rounding of
+// itself.
 #pragma once
 
 #include "nutation_phase.hpp"
@@ -30,7 +31,10 @@ struct Shift {
 
 inline void raise_to_squares(double q, double powers[4]) {
   const double second = q * q, fourth = second * second, eighth = fourth * fourth;
-  powers[0] = q, powers[1] = fourth, powers[2] = eighth * q, powers[3] = eighth * eighth;
+  powers[0] = q;
+  powers[1] = fourth;
+  powers[2] = eighth * q;
+  powers[3] = eighth * eighth;
 }
 
 const int DIVISOR = FUNCTIONS;  // place of the denominator among the numerators
@@ -42,8 +46,8 @@ struct DirectSeries {
 
   static bool is_below(int k) { return k == OF_A || k == DIVISOR; }
 
-  // Coefficients of cos(n x) and sin(n x) of a numerator; returns its value at the turning point where
-  // it may vanish. Terms below 2^-60 of the largest change no sum.
+  // Coefficients of cos(n x) and sin(n x) of a numerator; returns its value at the turning point
+  // where it may vanish. Terms below 2^-60 of the largest change no sum.
   double expand(int k, double Kc, const Shift& shift) {
     const double rate = -PI / K, complement = shift.complement;
     double least = -exponential_minus_1(rate * complement);
@@ -73,7 +77,9 @@ struct DirectSeries {
   }
 
   void prepare(double K_, double Kc, const Shift shifts[], int winding_) {
-    K = K_, winding = winding_, order = 1;
+    K = K_;
+    winding = winding_;
+    order = 1;
     for (int k = 0; k < FUNCTIONS; k++) {
       collect(k, expand(k, Kc, shifts[k]));
       for (int n = 2; n < 5; n++)
@@ -82,8 +88,11 @@ struct DirectSeries {
     double* divisor = even[DIVISOR];
     double powers[4];
     raise_to_squares(exponential(-PI * Kc / K), powers);
-    divisor[0] = 1.0, divisor[1] = -2 * powers[0], divisor[2] = 2 * powers[1];
-    divisor[3] = -2 * powers[2], divisor[4] = 2 * powers[3];
+    divisor[0] = 1.0;
+    divisor[1] = -2 * powers[0];
+    divisor[2] = 2 * powers[1];
+    divisor[3] = -2 * powers[2];
+    divisor[4] = 2 * powers[3];
     double sum = 0.0;
     for (int n = 4; n >= 0; n--) sum += divisor[n];
     collect(DIVISOR, sum);

@@ -64,22 +64,27 @@ struct FirstInstants {
   Steps half_turn;
 
   void prepare(const Start& s, Pair A0, Pair B0, const Precise& half_c) {
-    // In this unit of time all rates are below 1: no power of them overflows. It is a power of two, so
-    // that nothing is rounded.
+    // In this unit of time all rates are below 1: no power of them overflows. It is a power of two,
+    // so that nothing is rounded.
     int exponent;
     std::frexp(find_fastest_rate(s), &exponent);
     unit = std::ldexp(1.0, exponent);
     const double half_spin = 0.5 * (s.wz / unit) * (s.Iz / s.Ix);
     const double beta = 2 * (s.Mgl / s.Ix / unit) / unit;
-    A.real[0] = A0.x, A.imaginary[0] = A0.y, B.real[0] = B0.x, B.imaginary[0] = B0.y;
-    omega.real[0] = s.wx / unit, omega.imaginary[0] = s.wy / unit;
+    A.real[0] = A0.x;
+    A.imaginary[0] = A0.y;
+    B.real[0] = B0.x;
+    B.imaginary[0] = B0.y;
+    omega.real[0] = s.wx / unit;
+    omega.imaginary[0] = s.wy / unit;
     // Euler's equations and q' = q (0, omega)/2 in the frame that does not turn by c: there gravity
     // alone changes omega_xy. All products are convolutions.
     for (int n = 0; n < TERMS; n++) {
       const Pair over = convolve_with_conjugate(B, omega, n), along = convolve(omega, A, n);
       const Pair weight = convolve_with_conjugate(B, A, n);
       const int order = n + 1;
-      omega.real[order] = beta * weight.x / order, omega.imaginary[order] = beta * weight.y / order;
+      omega.real[order] = beta * weight.x / order;
+      omega.imaginary[order] = beta * weight.y / order;
       A.real[order] = (-half_spin * A.imaginary[n] - over.x / 2) / order;
       A.imaginary[order] = (half_spin * A.real[n] - over.y / 2) / order;
       B.real[order] = (along.x / 2 + half_spin * B.imaginary[n]) / order;

@@ -12,8 +12,8 @@ namespace symtop {
 // root of the cubic, of the order of 1/Mgl, would leave the range of doubles.
 const double WEIGHTLESS = 1e-200;
 
-// True if no torque turns the axis: for circular functions instead of elliptic ones. It is not omega_z
-// that counts, but Iz/Ix omega_z: a rod may spin fast.
+// True if no torque turns the axis: for circular functions instead of elliptic ones. It is not
+// omega_z that counts, but Iz/Ix omega_z: a rod may spin fast.
 inline bool is_free(const Start& s) {
   const bool is_vertical = (s.w == 0 && s.z == 0) || (s.x == 0 && s.y == 0);
   if (s.wx == 0 && s.wy == 0 && is_vertical) return true;
@@ -29,9 +29,9 @@ inline Start drop_weight(Start s) {
   return s;
 }
 
-// Roots of f = -|R|^2 (u - u1)(u - u2), which is quadratic without weight, |R| = |L|/Ix: measured from
-// the start, as in nutation.hpp. Their product is negative, so that the root of the discriminant does
-// not cancel; of the two roots one does, and comes from the product.
+// Roots of f = -|R|^2 (u - u1)(u - u2), which is quadratic without weight, |R| = |L|/Ix: measured
+// from the start, as in nutation.hpp. Their product is negative, so that the root of the
+// discriminant does not cancel; of the two roots one does, and comes from the product.
 inline Roots find_free_roots(const Nutation& n, const Precise& square) {
   Roots roots;  // the third one is infinite
   const Precise &middle = n.u_dot_dot, rise = n.u_dot * n.u_dot;
@@ -43,8 +43,9 @@ inline Roots find_free_roots(const Nutation& n, const Precise& square) {
   return roots;
 }
 
-// The distances of the turning points from the poles, of which none is a difference: those that may be
-// small come from f(1) = -(b - a)^2 and f(-1) = -(b + a)^2, but for a start that is the turning point.
+// The distances of the turning points from the poles, of which none is a difference: those that may
+// be small come from f(1) = -(b - a)^2 and f(-1) = -(b + a)^2, but for a start that is the turning
+// point.
 inline void find_free_zeros(const Nutation& n, const Roots& roots, const Precise& square,
                             Zero zeros[]) {
   const Precise &below = n.b_plus_a, &above = n.b_minus_a;

@@ -1,10 +1,10 @@
 // The kind of a motion, by the sign of phi' at the two turning angles of theta (derivation.md,
 // sections 8 and 14).
 //
-// Numbers that differ by rounding of the start alone count as equal: a start that is computed to lie
-// on a root of regular precession is regular, although its doubles miss the root. A `Motion` here is
-// one with weight (`ClosedForm`) or one without (`FreeMotion`): both have the numbers of nutation.hpp,
-// and the same words.
+// Numbers that differ by rounding of the start alone count as equal: a start that is computed to
+// lie on a root of regular precession is regular, although its doubles miss the root. A `Motion`
+// here is one with weight (`ClosedForm`) or one without (`FreeMotion`): both have the numbers of
+// nutation.hpp, and the same words.
 #pragma once
 
 #include "closed_form.hpp"
@@ -12,7 +12,15 @@
 namespace symtop {
 
 enum Kind {
-  REGULAR, UNIDIRECTIONAL, CUSPS, LOOPING, THROUGH_THE_POLE, ASYMPTOTIC, SLEEPING, DRIVEN, CLAMPED
+  REGULAR,
+  UNIDIRECTIONAL,
+  CUSPS,
+  LOOPING,
+  THROUGH_THE_POLE,
+  ASYMPTOTIC,
+  SLEEPING,
+  DRIVEN,
+  CLAMPED
 };
 
 // The largest sin^2(theta) of a nutation: 1 if the axis becomes horizontal.
@@ -33,8 +41,9 @@ inline Precise find_largest_precession(const Motion& motion) {
          size(motion.nutation.a) * sine_squared;
 }
 
-// True if theta' = theta'' = 0 at the start. The centrifugal term of theta'' is u |omega_xy|^2. Near
-// the horizontal u is small, but its rounding is not: it is that of |A|^2 - |B|^2, some EPS of 1.
+// True if theta' = theta'' = 0 at the start. The centrifugal term of theta'' is u |omega_xy|^2.
+// Near the horizontal u is small, but its rounding is not: it is that of |A|^2 - |B|^2, some EPS of
+// 1.
 inline bool is_regular(const Nutation& n) {
   const Precise rounding(START_ROUNDING), sine_squared = n.one_plus_u * n.one_minus_u;
   const Precise& centrifugal = n.omega_xy_squared;
@@ -44,9 +53,9 @@ inline bool is_regular(const Nutation& n) {
   return is_still && size(n.u_dot_dot) <= rounding * (size(spin) + centrifugal + gravity);
 }
 
-// True if the axis passes the upper pole: b = a up to rounding, and the root next to the pole, which
-// (1 - u2)(u3 - 1) = (b - a)^2/(beta (1 - u1)) has, is u2. Next to the separatrix both are, and
-// rounding alone decides which is nearer: a state of an asymptotic motion is never quite on it.
+// True if the axis passes the upper pole: b = a up to rounding, and the root next to the pole,
+// which (1 - u2)(u3 - 1) = (b - a)^2/(beta (1 - u1)) has, is u2. Next to the separatrix both are,
+// and rounding alone decides which is nearer: a state of an asymptotic motion is never quite on it.
 inline bool passes_upper_pole(const ClosedForm& motion, const Precise& rounding) {
   const Zero& B = motion.zeros[OF_B];
   if (size(B.d) > rounding) return false;
@@ -68,9 +77,9 @@ inline Kind classify(const ClosedForm& motion) {
 }
 
 // Of a motion without a torque, whose axis moves on a circle about L at a constant |omega_xy|. phi'
-// vanishes at no single turning angle, as there |b - a u| = sin(theta) |omega_xy|: there are no cusps.
-// If both are rounding, omega_xy is that of an axis at rest. Else the circle encloses one pole, or L
-// and no pole, or both: (b - a u1)(b - a u2) has the sign of (b - a)(b + a).
+// vanishes at no single turning angle, as there |b - a u| = sin(theta) |omega_xy|: there are no
+// cusps. If both are rounding, omega_xy is that of an axis at rest. Else the circle encloses one
+// pole, or L and no pole, or both: (b - a u1)(b - a u2) has the sign of (b - a)(b + a).
 template <class Motion>
 inline Kind classify_free(const Motion& motion) {
   const Nutation& n = motion.nutation;

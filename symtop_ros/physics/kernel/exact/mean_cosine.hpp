@@ -1,9 +1,10 @@
 // The mean of u = cos(theta) over a nutation (derivation.md, section 7).
 //
-// With u = u1 + (u2 - u1) sn^2 the mean is u3 - (u3 - u1) E/K, which cancels: u3 is huge for a fast top.
-// By Gauss's means, E/K = 1 - (c0^2/2 + c1^2 + 2 c2^2 + 4 c3^2 ...) with c0^2 = m = (u2 - u1)/(u3 - u1)
-// (DLMF 19.8.6). The first term gives the middle of the turning heights; the others are products, and
-// say by how much the axis stays longer at its upper turning point than at its lower one.
+// With u = u1 + (u2 - u1) sn^2 the mean is u3 - (u3 - u1) E/K, which cancels: u3 is huge for a fast
+// top. By Gauss's means, E/K = 1 - (c0^2/2 + c1^2 + 2 c2^2 + 4 c3^2 ...) with c0^2 = m = (u2 -
+// u1)/(u3 - u1) (DLMF 19.8.6). The first term gives the middle of the turning heights; the others
+// are products, and say by how much the axis stays longer at its upper turning point than at its
+// lower one.
 #pragma once
 
 #include "closed_form.hpp"
@@ -26,7 +27,8 @@ inline double find_mean_cosine(const ClosedForm& motion) {
     sum += weight * (whole * c) * c;
     is_done = c <= DONE * a;
     const double mean = (a + b) / 2;
-    b = std::sqrt(a * b), a = mean;
+    b = std::sqrt(a * b);
+    a = mean;
     c = c * c / (2 * (a + b));
   }
   const Precise middle = motion.nutation.u() + (roots.s1 + roots.s2).scale(-1);

@@ -3,8 +3,8 @@
 //
 // They are sum and difference of the mean rates of arg A and arg B. Under weak gravity these may
 // cancel: a sphere that hardly feels its weight turns about L, and the mean psi' is as small as the
-// weight. Then the constants of the motion are computed again, with 700 digits. No double is so small
-// that more could be lost: what is left is zero.
+// weight. Then the constants of the motion are computed again, with 700 digits. No double is so
+// small that more could be lost: what is left is zero.
 #pragma once
 
 #include "closed_form.hpp"

@@ -5,9 +5,10 @@
 //
 //   (du/dt)^2 = (1 - u^2)(alpha - beta u) - (b - a u)^2.
 //
-// Expanded in powers of u, as there, the coefficients cancel: for a small tilt the roots are near 1,
-// and their distances from 1, on which everything depends, keep no digit. So the height is measured
-// from the start, s = u - u0. Each coefficient is then a sum of products of the given numbers:
+// Expanded in powers of u, as there, the coefficients cancel: for a small tilt the roots are near
+// 1, and their distances from 1, on which everything depends, keep no digit. So the height is
+// measured from the start, s = u - u0. Each coefficient is then a sum of products of the given
+// numbers:
 //
 //   name                 textbook            in terms of the start
 //   a                    a = p_psi/Ix        (Iz/Ix) omega_z, in rad/s
@@ -20,7 +21,7 @@
 //   u_dot_dot            d2u/dt2             half of f'(u) at u0, in rad/s^2
 //   b_minus_a            b - a               (p_phi - p_psi)/Ix, in rad/s
 //   b_plus_a             b + a               (p_phi + p_psi)/Ix, in rad/s
-//   b_minus_au_highest   b - a alpha/beta    b - a u where all energy would be potential; 0 without weight
+//   b_minus_au_highest   b - a alpha/beta    b - a u with all energy potential; 0 without weight
 //   alpha_minus_beta     alpha - beta        kinetic energy left upright, in rad^2/s^2
 //
 // On the separatrix b = a and alpha = beta: the axis has just the energy to come to rest upright.
@@ -39,8 +40,11 @@ struct Start {  // what a motion starts from; Mgl > 0 and the orientation as it 
   double w, x, y, z;
   double wx, wy, wz;
   bool is_clamped = false;  // phi' is held at 0: see `clamp`
-  // What the doubles of a state that is carried on leave over; a push across the axle leaves wz as it is.
-  struct { double w, x, y, z, wx, wy; } rest = {};
+  // What the doubles of a state that is carried on leave over; a push across the axle leaves wz as
+  // it is.
+  struct {
+    double w, x, y, z, wx, wy;
+  } rest = {};
 };
 
 // The numbers of a start with what their doubles leave over.
@@ -49,33 +53,43 @@ struct WholeStart {
   T w, x, y, z, wx, wy;
 
   explicit WholeStart(const Start& s)
-      : w(sum(s.w, s.rest.w)), x(sum(s.x, s.rest.x)), y(sum(s.y, s.rest.y)), z(sum(s.z, s.rest.z)),
-        wx(sum(s.wx, s.rest.wx)), wy(sum(s.wy, s.rest.wy)) {}
+      : w(sum(s.w, s.rest.w)),
+        x(sum(s.x, s.rest.x)),
+        y(sum(s.y, s.rest.y)),
+        z(sum(s.z, s.rest.z)),
+        wx(sum(s.wx, s.rest.wx)),
+        wy(sum(s.wy, s.rest.wy)) {}
 
  private:
   static T sum(double high, double low) { return low == 0 ? T(high) : T(high) + T(low); }
 };
 
-// The start of a motion whose precession is held (derivation.md, section 11). The hand takes up what
-// p_psi asks for, so that the axis moves as that of a body without axial momentum, Iz = 0, and the body
-// turns about it by omega_z: the turning rate c of Iz = 0.
+// The start of a motion whose precession is held (derivation.md, section 11). The hand takes up
+// what p_psi asks for, so that the axis moves as that of a body without axial momentum, Iz = 0, and
+// the body turns about it by omega_z: the turning rate c of Iz = 0.
 inline Start clamp(Start s) {
-  s.Iz = 0.0, s.is_clamped = true;
+  s.Iz = 0.0;
+  s.is_clamped = true;
   return s;
 }
 
 constexpr double EPS = 0x1p-52;
-constexpr double NORM_ROUNDING = 4 * EPS;  // normalising a norm this close to 1 would only add rounding
-// A sum of products of a start's doubles can be wrong by some tens of EPS of its largest term. A sum
-// below this share of its terms is treated as zero.
+// Normalising a norm this close to 1 would only add rounding
+constexpr double NORM_ROUNDING = 4 * EPS;
+// A sum of products of a start's doubles can be wrong by some tens of EPS of its largest term. A
+// sum below this share of its terms is treated as zero.
 constexpr double START_ROUNDING = 64 * EPS;
 
 inline void turn_over(double& w, double& x, double& y, double& z) {
   const double w_before = w, y_before = y;
-  w = -x, x = w_before, y = -z, z = y_before;
+  w = -x;
+  x = w_before;
+  y = -z;
+  z = y_before;
 }
 
-// The closed form wants Mgl > 0: a world turned by pi about x' has it. Returns true if it was turned.
+// The closed form wants Mgl > 0: a world turned by pi about x' has it. Returns true if it was
+// turned.
 inline bool turn_over(Start& s) {
   if (!(s.Mgl < 0)) return false;
   turn_over(s.w, s.x, s.y, s.z);
@@ -88,13 +102,16 @@ inline bool turn_over(Start& s) {
 inline Start normalize(Start s) {
   const double norm = std::sqrt((s.w * s.w + s.z * s.z) + (s.x * s.x + s.y * s.y));
   if (std::fabs(norm - 1.0) <= NORM_ROUNDING) return s;
-  s.w = s.w / norm, s.x = s.x / norm, s.y = s.y / norm, s.z = s.z / norm;
+  s.w = s.w / norm;
+  s.x = s.x / norm;
+  s.y = s.y / norm;
+  s.z = s.z / norm;
   return s;
 }
 
-// c = wz (Ix - Iz)/Ix, by which the body turns about its axis in addition to the means of a nutation
-// (section 1). As p_psi (1/Iz - 1/Ix) it would cancel for a body that is nearly a sphere. It may
-// exceed the means by all their digits, so it is kept apart.
+// c = wz (Ix - Iz)/Ix, by which the body turns about its axis in addition to the means of a
+// nutation (section 1). As p_psi (1/Iz - 1/Ix) it would cancel for a body that is nearly a sphere.
+// It may exceed the means by all their digits, so it is kept apart.
 template <int N>
 inline Float<N> find_turning_rate(const Start& s) {
   const Float<N> Ix(s.Ix);
@@ -122,7 +139,8 @@ SYMTOP_SET_UP inline void sum_exactly(const Start& start, NutationOf<N>& nutatio
   const Exact upper = w * w + z * z, lower = x * x + y * y, norm = upper + lower;
   const Exact gx = x * z - w * y, gy = y * z + w * x;
   const Exact along = wx * gx + wy * gy, spin = Iz * wz, squared = wx * wx + wy * wy;
-  const Exact rise = Ix * ((upper - lower) * norm) * squared, weight = (Mgl * upper * lower).scale(2);
+  const Exact rise = Ix * ((upper - lower) * norm) * squared,
+              weight = (Mgl * upper * lower).scale(2);
   const Exact highest = (Mgl * along).scale(2) - spin * squared * norm;
   const Rounded length(norm), product = Rounded(Ix) * length;
   nutation.b_minus_au = Rounded(along).scale(1) / length;
@@ -145,15 +163,15 @@ inline bool is_cancelled(const Float<N>& sum, const Float<N>& terms) {
 // Bits, 40 decimal digits, after which a sum has none of its terms' digits, and may be zero.
 const int LOST_BITS = 133;
 
-// True if a sum is so small, compared with one of its terms, that it may be zero. `power` is that of
-// the sum in `value`: its digits are lost as often.
+// True if a sum is so small, compared with one of its terms, that it may be zero. `power` is that
+// of the sum in `value`: its digits are lost as often.
 template <int N>
 inline bool is_lost(const Float<N>& value, const Float<N>& term, int power = 1) {
   return value.sign && term.sign && value.exponent < term.exponent - power * LOST_BITS;
 }
 
-// The same of a motion in a vertical plane, p_phi = p_psi = 0: of the angular velocity across the axis
-// the part along the line of nodes counts alone, theta' = turn/(|A| |B|), with the norm of the
+// The same of a motion in a vertical plane, p_phi = p_psi = 0: of the angular velocity across the
+// axis the part along the line of nodes counts alone, theta' = turn/(|A| |B|), with the norm of the
 // quaternion taken out. All sums are formed without any rounding, then each is divided once.
 template <int N>
 SYMTOP_SET_UP inline NutationOf<N> find_plane_nutation(const Start& start) {
@@ -171,13 +189,14 @@ SYMTOP_SET_UP inline NutationOf<N> find_plane_nutation(const Start& start) {
   n.one_plus_u = Rounded(upper).scale(1) * per_norm;
   n.u_dot = Rounded(turn).scale(1) * per_norm;
   n.omega_xy_squared = Rounded(squared) * per_both;
-  n.u_dot_dot = -Rounded((upper - lower) * norm * Ix * squared + weight * both) * per_all * per_norm;
+  n.u_dot_dot =
+      -Rounded((upper - lower) * norm * Ix * squared + weight * both) * per_all * per_norm;
   n.alpha_minus_beta = Rounded(squared * Ix * norm - weight * lower) * per_all;
   return n;
 }
 
-// The angular velocity across the axis without the part that a clamp takes: theta' along the line of
-// nodes. From the products of the plane, -u'/(1 - u^2) (gy, -gx), as sin(theta) is not 0.
+// The angular velocity across the axis without the part that a clamp takes: theta' along the line
+// of nodes. From the products of the plane, -u'/(1 - u^2) (gy, -gx), as sin(theta) is not 0.
 // Returns |theta'|.
 SYMTOP_SET_UP inline Float<3> drop_precession(const Nutation& n, Start& start) {
   typedef Float<3> P;
@@ -228,9 +247,9 @@ inline NutationOf<N> find_nutation(const Start& start) {
   return n;
 }
 
-// Roots s1 <= 0 <= s2 <= s3 of f, measured from the start. s21 and s32 are their differences s2 - s1
-// and s3 - s2; below_pole and above_pole are the distances 1 - u2 and u3 - 1 from the upper pole.
-// They are stored because subtraction would lose their digits where roots nearly meet.
+// Roots s1 <= 0 <= s2 <= s3 of f, measured from the start. s21 and s32 are their differences s2 -
+// s1 and s3 - s2; below_pole and above_pole are the distances 1 - u2 and u3 - 1 from the upper
+// pole. They are stored because subtraction would lose their digits where roots nearly meet.
 template <int N>
 struct RootsOf {
   Float<N> s1, s2, s3, s21, s32, below_pole, above_pole;
@@ -246,8 +265,8 @@ struct Cubic {
 
 const int MOST_STEPS = 60;  // of Newton's method in doubles; from the bound some 5 are usual
 
-// A number just above the largest root, found in doubles from an upper bound. In doubles that are too
-// coarse or too small the number is wrong; the caller tests it.
+// A number just above the largest root, found in doubles from an upper bound. In doubles that are
+// too coarse or too small the number is wrong; the caller tests it.
 template <int N>
 inline Float<N> estimate_largest_root(const Cubic<N>& cubic, double s) {
   const double a2 = cubic.a2.to_double(), a1 = cubic.a1.to_double(), a0 = cubic.a0.to_double();
@@ -260,9 +279,9 @@ inline Float<N> estimate_largest_root(const Cubic<N>& cubic, double s) {
 }
 
 // The largest root, by Newton's method from an upper bound. The iterates decrease until rounding
-// stops them, or until the next step would be lost in it: the root is apart from the others, so that
-// each step is about the square of the one before. A start at the turning point is the root 0, which
-// relative steps would approach for ever.
+// stops them, or until the next step would be lost in it: the root is apart from the others, so
+// that each step is about the square of the one before. A start at the turning point is the root 0,
+// which relative steps would approach for ever.
 template <int N>
 inline Float<N> find_largest_root(const Cubic<N>& cubic, Float<N> s) {
   const Float<N> converged = half_of_digits<N>(9);
@@ -287,7 +306,8 @@ inline Float<N> find_largest_root(const Cubic<N>& cubic, Float<N> s) {
 // v1 = 1 - u1 that is apart. v2 >= 0 >= v3 makes their difference free of cancellation. From the
 // coefficients of powers of s, gaps below 1e-19 would have no digit left.
 template <int N>
-inline void find_distances_from_pole(const NutationOf<N>& n, const Float<N>& v1, RootsOf<N>& roots) {
+inline void find_distances_from_pole(const NutationOf<N>& n, const Float<N>& v1,
+                                     RootsOf<N>& roots) {
   const Float<N> scale = n.beta * v1, per_scale = invert(scale);
   const Float<N> product = n.b_minus_a * n.b_minus_a * per_scale;
   const Float<N> excess = n.alpha_minus_beta - n.a * n.b_minus_a;
@@ -322,13 +342,14 @@ inline RootsOf<N> find_roots_from_lowest(const NutationOf<N>& n, const Cubic<N>&
   return roots;
 }
 
-// s3 is apart. Lagrange's bound on the largest root (a0 >= 0 adds nothing to it); u3 >= 1 is another.
+// s3 is apart. Lagrange's bound on the largest root (a0 >= 0 adds nothing to it); u3 >= 1 is
+// another.
 template <int N>
 inline RootsOf<N> find_roots_from_highest(const NutationOf<N>& n, const Cubic<N>& cubic) {
   RootsOf<N> roots;
   const Float<N> zero;
-  Float<N> bound = (cubic.a2.sign < 0 ? -cubic.a2 : zero) +
-                  root(cubic.a1.sign < 0 ? -cubic.a1 : zero);
+  Float<N> bound =
+      (cubic.a2.sign < 0 ? -cubic.a2 : zero) + root(cubic.a1.sign < 0 ? -cubic.a1 : zero);
   if (bound < n.one_minus_u) bound = n.one_minus_u;
   roots.s3 = find_largest_root(cubic, bound);
   const Float<N> per_s3 = invert(roots.s3), product = cubic.a0 * per_s3;
@@ -348,17 +369,17 @@ inline RootsOf<N> find_roots_from_highest(const NutationOf<N>& n, const Cubic<N>
   return roots;
 }
 
-// The roots of f(s)/beta = s^3 + a2 s^2 + a1 s + a0, with a0 = (du/dt)^2/beta and
-// a1 = 2 (d2u/dt2)/beta at the start. One root is well apart from the other two, on one side of their
-// mean -a2/3. Newton's method finds it from outside, where the cubic is convex and the iteration
+// The roots of f(s)/beta = s^3 + a2 s^2 + a1 s + a0, with a0 = (du/dt)^2/beta and a1 = 2
+// (d2u/dt2)/beta at the start. One root is well apart from the other two, on one side of their mean
+// -a2/3. Newton's method finds it from outside, where the cubic is convex and the iteration
 // monotone: it cannot jump to another root. The other two follow from their sum and their product
-// (Vieta). Viete's trigonometric solution would give all three to the absolute error of the largest,
-// which leaves no digit of a small s2.
+// (Vieta). Viete's trigonometric solution would give all three to the absolute error of the
+// largest, which leaves no digit of a small s2.
 template <int N>
 inline RootsOf<N> find_roots(const NutationOf<N>& n) {
   const Float<N> per_beta = invert(n.beta);
   const Cubic<N> cubic = {n.u().scale(1) - (n.omega_xy_squared + n.a * n.a) * per_beta,
-                       n.u_dot_dot.scale(1) * per_beta, n.u_dot * n.u_dot * per_beta};
+                          n.u_dot_dot.scale(1) * per_beta, n.u_dot * n.u_dot * per_beta};
   if (!cubic.a1.sign && !cubic.a0.sign) {
     // Regular precession: the start is a double root, and f(1) = -(b - a)^2 is the product of the
     // distances from the pole.

@@ -8,8 +8,8 @@ namespace symtop {
 
 // From this ratio K/K' on phases are computed with all digits: they are then stretched.
 const double STRETCHED = 1.5;
-// From this share of |A|^2 or |B|^2 at the far turning point left at the near one, the rounding of a
-// phase counts: theta changes fast compared with itself. It is 1/100.
+// From this share of |A|^2 or |B|^2 at the far turning point left at the near one, the rounding of
+// a phase counts: theta changes fast compared with itself. It is 1/100.
 const double PER_NEAR_POLE = 100;
 // On the separatrix y grows for ever. Here exp(-y/2) is zero, and the axis is upright to any digit.
 const double FARTHEST = 1e6;
@@ -18,9 +18,9 @@ const double FARTHEST = 1e6;
 // complementary series. Each is right to rounding of itself, which x alone cannot give.
 template <class R>
 struct LocationOf {
-  R x;           // in [-pi, pi]; 0 is the lower turning point
+  R x;             // in [-pi, pi]; 0 is the lower turning point
   R below, above;  // the distance from the lower one, with the sign of x, and from the upper one
-  R low;         // what is missing in the distance from the nearer one
+  R low;           // what is missing in the distance from the nearer one
 };
 typedef LocationOf<double> Location;
 
@@ -73,9 +73,10 @@ struct NutationPhase {
     return stretch(x, below, above);
   }
 
-  // The location for the complementary series, from |x| and pi - |x| as two doubles. A quotient is as
-  // small as exp(-y/2) of itself elsewhere, y being the smaller one of the two distances times K/K'.
-  // The rounding of y, half an ulp of up to pi/2 K/K', would be the largest error of a small tilt.
+  // The location for the complementary series, from |x| and pi - |x| as two doubles. A quotient is
+  // as small as exp(-y/2) of itself elsewhere, y being the smaller one of the two distances times
+  // K/K'. The rounding of y, half an ulp of up to pi/2 K/K', would be the largest error of a small
+  // tilt.
   template <class R>
   SYMTOP_INLINE LocationOf<R> stretch(R x, PairOf<R> below, PairOf<R> above) const {
     const R y = x * ratio, rise = (above.x + above.y) * ratio;
@@ -83,8 +84,9 @@ struct NutationPhase {
     // Only the nearer turning point needs the rest of its product: the other's terms are small.
     const auto is_upper = rise < find_size(y);
     const R high = choose(is_upper, above.x, -below.x), low = choose(is_upper, above.y, -below.y);
-    // The rounding of the product, by Dekker's halves of 26 bits (T. J. Dekker, Numer. Math. 18 (1971)
-    // 224): the first part of the ratio has as many, so that products with the halves are exact.
+    // The rounding of the product, by Dekker's halves of 26 bits (T. J. Dekker, Numer. Math. 18
+    // (1971) 224): the first part of the ratio has as many, so that products with the halves are
+    // exact.
     const R product = (high + low) * ratio, shifted = 134217729.0 * high;
     const R upper = shifted - (shifted - high), lower = high - upper;
     const R rest = ((upper * ratio_high - product) + lower * ratio_high) +
@@ -94,8 +96,9 @@ struct NutationPhase {
 };
 
 // v at t = 0 from the nearer turning point, and which one that is. It is an incomplete elliptic
-// integral (DLMF 19.25.5). From the farther turning point it would be nearly complete, and the small
-// distance from the nearer one would be lost in it. Halfway, at v = K/2, s2/s1 is sqrt(1 - m).
+// integral (DLMF 19.25.5). From the farther turning point it would be nearly complete, and the
+// small distance from the nearer one would be lost in it. Halfway, at v = K/2, s2/s1 is sqrt(1 -
+// m).
 inline Precise find_starting_phase(const Nutation& n, const Roots& roots, bool is_precise,
                                    bool& from_top) {
   const Precise s1 = -roots.s1, &s2 = roots.s2, &s3 = roots.s3;
@@ -113,8 +116,7 @@ inline Precise find_starting_phase(const Nutation& n, const Roots& roots, bool i
   }
   from_top = true;
   const Precise per_product = invert(s21 * s3);
-  const Precise v =
-      root(s2 * s31 * per_product) * integrate(s32 * s1 * per_product, s32 / s3);
+  const Precise v = root(s2 * s31 * per_product) * integrate(s32 * s1 * per_product, s32 / s3);
   return n.u_dot.sign < 0 ? v : -v;
 }
 
@@ -137,8 +139,8 @@ inline NutationPhase find_nutation_phase(const Nutation& n, const Roots& roots, 
   phase.Kc = quarter_period(modulus.to_double());
   phase.is_stretched = STRETCHED * phase.Kc < phase.K;
   // All digits where the phase is stretched, or where a pole magnifies its error.
-  const Precise v = find_starting_phase(n, roots, phase.is_stretched || comes_near_a_pole(zeros),
-                                        phase.from_top);
+  const Precise v =
+      find_starting_phase(n, roots, phase.is_stretched || comes_near_a_pole(zeros), phase.from_top);
   const Precise origin = ((mean.sign ? mean : Precise(1.0)) * v).scale(1);
   phase.origin.x = origin.to_double();
   phase.origin.y = rest_of(origin, phase.origin.x);

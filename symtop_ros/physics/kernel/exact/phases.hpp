@@ -1,8 +1,8 @@
 // Phases that grow at constant rates, reduced to one turn without error (derivation.md, section 9).
 //
-// They are integers of 64 bits, a turn being 2^64. Their products wrap round after whole turns, which
-// is the reduction itself: it is exact however many turns there are, while the product rate * t in
-// doubles would have an error of EPS times the whole phase (design/phases.py).
+// They are integers of 64 bits, a turn being 2^64. Their products wrap round after whole turns,
+// which is the reduction itself: it is exact however many turns there are, while the product rate *
+// t in doubles would have an error of EPS times the whole phase (design/phases.py).
 #pragma once
 
 #include "quotients.hpp"
@@ -17,7 +17,7 @@ const int STEP_LIMBS = 4;  // 256 bits
 // doubles.
 struct Steps {
   int exponent = 0;
-  double ticks = 1.0, farthest = 0.0;  // per s; s
+  double ticks = 1.0, farthest = 0.0;          // per s; s
   uint64_t limbs[FUNCTIONS][STEP_LIMBS] = {};  // of 2^-256 turns in a tick, the lowest first
   double rest_rates[FUNCTIONS] = {};
 };
@@ -57,16 +57,19 @@ inline Steps find_steps(const Precise* rates, int count) {
     fastest = std::fmax(fastest, std::fabs(turns[i].to_double()));
   }
   Steps steps;
-  if (!fastest) steps.exponent = -1000;  // of any unit of time
-  else std::frexp(fastest, &steps.exponent), steps.exponent += 10;
+  if (!fastest)
+    steps.exponent = -1000;  // of any unit of time
+  else {
+    std::frexp(fastest, &steps.exponent);
+    steps.exponent += 10;
+  }
   if (steps.exponent > 1000) steps.exponent = 1000;
   if (steps.exponent < -1000) steps.exponent = -1000;
   steps.ticks = std::ldexp(1.0, steps.exponent);
   steps.farthest = std::ldexp(1.0, 62 - steps.exponent > 1023 ? 1023 : 62 - steps.exponent);
   if (!fastest) steps.farthest = INFINITY;  // phases that stand still are known at any time
   for (int i = 0; i < count; i++)
-    steps.rest_rates[i] =
-        2 * PI * truncate_step(turns[i].scale(-steps.exponent), steps.limbs[i]);
+    steps.rest_rates[i] = 2 * PI * truncate_step(turns[i].scale(-steps.exponent), steps.limbs[i]);
   return steps;
 }
 
@@ -77,8 +80,8 @@ struct PhaseOf {
 };
 typedef PhaseOf<double> Phase;
 
-// A count of ticks times a step, in units of 2^-64 turns. Of the products of 32 bits only what reaches
-// the first 64 bits is added: the carries left out are at most 3 units, 2^-62 of a turn.
+// A count of ticks times a step, in units of 2^-64 turns. Of the products of 32 bits only what
+// reaches the first 64 bits is added: the carries left out are at most 3 units, 2^-62 of a turn.
 inline uint64_t multiply_step(const uint64_t limbs[STEP_LIMBS], int64_t count) {
   const uint64_t size = count < 0 ? -static_cast<uint64_t>(count) : count;
   const uint64_t whole = limbs[3], upper = limbs[2] >> 32, lower = limbs[2] & 0xffffffff;

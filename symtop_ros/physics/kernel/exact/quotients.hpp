@@ -6,12 +6,12 @@
 //
 //   C  th_k(v + i shift)/th4(v)  exp(i rate t),        v = v0 + Omega t
 //
-// (Klein & Sommerfeld, The Theory of the Top, chapter VI; Whittaker, Analytical Dynamics, chapter VI;
-// the argument holds for the third function as well). Each vanishes at one height u_P of the axis: A
-// at the lower pole u = -1, B at the upper pole u = 1, omega_xy at u = alpha/beta, where the whole
-// energy would be potential. There f(u_P) = -d^2 with d = b - a u_P (Goldstein's a and b, see
-// nutation.hpp). Shift and rate follow from d and from the distances of u_P to the three roots of f,
-// in the same way for all three.
+// (Klein & Sommerfeld, The Theory of the Top, chapter VI; Whittaker, Analytical Dynamics, chapter
+// VI; the argument holds for the third function as well). Each vanishes at one height u_P of the
+// axis: A at the lower pole u = -1, B at the upper pole u = 1, omega_xy at u = alpha/beta, where
+// the whole energy would be potential. There f(u_P) = -d^2 with d = b - a u_P (Goldstein's a and b,
+// see nutation.hpp). Shift and rate follow from d and from the distances of u_P to the three roots
+// of f, in the same way for all three.
 #pragma once
 
 #include "nutation.hpp"
@@ -23,15 +23,15 @@ enum { OF_A, OF_B, OF_OMEGA_XY, FUNCTIONS };
 // The height u_P at which one of the three functions vanishes.
 template <int N>
 struct ZeroOf {
-  bool is_below;                           // true for A, whose zero lies below the motion
+  bool is_below;                          // true for A, whose zero lies below the motion
   Float<N> d, from_u1, from_u2, from_u3;  // b - a u_P in rad/s; distances from the roots, all >= 0
   bool is_negative() const { return d.sign < 0; }
 };
 typedef ZeroOf<3> Zero;
 
-// The zero at u = -1. Near the pole u1 + 1 would be the difference of nearly equal numbers. It comes
-// from the product beta (u_P - u1)(u_P - u2)(u_P - u3) = f(u_P) = -d^2, whose other factors are not
-// small.
+// The zero at u = -1. Near the pole u1 + 1 would be the difference of nearly equal numbers. It
+// comes from the product beta (u_P - u1)(u_P - u2)(u_P - u3) = f(u_P) = -d^2, whose other factors
+// are not small.
 template <int N>
 inline ZeroOf<N> find_zero_below(const NutationOf<N>& n, const RootsOf<N>& roots) {
   const Float<N>& d = n.b_plus_a;
@@ -39,11 +39,11 @@ inline ZeroOf<N> find_zero_below(const NutationOf<N>& n, const RootsOf<N>& roots
   return {true, d, d * d / (n.beta * from_u2 * from_u3), from_u2, from_u3};
 }
 
-// A zero that lies between u2 and u3. The smaller of the distances from these comes from the product,
-// as above.
+// A zero that lies between u2 and u3. The smaller of the distances from these comes from the
+// product, as above.
 template <int N>
 inline ZeroOf<N> find_zero_above(const NutationOf<N>& n, const Float<N>& d, const Float<N>& from_u1,
-                          Float<N> from_u2, Float<N> from_u3) {
+                                 Float<N> from_u2, Float<N> from_u3) {
   const Float<N> product = d * d / (n.beta * from_u1);
   if (!(from_u2 + from_u3).sign)
     from_u2 = from_u3 = Float<N>();
@@ -55,19 +55,21 @@ inline ZeroOf<N> find_zero_above(const NutationOf<N>& n, const Float<N>& d, cons
 }
 
 template <int N>
-inline void find_zeros(const NutationOf<N>& n, const RootsOf<N>& roots, ZeroOf<N> zeros[FUNCTIONS]) {
+inline void find_zeros(const NutationOf<N>& n, const RootsOf<N>& roots,
+                       ZeroOf<N> zeros[FUNCTIONS]) {
   const Float<N> above = n.omega_xy_squared / n.beta;
   Float<N> d = n.b_minus_au_highest, from_u2 = above - roots.s2, from_u3 = roots.s3 - above;
   if (roots.s32 * Float<N>(PER_CANCELLED) < n.one_minus_u) {
-    // All three heights are so near the pole that from the start no digit would be left. The lift is
-    // alpha/beta - 1.
+    // All three heights are so near the pole that from the start no digit would be left. The lift
+    // is alpha/beta - 1.
     const Float<N> lift = n.alpha_minus_beta / n.beta;
     d = n.b_minus_a - n.a * lift;
-    from_u2 = roots.below_pole + lift, from_u3 = roots.above_pole - lift;
+    from_u2 = roots.below_pole + lift;
+    from_u3 = roots.above_pole - lift;
   }
   zeros[OF_A] = find_zero_below(n, roots);
-  zeros[OF_B] = find_zero_above(n, n.b_minus_a, n.one_minus_u - roots.s1, roots.below_pole,
-                                roots.above_pole);
+  zeros[OF_B] =
+      find_zero_above(n, n.b_minus_a, n.one_minus_u - roots.s1, roots.below_pole, roots.above_pole);
   zeros[OF_OMEGA_XY] = find_zero_above(n, d, above - roots.s1, from_u2, from_u3);
 }
 
@@ -88,19 +90,22 @@ inline Float<N> iterate_mean(const Float<N>& k, Float<N>* products, int& count) 
   return (a + b).scale(-1);
 }
 
-// The complete integral of the third kind, times 2/pi sqrt(from_u1 from_u2); root_near is the square
-// root of the distance of u_P from the near turning point divided by that from the far one. Computed
-// as in R. Bulirsch, Numer. Math. 13 (1969) 305, procedure cel. Its first step divides by that
-// nearness, which is zero for a pole that the axis passes; here this step is done by hand, and the
-// nearness cancels: these are Bulirsch's a, b/root and p root after it.
+// The complete integral of the third kind, times 2/pi sqrt(from_u1 from_u2); root_near is the
+// square root of the distance of u_P from the near turning point divided by that from the far one.
+// Computed as in R. Bulirsch, Numer. Math. 13 (1969) 305, procedure cel. Its first step divides by
+// that nearness, which is zero for a pole that the axis passes; here this step is done by hand, and
+// the nearness cancels: these are Bulirsch's a, b/root and p root after it.
 template <int N>
-inline Float<N> integrate_third_kind(const ZeroOf<N>& zero, const Float<N>& root_near, const Float<N>& k,
-                              const Float<N>& mean, const Float<N>* products, int count) {
+inline Float<N> integrate_third_kind(const ZeroOf<N>& zero, const Float<N>& root_near,
+                                     const Float<N>& k, const Float<N>& mean,
+                                     const Float<N>* products, int count) {
   const Float<N> near = root_near * root_near, one(1.0);
   Float<N> c = one + near, d = (one + k).scale(1), p = zero.is_below ? one + k * near : k + near;
   for (int n = 0; n < count; n++) {
     const Float<N> per_p = invert(p), e = products[n] * per_p, next = near * d * per_p + c;
-    d = (c * e + d).scale(1), c = next, p = near * e + p;
+    d = (c * e + d).scale(1);
+    c = next;
+    p = near * e + p;
   }
   const Float<N> m = mean.scale(count + 1);
   return (c * m + root_near * d) / (m * (root_near * m + p));
@@ -108,11 +113,11 @@ inline Float<N> integrate_third_kind(const ZeroOf<N>& zero, const Float<N>& root
 
 const int MOST_MEANS = 64;
 
-// The arithmetic-geometric mean of 1 and k = sqrt(1 - m), and the mean rates of the three functions:
-// the mean of d/(2 |u - u_P|) over a nutation (section 7).
+// The arithmetic-geometric mean of 1 and k = sqrt(1 - m), and the mean rates of the three
+// functions: the mean of d/(2 |u - u_P|) over a nutation (section 7).
 template <int N>
-inline Float<N> compute_mean_rates(const NutationOf<N>& n, const ZeroOf<N> zeros[], const Float<N>& k,
-                            Float<N> means[FUNCTIONS]) {
+inline Float<N> compute_mean_rates(const NutationOf<N>& n, const ZeroOf<N> zeros[],
+                                   const Float<N>& k, Float<N> means[FUNCTIONS]) {
   if (!k.sign) {  // the separatrix: the axis spends all its time at u2 = u3, but for an instant
     for (int i = 0; i < FUNCTIONS; i++)
       means[i] = zeros[i].is_below ? zeros[i].d / zeros[i].from_u2.scale(1) : Float<N>();
@@ -128,18 +133,18 @@ inline Float<N> compute_mean_rates(const NutationOf<N>& n, const ZeroOf<N> zeros
     const Float<N> nearness = zero.is_below ? zero.from_u1 / near : zero.from_u2 / near;
     // By the product of the three distances: a root of so many digits is slow.
     const Float<N> root_near = rate.sign ? size(zero.d) / (rate * near) : root(nearness);
-    means[i] = (mean * rate *
-                integrate_third_kind(zero, root_near, k, mean, products, count)).scale(-1);
+    means[i] =
+        (mean * rate * integrate_third_kind(zero, root_near, k, mean, products, count)).scale(-1);
     if (zero.is_negative()) means[i] = -means[i];
   }
   return mean;
 }
 
 // K' - |shift|, right to rounding however close to K' the shift is. The textbooks give the shift
-// itself as an incomplete elliptic integral of the first kind. When the axis passes near a pole it is
-// close to K', and all depends on the difference, which a subtraction would lose. The difference is
-// again such an integral, from the other limit: one Carlson R_F (DLMF 19.25.5). R_F is homogeneous,
-// so its arguments are scaled to be near 1.
+// itself as an incomplete elliptic integral of the first kind. When the axis passes near a pole it
+// is close to K', and all depends on the difference, which a subtraction would lose. The difference
+// is again such an integral, from the other limit: one Carlson R_F (DLMF 19.25.5). R_F is
+// homogeneous, so its arguments are scaled to be near 1.
 inline double compute_shift_complement(const Zero& zero, const Roots& roots) {
   const Precise &g1 = zero.from_u1, &g2 = zero.from_u2, &g3 = zero.from_u3, s31 = roots.s31();
   if (zero.is_below) {

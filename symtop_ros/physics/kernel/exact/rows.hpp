@@ -6,6 +6,7 @@ namespace symtop {
 const int ENTRIES = 512, QUARTER_OF_ENTRIES = ENTRIES / 4;
 
 // Cosines of whole 512ths of a turn from 0 to a quarter, and what their rounding left.
+// clang-format off: two entries a line
 constexpr double QUARTER_OF_COSINES[QUARTER_OF_ENTRIES + 1][2] = {
     {0x1.0000000000000p+0, 0.0}, {0x1.fff62169b92dbp-1, 0x1.5dda3c81fbd0dp-55},
     {0x1.ffd886084cd0dp-1, -0x1.1354d4556e4cbp-55}, {0x1.ffa72effef75dp-1, -0x1.8b4cdcdb25956p-55},
@@ -73,6 +74,8 @@ constexpr double QUARTER_OF_COSINES[QUARTER_OF_ENTRIES + 1][2] = {
     {0x1.92155f7a3667ep-6, -0x1.b1d63091a0130p-64}, {0x1.921d1fcdec784p-7, 0x1.9878ebe836d9dp-61},
     {0.0, 0.0},
 };
+
+// clang-format on
 
 struct Rows {
   double entries[ENTRIES][4];  // cosine, sine, and their rests

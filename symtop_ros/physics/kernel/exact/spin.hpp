@@ -5,9 +5,9 @@
 //   sin^2(theta) psi' = h(u) = omega_z (1 - u^2) - u (b - a u),        u = cos(theta),
 //
 // which is quadratic in u. Its largest and smallest values between the turning points lie at the
-// turning points, or at its vertex if that is between them. A psi' that differs from zero by rounding
-// of the start alone has no sign: a top that is started with psi' = 0 at a turning point does not
-// reverse there (derivation.md, section 14).
+// turning points, or at its vertex if that is between them. A psi' that differs from zero by
+// rounding of the start alone has no sign: a top that is started with psi' = 0 at a turning point
+// does not reverse there (derivation.md, section 14).
 #pragma once
 
 #include "kind.hpp"
@@ -29,8 +29,8 @@ struct Range {
   }
 };
 
-// The value of h at its vertex, if that lies between the turning points. Next to the vertical h is as
-// small as sin^2(theta), so the vertex is found by w = 1 - |u|, the height from the nearer pole:
+// The value of h at its vertex, if that lies between the turning points. Next to the vertical h is
+// as small as sin^2(theta), so the vertex is found by w = 1 - |u|, the height from the nearer pole:
 //
 //   h = -d + w (2 omega_z - a + d) - w^2 (omega_z - a),        d = b - a, or -(b + a) about u = -1.
 //

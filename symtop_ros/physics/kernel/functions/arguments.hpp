@@ -2,8 +2,8 @@
 //
 // A caller may pass anything: null pointers, NaN, enums that are none. Each function first asks
 // `admit` for what must hold before anything is read. Then it takes each argument by one of the
-// functions below, and computes from the copy that this makes. Nothing else of the kernel checks what
-// it is given.
+// functions below, and computes from the copy that this makes. Nothing else of the kernel checks
+// what it is given.
 #pragma once
 
 #include <initializer_list>
@@ -52,8 +52,8 @@ inline symtop_status admit_motion(Pointers pointers) {
   return rounds_to_nearest() ? SYMTOP_OK : SYMTOP_BAD_ARITHMETIC;
 }
 
-// Of arrays with `count` elements, the largest of so many bytes. No object is larger than PTRDIFF_MAX;
-// arrays without elements may be null.
+// Of arrays with `count` elements, the largest of so many bytes. No object is larger than
+// PTRDIFF_MAX; arrays without elements may be null.
 inline symtop_status admit_arrays(size_t count, size_t bytes, Pointers arrays) {
   if (count && have_null(arrays)) return SYMTOP_BAD_POINTER;
   return count <= static_cast<size_t>(PTRDIFF_MAX) / bytes ? SYMTOP_OK : SYMTOP_BAD_COUNT;
@@ -65,7 +65,7 @@ const size_t ORIENTATION_BYTES = 4 * sizeof(double);  // the largest element of 
 // many are computed. The place is kept apart: a buffer may overlap *done, although it must not.
 template <class Compute>
 symtop_status compute_each(size_t count, size_t bytes, Pointers arrays, size_t* done,
-                       const Compute& compute) {
+                           const Compute& compute) {
   if (!done) return SYMTOP_BAD_POINTER;
   *done = 0;
   symtop_status status = admit({});
@@ -110,8 +110,8 @@ inline bool is_impulse(symtop_kick_kind kind) {
 }
 
 inline bool is_top(double Ix, double Iz, double Mgl) {
-  return is_between(Ix, SMALLEST, LARGEST) && is_between(Iz, SMALLEST, LARGEST) &&
-         Iz <= 2 * Ix && std::fabs(Mgl) <= LARGEST;
+  return is_between(Ix, SMALLEST, LARGEST) && is_between(Iz, SMALLEST, LARGEST) && Iz <= 2 * Ix &&
+         std::fabs(Mgl) <= LARGEST;
 }
 
 inline symtop_status accept(const symtop_top& top) {
@@ -126,13 +126,15 @@ inline bool is_orientation(const double q[4]) {
   return std::fabs(std::sqrt(square_norm(q)) - 1) <= NORM_TOLERANCE;
 }
 
-// The squares whose roots are within NORM_ROUNDING, 4 EPS, of 1. Above 1 a root rounds to at most
-// 1 + 4 EPS if the square is at most 1 + 9 EPS, as its exact root, less than 1 + 4.5 EPS, is nearer to
-// that than to the next double. Below 1, where doubles are half as far apart, it is 1 - 8 EPS whose
-// root is less than 1 - 4 EPS by its last digits, and 1 - 8.5 EPS whose root rounds to another double.
+// The squares whose roots are within NORM_ROUNDING, 4 EPS, of 1. Above 1 a root rounds to at most 1
+// + 4 EPS if the square is at most 1 + 9 EPS, as its exact root, less than 1 + 4.5 EPS, is nearer
+// to that than to the next double. Below 1, where doubles are half as far apart, it is 1 - 8 EPS
+// whose root is less than 1 - 4 EPS by its last digits, and 1 - 8.5 EPS whose root rounds to
+// another double.
 inline bool is_unit(double square) { return 1 - 8 * EPS <= square && square <= 1 + 9 * EPS; }
 
-// A number that is too small to be squared is zero, of its sign: angles on the vertical depend on it.
+// A number that is too small to be squared is zero, of its sign: angles on the vertical depend on
+// it.
 inline double drop_tiny(double x) { return std::fabs(x) < SMALLEST ? std::copysign(0.0, x) : x; }
 
 // Drops what is tiny, and gives norm 1: the doubles of Python's State. Most orientations have it
@@ -142,7 +144,10 @@ inline symtop_status accept_orientation(const double given[4], double q[4]) {
   if (is_unit(square_norm(q))) return SYMTOP_OK;
   if (!is_orientation(q)) return SYMTOP_BAD_ORIENTATION;
   const Start unit = normalize(Start{1.0, 1.0, 0.0, q[0], q[1], q[2], q[3], 0.0, 0.0, 0.0});
-  q[0] = unit.w, q[1] = unit.x, q[2] = unit.y, q[3] = unit.z;
+  q[0] = unit.w;
+  q[1] = unit.x;
+  q[2] = unit.y;
+  q[3] = unit.z;
   return SYMTOP_OK;
 }
 
@@ -171,7 +176,8 @@ inline symtop_status accept(symtop_start& s) {
   for (double each : s.friction)
     if (!is_between(each, 0.0, LARGEST_DOUBLE)) return SYMTOP_BAD_FRICTION;
   if (!are_finite(s.torque, 3)) return SYMTOP_BAD_TORQUE;
-  flush_tiny(s.orientation, 4), flush_tiny(s.angular_velocity, 3);
+  flush_tiny(s.orientation, 4);
+  flush_tiny(s.angular_velocity, 3);
   return SYMTOP_OK;
 }
 

@@ -19,10 +19,9 @@ symtop_status symtop_find_body(const symtop_part_kind* kinds, const symtop_part_
                                size_t count, symtop_body* body, size_t* done) {
   using namespace symtop;
   if (!body) return SYMTOP_BAD_POINTER;
-  const symtop_status status =
-      compute_each(count, sizeof(symtop_part_of_body), {kinds, parts}, done, [&](size_t i) {
-        return is_part(kinds[i], parts[i]) ? SYMTOP_OK : SYMTOP_BAD_PART;
-      });
+  const symtop_status status = compute_each(
+      count, sizeof(symtop_part_of_body), {kinds, parts}, done,
+      [&](size_t i) { return is_part(kinds[i], parts[i]) ? SYMTOP_OK : SYMTOP_BAD_PART; });
   if (status != SYMTOP_OK) return status;
   if (!count) return SYMTOP_BAD_PART;
   *body = find_body(kinds, parts, count);

@@ -13,17 +13,15 @@ const char symtop_digest[] = "symtop " SYMTOP_DIGEST;
 
 // Sizes of the records in bytes, in the order in which symtop.h has them.
 SYMTOP_API extern const uint32_t symtop_sizes[];
-const uint32_t symtop_sizes[] = {sizeof(symtop_start),   sizeof(symtop_pushes),
-                                 sizeof(symtop_clock),   sizeof(symtop_piece),
-                                 sizeof(symtop_rates),   sizeof(symtop_constants),
-                                 sizeof(symtop_top),     sizeof(symtop_part_of_body),
-                                 sizeof(symtop_body),    sizeof(symtop_solution),
-                                 sizeof(symtop_solutions), sizeof(symtop_spreads), sizeof(symtop_place),
-                                 sizeof(symtop_reason),  sizeof(symtop_average),
-                                 sizeof(symtop_cause),   sizeof(symtop_lift),
-                                 sizeof(symtop_means),   sizeof(symtop_verdict), sizeof(symtop_held),
-                                 sizeof(symtop_present),
-                                 sizeof(symtop_energies), sizeof(symtop_exchange)};
+const uint32_t symtop_sizes[] = {
+    sizeof(symtop_start),    sizeof(symtop_pushes),       sizeof(symtop_clock),
+    sizeof(symtop_piece),    sizeof(symtop_rates),        sizeof(symtop_constants),
+    sizeof(symtop_top),      sizeof(symtop_part_of_body), sizeof(symtop_body),
+    sizeof(symtop_solution), sizeof(symtop_solutions),    sizeof(symtop_spreads),
+    sizeof(symtop_place),    sizeof(symtop_reason),       sizeof(symtop_average),
+    sizeof(symtop_cause),    sizeof(symtop_lift),         sizeof(symtop_means),
+    sizeof(symtop_verdict),  sizeof(symtop_held),         sizeof(symtop_present),
+    sizeof(symtop_energies), sizeof(symtop_exchange)};
 
 // symtop_new and symtop_state in the fewest arguments, each of which costs such a caller a quarter
 // of a microsecond. The motion, or null if it is refused; the state at the time state[0].

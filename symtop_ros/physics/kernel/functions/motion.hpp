@@ -85,7 +85,7 @@ symtop_status symtop_states(symtop_motion* motion, const double* times, size_t c
   status = find_refusal({accept_steps(most_steps), accept_times(times, count)});
   if (status != SYMTOP_OK) return status;
   return motion->stretches.fill(Seconds{times}, count, most_steps, {orientation, angular_velocity},
-                             written);
+                                written);
 }
 
 symtop_status symtop_states_of_clock(symtop_motion* motion, const symtop_clock* clock,
@@ -103,7 +103,7 @@ symtop_status symtop_states_of_clock(symtop_motion* motion, const symtop_clock* 
   for (size_t i = 0; i < count; i++)
     if (stamps[i] == INT64_MIN) return SYMTOP_BAD_TIME;
   return motion->stretches.fill(ClockTimes{exact, stamps}, count, most_steps,
-                             {orientation, angular_velocity}, written);
+                                {orientation, angular_velocity}, written);
 }
 
 symtop_status symtop_find_piece(symtop_motion* motion, const symtop_clock* clock, int64_t stamp,
@@ -120,8 +120,7 @@ symtop_status symtop_find_piece(symtop_motion* motion, const symtop_clock* clock
 symtop_status symtop_reach(symtop_motion* motion, double t, double most_steps, double* reached) {
   using namespace symtop;
   symtop_status status = admit_motion({motion, reached});
-  if (status == SYMTOP_OK)
-    status = find_refusal({accept_steps(most_steps), accept_times(&t, 1)});
+  if (status == SYMTOP_OK) status = find_refusal({accept_steps(most_steps), accept_times(&t, 1)});
   return status == SYMTOP_OK ? motion->stretches.reach(t, most_steps, reached) : status;
 }
 
@@ -149,8 +148,8 @@ symtop_status symtop_find_rates(symtop_motion* motion, symtop_rates* rates) {
   const symtop_status status = symtop::admit_motion({motion, rates});
   if (status != SYMTOP_OK) return status;
   const symtop::Rates found = motion->first.gravity.find_rates();
-  *rates = {found.nutation_period, found.mean_precession_rate, found.mean_spin_rate,
-            found.precession_per_nutation, found.mean_cosine, found.spin_reverses};
+  *rates = {found.nutation_period,         found.mean_precession_rate, found.mean_spin_rate,
+            found.precession_per_nutation, found.mean_cosine,          found.spin_reverses};
   return SYMTOP_OK;
 }
 

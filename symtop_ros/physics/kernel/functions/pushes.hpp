@@ -1,10 +1,10 @@
 // A series of equal pushes on the axle, and the exact motion between them.
 //
-// A push comes at a whole number of nanoseconds after the first one, at which the motion starts. Up to
-// the next one the motion is a stretch of its own, from the state that the push leaves. A stretch is
-// made when it is first asked for: those before it are made, too, and are kept. The state at its end is
-// carried on with 32 digits: else rounding would add up from push to push, and that of a rate grow with
-// time.
+// A push comes at a whole number of nanoseconds after the first one, at which the motion starts. Up
+// to the next one the motion is a stretch of its own, from the state that the push leaves. A
+// stretch is made when it is first asked for: those before it are made, too, and are kept. The
+// state at its end is carried on with 32 digits: else rounding would add up from push to push, and
+// that of a rate grow with time.
 #pragma once
 
 #include <atomic>
@@ -19,10 +19,9 @@ const double MOST_PUSHES = 1000, SLOWEST_PUSHES = 0.01, FASTEST_PUSHES = 1000;  
 const symtop_pushes NO_PUSHES = {0.0, 1.0, 1.0};  // after that with which a motion starts
 
 inline symtop_status accept(const symtop_pushes& pushes) {
-  const bool are = are_finite(&pushes.impulse, 1) &&
-                   is_between(pushes.rate, SLOWEST_PUSHES, FASTEST_PUSHES) &&
-                   is_between(pushes.number, 1, MOST_PUSHES) &&
-                   pushes.number == std::floor(pushes.number);
+  const bool are =
+      are_finite(&pushes.impulse, 1) && is_between(pushes.rate, SLOWEST_PUSHES, FASTEST_PUSHES) &&
+      is_between(pushes.number, 1, MOST_PUSHES) && pushes.number == std::floor(pushes.number);
   return are ? SYMTOP_OK : SYMTOP_BAD_PUSHES;
 }
 
@@ -49,7 +48,8 @@ struct Seconds {
 
   Exact find_exact(size_t i) const { return Exact(times[i]) * Exact(double(SECOND)); }
 
-  // After a push the time since then is kept exact as well: a difference of doubles would be rounded.
+  // After a push the time since then is kept exact as well: a difference of doubles would be
+  // rounded.
   symtop_status fill(Stretch& stretch, double begin, size_t first, size_t count, double* steps,
                      const Target& to, size_t* done) const {
     const double* own = times + first;
@@ -72,8 +72,7 @@ struct Seconds {
     const double high = time.to_double(), low = (time - Exact(high)).to_double();
     size_t done;
     // A time that is no double of ns is so late that the begin is none of its digits.
-    if (!std::isfinite(high))
-      return Seconds{&t}.fill(stretch, 0.0, 0, 1, steps, to, &done);
+    if (!std::isfinite(high)) return Seconds{&t}.fill(stretch, 0.0, 0, 1, steps, to, &done);
     return ClockTimes{{0.0, {high, low}}, &NONE}.fill(stretch, begin, 0, 1, steps, to, &done);
   }
 };
@@ -102,7 +101,8 @@ class Stretches {
       done = 0;
       symtop_status status = make(place, &most_steps);
       if (status == SYMTOP_OK)
-        status = times.fill(at(place), find_begin(place), i, end - i, &most_steps, to.from(i), &done);
+        status =
+            times.fill(at(place), find_begin(place), i, end - i, &most_steps, to.from(i), &done);
       *written = i + done;
       if (status != SYMTOP_OK) return status;
     }
@@ -148,7 +148,8 @@ class Stretches {
     for (int place = 0;; place++) {
       if (make(place, &none) != SYMTOP_OK) return find_begin(place) / SECOND;
       const double own = at(place).gravity.find_farthest_time();
-      if (place + 1 == number_ || own <= find_length(place)) return find_begin(place) / SECOND + own;
+      if (place + 1 == number_ || own <= find_length(place))
+        return find_begin(place) / SECOND + own;
     }
   }
 
@@ -211,11 +212,13 @@ class Stretches {
     if (status == SYMTOP_OK) status = made ? accept(made->start) : SYMTOP_NO_MEMORY;
     if (status != SYMTOP_OK) return status;
     later_[next - 1] = std::move(made);
-    carried_ = state, is_carried_ = is_carried;
+    carried_ = state;
+    is_carried_ = is_carried;
     return SYMTOP_OK;
   }
 
-  // Moves a state to the next push, and over it; makes nothing if it has to begin anew from doubles.
+  // Moves a state to the next push, and over it; makes nothing if it has to begin anew from
+  // doubles.
   symtop_status carry(Stretch& before, int64_t passed, double* steps, Variables& state,
                       std::unique_ptr<Stretch>& made) {
     symtop_start s = before.start;

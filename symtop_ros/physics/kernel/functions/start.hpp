@@ -84,14 +84,14 @@ symtop_status symtop_find_regular_rates(const symtop_top* tops, const double* th
 }
 
 symtop_status symtop_find_tilt_torques(const symtop_top* tops, const double* thetas,
-                                       const double* phi_dots, const double* psi_dots,
-                                       size_t count, double* torques) {
+                                       const double* phi_dots, const double* psi_dots, size_t count,
+                                       double* torques) {
   using namespace symtop;
   size_t done;
   const Pointers arrays = {tops, thetas, phi_dots, psi_dots, torques};
   return compute_each(count, ORIENTATION_BYTES, arrays, &done, [&](size_t i) {
-    const symtop_status status = find_refusal({accept(tops[i]), accept_angles(thetas + i, 1),
-                                               accept_rates({phi_dots[i], psi_dots[i]})});
+    const symtop_status status = find_refusal(
+        {accept(tops[i]), accept_angles(thetas + i, 1), accept_rates({phi_dots[i], psi_dots[i]})});
     if (status == SYMTOP_OK)
       find_tilt_torques(tops[i], thetas[i], phi_dots[i], psi_dots[i], torques + 4 * i);
     return status;

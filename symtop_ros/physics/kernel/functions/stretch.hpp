@@ -10,7 +10,8 @@
 namespace symtop {
 
 inline DrivenArguments to_driven(const symtop_start& s) {
-  DrivenArguments a = {s.Ix, s.Iz, s.Mgl, s.friction[SYMTOP_AXIAL], s.friction[SYMTOP_TRANSVERSE], {}, {}, {}};
+  DrivenArguments a = {s.Ix, s.Iz, s.Mgl, s.friction[SYMTOP_AXIAL], s.friction[SYMTOP_TRANSVERSE],
+                       {},   {},   {}};
   std::memcpy(a.torque, s.torque, sizeof a.torque);
   std::memcpy(a.orientation, s.orientation, sizeof a.orientation);
   std::memcpy(a.omega, s.angular_velocity, sizeof a.omega);
@@ -25,9 +26,8 @@ inline Start to_start(const symtop_start& s, const BodyState& body) {
 }
 
 inline symtop_status to_status(Progress progress) {
-  static const symtop_status STATUSES[] = {SYMTOP_OK, SYMTOP_TOO_FAST, SYMTOP_TOO_STIFF,
-                                           SYMTOP_TOO_LONG, SYMTOP_MORE_STEPS,
-                                           SYMTOP_NO_MEMORY};
+  static const symtop_status STATUSES[] = {SYMTOP_OK,       SYMTOP_TOO_FAST,   SYMTOP_TOO_STIFF,
+                                           SYMTOP_TOO_LONG, SYMTOP_MORE_STEPS, SYMTOP_NO_MEMORY};
   return STATUSES[progress];
 }
 
@@ -45,7 +45,10 @@ struct Stretch {
 
   // From a state that is carried on, of which `s` has the doubles.
   Stretch(const symtop_start& s, const BodyState& body, const Variables& carried)
-      : start(s), gravity(to_start(s, body)), driven(to_driven(s), &carried), is_driven(symtop::is_driven(s)) {}
+      : start(s),
+        gravity(to_start(s, body)),
+        driven(to_driven(s), &carried),
+        is_driven(symtop::is_driven(s)) {}
 
   // States at the times that `split` returns in two parts, or under gravity at `times`; *steps is
   // lowered by those taken.

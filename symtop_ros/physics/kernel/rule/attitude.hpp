@@ -24,7 +24,8 @@ inline Turns find_long_turn() {
       0x4fe1356d6d51c245, 0x302b0a6df25f1437, 0xef9519b3cd3a431b, 0x514a08798e3404dd,
       0x020bbea63b139b22, 0x29024e088a67cc74, 0xc4c6628b80dc1cd1, 0xc90fdaa22168c234};
   Turns turn;
-  turn.sign = 1, turn.exponent = 3;
+  turn.sign = 1;
+  turn.exponent = 3;
   std::memcpy(turn.limbs, LIMBS, sizeof LIMBS);
   return turn;
 }
@@ -53,9 +54,9 @@ inline Pair find_cosine_and_sine(double angle) {
   return cosine_and_sine(is_large ? take_turns_off(angle).to_double() : angle);
 }
 
-// Cosine and sine of (a + b)/2. The halves are added, which no angle makes overflow. Knuth's two-sum
-// finds what the sum has lost, up to half an EPS of it, and another rotation makes it good: below
-// LARGEST_ANGLE its cosine is 1 to rounding.
+// Cosine and sine of (a + b)/2. The halves are added, which no angle makes overflow. Knuth's
+// two-sum finds what the sum has lost, up to half an EPS of it, and another rotation makes it good:
+// below LARGEST_ANGLE its cosine is 1 to rounding.
 inline Pair turn_by_half_sum(double a, double b) {
   const double x = a / 2, y = b / 2, total = x + y, part = total - x;
   const double lost = (x - (total - part)) + (y - part);
@@ -87,13 +88,16 @@ inline void find_state(const double angles[3], const double rates[3], double q[4
   const double phi = angles[0], theta = angles[1], psi = angles[2];
   const Pair sum = turn_by_half_sum(phi, psi), difference = turn_by_half_sum(phi, -psi);
   const Pair half = find_tilt(theta, true);
-  q[0] = half.x * sum.x, q[1] = half.y * difference.x;
-  q[2] = half.y * difference.y, q[3] = half.x * sum.y;
+  q[0] = half.x * sum.x;
+  q[1] = half.y * difference.x;
+  q[2] = half.y * difference.y;
+  q[3] = half.x * sum.y;
   const Pair tilt = find_tilt(theta, false), spin = find_cosine_and_sine(psi);
   omega[0] = rates[0] * tilt.y * spin.y + rates[1] * spin.x;
   omega[1] = rates[0] * tilt.y * spin.x - rates[1] * spin.y;
   omega[2] = rates[0] * tilt.x + rates[2];
-  flush_tiny(q, 4), flush_tiny(omega, 3);
+  flush_tiny(q, 4);
+  flush_tiny(omega, 3);
 }
 
 inline double wrap_angle(double angle) {
@@ -105,11 +109,13 @@ inline void find_angles(const double q[4], double angles[3]) {
   const double w = q[0], x = q[1], y = q[2], z = q[3];
   // Of the two moduli, and not of cos(theta): an arc cosine loses half the digits of a small tilt.
   const double theta = 2 * arc_tangent(find_modulus({x, y}), find_modulus({w, z}));
-  const double upper = arc_tangent(z, w), lower = arc_tangent(y, x);  // (phi + psi)/2, (phi - psi)/2
+  // (phi + psi)/2, (phi - psi)/2
+  const double upper = arc_tangent(z, w), lower = arc_tangent(y, x);
   const bool is_upright = theta == 0, is_hanging = theta == PI;
   const double psi = is_upright ? 2 * upper : is_hanging ? -2 * lower : upper - lower;
   angles[0] = is_upright || is_hanging ? 0.0 : wrap_angle(upper + lower);
-  angles[1] = theta, angles[2] = wrap_angle(psi);
+  angles[1] = theta;
+  angles[2] = wrap_angle(psi);
 }
 
 // World z' in the body frame, of products of the quaternion: a small tilt keeps its digits.
@@ -117,14 +123,16 @@ struct Vertical {
   double x, y, z;
 
   explicit Vertical(const double q[4])
-      : x(2 * (q[1] * q[3] - q[0] * q[2])), y(2 * (q[2] * q[3] + q[0] * q[1])),
+      : x(2 * (q[1] * q[3] - q[0] * q[2])),
+        y(2 * (q[2] * q[3] + q[0] * q[1])),
         z((q[0] * q[0] + q[3] * q[3]) - (q[1] * q[1] + q[2] * q[2])) {}
 
   bool is_of_vertical_axis() const { return x == 0 && y == 0; }
   double find_sine() const { return find_modulus({x, y}); }
 };
 
-// phi' of an axis that is not vertical. Divided twice: the square of a sine below 1e-154 would underflow.
+// phi' of an axis that is not vertical. Divided twice: the square of a sine below 1e-154 would
+// underflow.
 inline double find_precession_rate(const Vertical& g, const double omega[3]) {
   const double sine = g.find_sine();
   return (omega[0] * g.x + omega[1] * g.y) / sine / sine;

@@ -22,8 +22,10 @@ inline Pair find_shares(symtop_part_kind kind) {
 inline symtop_body find_body(const symtop_part_kind* kinds, const symtop_part_of_body* parts,
                              size_t count) {
   double mass = 0.0, lever = 0.0;
-  for (size_t i = 0; i < count; i++)
-    mass += parts[i].mass, lever += parts[i].mass * parts[i].distance;
+  for (size_t i = 0; i < count; i++) {
+    mass += parts[i].mass;
+    lever += parts[i].mass * parts[i].distance;
+  }
   symtop_body body = {mass, lever / mass, 0.0, 0.0};
   for (size_t i = 0; i < count; i++) {
     const Pair shares = find_shares(kinds[i]);

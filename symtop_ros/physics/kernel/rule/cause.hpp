@@ -1,11 +1,12 @@
 // Why the axis moves as it does: angles between torque, L, omega and axle over a nutation, and what
 // they allow one to say (derivation.md, "What explains the motion").
 //
-// Gravity's torque is along the line of nodes, n. L has the components Ix theta' along n, p_psi along
-// the axis and p_phi along the vertical. With p_psi and p_phi constant, its length is a function of
-// the height alone, (|L|/Ix)^2 = a^2 + alpha - beta u in the names of exact/nutation.hpp; so are its
-// angles with the axis and with the vertical, and those of omega, and they are monotone in u. Their
-// extremes are those at the turning angles. Only the torque's angle with L has its own in between.
+// Gravity's torque is along the line of nodes, n. L has the components Ix theta' along n, p_psi
+// along the axis and p_phi along the vertical. With p_psi and p_phi constant, its length is a
+// function of the height alone, (|L|/Ix)^2 = a^2 + alpha - beta u in the names of
+// exact/nutation.hpp; so are its angles with the axis and with the vertical, and those of omega,
+// and they are monotone in u. Their extremes are those at the turning angles. Only the torque's
+// angle with L has its own in between.
 #pragma once
 
 #include "../gravity.hpp"
@@ -18,8 +19,8 @@ namespace symtop {
 const double NEAR_PERPENDICULAR = PI / 6, NEAR_THE_AXLE = PI / 6, NEAR_THE_VERTICAL = PI / 18;
 // The change of a rate, or of |L|, that one sees, as a share of the larger one.
 const double SEEN_CHANGE = 0.05;
-// By so much the axle turns about L faster than L is turned: L moves by less than a right angle while
-// the axle goes round once.
+// By so much the axle turns about L faster than L is turned: L moves by less than a right angle
+// while the axle goes round once.
 const double MUCH_FASTER = 4;
 // The share of its terms below which a sum in doubles has no sign. The turning angles are some EPS
 // of 1, or the square root of it where two roots nearly meet.
@@ -40,7 +41,8 @@ class Momentum {
     const double x = omega[0] / unit, y = omega[1] / unit;
     spin = omega[2] / unit;
     a = top.Iz / top.Ix * spin;
-    along_ = x * vertical_.x + y * vertical_.y, across_ = x * vertical_.y - y * vertical_.x;
+    along_ = x * vertical_.x + y * vertical_.y;
+    across_ = x * vertical_.y - y * vertical_.x;
     b = along_ + a * vertical_.z;
     beta = 2 * (top.Mgl / top.Ix / unit / unit);
     squared_ = x * x + y * y;
@@ -82,8 +84,9 @@ class Momentum {
     return find_modulus({find_modulus({y * g.z - a * g.y, a * g.x - x * g.z}), across_}) * unit;
   }
 
-  // The square of the tangent of the angle between the torque and the plane perpendicular to L, which
-  // has theta' along the torque, and a and sin(theta) phi' at right angles to it and to each other.
+  // The square of the tangent of the angle between the torque and the plane perpendicular to L,
+  // which has theta' along the torque, and a and sin(theta) phi' at right angles to it and to each
+  // other.
   template <class R>
   SYMTOP_INLINE R square_from_perpendicular(R theta) const {
     const R sine = cosine_and_sine<R>(theta).y, fall = fall_of(theta);
@@ -117,16 +120,20 @@ class Momentum {
            cosine_and_sine<R>((theta - theta_) * 0.5).y;
   }
   template <class R>
-  static SYMTOP_INLINE R leave_positive(R x) { return choose(x > 0.0, x, R{}); }
+  static SYMTOP_INLINE R leave_positive(R x) {
+    return choose(x > 0.0, x, R{});
+  }
 
   Vertical vertical_;
-  double along_, across_, squared_, theta_;  // sin^2(theta) phi', sin(theta) theta' but for the sign
+  // Sin^2(theta) phi', sin(theta) theta' but for the sign
+  double along_, across_, squared_, theta_;
 };
 
-// The largest angle over a nutation between the torque and the plane perpendicular to L: the best of
-// some tilts, and its neighbourhood in ever smaller parts, four tilts at a time. The angle is smooth in
-// theta: where phi' has a spike, it is small.
-SYMTOP_CLONES inline double find_most_from_perpendicular(const Momentum& L, const double angles[2]) {
+// The largest angle over a nutation between the torque and the plane perpendicular to L: the best
+// of some tilts, and its neighbourhood in ever smaller parts, four tilts at a time. The angle is
+// smooth in theta: where phi' has a spike, it is small.
+SYMTOP_CLONES inline double find_most_from_perpendicular(const Momentum& L,
+                                                         const double angles[2]) {
   const int PARTS = 64, ROUNDS = 12;  // 0.4^12 of two parts: less than 1e-6 of the way
   double width = (angles[1] - angles[0]) / PARTS, most = 0.0, place = angles[0];
   for (int k = 0; k < PARTS / LANES + 1 + ROUNDS; k++) {
@@ -144,7 +151,10 @@ SYMTOP_CLONES inline double find_most_from_perpendicular(const Momentum& L, cons
     const Lanes squares = L.square_from_perpendicular(theta);
 #endif
     for (int i = 0; i < LANES; i++)
-      if (squares[i] > most) most = squares[i], place = theta[i];
+      if (squares[i] > most) {
+        most = squares[i];
+        place = theta[i];
+      }
   }
   return arc_tangent(std::sqrt(most), 1.0);
 }
@@ -153,10 +163,11 @@ inline int find_sign(double sum, double terms) {
   return std::fabs(sum) <= SURE * terms ? 0 : sum > 0 ? 1 : -1;
 }
 
-// How |phi'| changes on the way to a turning angle, if it does so in one direction all the way, and so
-// much that it is seen. In (-1, 1) phi' has at most one zero, u = b/a, and one extreme: the product of
-// the roots of a u^2 - 2 b u + a is 1. So the signs at both ends say whether one of them lies between. An
-// extreme at an end itself, as that of a spherical pendulum at the horizontal, lies not between.
+// How |phi'| changes on the way to a turning angle, if it does so in one direction all the way, and
+// so much that it is seen. In (-1, 1) phi' has at most one zero, u = b/a, and one extreme: the
+// product of the roots of a u^2 - 2 b u + a is 1. So the signs at both ends say whether one of them
+// lies between. An extreme at an end itself, as that of a spherical pendulum at the horizontal,
+// lies not between.
 inline symtop_pace find_pace(const Momentum& L, double end) {
   const double begin = L.theta();
   const int turns[] = {find_sign(L.turning_at(begin), L.turning_terms(begin)),
@@ -174,11 +185,11 @@ inline symtop_pace find_pace(const Momentum& L, double end) {
   return turn * slope * height > 0 ? SYMTOP_PACE_SPEEDS : SYMTOP_PACE_SLOWS;
 }
 
-// phi' compared with the rate at which gravity's torque would turn L, where theta' = 0. To turn L with
-// the axis takes the torque phi' (p_psi - Ix phi' cos(theta)) sin(theta); a share of gravity's torque
-// is left, which is Ix theta''. More than all of it is needed for the weight to rise, for both signs
-// of Mgl. None is needed where L is vertical, as that of a sphere which turns about the vertical, or
-// where the axis hardly goes round.
+// phi' compared with the rate at which gravity's torque would turn L, where theta' = 0. To turn L
+// with the axis takes the torque phi' (p_psi - Ix phi' cos(theta)) sin(theta); a share of gravity's
+// torque is left, which is Ix theta''. More than all of it is needed for the weight to rise, for
+// both signs of Mgl. None is needed where L is vertical, as that of a sphere which turns about the
+// vertical, or where the axis hardly goes round.
 inline symtop_turn find_turn(double share, double phi_dot, double momentum_from_vertical) {
   if (phi_dot == 0) return SYMTOP_TURN_RESTS;
   if (share < -SURE) return SYMTOP_TURN_AGAINST;
@@ -211,7 +222,9 @@ class CauseFinder {
     cause.explanation = explain(cause);
     if (cause.explanation == SYMTOP_EXPLANATION_PLANE) lay_along_torque(cause);
     cause.constant = find_constant();
-    cause.turn = SYMTOP_TURN_UNSAID, cause.pace = SYMTOP_PACE_UNSAID, cause.torque_share = NAN;
+    cause.turn = SYMTOP_TURN_UNSAID;
+    cause.pace = SYMTOP_PACE_UNSAID;
+    cause.torque_share = NAN;
     if (departs()) compare_rates(cause);
     return cause;
   }
@@ -254,14 +267,15 @@ class CauseFinder {
   // L is along the torque, also where it vanishes and the angles above are those of rounding.
   void lay_along_torque(symtop_cause& cause) const {
     for (double& each : cause.torque_from_perpendicular) each = PI / 2;
-    for (double* each : {cause.momentum_from_axle, cause.omega_from_axle, cause.momentum_from_vertical})
+    for (double* each :
+         {cause.momentum_from_axle, cause.omega_from_axle, cause.momentum_from_vertical})
       for (int k = 0; k < 3; k++) each[k] = PI / 2;
   }
 
   symtop_explanation explain(const symtop_cause& cause) const {
     if (now_.top.Mgl == 0)
       return is_at_rest() || cause.momentum_from_axle[2] <= SURE ? SYMTOP_EXPLANATION_FIXED
-                                                          : SYMTOP_EXPLANATION_FREE;
+                                                                 : SYMTOP_EXPLANATION_FREE;
     if (verdict_.motion == SYMTOP_SLEEPING) return SYMTOP_EXPLANATION_UPRIGHT;
     if (verdict_.motion == SYMTOP_REGULAR) return SYMTOP_EXPLANATION_STEADY;
     if (is_zero(L_.a) && is_zero(L_.b)) return SYMTOP_EXPLANATION_PLANE;
@@ -287,10 +301,12 @@ class CauseFinder {
            have_one_sign(L_.turning_at(angles_[0]), L_.turning_at(angles_[1]));
   }
 
-  // The torque turns L about the vertical, at the rate Mgl (p_psi - p_phi u)/(L^2 - p_phi^2), always in
-  // the same direction. The axle is nearer to L than to the vertical: it goes round with L.
+  // The torque turns L about the vertical, at the rate Mgl (p_psi - p_phi u)/(L^2 - p_phi^2),
+  // always in the same direction. The axle is nearer to L than to the vertical: it goes round with
+  // L.
   bool goes_with_L(const symtop_cause& cause) const {
-    const double most = cause.momentum_from_axle[2], margin = std::fmin(angles_[0], PI - angles_[1]);
+    const double most = cause.momentum_from_axle[2],
+                 margin = std::fmin(angles_[0], PI - angles_[1]);
     const double first = L_.a - L_.b * cosine_and_sine(angles_[0]).x;
     const double last = L_.a - L_.b * cosine_and_sine(angles_[1]).x;
     return most <= NEAR_THE_AXLE && most < margin &&
@@ -309,9 +325,9 @@ class CauseFinder {
   // |L| over Ix at a turning point, in rad/s: omega without its part along the axle, and p_psi/Ix.
   double size_at(int end) const { return find_modulus({across_[end], L_.a * L_.unit}); }
 
-  // The axle turns about L at |L|/Ix, as it would without a torque; the torque turns L at no more than
-  // |Mgl| sin(theta)/|L|. So the axle goes round on a circle that moves along (Butikov, section 4). |L|
-  // is monotone in the height.
+  // The axle turns about L at |L|/Ix, as it would without a torque; the torque turns L at no more
+  // than |Mgl| sin(theta)/|L|. So the axle goes round on a circle that moves along (Butikov,
+  // section 4). |L| is monotone in the height.
   bool circles_about_L() const {
     const bool reaches_horizontal = angles_[0] < PI / 2 && angles_[1] > PI / 2;
     const double most = reaches_horizontal ? 1.0
@@ -368,11 +384,13 @@ inline symtop_cause find_cause(const Instant& now, const symtop_verdict& verdict
 // Under friction or a torque of other origin nothing of this holds for long.
 inline symtop_cause leave_cause() {
   symtop_cause cause = {};
-  cause.explanation = SYMTOP_EXPLANATION_UNSAID, cause.turn = SYMTOP_TURN_UNSAID;
+  cause.explanation = SYMTOP_EXPLANATION_UNSAID;
+  cause.turn = SYMTOP_TURN_UNSAID;
   cause.pace = SYMTOP_PACE_UNSAID;
   cause.torque_share = cause.rate_about_momentum = NAN;
   for (double& each : cause.torque_from_perpendicular) each = NAN;
-  for (double* each : {cause.momentum_from_axle, cause.omega_from_axle, cause.momentum_from_vertical})
+  for (double* each :
+       {cause.momentum_from_axle, cause.omega_from_axle, cause.momentum_from_vertical})
     for (int k = 0; k < 3; k++) each[k] = NAN;
   return cause;
 }

@@ -7,7 +7,8 @@
 
 namespace symtop {
 
-const double NEVER_LOWEST = 60;  // times sqrt(Ix/|Mgl|): who then has not passed comes to rest upright
+// Times sqrt(Ix/|Mgl|): who then has not passed comes to rest upright
+const double NEVER_LOWEST = 60;
 
 // The moving axis of a clamped motion without its spin, which counts in nothing that is asked here:
 // A and B then keep their directions, and only their sizes change.
@@ -20,10 +21,11 @@ class HeldAxis {
 
   double find_rate() const { return find_modulus({omega_[0], omega_[1]}); }
 
-  // The first time at which the weight is lowest; NaN if it never is. The part of the quaternion that
-  // vanishes there, A for Mgl > 0, changes its sign once in a period of theta. That there is a period
-  // says that the axis passes: it is known from the exact constants, while the sign after one period is
-  // that of a rounding error for a start next to the lowest point, at theta = 1e-17 with Mgl < 0.
+  // The first time at which the weight is lowest; NaN if it never is. The part of the quaternion
+  // that vanishes there, A for Mgl > 0, changes its sign once in a period of theta. That there is a
+  // period says that the axis passes: it is known from the exact constants, while the sign after
+  // one period is that of a rounding error for a start next to the lowest point, at theta = 1e-17
+  // with Mgl < 0.
   double find_lowest_time(double longest) {
     const double period = motion_.find_rates().nutation_period;
     const bool returns = std::isfinite(period);
@@ -44,8 +46,8 @@ class HeldAxis {
   bool has_passed(double t) {
     double q[4], omega[3];
     motion_.read(t, {q, omega});
-    const double along = is_turned_over_ ? q[1] * first_[1] + q[2] * first_[2]
-                                         : q[0] * first_[0] + q[3] * first_[3];
+    const double along =
+        is_turned_over_ ? q[1] * first_[1] + q[2] * first_[2] : q[0] * first_[0] + q[3] * first_[3];
     return along < 0;
   }
 };
@@ -68,7 +70,8 @@ inline symtop_held judge_clamp(const symtop_start& s, const Start& start) {
   find_angles(s.orientation, angles);
   symtop_held held = {};
   held.subject = s.Mgl < 0 ? SYMTOP_AXIS : SYMTOP_TOP;
-  held.theta = angles[1], held.rate = is_at_rest ? 0.0 : axis.find_rate();
+  held.theta = angles[1];
+  held.rate = is_at_rest ? 0.0 : axis.find_rate();
   held.lowest_in = s.Mgl == 0 ? NAN : axis.find_lowest_time(NEVER_LOWEST / weight);
   held.kind = name_held(s.Mgl, is_at_rest, held.lowest_in);
   without.find_turning_angles(held.angles_without);

@@ -1,5 +1,5 @@
-// Where rounding decides the kind of a motion: that of its start reaches the separatrix, and one last
-// place of an input can be seen from some time on (derivation.md, section 13).
+// Where rounding decides the kind of a motion: that of its start reaches the separatrix, and one
+// last place of an input can be seen from some time on (derivation.md, section 13).
 #pragma once
 
 #include "../gravity.hpp"
@@ -25,9 +25,9 @@ inline double find_distance(GravityMotion& one, GravityMotion& other, double t) 
   return find_modulus({find_modulus({a.x - b.x, a.y - b.y}), a.z - b.z});
 }
 
-// The first time at which two motions are seen to differ, within two of their nutations; infinite if
-// they do not. Next to the separatrix a period takes 2 ln(1/EPS), 72 times that in which an error grows
-// by e, so that it grows by less than a half from one look to the next.
+// The first time at which two motions are seen to differ, within two of their nutations; infinite
+// if they do not. Next to the separatrix a period takes 2 ln(1/EPS), 72 times that in which an
+// error grows by e, so that it grows by less than a half from one look to the next.
 inline double find_parting(GravityMotion& one, GravityMotion& other) {
   double longest = 0.0;
   for (GravityMotion* each : {&one, &other}) {
@@ -54,9 +54,10 @@ inline double& find_input(Start& s, int k) {
   return *inputs[k];
 }
 
-// True if the rounding of a start reaches the separatrix: on the vertical where the weight is highest
-// no energy is left for theta', if phi' needs none there. Ix |omega_xy|^2/2 is then what the weight
-// takes on the way, 2 |Mgl| times the square of the part of the quaternion that vanishes there.
+// True if the rounding of a start reaches the separatrix: on the vertical where the weight is
+// highest no energy is left for theta', if phi' needs none there. Ix |omega_xy|^2/2 is then what
+// the weight takes on the way, 2 |Mgl| times the square of the part of the quaternion that vanishes
+// there.
 inline bool may_be_asymptotic(const Start& s) {
   const auto square = [](double x) { return Precise(x) * Precise(x); };
   const Precise upper = square(s.w) + square(s.z), lower = square(s.x) + square(s.y);

@@ -1,8 +1,8 @@
 // What a top gains from one state to another: the parts of its energy, and its height.
 //
 // Changes are products. The change of a square is the difference times the sum, and a height is a
-// square of half the tilt: of two states that hardly differ, or next to the vertical, nothing is lost
-// in large numbers that cancel.
+// square of half the tilt: of two states that hardly differ, or next to the vertical, nothing is
+// lost in large numbers that cancel.
 #pragma once
 
 #include "attitude.hpp"
@@ -32,10 +32,12 @@ struct EnergyRates {
   }
 };
 
-inline double subtract_squares(double first, double last) { return (last - first) * (last + first); }
+inline double subtract_squares(double first, double last) {
+  return (last - first) * (last + first);
+}
 
-// The change of cos(theta) = 1 - 2 sin^2(theta/2) = 2 cos^2(theta/2) - 1: of both the smaller square
-// has more digits.
+// The change of cos(theta) = 1 - 2 sin^2(theta/2) = 2 cos^2(theta/2) - 1: of both the smaller
+// square has more digits.
 inline double subtract_heights(const EnergyRates& first, const EnergyRates& last) {
   if (first.half.y + last.half.y < first.half.x + last.half.x)
     return -2 * subtract_squares(first.half.y, last.half.y);
@@ -49,8 +51,7 @@ inline symtop_energies find_energies(const symtop_top& top, const EnergyRates& n
 
 inline symtop_energies find_gains(const symtop_top& top, const EnergyRates& first,
                                   const EnergyRates& last, double height) {
-  return {top.Mgl * height,
-          top.Ix / 2 * subtract_squares(first.along, last.along),
+  return {top.Mgl * height, top.Ix / 2 * subtract_squares(first.along, last.along),
           top.Ix / 2 * subtract_squares(first.tilting, last.tilting),
           top.Iz / 2 * subtract_squares(first.axial, last.axial)};
 }
@@ -62,13 +63,14 @@ inline symtop_exchange find_exchange(const symtop_top& top, const EnergyRates& f
   symtop_exchange found;
   found.height = subtract_heights(first, last);
   found.gained = find_gains(top, first, last, found.height);
-  found.first = find_energies(top, first), found.last = find_energies(top, last);
+  found.first = find_energies(top, first);
+  found.last = find_energies(top, last);
   const symtop_energies &a = found.first, &b = found.last;
   found.sizes = {std::fabs(top.Mgl), std::fmax(a.precession, b.precession),
                  std::fmax(a.nutation, b.nutation), std::fmax(a.spin, b.spin)};
-  found.momentum_size = top.Ix * (find_larger(first.along, last.along) +
-                                  find_larger(first.tilting, last.tilting)) +
-                        top.Iz * find_larger(first.axial, last.axial);
+  found.momentum_size =
+      top.Ix * (find_larger(first.along, last.along) + find_larger(first.tilting, last.tilting)) +
+      top.Iz * find_larger(first.axial, last.axial);
   found.mean_along = (first.along + last.along) / 2;
   found.last_sine = 2 * last.half.x * last.half.y;
   return found;

@@ -1,9 +1,9 @@
 // Tops with theta' = 0, compared with the same tops hurried: the points of a map of Perry's rule.
 //
-// With theta' = 0 the tilt is one turning angle. The cubic f(u) of (du/dt)^2 = f(u), u = cos(theta),
-// then has the factor s = u - u0, and the other turning angle is a root of the quadratic that
-// remains (derivation.md, "Perry's rule at the two roots"). So a point of a map needs neither
-// elliptic functions nor the roots of a cubic.
+// With theta' = 0 the tilt is one turning angle. The cubic f(u) of (du/dt)^2 = f(u), u =
+// cos(theta), then has the factor s = u - u0, and the other turning angle is a root of the
+// quadratic that remains (derivation.md, "Perry's rule at the two roots"). So a point of a map
+// needs neither elliptic functions nor the roots of a cubic.
 #pragma once
 
 #include "verdict.hpp"
@@ -19,9 +19,9 @@ inline double choose_root(double first, double second, double side) {
   return is_finite(nearest) ? std::copysign(nearest, side) : 0.0;
 }
 
-// The angle at which theta' vanishes again. f = s (f1 + f2 s + f3 s^2) is positive on the side of the
-// sign of f1, up to the nearest root there. The roots are q/f3 and f1/q (Press et al., Numerical
-// Recipes, section 5.6): neither is a difference that cancels.
+// The angle at which theta' vanishes again. f = s (f1 + f2 s + f3 s^2) is positive on the side of
+// the sign of f1, up to the nearest root there. The roots are q/f3 and f1/q (Press et al.,
+// Numerical Recipes, section 5.6): neither is a difference that cancels.
 inline double find_other_turning_angle(const symtop_top& top, double theta, double phi_dot,
                                        double psi_dot) {
   const Pair tilt = find_tilt(theta, false), half = find_tilt(theta, true);
@@ -29,7 +29,8 @@ inline double find_other_turning_angle(const symtop_top& top, double theta, doub
                                    std::sqrt(std::fabs(top.Mgl) / top.Ix));
   // In this unit of time, a power of two, no product of rates overflows.
   const double unit = fastest > 0 ? std::ldexp(1.0, -std::ilogb(fastest) - 1) : 1.0;
-  phi_dot *= unit, psi_dot *= unit;
+  phi_dot *= unit;
+  psi_dot *= unit;
   const double u = tilt.x, a = top.Iz / top.Ix * (psi_dot + phi_dot * u);  // Goldstein's a
   const double beta = 2 * (top.Mgl / top.Ix * unit) * unit;
   const double across = tilt.y * tilt.y;

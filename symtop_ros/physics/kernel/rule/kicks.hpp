@@ -11,15 +11,15 @@
 namespace symtop {
 
 // Adds a change of phi'. A push on the axle cannot change the axial momentum Iz omega_z.
-inline void change_precession(const Vertical& g, double change, symtop_hold hold,
-                              double omega[3]) {
-  omega[0] += change * g.x, omega[1] += change * g.y;
+inline void change_precession(const Vertical& g, double change, symtop_hold hold, double omega[3]) {
+  omega[0] += change * g.x;
+  omega[1] += change * g.y;
   omega[2] += hold == SYMTOP_SPIN_MOMENTUM ? 0.0 : change * g.z;
 }
 
-// A kick that ends the precession leaves rounding of what there was. It is taken off as well: a later
-// kick would find a rate of 1e-15 rad/s, and hurry or reverse it by its sign. What is then left of a top
-// without theta', or without psi', is no more than rounding.
+// A kick that ends the precession leaves rounding of what there was. It is taken off as well: a
+// later kick would find a rate of 1e-15 rad/s, and hurry or reverse it by its sign. What is then
+// left of a top without theta', or without psi', is no more than rounding.
 inline void end_precession(const Vertical& g, symtop_hold hold, double omega[3]) {
   const double across = find_modulus({omega[0], omega[1]});
   const double rounding = 8 * EPS * std::fmax(across, std::fabs(omega[2]));
@@ -43,18 +43,21 @@ inline void add_impulse(const symtop_top& top, const double q[4], const double i
                         double omega[3]) {
   double J[3];
   turn_to_body(q, impulse, J);
-  omega[0] += J[0] / top.Ix, omega[1] += J[1] / top.Ix, omega[2] += J[2] / top.Iz;
+  omega[0] += J[0] / top.Ix;
+  omega[1] += J[1] / top.Ix;
+  omega[2] += J[2] / top.Iz;
 }
 
 // Adds what a push on the axle changes, to the side to which phi grows: its angular impulse, N m s,
 // is across the axle, in the vertical plane of both.
 inline void push_axle(const symtop_top& top, const Vertical& g, double impulse, double omega[3]) {
   const double change = impulse / top.Ix, sine = g.find_sine();
-  omega[0] += change * (g.x / sine), omega[1] += change * (g.y / sine);
+  omega[0] += change * (g.x / sine);
+  omega[1] += change * (g.y / sine);
 }
 
-// The new precession rate that a kick asks for, given the present one; NaN of one that asks for none.
-// Without a default: a compiler names a kind that is missing here.
+// The new precession rate that a kick asks for, given the present one; NaN of one that asks for
+// none. Without a default: a compiler names a kind that is missing here.
 inline double find_new_rate(symtop_kick_kind kind, double amount, double now) {
   switch (kind) {
     case SYMTOP_NEW_RATE: return amount;

@@ -1,8 +1,8 @@
 // How far what is known is from where a start begins or ends (derivation.md, section 12).
 //
-// Each margin is a smooth function of what is known, and vanishes where the number of starts changes.
-// The starts of a tilt and a turn, of a dip and of a nutation period begin and end at values that are
-// monotone in what is known: in a box the corners say all, and there is no margin.
+// Each margin is a smooth function of what is known, and vanishes where the number of starts
+// changes. The starts of a tilt and a turn, of a dip and of a nutation period begin and end at
+// values that are monotone in what is known: in a box the corners say all, and there is no margin.
 #pragma once
 
 #include "starts.hpp"
@@ -25,15 +25,16 @@ inline void find_margin_of_rates(const symtop_top& top, const double* known, Mar
   margins.add(spin * spin - product.scale(2));
 }
 
-// cos(theta) = N/D of both directions, from 1 and from -1. It is a parabola of the period, so that it may
-// leave these limits on the way from one period to another.
+// cos(theta) = N/D of both directions, from 1 and from -1. It is a parabola of the period, so that
+// it may leave these limits on the way from one period to another.
 inline void find_margins_of_tilt(const symtop_top& top, const double* known, Margins& margins) {
   const Long one(1.0), pace = Long(TWO_PI) / Long(known[1]);
   const Long whole = (Long(top.Ix) - Long(top.Iz)) * pace * pace;
   if (!whole.sign) return;  // a sphere has no starts
   for (const double sign : {1.0, -1.0}) {
     const Long share = Long(top.Iz) * Long(known[0]) * pace * Long(sign) - Long(top.Mgl);
-    margins.add(one - share / whole), margins.add(one + share / whole);
+    margins.add(one - share / whole);
+    margins.add(one + share / whole);
   }
 }
 

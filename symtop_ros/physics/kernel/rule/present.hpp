@@ -1,10 +1,10 @@
 // Why the weight speeds up, slows down or turns at an instant of a nutation (derivation.md, "What
 // explains the motion").
 //
-// In the frame that goes round with the axle L stands still but for Ix theta' along the line of nodes.
-// To turn L with the axle takes the torque phi' z' x L, whose part along the line of nodes is phi'
-// (p_psi - Ix phi' cos(theta)) sin(theta); what is left of gravity's is Ix theta''. It says nothing of
-// theta': that is what the impulses up to now have left.
+// In the frame that goes round with the axle L stands still but for Ix theta' along the line of
+// nodes. To turn L with the axle takes the torque phi' z' x L, whose part along the line of nodes
+// is phi' (p_psi - Ix phi' cos(theta)) sin(theta); what is left of gravity's is Ix theta''. It says
+// nothing of theta': that is what the impulses up to now have left.
 #pragma once
 
 #include "cause.hpp"

@@ -34,16 +34,18 @@ inline int solve_quadratic(const Long& a, const Long& b, const Long& c, double r
   }
   const Long half = b.scale(-1), discriminant = half * half - a * c;
   if (discriminant.sign < 0) return 0;  // too slow a spin: gravity wins at every rate
-  const Long square_root = root(discriminant), q = half.sign < 0 ? half - square_root
-                                                                 : half + square_root;
+  const Long square_root = root(discriminant),
+             q = half.sign < 0 ? half - square_root : half + square_root;
   if (!q.sign) {  // b = 0 and Mgl = 0: only a top that does not precess is regular
     roots[0] = roots[1] = 0.0;
     return 2;
   }
-  keep(c / q), keep(q / a);
+  keep(c / q);
+  keep(q / a);
   if (count == 2 && std::fabs(roots[1]) < std::fabs(roots[0])) {
     const double slow = roots[1];
-    roots[1] = roots[0], roots[0] = slow;
+    roots[1] = roots[0];
+    roots[0] = slow;
   }
   return count;
 }
@@ -53,12 +55,13 @@ inline void write_roots(const Long& a, const Long& b, const Long& c, double root
   for (int count = solve_quadratic(a, b, c, roots); count < 2; count++) roots[count] = NAN;
 }
 
-// cos(x) from n = 0 on, or sin(x)/x from n = 1 on, by the series, to 47 digits of 1. Horner's rule for
-// last! times it, of which all coefficients are whole: one division, at the end.
+// cos(x) from n = 0 on, or sin(x)/x from n = 1 on, by the series, to 47 digits of 1. Horner's rule
+// for last! times it, of which all coefficients are whole: one division, at the end.
 inline Long sum_circular_series(const Long& x, int first) {
   const Long square = -(x * x);
   int last = first;
-  for (double term = 1.0; term > 1e-52; term *= -square.to_double() / (last * (last - 1))) last += 2;
+  for (double term = 1.0; term > 1e-52; term *= -square.to_double() / (last * (last - 1)))
+    last += 2;
   Long coefficient(1.0), total(1.0);
   for (int n = last; n > first; n -= 2) {
     coefficient = coefficient * Long(double(n * (n - 1)));
@@ -67,8 +70,8 @@ inline Long sum_circular_series(const Long& x, int first) {
   return total / coefficient;
 }
 
-// The cosine of a double. Zero if it is no more than EPS: no double is exactly pi/2, and the axis was
-// meant to be horizontal.
+// The cosine of a double. Zero if it is no more than EPS: no double is exactly pi/2, and the axis
+// was meant to be horizontal.
 inline Long find_long_cosine(double theta) {
   const Long total = sum_circular_series(Long(take_turns_off(theta)), 0);
   return size(total) <= Long(EPS) ? Long() : total;
@@ -92,15 +95,17 @@ struct TiltQuadratic {
   Precise a, b, Mgl;
   Precise a_terms, b_terms;  // sizes of the terms whose rounding a and b have
 
-  // Of the cosine and the spin of a state or of an angle, and of the sizes of the terms that they are
-  // sums of. Precise numbers: phi' of an axis next to the vertical has a square beyond all doubles,
-  // and at a root the terms cancel.
+  // Of the cosine and the spin of a state or of an angle, and of the sizes of the terms that they
+  // are sums of. Precise numbers: phi' of an axis next to the vertical has a square beyond all
+  // doubles, and at a root the terms cancel.
   TiltQuadratic(const symtop_top& top, Pair cosine_of_terms, Pair spin_of_terms, symtop_hold hold)
       : Mgl(top.Mgl) {
     const double cosine = std::fabs(cosine_of_terms.x) <= EPS ? 0.0 : cosine_of_terms.x;
     const Precise moment(hold == SYMTOP_SPIN_MOMENTUM ? top.Ix : top.Ix - top.Iz), Iz(top.Iz);
-    a = moment * Precise(cosine), a_terms = size(moment) * Precise(cosine_of_terms.y);
-    b = Iz * Precise(spin_of_terms.x), b_terms = Iz * Precise(spin_of_terms.y);
+    a = moment * Precise(cosine);
+    a_terms = size(moment) * Precise(cosine_of_terms.y);
+    b = Iz * Precise(spin_of_terms.x);
+    b_terms = Iz * Precise(spin_of_terms.y);
   }
 
   Precise at(double rate) const {
@@ -132,9 +137,9 @@ struct TiltQuadratic {
   }
 };
 
-// The parts of Ix theta''/sin(theta) for an observer who precesses with the top, in N m: gravity, and
-// the Coriolis and the centrifugal torque about the line of nodes; and sin(theta), which they all
-// have as a factor, and which is zero on the vertical.
+// The parts of Ix theta''/sin(theta) for an observer who precesses with the top, in N m: gravity,
+// and the Coriolis and the centrifugal torque about the line of nodes; and sin(theta), which they
+// all have as a factor, and which is zero on the vertical.
 inline void find_tilt_torques(const symtop_top& top, double theta, double phi_dot, double psi_dot,
                               double torques[4]) {
   const Pair tilt = find_tilt(theta, false);

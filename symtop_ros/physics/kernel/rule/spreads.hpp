@@ -1,10 +1,11 @@
-// How far the starts of rule/starts.hpp move with what is known of them (derivation.md, section 12).
+// How far the starts of rule/starts.hpp move with what is known of them (derivation.md, section
+// 12).
 //
-// A number of a start is a smooth function of what is known, as long as the same starts exist. Over a
-// box its extremes are looked for, from the best of a grid: at its corners where it is monotone, and
-// inside where it turns round, as the spin does with the time of a turn where two roots meet. Slopes
-// say nothing there. In the same way the least margin is looked for: where it is none, starts end
-// between the points of the grid.
+// A number of a start is a smooth function of what is known, as long as the same starts exist. Over
+// a box its extremes are looked for, from the best of a grid: at its corners where it is monotone,
+// and inside where it turns round, as the spin does with the time of a turn where two roots meet.
+// Slopes say nothing there. In the same way the least margin is looked for: where it is none,
+// starts end between the points of the grid.
 #pragma once
 
 #include "margins.hpp"
@@ -23,7 +24,9 @@ class SpreadFinder {
  public:
   SpreadFinder(const symtop_top& top, symtop_question seen, const double* known,
                const double* half_widths)
-      : top_(top), seen_(seen), centre_(symtop::solve_start(top, seen, known)),
+      : top_(top),
+        seen_(seen),
+        centre_(symtop::solve_start(top, seen, known)),
         margins_(find_margins(top, seen, known)) {
     for (int k = 0; k < MOST_KNOWN; k++) {
       known_[k] = known[k];
@@ -84,7 +87,8 @@ class SpreadFinder {
     return margins_.each[k].sign ? (margins.each[k] / margins_.each[k]).to_double() : 0.0;
   }
 
-  // As many starts; and no rate of a regular precession has gone through infinity, to the other sign.
+  // As many starts; and no rate of a regular precession has gone through infinity, to the other
+  // sign.
   bool is_alike(const symtop_solutions& other) const {
     if (other.number != centre_.number) return false;
     for (int start = 0; seen_ <= SYMTOP_SPIN_AND_TURN && start < centre_.number; start++)

@@ -10,15 +10,19 @@ namespace symtop {
 
 inline void refuse(symtop_solutions& found, symtop_demand demand, double which = 0.0,
                    double least = NAN, double most = NAN) {
-  found.demand = demand, found.which = which, found.least = least, found.most = most;
+  found.demand = demand;
+  found.which = which;
+  found.least = least;
+  found.most = most;
 }
 
 inline bool is_in_range(double x) { return std::fabs(x) <= LARGEST; }
 
-// A start whose rates are too large for a motion is no solution; if there is no other, they are why.
+// A start whose rates are too large for a motion is no solution; if there is no other, they are
+// why.
 inline void keep(symtop_solutions& found, const symtop_solution& start) {
-  const bool is_kept = is_in_range(start.theta_dot) && is_in_range(start.phi_dot) &&
-                       is_in_range(start.psi_dot);
+  const bool is_kept =
+      is_in_range(start.theta_dot) && is_in_range(start.phi_dot) && is_in_range(start.psi_dot);
   if (is_kept)
     found.each[static_cast<int>(found.number++)] = start;
   else
@@ -29,8 +33,9 @@ inline bool has_none(const symtop_solutions& found) {
   return found.number == 0 && found.demand != SYMTOP_DEMANDS_RATES;
 }
 
-// The place at which `is_below` becomes false, between two positive numbers, to 60 bits more than a double
-// has. Exponents are halved first: they may be any, as neither a tilt nor a weight has a smallest one.
+// The place at which `is_below` becomes false, between two positive numbers, to 60 bits more than a
+// double has. Exponents are halved first: they may be any, as neither a tilt nor a weight has a
+// smallest one.
 template <class Number, class Below>
 Number bisect(Number low, Number high, const Below& is_below) {
   while (high.exponent - low.exponent > 1) {
@@ -79,13 +84,15 @@ inline void solve_tilt_and_spin(const symtop_top& top, double theta, double psi_
   refuse(found, least > 0 ? SYMTOP_DEMANDS_SIZE : other, 1, least);
 }
 
-// |Iz psi' p - Mgl| < |Ix - Iz| p^2 for one of the two directions: |psi'| lies between the quotients of
-// |Mgl| -+ |Ix - Iz| p^2 and Iz |p|. If the smaller one is negative, every smaller spin does.
+// |Iz psi' p - Mgl| < |Ix - Iz| p^2 for one of the two directions: |psi'| lies between the
+// quotients of |Mgl| -+ |Ix - Iz| p^2 and Iz |p|. If the smaller one is negative, every smaller
+// spin does.
 inline void refuse_spin_and_turn(const symtop_top& top, const Long& pace, symtop_solutions& found) {
   const Long weight = size(Long(top.Mgl)), per_spin = invert(Long(top.Iz) * pace);
   const Long whole = size(Long(top.Ix) - Long(top.Iz)) * pace * pace;
   const Long least = (weight - whole) * per_spin, most = (weight + whole) * per_spin;
-  refuse(found, SYMTOP_DEMANDS_RANGE, 0, least.sign < 0 ? NAN : least.to_double(), most.to_double());
+  refuse(found, SYMTOP_DEMANDS_RANGE, 0, least.sign < 0 ? NAN : least.to_double(),
+         most.to_double());
 }
 
 // cos(theta) = N/D with N = Iz psi' p - Mgl and D = (Ix - Iz) p^2. The half angle has the tangent
@@ -109,7 +116,8 @@ inline void solve_spin_and_turn(const symtop_top& top, double psi_dot, double pe
 // ---- Let go at rest ----
 
 // With p_psi^2 = 2 |Mgl| Ix x, and both signs.
-inline void keep_spins(const symtop_top& top, double theta, const Precise& x, symtop_solutions& found) {
+inline void keep_spins(const symtop_top& top, double theta, const Precise& x,
+                       symtop_solutions& found) {
   const Precise momentum = root(x.scale(1) * size(Precise(top.Mgl)) * Precise(top.Ix));
   const double spin = (momentum / Precise(top.Iz)).to_double();
   keep(found, {theta, 0.0, 0.0, spin});
@@ -145,20 +153,20 @@ const double LONGEST_AT = 2.179660431678698;
 // The r between two, in which the period grows or falls, at which it is a given one.
 inline Precise find_period_at(const Precise& period, const Precise& low, const Precise& high,
                               bool grows) {
-  return bisect(low, high, [&](const Precise& r) {
-    return (find_relative_period(r) < period) == grows;
-  });
+  return bisect(low, high,
+                [&](const Precise& r) { return (find_relative_period(r) < period) == grows; });
 }
 
-// With r between 0, for an infinite spin, and R = cot(theta/2), for none, of a top with Mgl > 0. The
-// spin next to a pendulum's comes from R - r, and so both are precise.
+// With r between 0, for an infinite spin, and R = cot(theta/2), for none, of a top with Mgl > 0.
+// The spin next to a pendulum's comes from R - r, and so both are precise.
 struct LetGo {
   Precise sine, R, per_unit;  // 1/s, of the unit 2 pi sqrt(Ix/(2 |Mgl| sin(theta)))
 
   LetGo(const symtop_top& top, double theta) {
     const Long half = Long(theta).scale(-1), quarter_turn(find_long_turn().scale(-2));
     const Precise s(find_long_sine(half)), c(find_long_sine(quarter_turn - half));
-    sine = (s * c).scale(1), R = top.Mgl > 0 ? c / s : s / c;
+    sine = (s * c).scale(1);
+    R = top.Mgl > 0 ? c / s : s / c;
     per_unit = root(size(Precise(top.Mgl)).scale(1) * sine / Precise(top.Ix)) * PER_TURN;
   }
 
@@ -168,8 +176,8 @@ struct LetGo {
   }
 };
 
-// A period is a rounded number: up to 16 EPS beyond the longest one it is the longest, and up to 16 EPS
-// below the pendulum's, where no slow spin would be left, the pendulum's.
+// A period is a rounded number: up to 16 EPS beyond the longest one it is the longest, and up to 16
+// EPS below the pendulum's, where no slow spin would be left, the pendulum's.
 inline void solve_tilt_and_nutation(const symtop_top& top, double theta, double period,
                                     symtop_solutions& found) {
   if (top.Mgl == 0) return refuse(found, SYMTOP_DEMANDS_WEIGHT);
@@ -238,8 +246,8 @@ inline symtop_solution start_at(const Well& well, const Long& q, const Long& spi
   return {theta, 0.0, rate.to_double(), psi_dot.to_double()};
 }
 
-// Constants of a motion. `rounding` is that of the energy, times 2/Ix, up to which a regular precession
-// has too little of it, or too much.
+// Constants of a motion. `rounding` is that of the energy, times 2/Ix, up to which a regular
+// precession has too little of it, or too much.
 struct Conserved {
   Well well;
   Long spin, rounding;  // omega_z
@@ -313,15 +321,19 @@ void solve_two(const symtop_top& top, const double* known, symtop_solutions& fou
 // In the order of symtop_question.
 inline const Question& find_question(symtop_question seen) {
   static const Question QUESTIONS[] = {
-      {2, 0, 1, solve_two<solve_tilt_and_turn>},     {2, 0, -1, solve_two<solve_tilt_and_spin>},
-      {2, -1, 1, solve_two<solve_spin_and_turn>},    {2, 0, 1, solve_two<solve_tilt_and_dip>},
-      {2, 0, 1, solve_two<solve_tilt_and_nutation>}, {3, -1, -1, solve_constants},
+      {2, 0, 1, solve_two<solve_tilt_and_turn>},
+      {2, 0, -1, solve_two<solve_tilt_and_spin>},
+      {2, -1, 1, solve_two<solve_spin_and_turn>},
+      {2, 0, 1, solve_two<solve_tilt_and_dip>},
+      {2, 0, 1, solve_two<solve_tilt_and_nutation>},
+      {3, -1, -1, solve_constants},
       {3, -1, -1, solve_goldstein},
   };
   return QUESTIONS[seen];
 }
 
-inline symtop_solutions solve_start(const symtop_top& top, symtop_question seen, const double* known) {
+inline symtop_solutions solve_start(const symtop_top& top, symtop_question seen,
+                                    const double* known) {
   symtop_solutions found = {SYMTOP_DEMANDS_NOTHING, 0.0, NAN, NAN, 0.0, {}};
   for (symtop_solution& each : found.each) each = {NAN, NAN, NAN, NAN};
   const Question& question = find_question(seen);

@@ -33,8 +33,8 @@ struct Instant {
 
  private:
   static Vertical find_vertical(const double given[4]) {
-    const Start unit = normalize(Start{1.0, 1.0, 0.0, given[0], given[1], given[2], given[3], 0.0,
-                                       0.0, 0.0});
+    const Start unit =
+        normalize(Start{1.0, 1.0, 0.0, given[0], given[1], given[2], given[3], 0.0, 0.0, 0.0});
     const double q[4] = {unit.w, unit.x, unit.y, unit.z};
     return Vertical(q);
   }
@@ -44,10 +44,11 @@ struct SpinAndPrecession {
   double phi_dot, psi_dot;
 };
 
-// True if phi' sin(theta) is what rounding leaves of the rates of a start, or of the kick that ended the
-// precession: a kick from there would hurry, delay or reverse it by chance. The scale of the rates is
-// the larger one of those of the start and of the swing that the weight makes.
-inline bool is_no_precession(const symtop_start& s, const Precise& along, const Precise& upper_lower) {
+// True if phi' sin(theta) is what rounding leaves of the rates of a start, or of the kick that
+// ended the precession: a kick from there would hurry, delay or reverse it by chance. The scale of
+// the rates is the larger one of those of the start and of the swing that the weight makes.
+inline bool is_no_precession(const symtop_start& s, const Precise& along,
+                             const Precise& upper_lower) {
   const double scale = std::fmax(find_largest_rate(s), std::sqrt(std::fabs(s.Mgl) / s.Ix));
   const Precise least(STATE_ROUNDING * scale);  // along is phi' sin(theta)^2/2, the product sin^2/4
   return along * along <= least * least * upper_lower;
@@ -93,10 +94,10 @@ class TiltAcceleration {
  private:
   double sine_per_moment_;
 
-  // A state has cos(theta) and psi' to some EPS of 1 and of its rates. What is smaller is zero: else
-  // a horizontal axis without spin would rise or fall by the chance of its rounding.
-  // The second number is the size of the terms: near the horizontal a fast precession has a
-  // centrifugal torque that the rounding of a small cosine decides.
+  // A state has cos(theta) and psi' to some EPS of 1 and of its rates. What is smaller is zero:
+  // else a horizontal axis without spin would rise or fall by the chance of its rounding. The
+  // second number is the size of the terms: near the horizontal a fast precession has a centrifugal
+  // torque that the rounding of a small cosine decides.
   static Pair find_cosine(const Instant& now) {
     return {std::fabs(now.vertical.z) <= STATE_ROUNDING ? 0.0 : now.vertical.z, 1.0};
   }
@@ -114,9 +115,10 @@ class TiltAcceleration {
     const bool is_only = std::isnan(fast) || fast == slow;  // two equal roots are one rate
     if (quadratic.is_balanced(rate)) {
       if (is_only) return SYMTOP_AT_THE_ONLY_RATE;
-      // Without spin both are as fast, one to the left and one to the right: no mirror makes one slow.
-      const bool is_slow = std::fabs(slow - rate) <= std::fabs(fast - rate) ||
-                           std::fabs(slow) == std::fabs(fast);
+      // Without spin both are as fast, one to the left and one to the right: no mirror makes one
+      // slow.
+      const bool is_slow =
+          std::fabs(slow - rate) <= std::fabs(fast - rate) || std::fabs(slow) == std::fabs(fast);
       return is_slow ? SYMTOP_AT_THE_SLOW_RATE : SYMTOP_AT_THE_FAST_RATE;
     }
     if (is_only) return rate > slow ? SYMTOP_ABOVE_THE_ONLY_RATE : SYMTOP_BELOW_THE_ONLY_RATE;

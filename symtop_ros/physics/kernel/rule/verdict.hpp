@@ -2,12 +2,12 @@
 // on the precession, and the body rises in opposition to gravity".
 //
 // One definition of the rule serves a start, a kick and a map. The kicked top is compared with the
-// same top not kicked. Hurried (a factor above 1), the rule holds if theta'' is lower with the kick;
-// delayed (0 to 1), if it is higher. It says nothing if phi' = 0, if the factor is 1 or negative,
-// about an angular impulse that is no push along the precession, without weight (Mgl = 0), if theta''
-// is the same with the kick as without it, and on the vertical, where phi' is undefined. At a root of
-// regular precession theta'' is 0 without the kick, so the hurried axis rises if and only if the rule
-// holds: the article's case.
+// same top not kicked. Hurried (a factor above 1), the rule holds if theta'' is lower with the
+// kick; delayed (0 to 1), if it is higher. It says nothing if phi' = 0, if the factor is 1 or
+// negative, about an angular impulse that is no push along the precession, without weight (Mgl =
+// 0), if theta'' is the same with the kick as without it, and on the vertical, where phi' is
+// undefined. At a root of regular precession theta'' is 0 without the kick, so the hurried axis
+// rises if and only if the rule holds: the article's case.
 #pragma once
 
 #include "../gravity.hpp"
@@ -17,13 +17,14 @@
 
 namespace symtop {
 
-// Turning angles that differ by less count as equal: next to a pole, or where two roots of the cubic
-// nearly meet, an angle is the square root of a quantity that is known to EPS (section 2).
+// Turning angles that differ by less count as equal: next to a pole, or where two roots of the
+// cubic nearly meet, an angle is the square root of a quantity that is known to EPS (section 2).
 const double SAME_ANGLE = 1e-7;  // rad
 // Of Mgl/p_psi, by which the mean precession rate may differ from it to be compared with it.
 const double LIKE_A_FAST_TOP = 0.3;
 
-// Direction of the axis from a state on: by theta', or by theta'' if theta' vanishes up to rounding.
+// Direction of the axis from a state on: by theta', or by theta'' if theta' vanishes up to
+// rounding.
 inline symtop_direction find_direction(const Instant& now) {
   const double* omega = now.start.angular_velocity;
   const Vertical& g = now.vertical;
@@ -40,8 +41,9 @@ inline symtop_direction find_direction(const Instant& now) {
   return change == 0 ? SYMTOP_STAYS : change < 0 ? SYMTOP_RISES : SYMTOP_FALLS;
 }
 
-// Where the axis goes before it turns back: with theta' or theta'' of some rounding it may have been
-// at its turning point already, and it goes nowhere between turning angles that count as equal.
+// Where the axis goes before it turns back: with theta' or theta'' of some rounding it may have
+// been at its turning point already, and it goes nowhere between turning angles that count as
+// equal.
 inline symtop_direction find_visible_direction(const Instant& now, const double angles[2]) {
   const symtop_direction first = find_direction(now);
   if (angles[1] - angles[0] <= SAME_ANGLE) return SYMTOP_STAYS;
@@ -52,8 +54,8 @@ inline symtop_direction find_visible_direction(const Instant& now, const double 
 }
 
 // True if an axis at rest on the vertical stays near it after a small kick: p_psi^2 >= 4 Ix |Mgl|
-// for a centre of mass above the pivot (Goldstein, section 5.7), and always below it. Without weight
-// a kick turns the axis about L, which leaves it near the vertical only if it spins.
+// for a centre of mass above the pivot (Goldstein, section 5.7), and always below it. Without
+// weight a kick turns the axis about L, which leaves it near the vertical only if it spins.
 inline bool is_sleeping_stable(const Instant& now) {
   const double weight = now.vertical.z > 0 ? now.top.Mgl : -now.top.Mgl;
   if (weight == 0) return now.start.angular_velocity[2] != 0;
@@ -64,9 +66,9 @@ inline bool is_sleeping_stable(const Instant& now) {
   return std::fabs(now.top.Iz * now.start.angular_velocity[2]) >= (1 - 8 * EPS) * least;
 }
 
-// The tilt to which the least disturbance lets an axis go that rests on the vertical and is unstable:
-// with p_phi = p_psi the cubic leaves 1 + u = p_psi^2/(2 Ix Mgl) (Goldstein, section 5.7), so that the
-// cosine of half the way is the spin over the critical one.
+// The tilt to which the least disturbance lets an axis go that rests on the vertical and is
+// unstable: with p_phi = p_psi the cubic leaves 1 + u = p_psi^2/(2 Ix Mgl) (Goldstein, section
+// 5.7), so that the cosine of half the way is the spin over the critical one.
 inline double find_disturbed(const Instant& now) {
   const double critical = 2 * std::sqrt(now.top.Ix) * std::sqrt(std::fabs(now.top.Mgl));
   const double share =
@@ -78,10 +80,16 @@ inline double find_disturbed(const Instant& now) {
 inline symtop_reason explain_vertical(const Instant& now) {
   const double* omega = now.start.angular_velocity;
   const bool is_moving = omega[0] != 0 || omega[1] != 0;
-  const symtop_reason_kind kind = is_moving               ? SYMTOP_VERTICAL_UNDEFINED
+  const symtop_reason_kind kind = is_moving                 ? SYMTOP_VERTICAL_UNDEFINED
                                   : is_sleeping_stable(now) ? SYMTOP_VERTICAL_STABLE
                                                             : SYMTOP_VERTICAL_UNSTABLE;
-  return {kind, SYMTOP_RULE_SAYS_NOTHING, NAN, NAN, NAN, NAN, SYMTOP_EFFECT_ENOUGH,
+  return {kind,
+          SYMTOP_RULE_SAYS_NOTHING,
+          NAN,
+          NAN,
+          NAN,
+          NAN,
+          SYMTOP_EFFECT_ENOUGH,
           {SYMTOP_NO_REGULAR_RATE, NAN, {NAN, NAN}}};
 }
 
@@ -154,7 +162,8 @@ inline bool is_push_along(const Instant& before, const Instant& after) {
   const double* was = before.start.angular_velocity;
   const double* now = after.start.angular_velocity;
   const Vertical& g = before.vertical;
-  const double rounding = 8 * EPS * std::fmax(before.find_largest_rate(), after.find_largest_rate());
+  const double rounding =
+      8 * EPS * std::fmax(before.find_largest_rate(), after.find_largest_rate());
   const double along_nodes = (now[0] - was[0]) * g.y - (now[1] - was[1]) * g.x;
   return std::fabs(now[2] - was[2]) <= rounding &&
          std::fabs(along_nodes) <= rounding * g.find_sine();
@@ -163,8 +172,9 @@ inline bool is_push_along(const Instant& before, const Instant& after) {
 inline symtop_average find_average(const symtop_start& s, GravityMotion& motion) {
   const Rates rates = motion.find_rates();
   const double p_psi = s.Iz * s.angular_velocity[2];
-  // Mgl/p_psi is meant for p_psi^2 >> 4 Ix |Mgl|, and for starts near the slow precession: of another
-  // one it can be the wrong sign. A thin rod may have that p_psi and spin more slowly than it precesses.
+  // Mgl/p_psi is meant for p_psi^2 >> 4 Ix |Mgl|, and for starts near the slow precession: of
+  // another one it can be the wrong sign. A thin rod may have that p_psi and spin more slowly than
+  // it precesses.
   const double least = 2 * std::sqrt(s.Ix) * std::sqrt(std::fabs(s.Mgl)) / s.Iz;
   const double rate = rates.mean_precession_rate, slow = p_psi != 0 ? s.Mgl / p_psi : NAN;
   const bool is_fast = s.Mgl != 0 && std::fabs(s.angular_velocity[2]) > least &&
@@ -182,7 +192,8 @@ inline symtop_verdict describe_course(const Instant& now, GravityMotion& motion)
   verdict.subject = now.top.Mgl < 0 ? SYMTOP_AXIS : SYMTOP_TOP;
   motion.find_turning_angles(verdict.turning_angles);
   verdict.direction = find_visible_direction(now, verdict.turning_angles);
-  // Neither end of a way that is not seen would be the tilt of a mirror image, so it is that of now.
+  // Neither end of a way that is not seen would be the tilt of a mirror image, so it is that of
+  // now.
   if (verdict.direction == SYMTOP_STAYS)
     verdict.turning_angles[0] = verdict.turning_angles[1] = now.find_theta();
   verdict.motion = static_cast<symtop_kind>(motion.find_kind());
@@ -193,8 +204,8 @@ inline double find_disturbed_to(const Instant& now, const symtop_reason& reason)
   return reason.kind == SYMTOP_VERTICAL_UNSTABLE ? find_disturbed(now) : NAN;
 }
 
-// The verdict on a start, and on a kick by a factor that is only considered: `kicked` is the start after
-// it, and `with` its motion. False if that would lead to a rate beyond the largest.
+// The verdict on a start, and on a kick by a factor that is only considered: `kicked` is the start
+// after it, and `with` its motion. False if that would lead to a rate beyond the largest.
 inline bool judge(const symtop_start& s, const symtop_start& kicked, GravityMotion& motion,
                   GravityMotion& with, double factor, symtop_hold hold, symtop_verdict& verdict) {
   const Instant now(s);
@@ -218,7 +229,9 @@ inline bool judge(const symtop_start& s, const symtop_start& kicked, GravityMoti
 // How much higher a turning point is than it would be without the kick.
 inline symtop_lift find_lift(double was, double now) {
   const double change = std::fabs(was - now) > SAME_ANGLE ? was - now : 0.0;
-  return {change == 0 ? SYMTOP_AS_HIGH : change > 0 ? SYMTOP_HIGHER : SYMTOP_LOWER,
+  return {change == 0  ? SYMTOP_AS_HIGH
+          : change > 0 ? SYMTOP_HIGHER
+                       : SYMTOP_LOWER,
           std::fabs(change)};
 }
 
