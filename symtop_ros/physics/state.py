@@ -129,7 +129,7 @@ class State(Generic[N]):
     ----------
     given_orientation : ndarray (..., 4)
         The orientation before it is normalised. A motion starts from these doubles, normalised with
-        50 digits: the rounding of `orientation` would be an error that grows with time.
+        57 digits: the rounding of `orientation` would be an error that grows with time.
 
     Raises
     ------
@@ -147,7 +147,7 @@ class State(Generic[N]):
 
     orientation: Real
     angular_velocity: Real
-    given_orientation: Real  # not normalised: a motion normalises it with 50 digits
+    given_orientation: Real  # not normalised: a motion normalises it with 57 digits
 
     @overload
     def __init__(

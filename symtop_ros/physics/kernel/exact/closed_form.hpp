@@ -58,7 +58,7 @@ struct ClosedForm {
   Nutation nutation;
   Roots roots;
   Zero zeros[FUNCTIONS];
-  Precise mean, means[FUNCTIONS], frequency, nutation_rate, half_c;
+  Precise agm, means[FUNCTIONS], frequency, nutation_rate, half_c;
 
   Pair start_values[FUNCTIONS];
   double first_end;
@@ -78,9 +78,9 @@ struct ClosedForm {
     find_zeros(nutation, roots, zeros);
     // The complementary modulus from s32, not as sqrt(1 - m): near the separatrix that would have
     // no digits.
-    mean = compute_mean_rates(nutation, zeros, root(roots.s32 / roots.s31()), means);
+    agm = compute_mean_rates(nutation, zeros, root(roots.s32 / roots.s31()), means);
     frequency = root(nutation.beta * roots.s31());
-    nutation_rate = frequency * mean;
+    nutation_rate = frequency * agm;
     half_c = find_turning_rate<3>(start).scale(-1);
   }
 
@@ -95,7 +95,7 @@ struct ClosedForm {
                                       add_rates(means[OF_B], -half_c)};
     steps = find_steps(rates, FUNCTIONS);
     first_end = REACH / find_fastest_rate(start);
-    nutation_phase = find_nutation_phase(nutation, roots, zeros, mean, frequency);
+    nutation_phase = find_nutation_phase(nutation, roots, zeros, agm, frequency);
     Shift shifts[FUNCTIONS];
     for (int k = 0; k < FUNCTIONS; k++) {
       const double complement = compute_shift_complement(zeros[k], roots);

@@ -11,7 +11,7 @@
 
 namespace symtop {
 
-// Below this share of the mean the next c, which is smaller by its square, changes no digit.
+// Below this share of a the next c, which is smaller by its square, changes no digit.
 const double DONE = 1e-9;
 
 inline double find_mean_cosine(const ClosedForm& motion) {
@@ -26,9 +26,9 @@ inline double find_mean_cosine(const ClosedForm& motion) {
   for (bool is_done = false; !is_done; weight *= 2) {
     sum += weight * (whole * c) * c;
     is_done = c <= DONE * a;
-    const double mean = (a + b) / 2;
+    const double half_sum = (a + b) / 2;
     b = std::sqrt(a * b);
-    a = mean;
+    a = half_sum;
     c = c * c / (2 * (a + b));
   }
   const Precise middle = motion.nutation.u() + (roots.s1 + roots.s2).scale(-1);

@@ -127,26 +127,26 @@ inline bool comes_near_a_pole(const Zero zeros[]) {
          zeros[OF_B].from_u2 * times < zeros[OF_B].from_u1;
 }
 
-// `mean` is the arithmetic-geometric mean of 1 and sqrt(1 - m), and 0 at the separatrix: there K is
+// `agm` is the arithmetic-geometric mean of 1 and sqrt(1 - m), and 0 at the separatrix: there K is
 // infinite, and y = x K/K' takes the place of x.
 inline NutationPhase find_nutation_phase(const Nutation& n, const Roots& roots, const Zero zeros[],
-                                         const Precise& mean, const Precise& frequency) {
+                                         const Precise& agm, const Precise& frequency) {
   NutationPhase phase;
   phase.Omega = frequency.to_double() / 2;
-  phase.is_separatrix = !mean.sign;
-  phase.K = mean.sign ? PI / (2 * mean.to_double()) : INFINITY;
+  phase.is_separatrix = !agm.sign;
+  phase.K = agm.sign ? PI / (2 * agm.to_double()) : INFINITY;
   const Precise modulus = root(roots.s21 / roots.s31());  // sqrt(m): K' from 1 - m would lose it
   phase.Kc = quarter_period(modulus.to_double());
   phase.is_stretched = STRETCHED * phase.Kc < phase.K;
   // All digits where the phase is stretched, or where a pole magnifies its error.
   const Precise v =
       find_starting_phase(n, roots, phase.is_stretched || comes_near_a_pole(zeros), phase.from_top);
-  const Precise origin = ((mean.sign ? mean : Precise(1.0)) * v).scale(1);
+  const Precise origin = ((agm.sign ? agm : Precise(1.0)) * v).scale(1);
   phase.origin.x = origin.to_double();
   phase.origin.y = rest_of(origin, phase.origin.x);
-  if (phase.is_stretched && mean.sign) {
+  if (phase.is_stretched && agm.sign) {
     int count;
-    const Precise ratio = iterate_mean<3>(modulus, nullptr, count) / mean;
+    const Precise ratio = iterate_agm<3>(modulus, nullptr, count) / agm;
     phase.ratio = ratio.to_double();
     split_short(ratio, phase.ratio_high, phase.ratio_low);
     phase.root_of_nome = exponential(-(TWO_PI * ratio).scale(-2));

@@ -76,14 +76,14 @@ inline void find_zeros(const NutationOf<N>& n, const RootsOf<N>& roots,
 // The arithmetic-geometric mean of 1 and k, and 4^n a_n b_n of its steps n >= 1. Convergence is
 // quadratic: a relative gap of 16 bits less than half of the digits leaves all but 32 of them.
 template <int N>
-inline Float<N> iterate_mean(const Float<N>& k, Float<N>* products, int& count) {
+inline Float<N> iterate_agm(const Float<N>& k, Float<N>* products, int& count) {
   const Float<N> converged = half_of_digits<N>(16);
   Float<N> a(1.0), b = k;
   count = 0;
   while (a - b > converged * a) {
-    const Float<N> mean = (a + b).scale(-1);
+    const Float<N> half_sum = (a + b).scale(-1);
     b = root(a * b);
-    a = mean;
+    a = half_sum;
     count++;
     if (products) products[count - 1] = (a * b).scale(2 * count);
   }
@@ -94,24 +94,25 @@ inline Float<N> iterate_mean(const Float<N>& k, Float<N>* products, int& count) 
 // square root of the distance of u_P from the near turning point divided by that from the far one.
 // Computed as in R. Bulirsch, Numer. Math. 13 (1969) 305, procedure cel. Its first step divides by
 // that nearness, which is zero for a pole that the axis passes; here this step is done by hand, and
-// the nearness cancels: these are Bulirsch's a, b/root and p root after it.
+// the nearness cancels. Letters are those of section 7, which are Bulirsch's a, b/root and p root
+// after that step as x, y and p, and root_near as the square root of rho.
 template <int N>
 inline Float<N> integrate_third_kind(const ZeroOf<N>& zero, const Float<N>& root_near,
-                                     const Float<N>& k, const Float<N>& mean,
+                                     const Float<N>& k, const Float<N>& agm,
                                      const Float<N>* products, int count) {
   const Float<N> near = root_near * root_near, one(1.0);
-  Float<N> c = one + near, d = (one + k).scale(1), p = zero.is_below ? one + k * near : k + near;
+  Float<N> x = one + near, y = (one + k).scale(1), p = zero.is_below ? one + k * near : k + near;
   for (int n = 0; n < count; n++) {
-    const Float<N> per_p = invert(p), e = products[n] * per_p, next = near * d * per_p + c;
-    d = (c * e + d).scale(1);
-    c = next;
+    const Float<N> per_p = invert(p), e = products[n] * per_p, next = near * y * per_p + x;
+    y = (x * e + y).scale(1);
+    x = next;
     p = near * e + p;
   }
-  const Float<N> m = mean.scale(count + 1);
-  return (c * m + root_near * d) / (m * (root_near * m + p));
+  const Float<N> h = agm.scale(count + 1);
+  return (x * h + root_near * y) / (h * (root_near * h + p));
 }
 
-const int MOST_MEANS = 64;
+const int MOST_AGM_STEPS = 64;
 
 // The arithmetic-geometric mean of 1 and k = sqrt(1 - m), and the mean rates of the three
 // functions: the mean of d/(2 |u - u_P|) over a nutation (section 7).
@@ -123,9 +124,9 @@ inline Float<N> compute_mean_rates(const NutationOf<N>& n, const ZeroOf<N> zeros
       means[i] = zeros[i].is_below ? zeros[i].d / zeros[i].from_u2.scale(1) : Float<N>();
     return Float<N>();
   }
-  Float<N> products[MOST_MEANS];
+  Float<N> products[MOST_AGM_STEPS];
   int count;
-  const Float<N> mean = iterate_mean(k, products, count);
+  const Float<N> agm = iterate_agm(k, products, count);
   for (int i = 0; i < FUNCTIONS; i++) {
     const ZeroOf<N>& zero = zeros[i];
     const Float<N> rate = root(n.beta * zero.from_u3);
@@ -134,10 +135,10 @@ inline Float<N> compute_mean_rates(const NutationOf<N>& n, const ZeroOf<N> zeros
     // By the product of the three distances: a root of so many digits is slow.
     const Float<N> root_near = rate.sign ? size(zero.d) / (rate * near) : root(nearness);
     means[i] =
-        (mean * rate * integrate_third_kind(zero, root_near, k, mean, products, count)).scale(-1);
+        (agm * rate * integrate_third_kind(zero, root_near, k, agm, products, count)).scale(-1);
     if (zero.is_negative()) means[i] = -means[i];
   }
-  return mean;
+  return agm;
 }
 
 // K' - |shift|, right to rounding however close to K' the shift is. The textbooks give the shift

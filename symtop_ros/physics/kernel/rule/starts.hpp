@@ -145,7 +145,7 @@ inline Precise find_relative_period(const Precise& r) {
   int count;
   const Precise one(1.0), modulus = root(one + r * r);
   // agm(1, m) = m agm(1, 1/m): the mean is taken of a number up to 1.
-  return root(r) / (modulus * iterate_mean<3>(invert(modulus), nullptr, count));
+  return root(r) / (modulus * iterate_agm<3>(invert(modulus), nullptr, count));
 }
 
 const double LONGEST_AT = 2.179660431678698;
