@@ -47,7 +47,7 @@ def _module_version(name: str, package: str) -> str:
 
 
 def _kernel() -> str:
-    from symtop_ros.physics.kernel.door import kernel_version
+    from symtop_ros.physics.kernel.bindings import kernel_version
     from symtop_ros.physics.kernel.library import digest_sources
 
     return f"{kernel_version()}, sources {digest_sources()[:12]}"

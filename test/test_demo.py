@@ -57,7 +57,7 @@ def other_than_delays(errors):
 
 @pytest.mark.slow
 @pytest.mark.wording
-def test_two_demonstrations_hurry_the_top_log_it_print_the_same_and_leave_nothing_running(tmp_path):
+def test_two_demonstrations_print_the_same_and_leave_nothing_running(tmp_path):
     with running_demo(tmp_path) as (one, line), running_demo(tmp_path) as (other, second):
         one.stdout.readline()  # as soon as samples have come, and not at the end
         assert one.poll() is None

@@ -54,10 +54,10 @@ TABLE = {
     "truth/tables": "physics | numpy scipy",
     "truth/residuals": " | numpy scipy",
     "truth/topics": "run/log run/wire truth/residuals | numpy",
-    "truth/fit": "base/command base/look physics run/log run/simulation run/wire truth/residuals "
-    "truth/tables truth/topics words | matplotlib numpy scipy",
+    "truth/fit": "base/command base/figure_style physics run/log run/simulation run/wire "
+    "truth/residuals truth/tables truth/topics words | matplotlib numpy scipy",
     # of testset the scorer; the program itself only for --testset
-    "truth/judge": "base/command base/look base/shutdown run/log run/simulation run/wire "
+    "truth/judge": "base/command base/figure_style base/shutdown run/log run/simulation run/wire "
     "truth/residuals truth/tables truth/testset truth/topics words | matplotlib numpy rclpy scipy",
 }
 ARROWS = {k: tuple(set(part.split()) for part in v.split("|")) for k, v in TABLE.items()}
@@ -116,7 +116,7 @@ def test_every_folder_is_in_the_table():
     assert {path.stem for path in PACKAGE.glob("*.py")} == TOP
 
 
-def test_the_ground_floor_imports_no_room():
+def test_the_lowest_layer_imports_no_other():
     assert imports("base")[0] <= {"__init__", *(f"base/{path.stem}" for path in nodes_of_base())}
 
 

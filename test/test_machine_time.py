@@ -9,7 +9,7 @@ import pytest
 from machine_time import MachineTime, measuring
 
 
-def test_a_machine_that_stood_still_is_measured_and_the_test_is_skipped_with_the_figure():
+def test_a_test_is_skipped_with_a_figure_if_the_machine_stood_still():
     others = {*psutil.Process().children()}  # of other tests
     with measuring() as machine:
         (loop,) = {*psutil.Process().children()} - others

@@ -137,9 +137,7 @@ def test_nothing_is_run_where_all_is_there(checkout):
     assert set_up(checkout) == (0, [], [])
 
 
-def test_a_link_to_the_environment_of_another_checkout_is_replaced_and_the_other_one_kept(
-    checkout, tmp_path
-):
+def test_a_link_to_the_environment_of_another_checkout_is_replaced(checkout, tmp_path):
     other = tmp_path / "other"
     shutil.copytree(checkout, other, symlinks=True)
     shutil.rmtree(other / ".venv")
@@ -305,7 +303,7 @@ def test_a_python_that_is_missing_or_old_is_named(fresh, tmp_path):
         assert said in done.stdout
 
 
-def test_the_set_up_of_the_readme_is_typed_line_by_line_without_the_variables_of_the_machine(
+def test_ci_types_the_set_up_of_the_readme_without_the_variables_of_the_machine(
     tmp_path,
 ):
     fake = tmp_path / "make"

@@ -65,7 +65,7 @@ def test_the_lesson_quotes_the_rule_and_says_whose_it_is_in_each_language(path):
     assert all(name in seen for name in ("Thomson", "John Perry", "1890"))
 
 
-def test_sources_that_are_cited_are_in_the_list_of_references_and_in_that_for_programs():
+def test_cited_sources_are_in_both_lists_of_references():
     references = (ROOT / "docs/article.md").read_text().partition("\n## References\n")[2]
     listed = (ROOT / "CITATION.cff").read_text()
     for name, title in (

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from symtop_ros.physics.kernel import door, records
+from symtop_ros.physics.kernel import bindings, records
 from workshop import twins
 from workshop.kernel_wasm import FUNCTIONS as EXPORTED
 
@@ -35,15 +35,20 @@ def test_a_name_is_that_in_quotes_or_the_enumerator_in_small_letters():
 
 def test_statuses_have_the_numbers_of_the_compiled_kernel():
     sentences = [
-        door.open_door().describe_status(k).decode() for k in range(len(HEADER.enums["status"]))
+        bindings.bind_functions().describe_status(k).decode()
+        for k in range(len(HEADER.enums["status"]))
     ]
     assert len({*sentences}) == len(sentences)
     assert sentences[records.TOO_FAR] == "times must be within 1e15 turns of the start"
-    assert door.open_door().describe_status(len(sentences)).startswith(b"status must be one of")
+    assert (
+        bindings.bind_functions()
+        .describe_status(len(sentences))
+        .startswith(b"status must be one of")
+    )
 
 
 def test_a_record_of_another_size_is_called_that():
     right = [ctypes.sizeof(record) for record in records.RECORDS]
-    door.demand_sizes(right)
+    bindings.demand_sizes(right)
     with pytest.raises(ImportError, match=r"^RatesRecord must have the 56 bytes .* got 48: run"):
-        door.demand_sizes([*right[:4], 56, *right[5:]])
+        bindings.demand_sizes([*right[:4], 56, *right[5:]])

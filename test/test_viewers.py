@@ -99,7 +99,7 @@ def test_a_launch_without_arguments_starts_a_node_that_decides_all(launch):
     assert (node["name"], node["namespace"], node["parameters"]) == ("top", "", [])
 
 
-def test_a_launch_publishes_the_urdf_where_rviz_looks_for_it_unless_a_robot_has_its_own(launch):
+def test_a_launch_publishes_the_urdf_where_rviz_looks_for_it(launch):
     assert launch()["top_node"]["remappings"] == [("~/robot_description", "robot_description")]
     assert launch(robot_description="false")["top_node"]["remappings"] == []
 

@@ -1,4 +1,4 @@
-"""The ground floor: what every room uses, and what imports no room.
+"""The lowest layer: every other subpackage uses it, and it imports none of them.
 
 `arrays.py` has types and columns of arrays, `refusals.py` the one language of refusals, `units.py`
 the units that people type, `missing.py` what to install, `command.py` the options of all programs,

@@ -25,7 +25,7 @@ from symtop_ros.physics.dynamics import (
     specific_force,
 )
 from symtop_ros.physics.gimbal import GimbalShares, gimbal_shares
-from symtop_ros.physics.kernel.door import kernel_version
+from symtop_ros.physics.kernel.bindings import kernel_version
 from symtop_ros.physics.kernel.records import QUESTIONS, Direction, Hold, Kind
 from symtop_ros.physics.kicks import (
     HOLDS,

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.base.arrays import Mask, Real, Vector
 from symtop_ros.base.refusals import refuse
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.kernel.records import FRICTION_KINDS
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
@@ -24,8 +24,8 @@ TORQUE_UNIT = "N m, world frame"
 STATES = 2**16
 STATES_OF_SETUP = 200
 # Ends of the columns of starts: moments, orientation as given, omega, friction, torque.
-STARTS = (3, 7, 10, 10 + len(FRICTION_KINDS), door.START)
-_pack_start = Struct(f"{door.START}d").pack
+STARTS = (3, 7, 10, 10 + len(FRICTION_KINDS), bindings.START)
+_pack_start = Struct(f"{bindings.START}d").pack
 
 
 def validate_torque(torque: Any) -> Any:
@@ -127,14 +127,14 @@ def fill_states(starts: Real, times: Real | ExactTimes, orientation: Real, omega
         place: Any = slice(some[0], some[-1] + 1) if whole else some
         # In place if the motions are neighbours: an indexed array would be a copy.
         parts = orientation[place], omega[place], left[place]
-        door.fill_many(starts[some], times, *parts)
+        bindings.fill_many(starts[some], times, *parts)
         if not whole:
             orientation[place], omega[place], left[place] = parts
     return left.view(np.bool_)
 
 
 def describe_starts(starts: Real) -> NDArray[Any]:
-    """Return the constants of motions, as records (n,) of `door.CONSTANTS`."""
+    """Return the constants of motions, as records (n,) of `bindings.CONSTANTS`."""
     rows = STATES // STATES_OF_SETUP
     blocks = [starts[first : first + rows] for first in range(0, len(starts), rows)]
-    return np.concatenate([door.describe_many(block) for block in blocks or [starts]])
+    return np.concatenate([bindings.describe_many(block) for block in blocks or [starts]])

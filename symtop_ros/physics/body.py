@@ -13,7 +13,7 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.base.deprecation import OldName
 from symtop_ros.base.refusals import Words, refuse, require, show_limit
 from symtop_ros.physics.dynamics import DEFAULT_GRAVITY, specific_force
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.kernel.records import PART_KINDS
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.parts import Part
@@ -89,7 +89,7 @@ class Body:
         ValueError
             If a moment is out of the range of a `Top`.
         """
-        found = door.find_body_top((self.mass, self.arm, self.Ix, self.Iz), self.gravity)
+        found = bindings.find_body_top((self.mass, self.arm, self.Ix, self.Iz), self.gravity)
         return Top(found.Ix, found.Iz, found.Mgl)
 
     @classmethod
@@ -195,7 +195,7 @@ class Body:
         gravity = validate_positive("gravity", gravity, "m/s^2")
         kinds = [PART_KINDS.index(each.kind) for each in given]
         numbers = [(each.mass, each.size, each.distance) for each in given]
-        found = door.find_body(kinds, numbers)
+        found = bindings.find_body(kinds, numbers)
         if Ix is None:
             return cls(found.mass, found.arm, found.Ix, found.Iz if Iz is None else Iz, gravity)
         return cls.from_pivot_moments(

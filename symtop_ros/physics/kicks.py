@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.one_or_many import Many, N
 from symtop_ros.base.refusals import Words, refuse
-from symtop_ros.physics.kernel import door, records
+from symtop_ros.physics.kernel import bindings, records
 from symtop_ros.physics.kernel.records import Hold, KickKind
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
@@ -207,7 +207,7 @@ def _kick(tops: Real, state: State, kind: KickKind, hold: Hold, amounts: Any, na
         parts = _spread(parts, axes)
     rows, orientation, omega, given = parts
     how = records.KICK_KINDS.index(kind), records.HOLDS.index(hold)
-    kicked, done, status = door.kick(rows, orientation, omega, *how, given)
+    kicked, done, status = bindings.kick(rows, orientation, omega, *how, given)
     if status == records.OK:
         attitude = state.given_orientation
         if attitude.shape != orientation.shape:
@@ -222,7 +222,7 @@ def _kick(tops: Real, state: State, kind: KickKind, hold: Hold, amounts: Any, na
             f"so small that rates stay within {LARGEST_ANGULAR_VELOCITY:g} rad/s",
             float(np.abs(given.reshape(len(flat[0]), -1)[done]).max()),
         )
-    raise door.refuse_status(status)
+    raise bindings.refuse_status(status)
 
 
 def _spread(parts: tuple[Real, ...], axes: int) -> tuple[Real, ...]:

@@ -19,7 +19,7 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.base.deprecation import OldName
 from symtop_ros.base.refusals import Words, refuse, require, show, show_limit
 from symtop_ros.physics.dynamics import find_fastest_rate
-from symtop_ros.physics.kernel.door import find_exchange
+from symtop_ros.physics.kernel.bindings import find_exchange
 from symtop_ros.physics.kernel.records import EnergiesRecord, ExchangeRecord
 from symtop_ros.physics.motion import Motion, Piece
 from symtop_ros.physics.state import State

@@ -25,7 +25,7 @@ from symtop_ros.physics.arguments import (
 )
 from symtop_ros.physics.certificate import Certificate, certify
 from symtop_ros.physics.jacobian import differentiate
-from symtop_ros.physics.kernel import door, states
+from symtop_ros.physics.kernel import bindings, states
 from symtop_ros.physics.kernel.records import Engine, Kind, PieceRecord, RatesRecord
 from symtop_ros.physics.pushes import Pushes
 from symtop_ros.physics.state import Rates, State
@@ -164,7 +164,7 @@ class Motion:
     def _open(self) -> None:
         """Make the motion in the kernel."""
         packed = self.pushes.packed if self.pushes else b""
-        self._kernel = door.KernelMotion(self._packed_start, packed, self.clamped)
+        self._kernel = bindings.KernelMotion(self._packed_start, packed, self.clamped)
         self._piece: Piece | None = None  # the last one that was asked for
 
     def restart(self, start: State[float]) -> "Motion":
@@ -206,7 +206,7 @@ class Motion:
         require(isinstance(state, State), name, "one state", state)
         validate_one(state, name, "state")
         given, omega = state.given_orientation, state.angular_velocity
-        return door.replace_state(self._packed_start, given, omega)
+        return bindings.replace_state(self._packed_start, given, omega)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle a motion by its arguments: copies share no integration."""
@@ -531,7 +531,7 @@ class Motion:
         """
         return self._kernel.farthest_time
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def jacobian(self, t: ArrayLike | ExactTimes) -> Real:
         """Return the derivatives of the state by the top and the start.
 
@@ -710,7 +710,7 @@ class Motion:
         """
         if self.is_driven or self.pushes or self.clamped:
             return math.inf
-        return door.find_doubt(self._packed_start)
+        return bindings.find_doubt(self._packed_start)
 
     @property
     def mean_spin_rate(self) -> float:

@@ -27,7 +27,7 @@ from symtop_ros.physics.arguments import (
     wrap_states,
 )
 from symtop_ros.physics.certificate import Certificate
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.kernel.records import ENGINES, KINDS
 from symtop_ros.physics.motion import Motion, find_period
 from symtop_ros.physics.state import Rates, State
@@ -437,7 +437,7 @@ class Motions:
         return np.asarray(self._find_rates("spin_reverses") != 0)
 
     @property
-    @door.compute_soundly
+    @bindings.compute_soundly
     def fast_top_precession_rate(self) -> Real:
         """Mgl/p_psi in rad/s, as in `Motion.fast_top_precession_rate`."""
         Iz, Mgl, omega_z = self._starts[:, [1, 2, 9]].T
@@ -447,7 +447,7 @@ class Motions:
         return rates.reshape(self.shape)
 
     @property
-    @door.compute_soundly
+    @bindings.compute_soundly
     def fast_top_nutation_rate(self) -> Real:
         """|p_psi|/Ix in rad/s."""
         Ix, Iz, omega_z = self._starts[:, [0, 1, 9]].T

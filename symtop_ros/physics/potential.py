@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.deprecation import OldName
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import validate_array, validate_number, validate_one
@@ -59,7 +59,7 @@ class EffectivePotential:
         momenta = float(top.vertical_momentum(state)), float(top.axial_momentum(state))
         return cls(top, *momenta, energy)
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def at(self, theta: ArrayLike) -> Real:
         """Return U_eff = (p_phi - p_psi cos(theta))^2/(2 Ix sin^2(theta)) + Mgl cos(theta) in J.
 
@@ -83,7 +83,7 @@ class EffectivePotential:
             share = np.where(turning == 0, 0.0, turning / np.sin(theta))
             return np.asarray(self.top.Ix * share * share / 2 + self.top.Mgl * np.cos(theta))
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def cubic(self, u: ArrayLike) -> Real:
         """Return f(u) = (1 - u^2)(alpha - beta u) - (b - a u)^2 = (du/dt)^2 in 1/s^2.
 
@@ -104,7 +104,7 @@ class EffectivePotential:
         rate = self._rate(u, 1 - u)
         return np.asarray((1 - u) * (1 + u) * left - rate * rate)
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def find_third_root(self, low: float, high: float) -> float:
         """Return the root of the cubic that no angle has, from the two turning angles.
 

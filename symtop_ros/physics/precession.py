@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.one_or_many import Many
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.top import Top
 from symtop_ros.physics.values import (
     are_floats,
@@ -103,7 +103,7 @@ def regular_precession_rates(
     """
     theta, psi_dot = validate_together({"theta": theta, "psi_dot": psi_dot}, ("rad", "rad/s"))
     shape, (tops, thetas, spins) = spread_tops(top, theta, psi_dot)
-    rates = door.find_regular_rates(tops, thetas, spins, hold=0)
+    rates = bindings.find_regular_rates(tops, thetas, spins, hold=0)
     if not shape:
         slow, fast = rates[0].tolist()
         return slow, fast
@@ -122,7 +122,7 @@ def spread_tops(top: Top, *columns: Any) -> tuple[tuple[int, ...], list[Real]]:
     return shape, [np.stack(flat[:3], axis=-1), *flat[3:]]
 
 
-@door.compute_soundly
+@bindings.compute_soundly
 def theta_torque(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
     """Return Ix theta''/sin(theta): zero where precession is regular, negative if the top rises.
 
@@ -158,11 +158,11 @@ def _find_tilt_torques(top: Top, theta: Any, phi_dot: Any, psi_dot: Any) -> list
         validate_rate("phi_dot", phi_dot),
         validate_rate("psi_dot", psi_dot),
     )
-    found = door.find_tilt_torques(*columns).T
+    found = bindings.find_tilt_torques(*columns).T
     return [np.ascontiguousarray(each).reshape(shape) for each in found]
 
 
-@door.compute_soundly
+@bindings.compute_soundly
 def theta_acceleration(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
     """Return theta'' as displayed in the article: sin(theta)/Ix times `theta_torque`.
 
@@ -203,7 +203,7 @@ class FrameTorques(NamedTuple):
         return self.gravity + self.coriolis + self.centrifugal
 
 
-@door.compute_soundly
+@bindings.compute_soundly
 def precessing_frame_torques(
     top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike
 ) -> FrameTorques:

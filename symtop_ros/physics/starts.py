@@ -17,7 +17,7 @@ from symtop_ros.base.refusals import (
     validate_names,
 )
 from symtop_ros.base.units import QUANTITIES
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.kernel.records import DEMANDS, QUESTIONS, SolutionsRecord
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
@@ -139,7 +139,7 @@ def solve_start(
         rows = " / ".join(", ".join(each) for each in ROWS.values())
         raise refuse("known", f"one of {rows}", Words(", ".join(known) or "nothing"))
     numbers = [validate_number(name, known[name], QUANTITIES[name]) for name in names]
-    found = door.solve_start(top.moments, [*ROWS.values()].index(names), numbers)
+    found = bindings.solve_start(top.moments, [*ROWS.values()].index(names), numbers)
     if found.number == 0:
         raise _refuse(top, names, numbers, found)
     starts = tuple(_read(each) for each in found.each[: int(found.number)])
@@ -147,7 +147,7 @@ def solve_start(
         return starts
     validate_names(half_widths, names, "half_widths")
     widths = [_validate_width(name, half_widths.get(name, 0.0)) for name in names]
-    spreads = door.find_spreads(top.moments, [*ROWS.values()].index(names), numbers, widths)
+    spreads = bindings.find_spreads(top.moments, [*ROWS.values()].index(names), numbers, widths)
     if math.isnan(spreads.least[0].theta):
         return starts
     return tuple(

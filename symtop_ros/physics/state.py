@@ -14,7 +14,7 @@ from symtop_ros.base.arrays import Mask, Real, rotate, split, stack
 from symtop_ros.base.deprecation import OldName, warn_of_name
 from symtop_ros.base.one_or_many import N
 from symtop_ros.base.refusals import Words, refuse, require, show
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.times import ExactTimes, to_seconds
 from symtop_ros.physics.values import (
     EPS,
@@ -325,11 +325,11 @@ class State(Generic[N]):
         table = np.array(values)  # (6, ...)
         if table.ndim > 1:
             table = np.moveaxis(table, 0, -1)
-        q, omega = door.from_angles(table[..., :3], table[..., 3:])
+        q, omega = bindings.from_angles(table[..., :3], table[..., 3:])
         return cls._of_given(q, omega)
 
     @cached_property
-    @door.compute_soundly
+    @bindings.compute_soundly
     def vertical(self) -> Real:
         """World z' in the body frame, (..., 3): sin theta sin psi, sin theta cos psi, cos theta.
 
@@ -355,14 +355,14 @@ class State(Generic[N]):
     @property
     def euler_angles(self) -> Angles[N]:
         """Angles (phi, theta, psi) in rad, with 0 <= theta <= pi; phi is 0 on the vertical."""
-        return Angles(*split(door.find_angles(self.orientation)))
+        return Angles(*split(bindings.find_angles(self.orientation)))
 
     @cached_property
     def euler_rates(self) -> Rates[N]:
         """Rates (phi', theta', psi') in rad/s; phi' is 0 on the vertical."""
-        return Rates(*split(door.find_angle_rates(*self._parts)))
+        return Rates(*split(bindings.find_angle_rates(*self._parts)))
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def to_world(self, vector: ArrayLike) -> Real:
         """Rotate body-frame vectors into the world frame.
 
@@ -378,7 +378,7 @@ class State(Generic[N]):
         """
         return rotate(*self._components, np.asarray(vector, dtype=float))
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def to_body(self, vector: ArrayLike) -> Real:
         """Rotate world-frame vectors into the body frame.
 
@@ -396,7 +396,7 @@ class State(Generic[N]):
         return rotate(-w, x, y, z, np.asarray(vector, dtype=float))
 
     @property
-    @door.compute_soundly
+    @bindings.compute_soundly
     def matrix(self) -> Real:
         """Rotation matrices from body to world, (..., 3, 3): the columns are the body's axes.
 
@@ -415,7 +415,7 @@ class State(Generic[N]):
         return np.stack(rows, axis=-2)
 
     @classmethod
-    @door.compute_soundly
+    @bindings.compute_soundly
     def from_matrix(cls, matrix: ArrayLike, angular_velocity: ArrayLike) -> "State":
         """Return the state with these rotation matrices from body to world.
 
@@ -578,5 +578,5 @@ def _normalize(q: Real) -> Real:
             f"a quaternion of norm 1 within {NORM_TOLERANCE:g}",
             Words(f"a norm of {show(norm.flat[deviation.argmax()])}"),
         )
-    door.demand_arithmetic()
+    bindings.demand_arithmetic()
     return np.asarray(np.where(deviation > NORM_ROUNDING, q / norm, q))

@@ -11,7 +11,7 @@ from symtop_ros.base.arrays import Real, split, stack
 from symtop_ros.base.deprecation import OldName
 from symtop_ros.base.one_or_many import Many, N
 from symtop_ros.base.refusals import Words, refuse, show_limit
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.kernel.records import FRICTION_KINDS
 from symtop_ros.physics.state import State
 from symtop_ros.physics.values import (
@@ -125,7 +125,7 @@ class Top(_Numbers, Generic[N]):
         return self.Ix, self.Iz, self.Mgl
 
     @property
-    @door.compute_soundly
+    @bindings.compute_soundly
     def critical_spin(self) -> N:
         """Smallest |omega_z| in rad/s at which sleeping upright is stable; 0 for Mgl <= 0.
 
@@ -137,7 +137,7 @@ class Top(_Numbers, Generic[N]):
         spin: Any = 2 * np.sqrt(Ix) * np.sqrt(np.maximum(Mgl, 0.0)) / Iz
         return spin if self.shape else cast(N, float(spin))
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def sleeping_is_stable(self: "Top[float]", state: State[float]) -> bool:
         """Return True if an axis at rest on the vertical stays near it after a small kick.
 
@@ -162,19 +162,19 @@ class Top(_Numbers, Generic[N]):
         least = 2 * math.sqrt(self.Ix) * math.sqrt(weight)
         return abs(float(self.axial_momentum(state))) >= (1 - 8 * EPS) * least
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def body_angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the body frame, (..., 3), in N m s."""
         Ix, Iz = match(self.Ix, state), match(self.Iz, state)
         x, y, z = split(state.angular_velocity)
         return stack(x * Ix, y * Ix, z * Iz)
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def angular_momentum(self, state: State) -> Real:
         """Return the angular momentum about the pivot in the world frame, (..., 3), in N m s."""
         return state.to_world(self.body_angular_momentum(state))
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def gravity_torque(self, state: State) -> Real:
         """Return the torque of gravity about the pivot in the world frame, (..., 3), in N m.
 
@@ -194,7 +194,7 @@ class Top(_Numbers, Generic[N]):
     @overload
     def energy(self, state: State[Real]) -> Real: ...
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def energy(self, state: State) -> Any:
         """Return the kinetic and potential energy, (...), in J; the potential is Mgl cos(theta)."""
         kinetic = (self.body_angular_momentum(state) * state.angular_velocity).sum(axis=-1) / 2
@@ -209,7 +209,7 @@ class Top(_Numbers, Generic[N]):
     @overload
     def axial_momentum(self, state: State[Real]) -> Real: ...
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def axial_momentum(self, state: State) -> Any:
         """Return L_z = p_psi = Iz omega_z, (...), in N m s; constant without friction."""
         return match(self.Iz, state) * state.angular_velocity[..., 2]
@@ -223,7 +223,7 @@ class Top(_Numbers, Generic[N]):
     @overload
     def vertical_momentum(self, state: State[Real]) -> Real: ...
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def vertical_momentum(self, state: State) -> Any:
         """Return L_z' = p_phi = L . z', (...), in N m s; constant without friction."""
         return (self.body_angular_momentum(state) * state.vertical).sum(axis=-1)
@@ -321,7 +321,7 @@ class Friction(_Numbers, Generic[N]):
         """Return the fastest rate in 1/s, (...), at which friction slows a top."""
         return np.maximum(self.axial / top.Iz, self.transverse / top.Ix)
 
-    @door.compute_soundly
+    @bindings.compute_soundly
     def torque(self, state: State) -> Real:
         """Return the torque of friction in the body frame, (..., 3), in N m."""
         across, along = -match(self.transverse, state), -match(self.axial, state)

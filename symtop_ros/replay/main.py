@@ -135,7 +135,7 @@ def _save_page(log: TopLog, path: Path) -> None:
         raise LogError(f"{log.file.path}: a run must have an event to be saved")
     last = 0 if catalog.end is None else catalog.end
     end = min(last, shown[-1].end)
-    if end < last and shown[-1] is not catalog.stretches[-1]:
+    if end < last and shown[-1] is not catalog.intervals[-1]:
         text = f"the page ends at {end} ns: how the top moved then is not known"
         print(f"top_replay: {text}", file=sys.stderr)
     run, reached = record_run((each.event for each in shown if each.event), end)

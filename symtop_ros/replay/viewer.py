@@ -197,7 +197,7 @@ def replay(
         view.send(batch)
         _show_progress(log.file.offset, log.file.size)
     if points:
-        view.send_points(points, catalog.stretches)
+        view.send_points(points, catalog.intervals)
     for problem in catalog.lines:
         view.log_text(problem)
     recording.flush()

@@ -2,6 +2,6 @@
 
 `node/` is the host of a session of `run/`; `client/` is `top_ctl`; `live/` draws a running node.
 
-It is the only room that needs rclpy, with the bridge of `page/panel/`. Nothing but the programs
+Nothing else needs rclpy but the bridge of `page/panel/`, and nothing but the programs
 imports it. Begin with `node/top_node.py`.
 """

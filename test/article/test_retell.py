@@ -6,7 +6,7 @@ from PIL import Image
 from rerun.chunk import RrdReader
 from trials import choose
 
-from symtop_ros.base.look import write_figures
+from symtop_ros.base.figure_style import write_figures
 from symtop_ros.replay.view import entities
 from workshop import main as report
 from workshop.article.figures import FIGURES

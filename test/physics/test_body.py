@@ -12,7 +12,7 @@ from trials import seeds
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.physics import BODIES, Body, Friction, Motion, Part, State, Top
 from symtop_ros.physics.dynamics import DEFAULT_GRAVITY, point_acceleration
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.precession import theta_acceleration, theta_torque
 from workshop.digits import ClosedForm
 from workshop.testset.exact import DIGITS
@@ -146,8 +146,10 @@ def test_a_disc_leads_back_to_itself():
 def find_disc(moments):
     """Mass, radius and distance of the disc that moves as a top does, as the page asks for them."""
     found = np.empty(3)
-    top = door.read_from(np.array(moments))
-    door.demand(door.open_door().find_disc(top, DEFAULT_GRAVITY, door.write_to(found, 3)))
+    top = bindings.read_from(np.array(moments))
+    bindings.demand(
+        bindings.bind_functions().find_disc(top, DEFAULT_GRAVITY, bindings.write_to(found, 3))
+    )
     return found
 
 

@@ -90,7 +90,7 @@ def test_states_drawn_from_all_families_are_as_right_as_promised(seed, family):
 
 
 @families(DRIVEN)
-def test_states_under_friction_and_torques_are_right_to_a_part_of_what_rounding_changes(family):
+def test_driven_states_are_right_to_a_part_of_what_rounding_changes(family):
     """As docs/accuracy.md promises: of angles, twice the distances, eps (4 + growth/10)."""
     for each in of_family(family):
         facts = zip(each.times, each.states, each.row["growth"], strict=True)

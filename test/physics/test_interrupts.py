@@ -11,7 +11,7 @@ import pytest
 from physics.tops import ARTICLE, CUSPS
 
 from symtop_ros.physics import Friction, Motion, Motions, State, Top, perrys_rule
-from symtop_ros.physics.kernel.door import open_door
+from symtop_ros.physics.kernel.bindings import bind_functions
 
 # Limits of one call, some ms each; the constants of a motion take as long as 200 states.
 STATES, STEPS, VERDICTS, SETUP = 2**16, 256, 256, 200
@@ -23,7 +23,9 @@ def _calls(monkeypatch, signals_as_before):
     calls = []
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may have it ignored
     for name in ("states", "states_of_many", "describe_many", "judge"):
-        monkeypatch.setattr(open_door(), name, interrupt(getattr(open_door(), name), calls))
+        monkeypatch.setattr(
+            bind_functions(), name, interrupt(getattr(bind_functions(), name), calls)
+        )
     return calls
 
 

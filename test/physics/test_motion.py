@@ -67,7 +67,7 @@ def test_the_start_has_the_same_signs_of_zero_alone_and_among_others(top):
     assert alone.orientation.tolist() == among.orientation[0].tolist()
 
 
-def test_tiny_turning_angles_of_a_top_with_its_weight_below_are_right_to_rounding_of_themselves():
+def test_tiny_turning_angles_of_a_hanging_top_are_right_to_their_rounding():
     start = State.from_euler(theta=1e-14, phi_dot=0.3, psi_dot=300.0)
     motion = Motion(Top(2e-4, 1e-4, -0.05), start)
     low, high = motion.turning_angles

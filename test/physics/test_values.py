@@ -220,7 +220,7 @@ def test_the_separatrix_rests_at_its_end_at_any_time():
     assert upright.at([1e14, 0.0]).euler_angles.theta[0] == 0.0
 
 
-def test_a_friction_that_makes_a_time_too_far_is_refused_with_the_time_that_can_be_had():
+def test_a_friction_that_makes_a_time_too_far_is_refused_with_a_limit():
     start = State.from_euler(theta=0.5, psi_dot=200.0)
     motion = Motion(ARTICLE, start, Friction(100.0, 100.0))
     words = "t must be within 0.0572 s of the start (friction stops the top in 5.72e-07 s"

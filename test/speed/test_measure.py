@@ -7,7 +7,7 @@ import pytest
 from documents import ROOT, find_section
 from PIL import Image
 
-from symtop_ros.base import look
+from symtop_ros.base import figure_style
 from workshop.speed import benchmarks
 from workshop.speed import measure as module
 from workshop.speed.measure import measure
@@ -30,8 +30,8 @@ def written(tmp_path_factory):
         patch.setattr(benchmarks, "SPAN", 1.0)  # a tenth
         patch.setattr(benchmarks, "DRIVEN_RUNS", 1)
         patch.setattr(benchmarks, "FIRST_MOTION", ("SciPy DOP853, quaternion", "MuJoCo RK4"))
-        patch.setattr(look, "RESOLUTION", 100)
-        patch.setitem(look.SETTINGS, "figure.constrained_layout.use", False)
+        patch.setattr(figure_style, "RESOLUTION", 100)
+        patch.setitem(figure_style.SETTINGS, "figure.constrained_layout.use", False)
         docs = tmp_path_factory.mktemp("root") / "docs"
         docs.mkdir()
         for name in ("../README.md", "accuracy.md", "accuracy_tables.md", "many.md"):

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.look import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
+from symtop_ros.base.figure_style import BLUE, GREY, INK, PALE, RED, columns, new_figure, rows
 from symtop_ros.physics import (
     EffectivePotential,
     Motion,

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from symtop_ros.base.look import write_figures
+from symtop_ros.base.figure_style import write_figures
 from workshop.article.claims import check_claims, markdown, table
 from workshop.article.figures import FIGURES
 from workshop.article.recordings import write_recordings

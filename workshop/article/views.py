@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.look import BLUE, GOLD, GREY, INK, PALE, RED, new_figure
+from symtop_ros.base.figure_style import BLUE, GOLD, GREY, INK, PALE, RED, new_figure
 from symtop_ros.physics import Motion, State
 from symtop_ros.replay.view.entities import draw_meridian, draw_parallel
 from workshop.article.answers.fictitious import draw_arrow

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.look import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.base.figure_style import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.page.web.join import read_record
 from symtop_ros.physics import (
     Motion,

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from symtop_ros.base.look import GREY, RED
+from symtop_ros.base.figure_style import GREY, RED
 from symtop_ros.physics import Motion, State, hurry, kick_verdict
 from symtop_ros.replay.view import entities
 from symtop_ros.replay.view.view import View

@@ -9,7 +9,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from PIL import Image
 
-from symtop_ros.base.look import SETTINGS
+from symtop_ros.base.figure_style import SETTINGS
 
 RESOLUTION = 110  # dots per inch: some 700 in the width of a page
 COLORS, SHADES = 24, 128  # of the palettes of figures and of shaded bodies

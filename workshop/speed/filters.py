@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from scipy.spatial.transform import Rotation
 
 from symtop_ros.base.arrays import Real, invert
-from symtop_ros.base.look import (
+from symtop_ros.base.figure_style import (
     BLUE,
     GOLD,
     GREY,

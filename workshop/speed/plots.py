@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from symtop_ros.base.look import BLUE, GREY, INK, RED, new_figure, write_figures
+from symtop_ros.base.figure_style import BLUE, GREY, INK, RED, new_figure, write_figures
 from workshop.speed.benchmarks import SPAN, HardCase, Results
 from workshop.speed.peers import CLOSED_FORM
 from workshop.speed.publish import group

@@ -10,7 +10,7 @@ import numpy as np
 from symtop_ros.base.refusals import refuse, require
 from symtop_ros.physics.arguments import read_start
 from symtop_ros.physics.gpu.toolchain import open_cupy, open_functions
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.motion import Motion
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
@@ -101,7 +101,7 @@ class Motions:
     def refusals(self) -> dict[int, str]:
         """The reasons of the starts that are refused, by their places. It waits for the device."""
         found = self._status.get()
-        return {int(i): str(door.refuse_status(int(found[i]))) for i in np.flatnonzero(found)}
+        return {int(i): str(bindings.refuse_status(int(found[i]))) for i in np.flatnonzero(found)}
 
     def at(self, times: Numbers) -> States:
         """Return the states of all motions at common times.

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.physics.kernel import door, library
+from symtop_ros.physics.kernel import bindings, library
 
 # Orientations, angular velocities, and 0 for each state that is there.
 States = tuple[Any, Any, Any]
@@ -204,5 +204,5 @@ def compute_on_cpu(starts: Real, times: Real) -> States:
     left = np.empty(count, np.uint8)
     for i in range(count):
         one = slice(i, i + 1)
-        door.fill_many(starts[one], times[one], orientation[one], omega[one], left[one])
+        bindings.fill_many(starts[one], times[one], orientation[one], omega[one], left[one])
     return orientation, omega, left

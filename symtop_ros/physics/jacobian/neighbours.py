@@ -8,7 +8,7 @@ from symtop_ros.base.arrays import Places, Real, compose, find_rotation_vectors,
 from symtop_ros.physics.arguments import STARTS, fill_states
 from symtop_ros.physics.jacobian.differentiable import Differentiable
 from symtop_ros.physics.jacobian.nodes import CENTRAL, FARTHEST_OF_PAIRS, FORWARD
-from symtop_ros.physics.kernel import door, states
+from symtop_ros.physics.kernel import bindings, states
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 
@@ -72,7 +72,7 @@ class Neighbours:
         q, omega = np.empty((len(rows), len(some), 4)), np.empty((len(rows), len(some), 3))
         left = fill_states(rows, times, q, omega)
         for k in np.flatnonzero(left.any(axis=1)):
-            states.fill_states(door.KernelMotion(rows[k].tobytes()), times, q[k], omega[k])
+            states.fill_states(bindings.KernelMotion(rows[k].tobytes()), times, q[k], omega[k])
         base, rates = self._at_times.orientation[some], self._at_times.angular_velocity[some]
         turned = find_rotation_vectors(compose(invert(base), q))
         changes = np.stack((turned, omega - rates), axis=-2)

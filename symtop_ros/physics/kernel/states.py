@@ -5,7 +5,7 @@ import numpy as np
 from symtop_ros.base.arrays import Real
 from symtop_ros.base.refusals import refuse, show_limit
 from symtop_ros.physics.arguments import read_start
-from symtop_ros.physics.kernel.door import NOT_PUSHED, KernelMotion, demand, refuse_status
+from symtop_ros.physics.kernel.bindings import NOT_PUSHED, KernelMotion, demand, refuse_status
 from symtop_ros.physics.kernel.records import (
     BAD_KICK,
     MORE_STEPS,

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, pack_start
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.kernel.records import HELD_KINDS, SUBJECTS, HeldKind, Subject
 from symtop_ros.physics.state import State
 from symtop_ros.physics.top import Top
@@ -78,7 +78,7 @@ def clamp_verdict(top: Top[float], before: State[float]) -> ClampVerdict:
     """
     validate_one(top, "top")
     validate_one(before, "before", "state")
-    found = door.judge_clamp(pack_start(top, before, NO_FRICTION, NO_TORQUE))
+    found = bindings.judge_clamp(pack_start(top, before, NO_FRICTION, NO_TORQUE))
     low, high = found.angles_without
     return ClampVerdict(
         HELD_KINDS[found.kind],

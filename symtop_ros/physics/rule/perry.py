@@ -33,7 +33,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.kernel.records import (
     DIRECTIONS,
     EFFECTS,
@@ -263,7 +263,7 @@ def kick_verdict(motion: Motion, before: State[float], hold: Hold | None) -> Kic
     """
     validate_one(motion, "motion")
     held = HOLDS.index(hold if hold is None else validate_hold(hold))
-    found = door.judge_kick(motion._pack_with("before", before), motion._packed_start, held)
+    found = bindings.judge_kick(motion._pack_with("before", before), motion._packed_start, held)
     reason = read_reason(found, hold)
     low, high = found.turning_angles
     return KickVerdict(

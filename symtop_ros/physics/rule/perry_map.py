@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.kernel.records import RULES, Hold
 from symtop_ros.physics.kicks import HOLDS, validate_hold
 from symtop_ros.physics.precession import spread_tops
@@ -94,7 +94,7 @@ def compare_hurried(
     )
     validate_rate("factor * phi_dot", float(np.max(np.abs(given[1]), initial=0.0)) * factor)
     shape, (tops, tilts, phi_dots, psi_dots) = spread_tops(top, *given)
-    angles, rules = door.compare_hurried(tops, tilts, phi_dots, psi_dots, factor, held)
+    angles, rules = bindings.compare_hurried(tops, tilts, phi_dots, psi_dots, factor, held)
     before, after = (np.sort([tilts, each], axis=0).reshape(2, *shape) for each in angles.T)
     rules = rules.reshape(shape)
     return HurryEffect(before, after, rules != RULES.index(None), rules == RULES.index("holds"))

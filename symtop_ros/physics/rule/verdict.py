@@ -11,7 +11,7 @@ from symtop_ros.base.arrays import Real, split
 from symtop_ros.base.one_or_many import Many
 from symtop_ros.base.refusals import refuse
 from symtop_ros.physics.arguments import NO_FRICTION, NO_TORQUE, list_starts
-from symtop_ros.physics.kernel import door, records
+from symtop_ros.physics.kernel import bindings, records
 from symtop_ros.physics.kernel.records import (
     DIRECTIONS,
     LIFT_KINDS,
@@ -211,14 +211,14 @@ def _judge(
 ) -> NDArray[Any]:
     """Return the kernel's verdicts (n,) on tops and states of a shape, and on factors (n,)."""
     starts = list_starts(top, state, NO_FRICTION, NO_TORQUE, shape)
-    verdicts, status = door.judge(starts, factors, HOLDS.index(hold))
+    verdicts, status = bindings.judge(starts, factors, HOLDS.index(hold))
     if status == records.BAD_KICK:
         raise refuse(
             "factor",
             f"such that phi' stays within {LARGEST_ANGULAR_VELOCITY:g} rad/s",
             float(factors[len(verdicts)]),
         )
-    door.demand(status)
+    bindings.demand(status)
     return verdicts
 
 

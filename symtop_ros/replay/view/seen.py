@@ -8,7 +8,7 @@ import rerun as rr
 from symtop_ros.base.arrays import Mask, Places, Real
 from symtop_ros.physics import State
 from symtop_ros.replay.view import entities
-from symtop_ros.run.log.intervals import Stretch
+from symtop_ros.run.log.intervals import Interval
 from symtop_ros.run.simulation.points import SEEN, Points
 
 RADIUS = 0.011  # scene units
@@ -16,16 +16,16 @@ SIZE = 2.5  # px in a plot
 ROWS = 4096  # in one call, as of samples
 
 
-def send_points(stream: entities.Stream, points: Points, stretches: Sequence[Stretch]) -> None:
+def send_points(stream: entities.Stream, points: Points, intervals: Sequence[Interval]) -> None:
     """Send the points, each at its time, with its residuals as its label.
 
-    The motion is that of the last stretch of a log that has begun; where none is known nothing is
+    The motion is that of the last interval of a log that has begun; where none is known nothing is
     drawn.
     """
     shown = np.full((len(points), 3), np.nan), np.full((len(points), 3), np.nan)
-    begins = [each.begin for each in stretches]
+    begins = [each.begin for each in intervals]
     owners = np.searchsorted(begins, points.stamps, side="right") - 1
-    for number, each in enumerate(stretches):
+    for number, each in enumerate(intervals):
         inside = owners == number
         if each.event and inside.any():
             states = each.event.segment().state_at(points.stamps[inside])
@@ -38,7 +38,7 @@ def send_points(stream: entities.Stream, points: Points, stretches: Sequence[Str
 
 
 def _fill(shown: tuple[Real, Real], inside: Mask, points: Points, states: State) -> None:
-    """Fill in what the points of a stretch show: axes, and theta, phi', psi'."""
+    """Fill in what the points of an interval show: axes, and theta, phi', psi'."""
     part = points.select(inside)
     shown[0][inside] = part.find_axes(states)
     shown[1][inside] = np.stack([part.find_tilts(states), *part.find_rates(states)], axis=1)

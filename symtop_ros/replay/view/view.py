@@ -15,7 +15,7 @@ from symtop_ros.replay.view.ghost import GhostView
 from symtop_ros.replay.view.plots import Plots, describe_motion, describe_nothing
 from symtop_ros.replay.view.seen import send_points
 from symtop_ros.run.log.batch import Batch, Columns, choose
-from symtop_ros.run.log.intervals import Stretch, Unknown
+from symtop_ros.run.log.intervals import Interval, Unknown
 from symtop_ros.run.simulation.events import RESTARTS, Event
 from symtop_ros.run.simulation.points import Points
 from symtop_ros.run.simulation.segment import Segment
@@ -65,7 +65,7 @@ class View:
         recording: rr.RecordingStream,
         live: bool = False,
         options: ViewOptions = DEFAULT_OPTIONS,
-        unknown: Sequence[Stretch] = (),  # in which the motion is not known, of a log
+        unknown: Sequence[Interval] = (),  # in which the motion is not known, of a log
     ) -> None:
         self._stream = entities.Stream(recording)
         self._live = live
@@ -91,7 +91,7 @@ class View:
     @np.errstate(all="ignore")
     def send(self, batch: Batch) -> None:
         """Send a batch; numbers that cannot be drawn (nan) are not visible."""
-        for event, columns in batch.stretches():
+        for event, columns in batch.intervals():
             if self._stream.origin is None:
                 self._stream.origin = _first_stamp(event, columns)
             if columns:
@@ -102,9 +102,9 @@ class View:
                 self._send_columns(columns)
 
     @np.errstate(all="ignore")
-    def send_points(self, points: Points, stretches: Sequence[Stretch]) -> None:
-        """Send measured points over the motions of some stretches."""
-        send_points(self._stream, points, stretches)
+    def send_points(self, points: Points, intervals: Sequence[Interval]) -> None:
+        """Send measured points over the motions of some intervals."""
+        send_points(self._stream, points, intervals)
 
     def log_text(self, sentence: str, level: str = "WARN") -> None:
         """Add a sentence to the list of events at the current time."""

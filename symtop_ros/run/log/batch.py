@@ -38,7 +38,7 @@ class Batch:
     # with their places, as in the columns
     events: list[tuple[int, Event]] = field(default_factory=list)
 
-    def stretches(self) -> Iterator[tuple[Event | None, dict[str, Columns]]]:
+    def intervals(self) -> Iterator[tuple[Event | None, dict[str, Columns]]]:
         """Yield each event with the samples that follow it; first None with those before all."""
         owners = {name: self._owners(columns) for name, columns in self.columns.items()}
         for number, event in enumerate([None, *(event for _, event in self.events)]):

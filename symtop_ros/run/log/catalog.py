@@ -1,6 +1,6 @@
 """The catalog of a log: all that is known of it, found out once, for everything that reads it.
 
-For each stretch of time it has the motion that is known, or why none is; for each topic its name,
+For each interval of time it has the motion that is known, or why none is; for each topic its name,
 its rate and its count; what is damaged, missing or there twice; and what the log leaves open.
 """
 
@@ -32,9 +32,9 @@ from symtop_ros.run.log.intervals import (
     NOWHERE,
     REPEATED,
     Finder,
+    Interval,
     Mark,
     Proofs,
-    Stretch,
     find_missing,
     partition,
 )
@@ -79,8 +79,8 @@ class Catalog:
     guess: str  # what is said if the log does not name the topics of the top; else empty
     others: Mapping[str, str]  # types of the other topics of the log, by their full names
     ordered: Ordered  # its events
-    stretches: tuple[Stretch, ...]  # in the order of the run
-    undecided: tuple[Stretch, ...]  # in which the order does not show to which a sample belongs
+    intervals: tuple[Interval, ...]  # in the order of the run
+    undecided: tuple[Interval, ...]  # in which the order does not show to which a sample belongs
     end: int | None  # stamp (ns) of the last sample; None without samples
     count: int  # messages of all topics
     losses: tuple[Loss, ...]  # as reading the files has found them
@@ -100,19 +100,19 @@ class Catalog:
         return self.events[0].values.get("top_frame") if self.events else None
 
     @property
-    def unknown(self) -> tuple[Stretch, ...]:
-        """The stretches of which the motion is not known."""
-        return tuple(each for each in self.stretches if each.event is None)
+    def unknown(self) -> tuple[Interval, ...]:
+        """The intervals of which the motion is not known."""
+        return tuple(each for each in self.intervals if each.event is None)
 
-    def list_continuous(self) -> list[Stretch]:
-        """Return the stretches with motions, up to where the motion may have changed.
+    def list_continuous(self) -> list[Interval]:
+        """Return the intervals with motions, up to where the motion may have changed.
 
         What is not known before the first event, and between two events of one motion, is passed
         over.
         """
-        found: list[Stretch] = []
-        is_open = False  # True after a stretch of which the motion is not known
-        for each in self.stretches:
+        found: list[Interval] = []
+        is_open = False  # True after an interval of which the motion is not known
+        for each in self.intervals:
             if each.event and is_open and found and not each.event.has_motion_of(found[-1].event):
                 break
             is_open = each.event is None
@@ -185,7 +185,7 @@ class _Conclusions:
         self._end = max(ends, default=None)
         losses, doubts = self._list_losses(), self._list_doubtful_places()
         finder = Finder(self._ordered, self._proofs, losses, self._rows, self._end, doubts)
-        self._stretches = tuple(finder.list_stretches())
+        self._intervals = tuple(finder.list_intervals())
         self._topics = self._list_topics()
 
     def conclude(self) -> Catalog:
@@ -204,7 +204,7 @@ class _Conclusions:
             guess=GUESSED if names.is_guessed else "",
             others=others,
             ordered=self._ordered,
-            stretches=self._stretches,
+            intervals=self._intervals,
             undecided=tuple(self._list_undecided()),
             end=self._end,
             count=file.count,
@@ -289,15 +289,15 @@ class _Conclusions:
             if METADATA in file.metadata and begin not in heads:
                 yield begin
 
-    def _list_undecided(self) -> Iterator[Stretch]:
-        """Yield stretches that a clock which went back repeats, if the log is not in that order."""
+    def _list_undecided(self) -> Iterator[Interval]:
+        """Yield intervals that a clock which went back repeats, if the log is not in that order."""
         rows = (each.expand() for each in self._contents.rows.values() if each.rows)
         passes = self._passes
         if passes.count == 1 or all(passes.find_by_place(*each) is not None for each in rows):
             return
-        for (begin, holding), (end, _) in pairwise(partition(self._stretches)):
+        for (begin, holding), (end, _) in pairwise(partition(self._intervals)):
             if len(holding) > 1:
-                yield Stretch(begin, end, None, REPEATED)
+                yield Interval(begin, end, None, REPEATED)
 
     # Topics
 
@@ -317,7 +317,7 @@ class _Conclusions:
         # Others may be at an event, in a gap that an event explains, or at an end of a file.
         is_open = any(gap.has_event or gap.place == NOWHERE for gap in gaps)
         is_open |= any(loss.place in (0, self._file.count) for loss in self._file.losses)
-        is_open |= any(each.reason == NO_BEGINNING for each in self._stretches)
+        is_open |= any(each.reason == NO_BEGINNING for each in self._intervals)
         return CatalogTopic(
             name=full,
             type=KNOWN[name].type,
@@ -343,8 +343,8 @@ class _Conclusions:
         """Return the gaps of a topic, but for those that an event may explain that is lost."""
         # After a gap that is not counted, what one topic alone lacks is no event's.
         passed = {gap.place for gap in self._list_uncounted(self._main)}
-        stretches = (each for each in self._stretches if each.event is None)
-        unknown = [each for each in stretches if each.places[0] not in passed]
+        intervals = (each for each in self._intervals if each.event is None)
+        unknown = [each for each in intervals if each.places[0] not in passed]
         gaps = [
             gap
             for gap in self._found.get(name, GridFindings()).gaps
@@ -454,7 +454,7 @@ class _Conclusions:
 
     def _describe_unproved(self, chosen: Callable[[int], bool]) -> Iterator[str]:
         """Yield from when on the motion is not known for want of a proof, by the first place."""
-        unproved = (each for each in self._stretches if each.reason.startswith(NO_PROOF))
+        unproved = (each for each in self._intervals if each.reason.startswith(NO_PROOF))
         for (place, _), parts in groupby(unproved, key=lambda each: each.places):
             first = next(parts)
             if chosen(place):
@@ -527,8 +527,8 @@ def _describe_where(found: Iterable[Gap]) -> str:
     return f"{most}between {widest.before} and {widest.after} ns"
 
 
-def _may_explain(unknown: Stretch, gap: Gap) -> bool:
-    """Return True if an event that is lost in a stretch may explain a gap."""
+def _may_explain(unknown: Interval, gap: Gap) -> bool:
+    """Return True if an event that is lost in an interval may explain a gap."""
     begin, end = unknown.places
     is_inside = begin <= gap.place <= end
     return is_inside or (unknown.begin < gap.after and gap.before < unknown.end)

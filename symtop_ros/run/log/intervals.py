@@ -1,4 +1,4 @@
-"""For each stretch of time of a log, the motion that is known, or why none is.
+"""For each interval of time of a log, the motion that is known, or why none is.
 
 An event says how the motion continues until the next one. If messages are lost an event may be
 among them, and another motion may have followed. Events are numbered, and diagnostics name the
@@ -28,8 +28,8 @@ NOWHERE = 2**62  # a place after the end of every log
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
-    """A stretch of stamps in which one motion is known, or none."""
+class Interval:
+    """An interval of stamps in which one motion is known, or none."""
 
     begin: int  # stamps in ns, from the first on and before the second
     end: int
@@ -39,12 +39,12 @@ class Stretch:
     places: tuple[int, int] = (0, 0)  # of what is not known: the messages from the first to before
 
 
-def partition(stretches: Sequence[Stretch]) -> Iterator[tuple[int, list[Stretch]]]:
-    """Yield the stamps at which other stretches hold, and these: none, one, or several."""
-    spans = [each for each in stretches if each.begin < each.end]
+def partition(intervals: Sequence[Interval]) -> Iterator[tuple[int, list[Interval]]]:
+    """Yield the stamps at which other intervals hold, and these: none, one, or several."""
+    spans = [each for each in intervals if each.begin < each.end]
     changes = [(each.begin, True, k) for k, each in enumerate(spans)]
     changes += [(each.end, False, k) for k, each in enumerate(spans)]
-    holding: dict[int, Stretch] = {}
+    holding: dict[int, Interval] = {}
     for stamp, group in groupby(sorted(changes), key=itemgetter(0)):
         for _, begins, k in group:
             if begins:
@@ -142,7 +142,7 @@ def find_missing(ordered: Ordered, proofs: Proofs) -> dict[int, MissingEvents]:
 
 
 class Finder:
-    """Finds the stretches of a log."""
+    """Finds the intervals of a log."""
 
     def __init__(
         self,
@@ -163,15 +163,15 @@ class Finder:
         self._begin = min((row.first for row in rows.rows), default=None)
         self._end = MAX_STAMP if end is None else end + 1
 
-    def list_stretches(self) -> Iterator[Stretch]:
-        """Yield the stretches in the order of the run."""
+    def list_intervals(self) -> Iterator[Interval]:
+        """Yield the intervals in the order of the run."""
         events = self._ordered.events
         first = min((event.stamp for event in events), default=self._end)
         if self._begin is not None and self._begin < first:
             reason, place = (NO_BEGINNING, 0) if events else (NO_EVENTS, NOWHERE)
-            yield Stretch(self._begin, first, None, reason, (0, place))
+            yield Interval(self._begin, first, None, reason, (0, place))
         if events and (end := self._find_end_before()) > first:
-            yield Stretch(first, end, None, NO_BEGINNING)
+            yield Interval(first, end, None, NO_BEGINNING)
         for k in range(len(events)):
             yield from self._list_parts(k)
 
@@ -186,8 +186,8 @@ class Finder:
         lasts += [event.previous_end] if rows else []
         return max(lasts, default=event.stamp) if event.number != 1 else event.stamp
 
-    def _list_parts(self, k: int) -> Iterator[Stretch]:
-        """Yield the stretches between an event and the next one."""
+    def _list_parts(self, k: int) -> Iterator[Interval]:
+        """Yield the intervals between an event and the next one."""
         events, places = self._ordered.events, self._ordered.places
         event = events[k]
         has_next = k + 1 < len(events)
@@ -196,7 +196,7 @@ class Finder:
         until = places[k + 1] if has_next else NOWHERE
         lost = self._find_break(proof.place, until)
         if gap is None and (lost is None or (event.number and _next_of_run(self._ordered, k))):
-            yield Stretch(event.stamp, end, event)
+            yield Interval(event.stamp, end, event)
             return
         begin = proof.stamp
         unknown = (proof.place + 1, until)
@@ -206,9 +206,9 @@ class Finder:
             begin = proof.stamp if last is None else last + 1
             unknown = (lost, until)
         begin = max(begin, event.stamp)
-        yield Stretch(event.stamp, begin, event)
+        yield Interval(event.stamp, begin, event)
         for first, last in _list_pieces(self._rows, unknown, begin, end):
-            yield Stretch(first, last, None, self._explain(gap), unknown)
+            yield Interval(first, last, None, self._explain(gap), unknown)
 
     def _find_end(self, k: int) -> int:
         """Return the stamp (ns) before which the motion after an event holds."""
@@ -244,7 +244,7 @@ class Finder:
 def _list_pieces(
     rows: StampRows, places: tuple[int, int], begin: int, end: int
 ) -> list[tuple[int, int]]:
-    """Return the stretches of stamps that messages in a range of places have.
+    """Return the intervals of stamps that messages in a range of places have.
 
     There are several if an event that was lost is a jump of the clock.
     """
@@ -277,8 +277,8 @@ def _ends_recording(event: Event) -> bool:
 class Unknown:
     """Samples of which the motion is not known, by their stamps or by their places in the log."""
 
-    def __init__(self, stretches: Iterable[Stretch]) -> None:
-        self._unknown = [each for each in stretches if each.event is None]
+    def __init__(self, intervals: Iterable[Interval]) -> None:
+        self._unknown = [each for each in intervals if each.event is None]
         self._stamps = _merge([(each.begin, each.end) for each in self._unknown])
         self._places = _merge([each.places for each in self._unknown])
 

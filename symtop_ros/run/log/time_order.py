@@ -117,7 +117,7 @@ class TimeOrder:
         return owners
 
     def list_spans(self, first: int, last: int) -> Iterator[tuple[int, int]]:
-        """Yield the stretches of time (ns) from an event to the next, for each pass one."""
+        """Yield the intervals of time (ns) from an event to the next, for each pass one."""
         begin, end = self._events[first].stamp, self._events[last].stamp
         for since, until, _ in self.cut(first, last, begin, end):
             yield since, until
@@ -125,7 +125,7 @@ class TimeOrder:
     def cut(
         self, owner: int, following: int, begin: int, end: int
     ) -> Iterator[tuple[int, int, bool]]:
-        """Yield the stretches of time (ns) between two samples, of which the owners are given.
+        """Yield the intervals of time (ns) between two samples, of which the owners are given.
 
         The third is True if a sample is at the begin.
         """

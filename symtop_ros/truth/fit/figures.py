@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from symtop_ros.base.look import (
+from symtop_ros.base.figure_style import (
     BLUE,
     GOLD,
     GREY,

@@ -17,7 +17,7 @@ from symtop_ros.truth.fit.search import minimise
 from symtop_ros.truth.residuals.influence import sum_influences
 from symtop_ros.truth.residuals.residuals import Residuals
 from symtop_ros.truth.residuals.spread import find_spread
-from symtop_ros.truth.residuals.whitening import Noise, find_lasting, measure_noise
+from symtop_ros.truth.residuals.whitening import Noise, find_pacf, measure_noise
 
 OUTLIER = 5.0  # deviations; a normal number is farther once in two million
 ROUNDS = 8  # of weights and least squares
@@ -200,7 +200,7 @@ def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
     good |= not good.any()
     partial = np.zeros((0, left.shape[1]))
     if lasts:
-        partial = np.where(fixed, 0.0, find_lasting(left, good, record.follows, len(x)))
+        partial = np.where(fixed, 0.0, find_pacf(left, good, record.follows, len(x)))
     noise = measure_noise(left, good, record.follows, partial, len(x))
     sigma = np.maximum(noise.sigma, least)
     return replace(noise, sigma=np.where(fixed, sigma * np.sqrt(noise.kept.sum()), sigma))

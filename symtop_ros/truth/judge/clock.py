@@ -16,9 +16,9 @@ from symtop_ros.base.arrays import Real, Stamps, compose, find_rotation_vectors,
 from symtop_ros.base.measured import format_measured
 from symtop_ros.base.refusals import RefusedError
 from symtop_ros.truth.judge.compare import Offset, to_rotation
+from symtop_ros.truth.judge.named_causes import align
 from symtop_ros.truth.judge.refine import RESOLUTION
 from symtop_ros.truth.judge.truth import Truth
-from symtop_ros.truth.judge.wanted import align
 from symtop_ros.truth.residuals.influence import sum_lags
 from symtop_ros.truth.topics.estimates import Estimates
 from symtop_ros.words import write

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.look import BLUE, GOLD, INK, RED, new_figure, rows
+from symtop_ros.base.figure_style import BLUE, GOLD, INK, RED, new_figure, rows
 from symtop_ros.truth.judge.compare import Errors
 
 POINTS = 5000  # of a curve

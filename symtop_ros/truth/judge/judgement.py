@@ -14,13 +14,13 @@ from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.truth.judge.causes import Cause, Finding
 from symtop_ros.truth.judge.compare import NONE, PERCENTILES, Errors, Offset, compare
 from symtop_ros.truth.judge.mistakes import find_mistakes
+from symtop_ros.truth.judge.named_causes import align, explain, find_nearest
 from symtop_ros.truth.judge.outliers import count_outliers, trim
 from symtop_ros.truth.judge.relative import LABEL, Relative, measure_relative
 from symtop_ros.truth.judge.search import find_causes
 from symtop_ros.truth.judge.sentences import choose_key, list_parts, list_sentences, write_fault
 from symtop_ros.truth.judge.summary import format_row, summarize
 from symtop_ros.truth.judge.truth import Truth
-from symtop_ros.truth.judge.wanted import align, explain, find_nearest
 from symtop_ros.truth.topics.estimates import Estimates
 from symtop_ros.words import write
 

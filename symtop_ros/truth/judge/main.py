@@ -13,6 +13,7 @@ from symtop_ros.base.header import make_header
 from symtop_ros.base.refusals import one_line
 from symtop_ros.truth.judge.clock import format_clocks, measure_clock
 from symtop_ros.truth.judge.judgement import Judgement, format_judgements, judge
+from symtop_ros.truth.judge.named_causes import MODELS
 from symtop_ros.truth.judge.relative import read_lag
 from symtop_ros.truth.judge.runs import (
     ATTITUDES,
@@ -22,7 +23,6 @@ from symtop_ros.truth.judge.runs import (
     read_sources,
     report_faults,
 )
-from symtop_ros.truth.judge.wanted import MODELS
 from symtop_ros.truth.tables.attitudes import ORDERS
 from symtop_ros.truth.testset.score import enforce_limit
 
@@ -243,7 +243,7 @@ def _write(judgements: list[Judgement], text: str, folder: Path) -> None:
     if len(judgements) > 1:
         return
     try:
-        from symtop_ros.base.look import write_figures
+        from symtop_ros.base.figure_style import write_figures
         from symtop_ros.truth.judge.error_plot import draw_errors
     except ModuleNotFoundError as error:
         print(f"top_judge: no plot, {error.name} is missing", file=sys.stderr)

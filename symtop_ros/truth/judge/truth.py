@@ -63,9 +63,9 @@ class Truth:
         """Return what the catalog of a log knows, up to its last sample."""
         truth = cls(end=catalog.end)
         segments = {
-            id(each.event): cache(each.event.segment) for each in catalog.stretches if each.event
+            id(each.event): cache(each.event.segment) for each in catalog.intervals if each.event
         }
-        for begin, holding in partition(catalog.stretches):
+        for begin, holding in partition(catalog.intervals):
             event = holding[0].event if len(holding) == 1 else None
             truth._add(begin, segments[id(event)] if event else None, len(holding) > 1)
         return truth

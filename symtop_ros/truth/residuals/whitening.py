@@ -88,8 +88,8 @@ def find_predictors(partial: Real) -> tuple[Real, Real]:
 def find_noise(left: Real, follows: Mask, parameters: int) -> Noise:
     """Return the noise of what so many parameters leave (n, r), without outliers."""
     good = np.ones(len(left), dtype=bool)
-    lasting = find_lasting(left, good, follows, parameters)
-    noise = measure_noise(left, good, follows, lasting, parameters)
+    partial = find_pacf(left, good, follows, parameters)
+    noise = measure_noise(left, good, follows, partial, parameters)
     # Components that hardly have any noise are not trusted more than this.
     return replace(noise, sigma=np.maximum(noise.sigma, ALIKE * noise.sigma.max()))
 
@@ -119,7 +119,7 @@ def _link(follows: Mask, lag: int) -> Mask:
     return np.asarray(count[lag + 1 :] == count[1:-lag])
 
 
-def find_lasting(left: Real, good: Mask, follows: Mask, parameters: int) -> Real:
+def find_pacf(left: Real, good: Mask, follows: Mask, parameters: int) -> Real:
     """Return the partial autocorrelations (q, r) of the noise that is most likely.
 
     A fit takes the share p/(n r) of the power of noise away; it is given back to the correlations.

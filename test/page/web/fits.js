@@ -63,13 +63,13 @@ window.measureNoise = async ([columns, parameters]) => {
 };
 
 /** Noise that lasts, by columns. */
-window.findLasting = async ([given, good, follows, parameters]) => {
-  const { findLasting, measureNoise, whitenColumns } = await openFit();
+window.findPacf = async ([given, good, follows, parameters]) => {
+  const { findPacf, measureNoise, whitenColumns } = await openFit();
   const [columns, rows] = [
     given.map((each) => Float64Array.from(each)),
     { good, follows, parameters },
   ];
-  const noise = measureNoise(columns, rows, findLasting(columns, rows));
+  const noise = measureNoise(columns, rows, findPacf(columns, rows));
   return { ...noise, white: whitenColumns(noise, columns).map(toNumbers) };
 };
 

@@ -197,7 +197,7 @@ def test_the_first_nutation_is_slow_and_the_bracket_says_by_how_much_it_is_highe
 
 
 @pytest.mark.slow
-def test_a_kick_is_a_step_in_the_chart_of_the_rate_and_a_mark_at_the_slider_of_the_time(opened):
+def test_a_kick_is_a_step_in_the_chart_and_a_mark_at_the_time_slider(opened):
     opened.open_charts("phi_dot")
     opened.wait_for_time(0.02)
     opened.tab.click("#hurry")

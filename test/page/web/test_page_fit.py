@@ -20,7 +20,7 @@ from symtop_ros.truth.fit.unknown import list_unknown
 from symtop_ros.truth.fit.values import list_values
 from symtop_ros.truth.residuals.influence import sum_influences
 from symtop_ros.truth.residuals.residuals import Residuals
-from symtop_ros.truth.residuals.whitening import find_lasting, measure_noise
+from symtop_ros.truth.residuals.whitening import find_pacf, measure_noise
 from workshop.fit.records import NOISES, draw_sample, see
 from workshop.records.draws import draw_record as draw_film
 
@@ -132,9 +132,9 @@ def test_noise_that_lasts_is_found_as_by_python(fits, slope, has_gaps):
     good, follows = np.ones(200, dtype=bool), np.arange(200) > 0
     if has_gaps:
         good[[7, 60, 61, 150]], follows[[40, 90]] = False, False
-    partial = find_lasting(rows, good, follows, 8)
+    partial = find_pacf(rows, good, follows, 8)
     own = measure_noise(rows, good, follows, partial, 8)
-    found = fits.evaluate("findLasting", [rows.T.tolist(), good.tolist(), follows.tolist(), 8])
+    found = fits.evaluate("findPacf", [rows.T.tolist(), good.tolist(), follows.tolist(), 8])
     # sums of 200 products in another order, and logarithms of two libraries, which choose one order
     np.testing.assert_allclose(np.array(found["partial"]).T, partial, rtol=0, atol=1e-11)
     np.testing.assert_allclose(found["sigma"], own.sigma, rtol=1e-11)

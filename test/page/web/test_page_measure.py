@@ -371,7 +371,7 @@ def test_the_run_of_a_fit_leaves_what_a_codec_leaves(fitted):
 
 
 @pytest.mark.slow
-def test_the_film_goes_with_the_clock_of_the_run_and_the_run_with_the_slider_of_the_film(fitted):
+def test_the_film_and_the_run_share_one_time(fitted):
     page, _ = fitted
     page.seek(0.25)
     page.until(lambda: read_frame(page) == 30)

@@ -178,7 +178,7 @@ def test_pushes_are_counted_in_words(opened, number, words):
 
 
 @pytest.mark.slow
-def test_an_act_while_a_button_pushes_ends_those_pushes_and_the_hold_makes_no_others(opened):
+def test_an_act_while_a_button_pushes_ends_the_pushes(opened):
     opened.open_tab("push")
     button = opened.tab.locator("[data-hold=press]")
     button.dispatch_event("pointerdown")

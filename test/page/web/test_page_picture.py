@@ -19,7 +19,7 @@ window.setTimeout = (act, time, ...given) => {
 
 
 @pytest.mark.slow
-def test_a_page_in_a_pause_that_is_left_alone_is_drawn_now_and_then_until_somebody_comes(open_page):
+def test_a_paused_page_that_nobody_touches_is_drawn_rarely(open_page):
     opened = open_page(script=UNDRAWN + NOTED)
 
     def read_last(count):

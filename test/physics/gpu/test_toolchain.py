@@ -58,9 +58,7 @@ def compile_ptx(version, architecture, folder, options=None):
 
 
 @pytest.mark.parametrize("version", COMPILERS)
-def test_three_products_are_fused_where_the_source_says_so_and_no_function_is_called(
-    version, tmp_path
-):
+def test_only_the_three_products_that_the_source_names_are_fused(version, tmp_path):
     """Twice in arithmetic of two doubles that is exact with it, and once in its rest."""
     text = compile_ptx(version, "90", tmp_path).read_text()
     assert len(re.findall(r"\bfma\.rn\.f64\b", text)) == 3

@@ -8,7 +8,7 @@ import numpy as np
 from physics.exact_motions import read_motions
 
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
-from symtop_ros.physics.kernel import door, records
+from symtop_ros.physics.kernel import bindings, records
 
 MOTIONS = read_motions()
 # But for weights of 1e-100 J, of which short times are refused.
@@ -95,20 +95,20 @@ def list_verdicts(motion):
     top = start[:3]
     q = start[3:7]
     omega = start[7:10]
-    angles = door.find_angles(q)
-    rates = door.find_angle_rates(q, omega)
-    yield from (angles, rates, *door.from_angles(angles, rates))
+    angles = bindings.find_angles(q)
+    rates = bindings.find_angle_rates(q, omega)
+    yield from (angles, rates, *bindings.from_angles(angles, rates))
     for hold in range(2):
         one = top[None], angles[1:2], rates[2:3]
-        yield door.find_regular_rates(*one, hold)[0]
-        kicked, _, status = door.kick(top, q, omega, FACTOR_OF_RATE, hold, FACTOR)
+        yield bindings.find_regular_rates(*one, hold)[0]
+        kicked, _, status = bindings.kick(top, q, omega, FACTOR_OF_RATE, hold, FACTOR)
         if status == records.VERTICAL:
             continue
         yield kicked
-        (verdict,), _ = door.judge(start[None], FACTOR, hold)
+        (verdict,), _ = bindings.judge(start[None], FACTOR, hold)
         after = np.concatenate([start[:7], kicked, start[10:]])
-        answer = door.judge_kick(start.tobytes(), after.tobytes(), hold)
-        for each in (verdict, np.frombuffer(answer, door.VERDICTS)[0]):
+        answer = bindings.judge_kick(start.tobytes(), after.tobytes(), hold)
+        for each in (verdict, np.frombuffer(answer, bindings.VERDICTS)[0]):
             yield np.array(list(flatten(each.item())), float)
 
 

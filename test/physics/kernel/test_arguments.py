@@ -11,10 +11,10 @@ from mpmath import mp, mpf
 from physics.tops import ARTICLE, EPS
 
 from symtop_ros.physics import Motion, State, hurry, set_precession_rate
-from symtop_ros.physics.kernel import door
+from symtop_ros.physics.kernel import bindings
 from symtop_ros.physics.kernel.records import BodyRecord, SolutionsRecord, TopRecord
 
-DOOR = door.open_door()
+DOOR = bindings.bind_functions()
 SPIN_RATE, SPIN_MOMENTUM, NOTHING = range(3)
 NEW_RATE, CHANGE_OF_RATE, FACTOR_OF_RATE, IMPULSE, AXLE_IMPULSE = range(5)
 # Of symtop_status.
@@ -68,11 +68,11 @@ def scale(norm):
 @pytest.mark.parametrize("norm", [1.0009, 0.9991])
 def test_an_orientation_of_another_norm_is_normalised_by_all_functions_of_it(norm):
     found = (c_double * 3)()
-    expected = door.find_angles(TURN)
-    assert DOOR.find_angles(pack(*scale(norm)), 1, found) == door.OK
+    expected = bindings.find_angles(TURN)
+    assert DOOR.find_angles(pack(*scale(norm)), 1, found) == bindings.OK
     assert list(found) == pytest.approx(expected.tolist(), rel=8 * EPS)
     status, rates = find_rates(scale(norm))
-    assert status == door.OK
+    assert status == bindings.OK
     # As docs/accuracy.md promises: 12 eps of the angular velocity over sin(theta).
     bound = 12 * EPS * float(np.linalg.norm(OMEGA)) / math.sin(0.5)
     assert rates == pytest.approx([6.5, 0.0, 200.0], abs=bound)
@@ -90,7 +90,7 @@ def test_an_orientation_of_another_norm_is_normalised_by_all_functions_of_it(nor
 )
 def test_a_kick_of_an_orientation_of_another_norm_is_that_of_the_normalised_one(act):
     kicked, expected = (c_double * 3)(), (c_double * 3)()
-    assert act(q=scale(1.0009), kicked=kicked) == act(kicked=expected) == door.OK
+    assert act(q=scale(1.0009), kicked=kicked) == act(kicked=expected) == bindings.OK
     assert list(kicked) == pytest.approx(list(expected), rel=16 * EPS)  # of three roundings more
 
 
@@ -126,14 +126,14 @@ def test_nothing_is_held_by_impulses_alone():
     assert DOOR.find_regular_rates(*given) == HOLD
     start = Motion(ARTICLE, START)._packed_start
     assert DOOR.find_tilt_accelerations(start, NOTHING, pack(1.0), 1, (c_double * 1)()) == HOLD
-    verdict = door.VerdictRecord()
+    verdict = bindings.VerdictRecord()
     assert DOOR.judge(start, pack(1.4), 1, NOTHING, verdict, c_size_t()) == HOLD
     angles = (c_double * 2)()
-    rule = (door.c_uint8 * 1)()
+    rule = (bindings.c_uint8 * 1)()
     row = pack(*TOP_ROW), pack(0.5), pack(6.5), pack(200.0), 1, 1.4
     assert DOOR.compare_hurried(*row, NOTHING, angles, rule) == HOLD
-    assert DOOR.judge_kick(start, start, NOTHING, verdict) == door.OK
-    assert kick(IMPULSE, NOTHING, 1e-4, 0.0, 0.0) == door.OK
+    assert DOOR.judge_kick(start, start, NOTHING, verdict) == bindings.OK
+    assert kick(IMPULSE, NOTHING, 1e-4, 0.0, 0.0) == bindings.OK
 
 
 @pytest.mark.parametrize("kind", [-1, 5, 6, 7, 2**31 - 1])
@@ -170,7 +170,7 @@ def test_a_part_has_a_kind_a_mass_and_a_size():
     for kind in (-1, 5, 2**31 - 1):
         assert find_body(kind, 1.0, 0.1, 0.1) == PART
     assert find_body(DISC_KIND, 1.0, 0.1, 0.1, count=0) == PART
-    assert find_body(DISC_KIND, 1.0, 0.1, 0.1) == find_body(0, 1.0, NAN, 0.1) == door.OK
+    assert find_body(DISC_KIND, 1.0, 0.1, 0.1) == find_body(0, 1.0, NAN, 0.1) == bindings.OK
 
 
 def test_gravity_is_finite():
@@ -192,19 +192,19 @@ def test_null_pointers_are_refused_and_arrays_without_elements_may_be_null():
     start = Motion(ARTICLE, START)._packed_start
     assert DOOR.new(None, byref(handle)) == DOOR.new(start, None) == POINTER
     assert DOOR.find_angles(None, 1, found) == DOOR.find_angles(pack(*TURN), 1, None) == POINTER
-    assert DOOR.find_angles(None, 0, None) == door.OK
+    assert DOOR.find_angles(None, 0, None) == bindings.OK
     assert DOOR.from_angles(pack(0, 0, 0), pack(0, 0, 0), 1, found, None, done) == POINTER
     assert DOOR.describe_many(None, 0, None, None) == POINTER
-    assert DOOR.find_rates(None, door.RatesRecord()) == POINTER
+    assert DOOR.find_rates(None, bindings.RatesRecord()) == POINTER
     assert DOOR.states(None, None, 0, 1.0, None, None, done) == POINTER
-    assert DOOR.find_kind(None) == len(door.KINDS)
-    assert DOOR.find_engine(None) == len(door.ENGINES)
+    assert DOOR.find_kind(None) == len(bindings.KINDS)
+    assert DOOR.find_engine(None) == len(bindings.ENGINES)
 
 
 def test_a_count_beyond_all_memory_and_steps_that_are_no_number_are_refused():
     assert find_angles(*TURN, count=2**62) == COUNT
     handle = c_void_p()
-    assert DOOR.new(Motion(ARTICLE, START)._packed_start, byref(handle)) == door.OK
+    assert DOOR.new(Motion(ARTICLE, START)._packed_start, byref(handle)) == bindings.OK
     q = (c_double * 4)()
     omega = (c_double * 3)()
     done = c_size_t()
@@ -242,5 +242,7 @@ def take_turns_off(angle):
 def test_a_kicked_state_of_python_has_the_digits_of_the_kernel():
     long = State(scale(1.0009), OMEGA)
     kicked = (c_double * 3)()
-    assert kick(FACTOR_OF_RATE, SPIN_RATE, 1.4, q=long.given_orientation, kicked=kicked) == door.OK
+    assert (
+        kick(FACTOR_OF_RATE, SPIN_RATE, 1.4, q=long.given_orientation, kicked=kicked) == bindings.OK
+    )
     assert list(kicked) == hurry(long, 1.4).angular_velocity.tolist()

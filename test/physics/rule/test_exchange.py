@@ -8,7 +8,7 @@ from physics.tops import EPS
 from trials import seeds
 
 from symtop_ros.physics import State
-from symtop_ros.physics.kernel.door import find_exchange
+from symtop_ros.physics.kernel.bindings import find_exchange
 
 DIGITS = 40
 FIELDS = "orientation", "angular_velocity"

@@ -133,7 +133,7 @@ def test_without_weight_nothing_rises_against_gravity(hold):
     assert not compare_hurried(top, 0.5, 6.5, 200.0, 1.4, hold).rule_applies
 
 
-def test_a_slow_root_at_constant_spin_rate_may_be_the_fast_one_at_constant_spin_momentum():
+def test_the_slow_root_at_a_spin_rate_may_be_the_fast_one_at_a_spin_momentum():
     top = Top(Ix=1.0, Iz=0.95, Mgl=1.0)
     slow, _ = regular_precession_rates(top, theta=0.5, psi_dot=1.0)
     assert slow > math.sqrt(top.Mgl / (top.Ix * math.cos(0.5)))
@@ -161,7 +161,7 @@ def push_along(top, state, size):
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_a_push_along_the_precession_is_judged_as_a_hurry_that_holds_the_spin_momentum(seed):
+def test_a_push_along_the_precession_is_judged_as_a_hurry(seed):
     rng = Numbers(seed)
     top = ARTICLE
     theta = rng.uniform(0.2, 2.9)

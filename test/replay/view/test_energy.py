@@ -20,7 +20,7 @@ def read(run, folder):
     rows = []
     events = []
     for batch in run.open(folder).batches():
-        for event, columns in batch.stretches():
+        for event, columns in batch.intervals():
             if event:
                 before, segment = segment, event.segment()
                 book.follow(event, before, segment)

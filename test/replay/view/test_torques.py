@@ -78,7 +78,7 @@ def test_on_cusps_dL_in_the_body_is_the_derivative_of_its_components(tmp_path):
     assert np.abs(torques.precession - torques.total).max() > 0.5 * np.abs(torques.total).max()
 
 
-def test_the_second_arrow_begins_below_the_tip_of_the_first_and_ends_below_the_torque(tmp_path):
+def test_the_two_arrows_stand_one_below_the_other(tmp_path):
     target = record(Run(), tmp_path, torques=True)
     (origins, first), (tails, second) = (
         [arrows(target, f"{entities.INERTIAL}/{name}", column) for column in ("origins", "vectors")]

@@ -64,7 +64,7 @@ def test_a_request_that_changes_nothing_names_the_latest_event(run):
     assert run.state()["event"] == run.top.simulation.event_number
 
 
-def test_the_stamp_of_a_state_is_exact_and_that_of_an_event_is_the_first_of_the_new_motion(run):
+def test_stamps_of_states_are_exact_and_an_event_has_the_first_of_its_motion(run):
     events = run.collect_events()
     samples = run.collect(QuaternionStamped, "/top/orientation")
     run.wait_for(samples)

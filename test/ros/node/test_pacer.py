@@ -36,7 +36,7 @@ def start_pacer(tick):
     return Pacer(tick, 0, pytest.fail)
 
 
-def test_it_ticks_at_once_after_each_wait_and_where_only_the_clock_can_tell_when_it_is_woken():
+def test_it_ticks_at_once_after_each_wait_or_when_the_clock_wakes_it():
     ticks = Ticks(0.001, -1.0, 0.0, 0.002, None, None)
     pacer = start_pacer(ticks.tick)
     while not ticks.done.wait(0.001):

@@ -61,7 +61,7 @@ def test_a_sample_that_is_not_judged_counts_for_whatever_reason(memory):
         assert found.unjudged == count
 
 
-def test_diagnostics_may_be_of_before_an_event_of_their_stamp_and_behind_it_in_the_log(memory):
+def test_diagnostics_from_before_an_event_may_follow_it_in_the_log(memory):
     """As where a log has its events first."""
     moved = 0
     for place in memory.places("/top/events"):

@@ -14,7 +14,7 @@ from symtop_ros.run.check.samples import LogCheck
 from symtop_ros.run.log.batch import Columns
 from symtop_ros.run.log.catalog import Catalog
 from symtop_ros.run.log.event_order import Ordered
-from symtop_ros.run.log.intervals import Stretch
+from symtop_ros.run.log.intervals import Interval
 from symtop_ros.run.log.reader import LogError, McapFile
 from symtop_ros.run.log.top_log import TopLog
 from symtop_ros.run.simulation.changes.follow import Act, Change
@@ -27,11 +27,11 @@ pytestmark = pytest.mark.numbers
 EPS = np.finfo(float).eps
 
 
-def make_account(events, places, stretches=()):
+def make_catalog(events, places, intervals=()):
     """The catalog of a log that has some events, all of one run."""
     ordered = Ordered(tuple(events), tuple(places), (0,) * len(events))
     others = dict.fromkeys((field.name for field in fields(Catalog)), ())
-    return Catalog(**others | {"ordered": ordered, "stretches": tuple(stretches)})
+    return Catalog(**others | {"ordered": ordered, "intervals": tuple(intervals)})
 
 
 def deviations_of(run, folder):
@@ -143,7 +143,7 @@ def test_a_sample_that_agrees_with_two_events_belongs_to_the_exact_one():
     topic = SAMPLE_TOPICS["orientation"]
     numbers = topic.compute(Samples.at(before, stamps))
     assert (numbers != topic.compute(Samples.at(after, stamps))).any()
-    check = LogCheck(make_account([first, back], places=[0, 1]))
+    check = LogCheck(make_catalog([first, back], places=[0, 1]))
     check.add("orientation", Columns(stamps, numbers, np.arange(2, 162)))
     found = check.deviations["orientation"]
     assert (found.samples, found.differing) == (len(stamps), 0)
@@ -154,13 +154,13 @@ def test_where_the_motion_is_not_known_a_number_is_that_of_an_event_by_its_own_s
     stamps = np.arange(10) * 5_000_000
     numbers = SAMPLE_TOPICS["torque"].compute(Samples.at(event.segment(), stamps)).copy()
     numbers[3, 3] += 1e-14  # N m of 0.03, of which it is far above the rounding; of 1 it is not
-    stretches = [Stretch(0, 1, event), Stretch(1, MAX_STAMP, None, "lost", (1, 100))]
-    check = LogCheck(make_account([event], places=[0], stretches=stretches))
+    intervals = [Interval(0, 1, event), Interval(1, MAX_STAMP, None, "lost", (1, 100))]
+    check = LogCheck(make_catalog([event], places=[0], intervals=intervals))
     check.add("torque", Columns(stamps, numbers, np.arange(1, 11)))
     assert check.deviations["torque"].unjudged == 1
 
 
-def test_the_rounded_rates_of_a_held_precession_in_older_logs_are_accepted_and_no_others():
+def test_only_rates_of_a_held_precession_may_be_rounded_in_older_logs():
     """Up to version 0.5 phi' and psi' were those of the state, not exactly 0 and omega_z."""
     event = start_event(Motion(ARTICLE, State.from_euler(theta=0.5, psi_dot=200.0), clamped=True))
     stamps = np.arange(1, 101) * 5_000_000
@@ -171,7 +171,7 @@ def test_the_rounded_rates_of_a_held_precession_in_older_logs_are_accepted_and_n
     wrong = older.copy()
     wrong[7, 3] += 1e-16
     for numbers, differing in ((now, 0), (older, 0), (wrong, 1)):
-        check = LogCheck(make_account([event], places=[0]))
+        check = LogCheck(make_catalog([event], places=[0]))
         check.add("euler_angles", Columns(stamps, numbers, np.arange(1, 101)))
         assert check.deviations["euler_angles"].differing == differing
 
@@ -184,6 +184,6 @@ def test_the_angles_of_a_driven_motion_have_fewer_digits_next_to_the_pole_only(t
     stamps = np.arange(1, 11) * 100_000  # in a ms nothing else has lost digits
     numbers = SAMPLE_TOPICS["euler_angles"].compute(Samples.at(event.segment(), stamps)).copy()
     numbers[:, 0] += 30 * 2.0**-52 * 2.0**10  # of 64 that are allowed
-    check = LogCheck(make_account([event], places=[0]))
+    check = LogCheck(make_catalog([event], places=[0]))
     check.add("euler_angles", Columns(stamps, numbers, np.arange(1, 11)))
     assert check.deviations["euler_angles"].is_rounding == is_rounding

@@ -207,8 +207,8 @@ def test_without_numbers_in_diagnostics_nothing_is_known_after_a_loss(log, tmp_p
     (line,) = (text for text in catalog.problems if "is not known" in text)
     assert line.startswith("from 1490000001 ns on the motion is not known: nothing that follows")
     assert line.endswith("the diagnostics of this log do not number the events")
-    (stretch,) = catalog.unknown
-    assert (stretch.begin, stretch.end) == (1_490_000_001, 2_500_000_001)
+    (interval,) = catalog.unknown
+    assert (interval.begin, interval.end) == (1_490_000_001, 2_500_000_001)
     path = old.write(tmp_path / "early.mcap")
     zero_chunk(path, 700_000_000)
     assert catalog_of(path)[1].unknown == ()
@@ -219,9 +219,9 @@ def test_diagnostics_after_a_loss_prove_that_no_event_was_lost(log, tmp_path):
     zero_chunk(path, 1_600_000_000)
     _, catalog = catalog_of(path)
     assert catalog.unknown == ()
-    assert [each.event.number for each in catalog.stretches] == [1, 2]
-    assert catalog.stretches[-1].end == catalog.end + 1 == 2_500_000_001
-    assert 0 <= catalog.stretches[0].begin < catalog.stretches[0].end == 1_210_000_000
+    assert [each.event.number for each in catalog.intervals] == [1, 2]
+    assert catalog.intervals[-1].end == catalog.end + 1 == 2_500_000_001
+    assert 0 <= catalog.intervals[0].begin < catalog.intervals[0].end == 1_210_000_000
     assert catalog.topics["orientation"].rate == 100.0
 
 

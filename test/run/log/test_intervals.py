@@ -1,4 +1,4 @@
-"""Stretches in which the motion is known, by events, losses and the numbers in diagnostics."""
+"""Intervals in which the motion is known, by events, losses and the numbers in diagnostics."""
 
 import numpy as np
 import pytest
@@ -24,11 +24,11 @@ SECOND, THIRD, _ = KICKS  # at 20 and 30 ns
 
 
 def find(events, marks=(), breaks=(), stamps=STAMPS, places=None):
-    """The begin, the end and the number, or the reason, of each stretch."""
+    """The begin, the end and the number, or the reason, of each interval."""
     places = places or [each.stamp for each in events]
     ordered = order_at(events, places)
     proofs = Proofs(ordered, [Mark(place, place, number) for place, number in marks])
-    found = list(Finder(ordered, proofs, breaks, rows_of(stamps), max(stamps)).list_stretches())
+    found = list(Finder(ordered, proofs, breaks, rows_of(stamps), max(stamps)).list_intervals())
     return [
         (each.begin, each.end, each.event.number if each.event else each.reason) for each in found
     ]
@@ -87,7 +87,7 @@ def test_before_the_first_event_and_without_any_nothing_is_known():
     assert find([]) == [(0, 60, NO_EVENTS)]
 
 
-def test_a_jump_that_is_lost_leaves_two_stretches_that_are_not_known():
+def test_a_jump_that_is_lost_leaves_two_intervals_that_are_not_known():
     back = [*range(30), *range(5, 15)]
     jumped = event(3, 20, "kick")
     found = find([START, jumped], breaks=[26], stamps=back, places=[0, 100])
@@ -97,7 +97,7 @@ def test_a_jump_that_is_lost_leaves_two_stretches_that_are_not_known():
 def test_samples_are_unknown_by_their_stamps_and_by_their_places():
     ordered = order_at([START], [0])
     proofs = Proofs(ordered, [])
-    stretches = list(Finder(ordered, proofs, [41], rows_of(STAMPS), 59).list_stretches())
+    intervals = list(Finder(ordered, proofs, [41], rows_of(STAMPS), 59).list_intervals())
     stamps = np.array([39, 40, 5, 50])
     places = np.array([40, 40, 45, NOWHERE])
-    assert Unknown(stretches).find(stamps, places).tolist() == [False, True, True, True]
+    assert Unknown(intervals).find(stamps, places).tolist() == [False, True, True, True]

@@ -200,11 +200,11 @@ def test_a_sample_belongs_to_an_event_by_its_stamp_wherever_it_was_logged(shift,
     run = Run(seconds=1.0)
     place = run.places("events")[1]
     run.messages.insert(place + shift, run.messages.pop(place))
-    stretches = [each for b in run.open(tmp_path).batches() for each in b.stretches() if each[0]]
-    (_, before), (event, after) = stretches[-2:]
+    intervals = [each for b in run.open(tmp_path).batches() for each in b.intervals() if each[0]]
+    (_, before), (event, after) = intervals[-2:]
     for name in STATES:
         assert max(before[name].stamps) < event.stamp == min(after[name].stamps)
-        assert sum(len(columns[name].stamps) for _, columns in stretches) == len(run.places(name))
+        assert sum(len(columns[name].stamps) for _, columns in intervals) == len(run.places(name))
 
 
 def test_missing_topics_are_listed(tmp_path):

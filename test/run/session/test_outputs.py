@@ -262,7 +262,7 @@ def test_a_slower_pace_and_missed_ticks_are_a_warning(kept, missed, level, text)
         session.answer("pause", lambda: True)
 
 
-def test_a_time_that_waits_for_late_samples_is_a_warning_with_the_pace_that_is_reached():
+def test_waiting_for_late_samples_is_a_warning_with_the_pace():
     session, clock = start(Program(), publish_clock=True, real_time_factor=2.0)
     clock.is_simulated = False
     clock.now += SECOND

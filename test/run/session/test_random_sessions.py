@@ -35,7 +35,7 @@ def test_it_has_the_diagnostics_of_a_node(tmp_path):
     assert topics.count(DIAGNOSTICS.ros_name) == 4  # once a second
 
 
-def test_of_acts_at_one_time_only_the_last_has_a_sample_and_what_is_undone_is_no_change(tmp_path):
+def test_of_acts_at_one_time_only_the_last_has_a_sample(tmp_path):
     begin, kick, _ = make_run()
     torque = (0.0, 0.0, 1e-4)
     state = kick.motion.at(ExactTimes(1_000_000_000))

@@ -40,7 +40,7 @@ def test_it_begins_and_ends_once_and_each_answer_has_the_path(run, tmp_path):
     assert [*tmp_path.iterdir()] == [path]
 
 
-def test_if_the_last_bytes_cannot_be_written_the_end_is_refused_with_the_reason_and_reported_once(
+def test_last_bytes_that_cannot_be_written_refuse_the_end_and_are_reported_once(
     run, host, tmp_path, monkeypatch
 ):
     monkeypatch.setattr(module, "LONGEST_AGE", 3600.0)  # nothing fails before the end
@@ -60,9 +60,7 @@ def test_if_the_last_bytes_cannot_be_written_the_end_is_refused_with_the_reason_
     session.close()
 
 
-def test_a_folder_that_cannot_be_written_refuses_the_begin_and_the_motion_keeps_running(
-    host, tmp_path
-):
+def test_a_folder_that_cannot_be_written_refuses_the_recording_alone(host, tmp_path):
     file = tmp_path / "file"
     file.touch()
     session, clock = start(host, record__directory=str(file))

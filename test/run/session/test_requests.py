@@ -178,7 +178,7 @@ def test_a_motion_must_have_states_for_a_day_of_the_clock():
         Run(**fast, real_time_factor=12.25)
 
 
-def test_an_empty_request_starts_from_the_quaternion_of_the_parameters_and_any_other_from_angles():
+def test_an_empty_request_starts_from_the_quaternion_of_the_parameters():
     run = Run(initial__orientation=[0.6, 0.0, 0.0, 0.8])
     assert run.ask("set_initial_conditions", {})[0]
     start = run.simulation.segment.motion.start

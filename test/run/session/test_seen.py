@@ -158,7 +158,7 @@ def change(event, **values):
     return replace(event, values={**event.values, **values})
 
 
-def test_a_solution_that_is_not_that_of_its_question_is_found_and_older_ones_are_counted():
+def test_a_solution_of_another_question_is_found():
     run = Run("cusps", 0.1)
     ask(run, {"theta": 1.0, "dip": 0.125})
     event = run.sink.events[-1]

@@ -110,7 +110,7 @@ def test_the_motion_follows_a_jump_of_the_clock_from_its_current_state(jump):
     assert run.sink.samples[-1][0] == SECOND
 
 
-def test_a_request_between_a_jump_and_the_next_tick_belongs_to_the_time_after_the_jump():
+def test_a_request_after_a_jump_belongs_to_the_time_after_it():
     run = Run("hurry_slow", seconds=0.5)
     state = run.simulation.state
     run.jump(90 * SECOND)
@@ -152,7 +152,7 @@ def count_seconds(simulation, factor):
     raise AssertionError
 
 
-def test_a_motion_that_lacked_cpu_time_returns_later_each_time_and_soon_after_a_good_minute():
+def test_a_motion_that_lacks_cpu_time_returns_later_each_time():
     run = Run("friction", seconds=0.5)
     simulation = run.simulation
     waits = []
@@ -289,7 +289,7 @@ def test_single_missed_samples_are_reported_when_they_amount_to_a_tenth_of_a_sec
 
 
 @pytest.mark.parametrize("times", [1, 8])
-def test_a_torque_acts_until_its_time_out_and_when_repeated_on_without_further_events(times):
+def test_a_torque_that_is_repeated_acts_on_without_further_events(times):
     run = Run(seconds=0.1)
     for _ in range(times):
         run.push((0.0, 0.0, 2e-4))

@@ -51,7 +51,7 @@ def test_a_symmetric_body_leaves_no_line():
     assert (check.lines, check.verdict) == ((), HOLDS)
 
 
-def test_a_body_that_is_not_symmetric_leaves_a_line_at_the_spin_and_the_model_does_not_hold():
+def test_a_body_that_is_not_symmetric_leaves_a_line_at_the_spin():
     fit = fit_rates(see_body(1.02, TIMES))
     check = Check(fit)
     assert check.is_white  # an autoregression has taken the line for noise

@@ -11,7 +11,7 @@ from truth.judge.cases import SECOND, TILT, Made, heading, make_estimates, turn_
 
 from symtop_ros.base.arrays import compose, rotate
 from symtop_ros.base.refusals import RefusedError
-from symtop_ros.run.log.intervals import Stretch
+from symtop_ros.run.log.intervals import Interval
 from symtop_ros.run.simulation.changes.requests import start_motion
 from symtop_ros.run.simulation.events import start_event
 from symtop_ros.run.simulation.settings import Settings
@@ -50,9 +50,9 @@ def test_noise_of_a_short_run_is_no_delay_that_leaves_the_loudest_estimates_out(
 def test_in_a_sleeping_top_a_delay_is_called_a_heading_whatever_is_lost_of_the_log():
     truth = scene_truth("sleeping")
     event = start_event(start_motion(Settings.from_scene("sleeping")))
-    lost = Stretch(3 * SECOND, 4 * SECOND, None, "lost")
-    parts = Stretch(0, 3 * SECOND, event), lost, Stretch(4 * SECOND, 9 * SECOND, event)
-    damaged = Truth.of(SimpleNamespace(end=8 * SECOND, stretches=parts))
+    lost = Interval(3 * SECOND, 4 * SECOND, None, "lost")
+    parts = Interval(0, 3 * SECOND, event), lost, Interval(4 * SECOND, 9 * SECOND, event)
+    damaged = Truth.of(SimpleNamespace(end=8 * SECOND, intervals=parts))
     assert damaged.kind == truth.kind == "sleeping"
     for each in (truth, damaged):
         found = find_causes(Made(delay=0.00636, noise=1e-3).make(truth, STAMPS[::4]), each)

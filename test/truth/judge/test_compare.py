@@ -26,8 +26,8 @@ from symtop_ros.run.simulation.topics import SENSOR_TOPICS, Samples
 from symtop_ros.run.wire.messages import IMU
 from symtop_ros.truth.judge.compare import compare
 from symtop_ros.truth.judge.judgement import judge
+from symtop_ros.truth.judge.named_causes import explain
 from symtop_ros.truth.judge.truth import Truth, read_events, scene_truth
-from symtop_ros.truth.judge.wanted import explain
 from symtop_ros.truth.topics.estimates import Estimates
 from workshop.load.domains import share_domain
 

@@ -13,10 +13,10 @@ from symtop_ros.truth.judge import search
 from symtop_ros.truth.judge.alignment import Alignment
 from symtop_ros.truth.judge.clock import measure_clock
 from symtop_ros.truth.judge.judgement import judge
+from symtop_ros.truth.judge.named_causes import align
 from symtop_ros.truth.judge.refine import refine
 from symtop_ros.truth.judge.search import find_causes
 from symtop_ros.truth.judge.truth import scene_truth
-from symtop_ros.truth.judge.wanted import align
 from symtop_ros.truth.residuals.residuals import Residuals
 from symtop_ros.truth.topics.estimates import Estimates
 

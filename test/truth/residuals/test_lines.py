@@ -108,7 +108,7 @@ def test_a_frequency_above_half_of_the_sampling_is_tried_where_it_is_seen():
     assert [each.name for each in find_lines(TIMES, rows, NAMED)] == ["precession"]
 
 
-def test_an_autoregression_takes_a_line_for_noise_that_lasts_and_the_test_of_lines_does_not():
+def test_a_line_is_found_that_an_autoregression_takes_for_correlated_noise():
     rows = add_line(make_white(Numbers(6)), 11.25, 2.0)
     noise = find_noise(rows, np.append(False, np.ones(ROWS - 1, dtype=bool)), 8)
     assert len(noise.partial) > 2

@@ -5,7 +5,7 @@ import pytest
 from drawn import Numbers
 
 from symtop_ros.truth.residuals.whitening import (
-    find_lasting,
+    find_pacf,
     find_predictors,
     measure_noise,
 )
@@ -51,7 +51,7 @@ def test_predictors_are_the_solutions_of_yule_and_walker():
 @pytest.mark.parametrize("power", [0.3, 0.45])
 def test_flicker_is_found_and_whitened(power):
     rows = make_flicker(power)
-    noise = measure_noise(rows, GOOD, FOLLOWS, find_lasting(rows, GOOD, FOLLOWS, 0), 0)
+    noise = measure_noise(rows, GOOD, FOLLOWS, find_pacf(rows, GOOD, FOLLOWS, 0), 0)
     assert noise.is_flicker
     # partial autocorrelations d/(k - d); the likelihood of 800 numbers knows d to 0.03 (Hosking)
     assert noise.partial[0] == pytest.approx(power / (1 - power), rel=0.35)
@@ -62,7 +62,7 @@ def test_flicker_is_found_and_whitened(power):
 
 def test_an_autoregression_is_no_flicker():
     rows = make_lasting(0.75)
-    partial = find_lasting(rows, GOOD, FOLLOWS, 0)
+    partial = find_pacf(rows, GOOD, FOLLOWS, 0)
     assert 1 <= len(partial) < 12
     assert partial[0] == pytest.approx([0.75, 0.75], abs=5 * np.sqrt((1 - 0.75**2) / ROWS))
 
@@ -82,14 +82,14 @@ def test_rows_after_a_gap_or_an_outlier_begin_anew():
 
 def test_white_noise_has_no_order():
     rows = Numbers(3).normals(ROWS, 3)
-    assert len(find_lasting(rows, GOOD, FOLLOWS, 0)) == 0
+    assert len(find_pacf(rows, GOOD, FOLLOWS, 0)) == 0
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.9375])
 def test_a_column_without_residuals_has_a_noise_without_a_size_and_no_warning(slope):
     rows = make_lasting(slope)
     rows[:, 1] = 0.0
-    partial = find_lasting(rows, GOOD, FOLLOWS, 4)
+    partial = find_pacf(rows, GOOD, FOLLOWS, 4)
     noise = measure_noise(rows, GOOD, FOLLOWS, partial, 4)
     assert noise.sigma[1] < 1e-100
     assert np.isfinite(noise.whiten(rows)).all()

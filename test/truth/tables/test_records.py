@@ -120,7 +120,7 @@ PHONE = '"Time (s)";' + ";".join(
 )
 
 
-def test_what_a_phone_measures_with_gravity_is_an_accelerometer_and_without_it_is_none(tmp_path):
+def test_accelerations_of_a_phone_without_gravity_are_no_accelerometer(tmp_path):
     values = np.concatenate([THREE, 9 + THREE], axis=1)
     path = write_table(tmp_path / "a.csv", values, SOME, PHONE.format("Acceleration"), ",", ";")
     assert read_rows(path, "inertial").values == pytest.approx(values, rel=1e-8)

@@ -43,9 +43,7 @@ def test_an_entry_that_tries_more_and_solves_nothing_more_is_not_ranked_first(tm
     assert found == [("careful", 2, 2, 10), ("bold", 1, 3, 10), ("shy", 1, 1, 10)]
 
 
-def test_engines_that_tried_fewer_than_half_and_solved_nothing_are_ranked_by_their_errors(
-    tmp_path, capsys
-):
+def test_engines_that_tried_few_and_solved_nothing_are_ranked_by_errors(tmp_path, capsys):
     # the order of their names is another one
     errors = {
         "a": {"cusps": 2.0, "rising": 2.0},

@@ -64,7 +64,7 @@ def test_inputs_rounded_to_single_precision_err_by_no_more_than_their_limits_all
 
 
 @pytest.mark.parametrize("setting", SETTINGS, ids=lambda each: each.name)
-def test_the_package_has_the_same_forces_energies_accelerations_and_states_in_the_world(setting):
+def test_forces_energies_and_accelerations_are_those_of_the_package(setting):
     facts = PROBLEMS[setting.name]
     exact = {name: np.array(facts[name], dtype=float) for name in FORCES}
     motion = Motion(setting.top, setting.start)

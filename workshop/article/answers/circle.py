@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.look import BLUE, GOLD, GREY, INK, RED, new_figure, rows
+from symtop_ros.base.figure_style import BLUE, GOLD, GREY, INK, RED, new_figure, rows
 from symtop_ros.physics import Motion
 from workshop.article.motions import accelerations, cusps
 from workshop.article.nutation import times_of_extreme_rate

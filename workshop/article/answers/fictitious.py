@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.look import BLUE, GOLD, GREY, INK, RED, new_figure
+from symtop_ros.base.figure_style import BLUE, GOLD, GREY, INK, RED, new_figure
 from symtop_ros.physics import Motion, Top, precessing_frame_torques, theta_acceleration
 from workshop.article.claims import Measured, claim, differ
 from workshop.article.motions import FAST, PSI_DOT, SLOW, THETA, TOP, start

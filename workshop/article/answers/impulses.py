@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.look import BLUE, GOLD, GREY, INK, RED, new_figure, rows
+from symtop_ros.base.figure_style import BLUE, GOLD, GREY, INK, RED, new_figure, rows
 from symtop_ros.physics import FrameTorques, Motion, precessing_frame_torques
 from workshop.article.motions import cusps
 from workshop.article.nutation import times_of_extreme_rate

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from symtop_ros.base.look import BLUE, GOLD, INK, new_figure
+from symtop_ros.base.figure_style import BLUE, GOLD, INK, new_figure
 from symtop_ros.physics import (
     Hold,
     Motion,

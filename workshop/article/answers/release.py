@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from scipy.integrate import solve_ivp
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.look import BLUE, GOLD, GREY, INK, RED, columns, new_figure
+from symtop_ros.base.figure_style import BLUE, GOLD, GREY, INK, RED, columns, new_figure
 from symtop_ros.physics import Motion, State, Top, regular_precession_rates, theta_acceleration
 from workshop.article.claims import Measured, claim
 from workshop.article.motions import FAST, PSI_DOT, THETA, TOP, cusps, start

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from symtop_ros.base.arrays import Real
-from symtop_ros.base.look import BLUE, GOLD, GREY, INK, RED, columns, new_figure
+from symtop_ros.base.figure_style import BLUE, GOLD, GREY, INK, RED, columns, new_figure
 from symtop_ros.physics import Motion, State, Top, apply_impulse
 from workshop.article.claims import Measured, claim
 from workshop.article.motions import cusps

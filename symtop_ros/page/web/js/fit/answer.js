@@ -1,7 +1,7 @@
 // What is said of a fit, as data, and the motion with its points as a run.
 
 import { checkFit } from "./check.js";
-import { ORDERS } from "./lasting.js";
+import { ORDERS } from "./whitening.js";
 import { listUnknown } from "./unknown.js";
 import { CAMERA, rectify } from "./projection.js";
 import { LENGTH } from "./model.js";

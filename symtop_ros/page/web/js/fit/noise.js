@@ -2,11 +2,11 @@
 //
 // Twin of find_noise in truth/fit/refine.py.
 
-import { findLasting, measureNoise, whitenColumns } from "./lasting.js";
+import { findPacf, measureNoise, whitenColumns } from "./whitening.js";
 import { findSpread } from "./statistics.js";
 
 /** @import { Model } from "./model.js" */
-/** @import { Noise } from "./lasting.js" */
+/** @import { Noise } from "./whitening.js" */
 
 const OUTLIER = 5; // deviations; a normal number is farther once in two million
 const DOUBLE = 1e-14; // of the values; what exact states leave is rounding, and no smaller
@@ -28,7 +28,7 @@ export const findNoise = (model, x, lasts) => {
   if (!good.some(Boolean)) good = good.map(() => true);
   const rows = { good, follows: record.follows, parameters: x.length };
   const { fixed } = record;
-  const partial = (lasts ? findLasting(columns, rows) : columns.map(() => [])).map((each, k) =>
+  const partial = (lasts ? findPacf(columns, rows) : columns.map(() => [])).map((each, k) =>
     fixed[k] ? each.map(() => 0) : each,
   );
   const noise = measureNoise(columns, rows, partial);

@@ -9,7 +9,7 @@ import { fitWeighted } from "./search.js";
 import { countIndependent, sumInfluences } from "./statistics.js";
 
 /** @import { Model } from "./model.js" */
-/** @import { Noise } from "./lasting.js" */
+/** @import { Noise } from "./whitening.js" */
 /**
  * Derivatives of the rows in deviations, a column for each parameter; weights of what is known; and
  * Fisher's matrix of parameters times sizes, by its eigenvalues and vectors.

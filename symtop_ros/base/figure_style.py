@@ -1,4 +1,4 @@
-"""The look of all figures; needs Matplotlib.
+"""The style of all figures; needs Matplotlib.
 
 Colours differ in grey too, sizes are those of a printed page.
 """

@@ -108,38 +108,38 @@ def demand_sizes(sizes: Iterable[int]) -> None:
 
 
 @cache
-def open_door() -> SimpleNamespace:
+def bind_functions() -> SimpleNamespace:
     """Return the functions of the library, which is loaded at the first call, by their names."""
-    return _make_door(LONG)
+    return _bind_functions(LONG)
 
 
 @cache
-def open_door_of_one() -> SimpleNamespace:
+def bind_functions_of_one() -> SimpleNamespace:
     """Return the same functions for calls of one element, which keep the interpreter's lock.
 
     A thread that releases the lock may wait for it longer than such a call takes.
     """
-    return _make_door(())
+    return _bind_functions(())
 
 
-def _make_door(releasing: Container[str]) -> SimpleNamespace:
+def _bind_functions(releasing: Container[str]) -> SimpleNamespace:
     """Return the functions, of which some release the interpreter's lock in their calls."""
     released = _load()
     locked = ctypes.PyDLL(released._name)
-    door = SimpleNamespace()
+    functions = SimpleNamespace()
     for name, (result, arguments) in FUNCTIONS.items():
-        # By index: a function object that belongs to this door alone.
+        # By index: a function object that belongs to this namespace alone.
         function = (released if name in releasing else locked)[f"symtop_{name}"]
         function.argtypes, function.restype = arguments, result
-        setattr(door, name, function)
-    return door
+        setattr(functions, name, function)
+    return functions
 
 
 def refuse_status(status: int) -> Exception:
     """Return the exception for a status, with its sentence."""
     if status == NO_MEMORY:
         return MemoryError()
-    sentence = open_door().describe_status(status).decode()
+    sentence = bind_functions().describe_status(status).decode()
     return (FloatingPointError if status == BAD_ARITHMETIC else RefusedError)(sentence)
 
 
@@ -151,7 +151,7 @@ def demand(status: int) -> None:
 
 def demand_arithmetic() -> None:
     """Refuse, in the kernel's words, to compute in a thread that rounds otherwise."""
-    demand(open_door().check_arithmetic())
+    demand(bind_functions().check_arithmetic())
 
 
 def compute_soundly(function: Callable[P, T]) -> Callable[P, T]:
@@ -197,34 +197,34 @@ def write_to(array: NDArray[Any], count: int, code: str = "d") -> Any:
 class KernelMotion:
     """A motion in the library, which is freed with this object."""
 
-    __slots__ = ("_door", "_door_of_one", "_handle", "_is_clamped", "_pushes", "start")
+    __slots__ = ("_functions", "_functions_of_one", "_handle", "_is_clamped", "_pushes", "start")
 
     def __init__(self, start: bytes, pushes: bytes = b"", is_clamped: bool = False) -> None:
         """Make the motion of the 15 numbers of `symtop_start`, and of those of `symtop_pushes`."""
         self._handle: int | None = None
         self.start, self._pushes, self._is_clamped = start, pushes, is_clamped
-        self._door = open_door()
+        self._functions = bind_functions()
         # Of a motion with pushes one state may take those of all pieces before it.
-        self._door_of_one = self._door if pushes else open_door_of_one()
+        self._functions_of_one = self._functions if pushes else bind_functions_of_one()
         if len(start) != 8 * START:
             raise ValueError(f"start must have {START} numbers, got {len(start) / 8:g}")
         special = bool(pushes) or is_clamped
-        self._handle = self._make_special() if special else self._door.make(start)
+        self._handle = self._make_special() if special else self._functions.make(start)
         if not self._handle:
-            raise refuse_status(self._door.new(start, byref(ctypes.c_void_p())) or NO_MEMORY)
+            raise refuse_status(self._functions.new(start, byref(ctypes.c_void_p())) or NO_MEMORY)
 
     def _make_special(self) -> int | None:
         """Make a motion that is pushed or clamped."""
         handle = ctypes.c_void_p()
         if self._is_clamped:
-            demand(self._door.new_clamped(self.start, byref(handle)))
+            demand(self._functions.new_clamped(self.start, byref(handle)))
         else:
-            demand(self._door.new_pushed(self.start, self._pushes, byref(handle)))
+            demand(self._functions.new_pushed(self.start, self._pushes, byref(handle)))
         return handle.value
 
     def __del__(self) -> None:
         if self._handle:
-            self._door.free(self._handle)
+            self._functions.free(self._handle)
 
     def __reduce__(self) -> Any:
         """Copy and pickle a motion by its start: copies share no integration."""
@@ -238,11 +238,13 @@ class KernelMotion:
             clock = bytes(ClockRecord(*t.clock))
             stamp = int(t.nanoseconds).to_bytes(8, sys.byteorder, signed=True)
             given = clock, stamp, 1, 0.0
-            status = self._door_of_one.states_of_clock(self._handle, *given, q, omega, c_size_t())
+            status = self._functions_of_one.states_of_clock(
+                self._handle, *given, q, omega, c_size_t()
+            )
             numbers: tuple[float, ...] = (*q, *omega)
         else:
             state = State(t)
-            status = self._door.read(self._handle, state)
+            status = self._functions.read(self._handle, state)
             numbers = _unpack_state(state)
         if status in (OK, TOO_FAR, *NOT_PUSHED):
             return numbers if status == OK else None
@@ -258,55 +260,55 @@ class KernelMotion:
         if isinstance(times, ExactTimes):
             stamps = read_from(np.asarray(times.nanoseconds), INT64)
             clock = bytes(ClockRecord(*times.clock))
-            status = self._door.states_of_clock(self._handle, clock, stamps, *rest)
+            status = self._functions.states_of_clock(self._handle, clock, stamps, *rest)
         else:
-            status = self._door.states(self._handle, read_from(times), *rest)
+            status = self._functions.states(self._handle, read_from(times), *rest)
         return done.value, status
 
     def find_piece(self, t: ExactTimes, steps: float) -> tuple[PieceRecord, int]:
         """Return the piece at one time between two pushes, and the status."""
         found = PieceRecord()
         clock = bytes(ClockRecord(*t.clock))
-        status = self._door.find_piece(self._handle, clock, int(t.nanoseconds), steps, found)
+        status = self._functions.find_piece(self._handle, clock, int(t.nanoseconds), steps, found)
         return found, status
 
     def reach(self, t: float, steps: float) -> tuple[float, int]:
         """Integrate towards a time in s; return the time reached, and the status."""
         reached = c_double()
-        status = self._door.reach(self._handle, t, steps, reached)
+        status = self._functions.reach(self._handle, t, steps, reached)
         return reached.value, status
 
     @property
     def kind(self) -> Kind:
         """Name of the motion."""
-        kind = int(self._door.find_kind(self._handle))
+        kind = int(self._functions.find_kind(self._handle))
         demand(OK if kind < len(KINDS) else BAD_ARITHMETIC)
         return KINDS[kind]
 
     @property
     def engine(self) -> Engine:
         """Method of solution."""
-        return ENGINES[int(self._door.find_engine(self._handle))]
+        return ENGINES[int(self._functions.find_engine(self._handle))]
 
     @property
     def turning_angles(self) -> tuple[float, float]:
         """Smallest and largest theta in rad."""
         angles = Pair()
-        demand(self._door.find_turning_angles(self._handle, angles))
+        demand(self._functions.find_turning_angles(self._handle, angles))
         return angles[0], angles[1]
 
     @property
     def rates(self) -> RatesRecord:
         """Nutation period, mean rates, and whether the spin reverses."""
         found = RatesRecord()
-        demand(self._door.find_rates(self._handle, found))
+        demand(self._functions.find_rates(self._handle, found))
         return found
 
     @property
     def farthest_time(self) -> float:
         """The time in s from which on there are no states; infinite for a driven motion."""
         farthest = c_double()
-        demand(self._door_of_one.find_farthest_time(self._handle, farthest))
+        demand(self._functions_of_one.find_farthest_time(self._handle, farthest))
         return farthest.value
 
 
@@ -325,14 +327,14 @@ def fill_many(starts: Real, times: Real, orientation: Real, omega: Real, left: A
     each = times.size
     states = write_to(orientation, 4 * count * each), write_to(omega, 3 * count * each)
     given = read_from(starts), count, read_from(times), each
-    demand(open_door().states_of_many(*given, *states, write_to(left, count * each, "B")))
+    demand(bind_functions().states_of_many(*given, *states, write_to(left, count * each, "B")))
 
 
 def describe_many(starts: Real) -> NDArray[Any]:
     """Return the constants of motions (n, 15), as records (n,) of `CONSTANTS`."""
     found = np.empty(len(starts), CONSTANTS)
     given = (read_from(starts), len(starts))
-    demand(open_door().describe_many(*given, _lend(found, ConstantsRecord), c_size_t()))
+    demand(bind_functions().describe_many(*given, _lend(found, ConstantsRecord), c_size_t()))
     return found
 
 
@@ -343,7 +345,7 @@ def from_angles(angles: Real, rates: Real) -> tuple[Real, Real]:
     count = omega.size // 3
     done = c_size_t()
     to = write_to(orientation, 4 * count), write_to(omega, 3 * count)
-    status = open_door().from_angles(read_from(angles), read_from(rates), count, *to, done)
+    status = bind_functions().from_angles(read_from(angles), read_from(rates), count, *to, done)
     if status == BAD_ANGULAR_VELOCITY:
         largest = float(np.abs(omega.reshape(-1, 3)[done.value]).max())
         raise refuse("angular_velocity", f"at most {LARGEST_ANGULAR_VELOCITY:g} rad/s", largest)
@@ -356,7 +358,7 @@ def _compute(name: str, width: int, *given: Real, then: tuple[int, ...] = ()) ->
     found = np.empty((*given[0].shape[:-1], width))
     count = found.size // width
     room = write_to(found, found.size)
-    demand(getattr(open_door(), name)(*map(read_from, given), count, *then, room))
+    demand(getattr(bind_functions(), name)(*map(read_from, given), count, *then, room))
     return found
 
 
@@ -390,14 +392,14 @@ def find_body(kinds: Sequence[int], parts: Sequence[Sequence[float]]) -> BodyRec
     """Return mass, arm and moments about the centre of parts: mass, size, distance of each."""
     found = BodyRecord()
     given = np.array(kinds, np.int32).tobytes(), np.array(parts, np.float64).tobytes()
-    demand(open_door().find_body(*given, len(kinds), found, c_size_t()))
+    demand(bind_functions().find_body(*given, len(kinds), found, c_size_t()))
     return found
 
 
 def find_body_top(body: Sequence[float], gravity: float) -> TopRecord:
     """Return Ix, Iz and Mgl of a body: mass, arm and moments about its centre."""
     found = TopRecord()
-    demand(open_door().find_body_top(bytes(BodyRecord(*body)), gravity, found))
+    demand(bind_functions().find_body_top(bytes(BodyRecord(*body)), gravity, found))
     return found
 
 
@@ -406,7 +408,7 @@ def solve_start(top: Sequence[float], seen: int, known: Sequence[float]) -> Solu
     found = SolutionsRecord()
     numbers = (*known, 0.0)[:3]
     given = bytes(TopRecord(*top)), seen, bytes(Rates(*numbers))
-    demand(open_door().solve_start(*given, found))
+    demand(bind_functions().solve_start(*given, found))
     return found
 
 
@@ -416,7 +418,7 @@ def find_spreads(
     """Return how far starts move with what is known of them."""
     found = SpreadsRecord()
     pair = [bytes(Rates(*(*each, 0.0)[:3])) for each in (known, half_widths)]
-    demand(open_door().find_spreads(bytes(TopRecord(*top)), seen, *pair, found))
+    demand(bind_functions().find_spreads(bytes(TopRecord(*top)), seen, *pair, found))
     return found
 
 
@@ -429,8 +431,8 @@ def kick(
     count = omega.size // 3
     state = map(read_from, (tops, orientation, omega))
     to = write_to(kicked, 3 * count)
-    door = open_door_of_one() if count == 1 else open_door()
-    status = door.kick(*state, kind, hold, read_from(amounts), count, to, done)
+    functions = bind_functions_of_one() if count == 1 else bind_functions()
+    status = functions.kick(*state, kind, hold, read_from(amounts), count, to, done)
     return kicked, done.value, status
 
 
@@ -444,7 +446,7 @@ def judge(starts: Real, factors: Real, hold: int) -> tuple[NDArray[Any], int]:
     for part in _list_blocks(len(starts)):
         room = _lend(verdicts[part], VerdictRecord)
         given = read_from(starts[part]), read_from(factors[part]), part.stop - part.start
-        status = open_door().judge(*given, hold, room, done)
+        status = bind_functions().judge(*given, hold, room, done)
         if status != OK:
             return verdicts[: part.start + done.value], status
     return verdicts, OK
@@ -453,21 +455,21 @@ def judge(starts: Real, factors: Real, hold: int) -> tuple[NDArray[Any], int]:
 def judge_kick(before: bytes, after: bytes, hold: int) -> VerdictRecord:
     """Return the verdict on the kick that leads from one start to another."""
     verdict = VerdictRecord()
-    demand(open_door().judge_kick(before, after, hold, verdict))
+    demand(bind_functions().judge_kick(before, after, hold, verdict))
     return verdict
 
 
 def judge_clamp(start: bytes) -> HeldRecord:
     """Return what follows if the precession of a start is held."""
     held = HeldRecord()
-    demand(open_door().judge_clamp(start, held))
+    demand(bind_functions().judge_clamp(start, held))
     return held
 
 
 def find_doubt(start: bytes) -> float:
     """Return the time in s from which rounding shows in a motion; infinite for never."""
     shows_at = c_double()
-    demand(open_door().find_doubt(start, shows_at))
+    demand(bind_functions().find_doubt(start, shows_at))
     return shows_at.value
 
 
@@ -475,7 +477,7 @@ def find_exchange(top: Sequence[float], orientations: Real, omegas: Real) -> Exc
     """Return what a top gains between two states, (2, 4) and (2, 3)."""
     found = ExchangeRecord()
     states = read_from(orientations), read_from(omegas)
-    demand(open_door().find_exchange(bytes(TopRecord(*top)), *states, found))
+    demand(bind_functions().find_exchange(bytes(TopRecord(*top)), *states, found))
     return found
 
 
@@ -489,13 +491,13 @@ def compare_hurried(
         given = [read_from(each[part]) for each in (tops, thetas, phi_dots, psi_dots)]
         count = part.stop - part.start
         to = write_to(angles[part], 2 * count), write_to(rules[part], count, "B")
-        demand(open_door().compare_hurried(*given, count, factor, hold, *to))
+        demand(bind_functions().compare_hurried(*given, count, factor, hold, *to))
     return angles, rules
 
 
 def kernel_version() -> str:
     """Return the version of the compiled kernel."""
-    return str(open_door().version().decode())
+    return str(bind_functions().version().decode())
 
 
 def _list_blocks(count: int) -> list[slice]:

@@ -72,7 +72,7 @@ export const measureNoise = (columns, rows, partial) => {
 };
 
 /** The partial autocorrelations of the noise that is most likely. @param {Columns} columns @param {Rows} rows @returns {Partial[]} */
-export const findLasting = (columns, rows) => {
+export const findPacf = (columns, rows) => {
   const [count, width] = [rows.good.length, columns.length];
   const most = Math.min(ORDERS, Math.floor(count / PER_ORDER));
   // A fit takes the share p/(n r) of the power of noise away; it is given back to the correlations.

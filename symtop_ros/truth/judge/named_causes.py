@@ -1,4 +1,4 @@
-"""Causes that are wanted: what is to be removed, and a stated model of the alignment."""
+"""Causes that the user names: what is to be removed, or a model of the alignment."""
 
 from collections.abc import Collection
 from dataclasses import replace
