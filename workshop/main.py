@@ -46,7 +46,7 @@ def make_parser() -> argparse.ArgumentParser:
         of[name].add_argument(
             "folder", type=Path, nargs="?", default=Path(folder), help=f"./{folder}"
         )
-    for name in ("speed", "testset", "derivatives", "filters"):
+    for name in ("speed", "testset", "derivatives", "filters", "records"):
         of[name].add_argument("--docs", type=_docs, help="write tables and plots here, too")
     text = "every peer, every motion, long times: hours instead of minutes"
     of["speed"].add_argument("--full", action="store_true", help=text)

@@ -13,7 +13,9 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.truth.fit.main import main
+from workshop.records.assumptions import NAME, write_assumptions
 from workshop.records.draws import CLEAN, FAULTS, draw_record
+from workshop.speed.publish import publish
 
 EACH = 40  # records of a fault; of those without one this many and a half more
 WITHIN = 2.0  # deviations
@@ -99,10 +101,12 @@ def _write_line(name: str, rows: Sequence[dict[str, Any]]) -> str:
     return f"| {name} | {' | '.join(cells)} |"
 
 
-def try_strange_records(folder: Path) -> None:
-    """Write records.md: 60 clean records of each name, and 40 of each fault."""
+def try_strange_records(folder: Path, docs: Path | None = None) -> None:
+    """Write records.md, and docs/fit.md: 60 clean records of each name, and 40 of each fault."""
     path = folder / "records.jsonl"
     rows = run_trial([*CLEAN], range(EACH + EACH // 2), path)
     rows += run_trial([*FAULTS], range(EACH), path)
     (folder / "records.md").write_text("\n".join([*write_table(rows), ""]), encoding="utf-8")
     print(f"{folder / 'records.md'} and records.jsonl")
+    if docs:
+        publish({NAME: "\n".join(write_assumptions(rows))}, docs)

@@ -37,6 +37,14 @@ TABLES: dict[str, tuple[str, tuple[str, ...]]] = {
     ),
     "derivatives": ("derivatives", (*KERNEL, "workshop/speed/derivatives.*")),
     "filters": ("filters", (*KERNEL, "symtop_ros/run/**/*.py", "workshop/speed/filters.py")),
+    "assumptions": (
+        "records",
+        (
+            "symtop_ros/truth/fit/*.py",
+            "symtop_ros/truth/residuals/*.py",
+            "workshop/records/*.py",
+        ),
+    ),
     "testset": ("scores", (*REPORT, "workshop/speed/testset.py")),
     **{
         name: (command, (*NODE, f"workshop/load/{file}.py", "workshop/load/listener.py"))
