@@ -236,12 +236,12 @@ def start_node(_, words):
 
 
 def replay(program, words):
-    log, *options = words
-    log = log.replace("*", "run")  # a file that a shell finds by the pattern
-    Path(log).parent.mkdir(exist_ok=True)
+    read, *options = (each.replace("*", "run") for each in words)  # as a shell does
+    log = Path(read).with_suffix(".mcap")
+    log.parent.mkdir(exist_ok=True)
     shutil.move(Run(seconds=0.5).write(Path.cwd()), log)
     # without an option it would open a window: there is no screen
-    return run(program, [log, *(options or ["--save", "run.rrd"])])
+    return run(program, [read, *(options or ["--save", "run.rrd"])])
 
 
 def call_ros2(_, words):
