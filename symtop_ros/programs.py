@@ -119,7 +119,7 @@ def _use_udp_only() -> None:
     """Let Fast DDS leave out shared memory, unless the user has chosen a profile or transports.
 
     Who opens the port of a listener that has just come may wait for a third of a second, and so
-    does then every publisher and every answer of the process (docs/ros.md, Discovery).
+    does then every publisher and every answer of the process (docs/ros_reference.md, Discovery).
     """
     if not any(name.endswith("_DEFAULT_PROFILES_FILE") for name in os.environ):
         os.environ[TRANSPORTS] = os.environ.get(TRANSPORTS) or "UDPv4"

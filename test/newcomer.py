@@ -206,9 +206,10 @@ def try_documents(user: User) -> None:
     for line in list_set_up():
         user.type(line)
     user.activate()
-    with user.serving("top_node --ros-args -p scene:=hurry_slow"):
+    with user.serving("top_node --ros-args -p scene:=hurry_slow -p record.enabled:=true"):
         user.type("top_ctl --timeout 60 state")
         user.type("top_ctl hurry")
+    user.type("top_replay logs/top_*.mcap --save run.rrd")  # to a file, as there is no screen
     for page in [*(path.relative_to(ROOT) for path in FIRST[1:]), *DOCUMENTS]:
         if page.stem != "lesson":  # whose lines test_lesson.py types, one step after the other
             type_page(user, page)

@@ -33,7 +33,7 @@ from workshop.load.domains import claim_domain, release_domain, share_domain
 
 pytestmark = pytest.mark.untraced
 DOMAIN = share_domain()
-ROS_PAGE = ROOT / "docs/ros.md"
+ROS_PAGE = ROOT / "docs/ros_reference.md"
 LAUNCH_FILE = ROOT / "launch/top.launch.py"
 QUOTED = {"fit_imu_record": "truth", "particle_filter": "many"}
 WITH_PYTHON = [page for page in PAGES if blocks(page, "python")]
@@ -236,9 +236,12 @@ def start_node(_, words):
 
 
 def replay(program, words):
-    shutil.move(Run(seconds=0.5).write(Path.cwd()), "run.mcap")
+    read, *options = (each.replace("*", "run") for each in words)  # as a shell does
+    log = Path(read).with_suffix(".mcap")
+    log.parent.mkdir(exist_ok=True)
+    shutil.move(Run(seconds=0.5).write(Path.cwd()), log)
     # without an option it would open a window: there is no screen
-    return run(program, words if words[1:] else [*words, "--save", "run.rrd"])
+    return run(program, [read, *(options or ["--save", "run.rrd"])])
 
 
 def call_ros2(_, words):
@@ -283,7 +286,7 @@ def top():
 
 
 def listed(section, kind):
-    """Names and types in the first two columns of a table of docs/ros.md."""
+    """Names and types in the first two columns of a table of docs/ros_reference.md."""
     types = {name: row[1] for row in rows(ROS_PAGE, section) for name in names(row[0])}
     pairs = ((name.replace("~", "/top"), text.split(",")[0]) for name, text in types.items())
     return {(name, text.replace("/", f"/{kind}/")) for name, text in pairs}

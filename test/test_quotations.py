@@ -32,7 +32,7 @@ MISCONCEPTIONS = (  # of students: nobody's words
     "who measures the motion knows the spin",
 )
 KNOWN = {*ARTICLE, *PERRY, *TITLES, *MISCONCEPTIONS}
-PAGES = ("article", "derivation", "lesson", "library", "ros")
+PAGES = ("article", "derivation", "lesson", "library", "ros", "ros_reference")
 RULE = ARTICLE[1]
 FEWEST = 4  # words: less is a label
 TEXTS = sorted((ROOT / "symtop_ros/page/web/texts").glob("*.json"))

@@ -22,11 +22,12 @@ from symtop_ros.physics.kernel.library import load_library
 
 pytestmark = [pytest.mark.slow, pytest.mark.untraced]
 README, GUIDE = ROOT / "README.md", ROOT / "docs/README.md"
+REFERENCE = ROOT / "docs/ros_reference.md"
 ((CODE, SHOWN),) = blocks(README, "python")
 # By the first cell of a row of the guide: what it promises. A second table has fewer columns.
 ROUTES = [row for row in rows(GUIDE, "Which install do I need?") if len(row) == 4]
 PROMISED = {row[0]: names(row[3]) for row in ROUTES}
-PROGRAMS = [each for row in rows(ROOT / "docs/ros.md", "Programs") for each in names(row[0])]
+PROGRAMS = [each for row in rows(REFERENCE, "Programs") for each in names(row[0])]
 NEED_ROS = ("top_node", "top_ctl", "top_live")
 
 

@@ -1,7 +1,7 @@
 """Try the node with each ROS 2, Python and NumPy, playback with each Rerun, and all lower bounds.
 
 python workshop/matrix.py: each cell gets a separate environment in .venv/matrix, in which it
-installs the package and runs TESTS. The table is for docs/ros.md.
+installs the package and runs TESTS. The table is for docs/ros_reference.md.
 """
 
 import json

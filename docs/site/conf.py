@@ -11,7 +11,7 @@ from sphinx.application import Sphinx
 from symtop_ros import __version__
 
 ROOT = Path(__file__).parents[2]
-FOLDER_LINK = re.compile(r"\[([^\]]+)\]\(([^)#:]+)\)")
+FILE_LINK = re.compile(r"\[([^\]]+)\]\(([^)#:]+)(?:#[^)]*)?\)")
 TOP_LINK = re.compile(r"\[([^\]]+)\]\((\.\./top\.html[^)]*)\)")
 # Documents with a live top before their first section, and what it shows. `make docs` writes the
 # page next to the site.
@@ -47,14 +47,18 @@ html_theme = "furo"
 html_title = f"symtop_ros {release}"
 
 
-def _unlink_folders(_: Sphinx, page: str, source: list[str]) -> None:
-    """Show links to folders and dotfiles of the repository as text: they have no page."""
+def _unlink_what_has_no_page(app: Sphinx, page: str, source: list[str]) -> None:
+    """Show links to folders and to Markdown files outside of the site as text."""
     here = (ROOT / page).parent
+    pages = {ROOT / f"{name}.md" for name in app.env.found_docs}
 
     def replace(link: re.Match[str]) -> str:
-        return f"`{link[2]}`" if (here / link[2]).is_dir() else link[0]
+        target = (here / link[2]).resolve()
+        if target.is_dir():
+            return f"`{link[2]}`"
+        return link[1] if target.suffix == ".md" and target not in pages else link[0]
 
-    source[0] = FOLDER_LINK.sub(replace, source[0])
+    source[0] = FILE_LINK.sub(replace, source[0])
 
 
 def _show_top(_: Sphinx, page: str, source: list[str]) -> None:
@@ -82,7 +86,7 @@ def _skip_aliases(*arguments: Any) -> bool | None:
 
 def setup(app: Sphinx) -> None:
     """Connect what this file adds to Sphinx."""
-    app.connect("source-read", _unlink_folders)
+    app.connect("source-read", _unlink_what_has_no_page)
     app.connect("source-read", _show_top)
     app.connect("autodoc-process-docstring", _escape_bars)
     app.connect("autodoc-skip-member", _skip_aliases)

@@ -38,8 +38,9 @@ def main(args: list[str] | None = None) -> int:
 
 def _run(words: Sequence[str], options: argparse.Namespace, listen: Callable[[], None]) -> int:
     """Spin until shutdown or a failure of the top; return 1 if it or the recording failed."""
-    # Not rclpy's EventsExecutor, whose `spin` handles nothing in the wheels (docs/ros.md says why).
-    # By `spin_once` with a time-out it gains nothing: the samples come from another thread.
+    # Not rclpy's EventsExecutor, whose `spin` handles nothing in the wheels (docs/ros_reference.md
+    # says why). By `spin_once` with a time-out it gains nothing: the samples come from another
+    # thread.
     # The executor is created before a signal can shut ROS down, as the node.
     if fault := find_fault(words, options.scene):
         raise RefusedError(fault)

@@ -83,7 +83,7 @@ class SteadyClock:
 
 
 class TopNode(Node):
-    """A heavy symmetric top in real time; docs/ros.md lists topics, services and parameters.
+    """A heavy symmetric top in real time; docs/ros_reference.md lists its interface.
 
     Ticks run in a thread of the pacer, requests and timers in the executor's.
     """

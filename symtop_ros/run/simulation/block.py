@@ -17,7 +17,7 @@ from symtop_ros.run.wire.layout import NANOSECONDS
 # encodes the messages of a topic, by its stamps (n,) in ns and its doubles (n, width)
 Encode = Callable[[str, Stamps, Real], list[bytes]]
 # s; ticks that are later are dropped, so that a stopped process sends no long burst. Fast DDS may
-# hold a publisher for 0.33 s when a subscriber comes (docs/ros.md, Discovery).
+# hold a publisher for 0.33 s when a subscriber comes (docs/ros_reference.md, Discovery).
 CATCH_UP = 0.5
 AHEAD = 0.05  # s of samples that are computed together; a kick makes them useless
 # Samples in a block at most. Requests wait while a block is computed, so blocks are short; those of

@@ -84,7 +84,7 @@ def _context():
 
 
 # As many threads as the machine has processors would be one on some, of which rclpy warns.
-# An EventsExecutor works by `spin_once` with a time-out: docs/ros.md says why.
+# An EventsExecutor works by `spin_once` with a time-out: docs/ros_reference.md says why.
 EXECUTORS = [
     SingleThreadedExecutor,
     partial(MultiThreadedExecutor, num_threads=2),

@@ -412,7 +412,7 @@ def test_a_stop_and_a_play_are_events_from_which_the_log_is_computed(start_top, 
 
 
 def test_the_commands_and_the_table_of_the_page_on_ros_are_those_of_the_node(client):
-    page = Path(__file__).parents[3] / "docs" / "ros.md"
+    page = Path(__file__).parents[3] / "docs" / "ros_reference.md"
     called = [words for words, _ in commands(page) if "simulation_interfaces/" in " ".join(words)]
     assert len(called) == 3
     for *_, name, kind, text in called:
