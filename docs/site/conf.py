@@ -11,7 +11,7 @@ from sphinx.application import Sphinx
 from symtop_ros import __version__
 
 ROOT = Path(__file__).parents[2]
-FOLDER_LINK = re.compile(r"\[([^\]]+)\]\(([^)#:]+)\)")
+LINK = re.compile(r"\[([^\]]+)\]\(([^)#:]+)(?:#[^)]*)?\)")
 TOP_LINK = re.compile(r"\[([^\]]+)\]\((\.\./top\.html[^)]*)\)")
 # Documents with a live top before their first section, and what it shows. `make docs` writes the
 # page next to the site.
@@ -47,14 +47,17 @@ html_theme = "furo"
 html_title = f"symtop_ros {release}"
 
 
-def _unlink_folders(_: Sphinx, page: str, source: list[str]) -> None:
-    """Show links to folders and dotfiles of the repository as text: they have no page."""
+def _unlink_sources(_: Sphinx, page: str, source: list[str]) -> None:
+    """Show links to folders, and to documents that the site does not have, as text."""
     here = (ROOT / page).parent
+    pages = {path for pattern in include_patterns for path in ROOT.glob(pattern)}
 
     def replace(link: re.Match[str]) -> str:
-        return f"`{link[2]}`" if (here / link[2]).is_dir() else link[0]
+        target = (here / link[2]).resolve()
+        has_page = target.suffix != ".md" or target in pages
+        return link[0] if has_page and not target.is_dir() else f"`{link[2]}`"
 
-    source[0] = FOLDER_LINK.sub(replace, source[0])
+    source[0] = LINK.sub(replace, source[0])
 
 
 def _show_top(_: Sphinx, page: str, source: list[str]) -> None:
@@ -82,7 +85,7 @@ def _skip_aliases(*arguments: Any) -> bool | None:
 
 def setup(app: Sphinx) -> None:
     """Connect what this file adds to Sphinx."""
-    app.connect("source-read", _unlink_folders)
+    app.connect("source-read", _unlink_sources)
     app.connect("source-read", _show_top)
     app.connect("autodoc-process-docstring", _escape_bars)
     app.connect("autodoc-skip-member", _skip_aliases)
