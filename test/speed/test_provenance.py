@@ -11,6 +11,7 @@ from workshop.speed.provenance import (
     find_pages,
     list_tables,
     seal,
+    strip,
 )
 from workshop.speed.publish import replace_section
 from workshop.speed.tables import format_list_of_tables
@@ -61,6 +62,27 @@ def test_sources_that_change_have_another_digest(tmp_path):
     file.write_bytes(b"two\r\n")  # the ends of lines are those of the checkout
     digests.add(digest_sources("derivatives", tmp_path))
     assert len(digests) == 2
+
+
+PROGRAM = '''"""A module."""
+
+X = """first
+"""  # a comment
+
+
+def find() -> str:
+    """Return # it."""
+    return "a # b"
+'''
+
+
+def test_comments_docstrings_and_layout_do_not_count_and_other_strings_do():
+    same = PROGRAM.replace("A module.", "Another.").replace("a comment", "no").replace(" it.", ".")
+    assert strip(PROGRAM, ".py") == strip(same.replace("\n\n\n", "\n\n"), ".py")
+    assert strip(PROGRAM, ".py") != strip(PROGRAM.replace("first", "second"), ".py")
+    assert strip(PROGRAM, ".py") != strip(PROGRAM.replace("-> str", "-> int"), ".py")
+    kernel = "int x = 1;  // one\n/* two\nlines */ int y = x / 2;\n"
+    assert strip(kernel, ".hpp") == "intx=1;inty=x/2;"
 
 
 def test_the_list_says_which_tables_have_other_sources():

@@ -1,10 +1,11 @@
 """Which sources a table was measured with, and whether a hand has changed it.
 
 Each table that a command writes into the documentation ends with a comment, the seal: a digest of
-the sources that it measures, and one of its own text. `python -m workshop tables` lists the tables
+the sources that it measures (without comments and docstrings), and one of its own text. `python -m workshop tables` lists the tables
 whose sources have changed since, in docs/accuracy_tables.md.
 """
 
+import ast
 import hashlib
 import re
 from collections.abc import Iterator
@@ -15,6 +16,11 @@ ROOT = Path(__file__).parents[2]
 DIGITS = 12  # of a digest, in base 16
 SEAL = re.compile(r"\n*<!-- of sources (\w+), text (\w+) -->")
 SECTION = re.compile(r"<!-- figures: ([^>]+) -->\n(.*?)\n<!-- end of figures -->", re.DOTALL)
+COMMENTS = {
+    ".py": re.compile(r"(?m:(?:^|(?<=\s))#.*$)"),
+    **dict.fromkeys((".h", ".hpp", ".cpp"), re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)),
+}
+DOCUMENTED = ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef
 LIST = "sources"  # the section that lists all others, and is measured by nothing
 KERNEL = (
     "symtop_ros/physics/*.py",
@@ -78,10 +84,28 @@ def digest_sources(name: str, root: Path = ROOT) -> str:
     patterns = TABLES[name][1]
     found = {path for each in patterns for path in root.glob(each) if path.is_file()}
     for path in sorted(path for path in found if path.suffix not in (".so", ".dylib", ".dll")):
-        # without ends of lines, which a checkout may change
-        lines = path.read_bytes().splitlines()
-        digest.update(b"\0".join([path.relative_to(root).as_posix().encode(), *lines, b""]))
+        text = strip(path.read_text(encoding="utf-8"), path.suffix)
+        digest.update(f"{path.relative_to(root).as_posix()}\0{text}\0".encode())
     return digest.hexdigest()[:DIGITS]
+
+
+def strip(text: str, suffix: str) -> str:
+    """Return a source without docstrings, comments and blanks, which change no figure."""
+    if suffix == ".py":
+        text = _drop_docstrings(text)
+    if comments := COMMENTS.get(suffix):
+        text = comments.sub("", text)
+    return "".join(text.split())
+
+
+def _drop_docstrings(text: str) -> str:
+    lines = text.splitlines()
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, DOCUMENTED) and ast.get_docstring(node) is not None:
+            first = node.body[0]
+            for number in range(first.lineno, (first.end_lineno or 0) + 1):
+                lines[number - 1] = ""
+    return "\n".join(lines)
 
 
 def seal(name: str, content: str) -> str:
