@@ -1,8 +1,8 @@
 """Which sources a table was measured with, and whether a hand has changed it.
 
 Each table that a command writes into the documentation ends with a comment, the seal: a digest of
-the sources that it measures (without comments and docstrings), and one of its own text. `python -m workshop tables` lists the tables
-whose sources have changed since, in docs/accuracy_tables.md.
+the sources that it measures (without comments and docstrings), and one of its own text. `python -m
+workshop tables` lists the tables whose sources have changed since, in docs/accuracy_tables.md.
 """
 
 import ast
