@@ -35,7 +35,7 @@ pytestmark = pytest.mark.untraced
 DOMAIN = share_domain()
 ROS_PAGE = ROOT / "docs/ros_reference.md"
 LAUNCH_FILE = ROOT / "launch/top.launch.py"
-QUOTED = {"fit_imu_record": "truth", "particle_filter": "many"}
+QUOTED = {"fit_imu_record": "fit", "particle_filter": "many"}
 WITH_PYTHON = [page for page in PAGES if blocks(page, "python")]
 PARSED = ("top_panel", "top_live")  # their options are; separate tests run them
 # These need a network, a shell, or a ROS 2 with security.
@@ -107,10 +107,10 @@ def testset(tmp_path, monkeypatch):
 
 
 def write_block(language, source, program):
-    """Write the program of docs/truth.md in a language; return the output that the page shows."""
+    """Write the program of docs/engines.md in a language; return the output that the page shows."""
     if fault := find_fault(program):
         pytest.skip(fault)
-    ((code, output),) = blocks(ROOT / "docs/truth.md", language)
+    ((code, output),) = blocks(ROOT / "docs/engines.md", language)
     source.write_text(code)
     return output
 
@@ -134,7 +134,7 @@ def test_a_program_of_the_page_compiles_and_prints_what_it_shows(language, compi
 )
 def test_the_commands_of_the_page_give_a_first_score(language, name, program, testset):
     write_block(language, testset / name, program)
-    words, shown = console(ROOT / "docs/truth.md", f" {name} ")
+    words, shown = console(ROOT / "docs/engines.md", f" {name} ")
     for line in words:
         command = line.replace("python ", f"{shlex.quote(sys.executable)} ")
         printed = execute(["sh", "-c", command], check=True).stdout

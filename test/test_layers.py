@@ -56,7 +56,7 @@ TABLE = {
     "truth/topics": "run/log run/wire truth/residuals | numpy",
     "truth/fit": "base/command base/figure_style physics run/log run/simulation run/wire "
     "truth/residuals truth/tables truth/topics words | matplotlib numpy scipy",
-    # of testset the scorer; the program itself only for --testset
+    # of testset the limit of errors
     "truth/judge": "base/command base/figure_style base/shutdown run/log run/simulation run/wire "
     "truth/residuals truth/tables truth/testset truth/topics words | matplotlib numpy rclpy scipy",
 }

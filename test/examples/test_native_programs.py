@@ -1,4 +1,4 @@
-"""The programs in C++ and Rust that use the kernel, as docs/truth.md shows them."""
+"""The programs in C++ and Rust that use the kernel, as docs/engines.md shows them."""
 
 import itertools
 import re
@@ -19,7 +19,7 @@ needs_rust = pytest.mark.skipif(bool(find_fault("rustc")), reason=find_fault("ru
 
 def run_block(name, folder):
     """Run the commands of the block that names a program; return its output, and what is shown."""
-    commands, shown = console(ROOT / "docs/truth.md", name)
+    commands, shown = console(ROOT / "docs/engines.md", name)
     for part in ("symtop_ros", "examples"):
         (folder / part).symlink_to(ROOT / part)
     output = ""

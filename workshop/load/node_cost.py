@@ -20,7 +20,7 @@ from workshop.load.bare import TOPICS
 from workshop.load.listener import LOOK, Listener, Traffic
 from workshop.load.processes import DOCS, domain, run_program, running, script, top_node
 from workshop.speed.conditions import describe_conditions
-from workshop.speed.publish import format_list, format_tables, publish, write_chapter
+from workshop.speed.publish import format_table, format_tables, publish, write_chapter
 
 COST_RATES = (200.0, 1000.0)  # Hz
 RATES = (500.0, 1000.0, 1500.0, 2000.0)  # Hz, tried for the highest one without late samples
@@ -167,14 +167,15 @@ def format_few(runs: Runs) -> str:
     """Return the README's figures: what the node takes, and where a bare node is ahead."""
     cpu = runs[f"{COST_RATES[0]:.0f} Hz: {CPU}"]
     rows = (
-        (f"CPU (one core) of the node at {COST_RATES[0]:g} Hz, five topics", cpu, ".2g", " %"),
+        (f"CPU (one core) at {COST_RATES[0]:g} Hz, five topics", cpu, ".2g", " %"),
         ("highest rate", runs[HIGHEST], "g", " Hz"),
     )
-    return format_list(
-        "{}: {}; bare rclpy {}, with prepared bytes {}.".format(
-            name, *(f"{median(of[node]):{form}}{unit}" for node in (TOP, BARE, PREPARED))
-        )
-        for name, of, form, unit in rows
+    return format_table(
+        ["", "`top_node`", "bare rclpy", "bare rclpy, messages serialized before"],
+        [
+            [name, *(f"{median(of[node]):{form}}{unit}" for node in (TOP, BARE, PREPARED))]
+            for name, of, form, unit in rows
+        ],
     )
 
 

@@ -7,7 +7,7 @@ from workshop.speed.ahead import FRICTION
 from workshop.speed.benchmarks import DRIVEN_BEST, DRIVEN_PEER, SPAN, Results
 from workshop.speed.forms import LEVELS, Form, find_best, find_cheapest, find_program
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
-from workshop.speed.publish import format_list, format_ms, format_table, group
+from workshop.speed.publish import format_ms, format_table, group
 from workshop.speed.reference import ReferenceMotion
 from workshop.speed.sweep import Curve, Measurement
 
@@ -20,24 +20,28 @@ def format_measured(results: Results, motion: ReferenceMotion) -> str:
     """Return errors and times of this package, and of the best of the others."""
     free = [curve for curve in results.curves if curve.motion == motion.name]
     driven = [curve for curve in results.curves if curve.motion == FRICTION]
-    lines = [f"{SPAN:g} s of the article's top: {_compare(free, CLOSED_FORM)}"]
+    level = f"{LEVELS[0]:.0e}".replace("e-0", "e-")
+    head = [
+        f"{SPAN:g} s of the article's top",
+        OWN,
+        "most exact of the others",
+        f"fastest of the others within {level} rad",
+    ]
+    rows = [["gravity alone", *_compare(free, CLOSED_FORM)]]
     if driven:
-        lines.append(f"with friction: {_compare(driven, TAYLOR)}")
-    return format_list(f"{line}." for line in lines)
+        rows.append(["with friction", *_compare(driven, TAYLOR)])
+    return format_table(head, rows)
 
 
-def _compare(curves: Sequence[Curve], own: str) -> str:
-    """Return our figures, those of the most exact other form, and of the fastest for an error."""
+def _compare(curves: Sequence[Curve], own: str) -> Iterator[str]:
+    """Yield our figures, those of the most exact other form, and of the fastest for an error."""
     ours = next(curve for curve in curves if curve.peer == own).best
+    yield _describe(ours)
     others = [curve for curve in curves if not curve.peer.startswith(OWN)]
-    if not others:  # none is installed
-        return _describe(ours)
-    best, fastest = find_best(others), find_cheapest(others, LEVELS[0])
-    compared = f"{_describe(ours)}; {_name(best)} {_describe(best[1])}"
-    if not fastest:
-        return compared
-    cheap = f"{_name(fastest)} {format_ms(fastest[1].seconds)} ms for {LEVELS[0]:.0e} rad"
-    return f"{compared}; {cheap}"
+    best = find_best(others) if others else None  # none may be installed
+    yield f"{_name(best)}: {_describe(best[1])}" if best else "-"
+    fastest = find_cheapest(others, LEVELS[0])
+    yield f"{_name(fastest)}: {format_ms(fastest[1].seconds)} ms" if fastest else "-"
 
 
 def _describe(point: Measurement) -> str:

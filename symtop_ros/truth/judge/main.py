@@ -2,7 +2,6 @@
 
 import argparse
 import json
-import shlex
 import sys
 from dataclasses import asdict
 from pathlib import Path
@@ -51,11 +50,10 @@ def _find_fault(options: argparse.Namespace, rest: list[str]) -> str | None:
         ),
         "--clock must have a recorded run, got --live": options.clock and options.live,
         "LOG with --topic or --estimates, --scene with --estimates, or --live with --topic is "
-        "needed": options.testset is None and not (estimates and run),
+        "needed": not (estimates and run),
         "--live judges one --topic": options.live and len(options.topic) > 1,
-        "--robust and --rpe judge what was recorded: no --live, no --clock, no --testset": (
-            (options.robust or options.rpe)
-            and (options.live or options.clock or options.testset is not None)
+        "--robust and --rpe judge what was recorded: no --live, no --clock": (
+            (options.robust or options.rpe) and (options.live or options.clock)
         ),
         "--aligned states what is removed: no --remove, no --live": (
             options.aligned and (options.remove or options.live)
@@ -147,19 +145,10 @@ def make_parser() -> argparse.ArgumentParser:
         "--live", action="store_true", help="judge a running node: one line each second"
     )
     parser.add_argument("--seconds", type=positive, help="duration of --live")
-    parser.add_argument(
-        "--testset",
-        nargs="?",
-        const="",
-        metavar="PROBLEM",
-        help="moved: it is the program top_testset, and goes here in 0.7",
-    )
     return parser
 
 
 def _run(options: argparse.Namespace, rest: list[str]) -> int:
-    if options.testset is not None:
-        return _forward(options)
     if options.live:
         from symtop_ros.truth.judge.live import judge_live
 
@@ -171,21 +160,6 @@ def _run(options: argparse.Namespace, rest: list[str]) -> int:
     status = report_faults(run, sources)
     found = (_measure_clocks if options.clock else _judge)(options, run, sources)
     return max(status, found)
-
-
-def _forward(options: argparse.Namespace) -> int:
-    """Let top_testset do what --testset asks for, and say so."""
-    from symtop_ros.truth.testset.main import main as run_testset
-
-    words = [options.testset] if options.testset else []
-    if options.testset and options.files:
-        words += [str(options.files[0]), *["--json"] * options.json]
-        words += [f"--max-error={options.max_error!r}"] if options.max_error else []
-    elif options.testset or options.output:
-        words += ["-o", str(options.output or Path())]
-    typed = one_line(shlex.join(["top_testset", *words]))
-    print(f"top_judge: --testset moved, and goes in 0.7: {typed}", file=sys.stderr)
-    return run_testset(words)
 
 
 def _measure_clocks(options: argparse.Namespace, run: Run, sources: list[Source]) -> int:

@@ -3,7 +3,6 @@
 import errno
 import json
 import os
-import shlex
 import subprocess
 import sys
 
@@ -13,13 +12,11 @@ from log_files import write_mcap
 from run.log.damaged import zero_chunk
 from scipy.spatial.transform import Rotation
 from truth.judge.cases import encode, make_estimates, truth_and_stamps, write_log, write_rows
-from truth.testset.trajectories import make_table, write
 
 from symtop_ros.programs import BROKEN_PIPE
 from symtop_ros.run.log.reader import McapFile
 from symtop_ros.truth.judge.main import main
 from symtop_ros.truth.judge.truth import scene_truth
-from symtop_ros.truth.testset.main import main as run_testset
 from symtop_ros.truth.topics.estimates import Estimates
 
 IMU = "sensor_msgs/msg/Imu"
@@ -117,41 +114,6 @@ def test_what_cannot_be_judged_is_one_line(log, arguments, reason, capsys):
     err = capsys.readouterr().err
     assert err.startswith(f"top_judge: {reason}")
     assert err.count("\n") == 1
-
-
-@pytest.mark.slow
-def test_the_option_for_the_test_set_says_what_to_type_and_does_it(tmp_path, capsys):
-    path = tmp_path / "mine.csv"
-    path.write_text(write(make_table("cusps")))
-    for words, typed in (
-        (["--testset"], []),
-        (["--testset", "-o", str(tmp_path / "set")], ["-o", str(tmp_path / "set")]),
-        (["--testset", "low", "-o", str(tmp_path)], ["low", "-o", str(tmp_path)]),
-        (["--testset", "cusps", str(path), "--json"], ["cusps", str(path), "--json"]),
-        (["--testset", "all", str(tmp_path / "none")], ["all", str(tmp_path / "none")]),
-    ):
-        status = main(words)
-        forwarded = capsys.readouterr()
-        line, *rest = forwarded.err.splitlines(keepends=True)
-        moved, goes, command = line.rstrip().split(": ")
-        assert (moved, goes) == ("top_judge", "--testset moved, and goes in 0.7")
-        assert shlex.split(command) == ["top_testset", *typed]
-        assert run_testset(typed) == status
-        direct = capsys.readouterr()
-        assert (direct.out, direct.err) == (forwarded.out, "".join(rest))
-
-
-@pytest.mark.parametrize(("limit", "status"), [("1e-15", 0), ("1e-17", 1)])
-def test_the_option_for_the_test_set_has_its_limit(limit, status, tmp_path):
-    path = tmp_path / "mine.csv"
-    path.write_text(write(make_table("cusps")))
-    assert main(["--testset", "cusps", str(path), "--max-error", limit]) == status
-
-
-def test_a_problem_without_a_folder_is_copied_into_this_one(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert main(["--testset", "cusps"]) == 0
-    assert (tmp_path / "cusps.json").exists()
 
 
 def test_a_csv_file_is_judged_against_a_scene_as_json(tmp_path, capsys):

@@ -88,7 +88,7 @@ def test_judge_and_fit_read_one_table_alike_with_stamps_to_the_ns(name):
 
 
 def test_the_table_of_the_docs_names_each_file():
-    text = (ROOT / "docs/truth.md").read_text()
+    text = (ROOT / "docs/judge.md").read_text()
     named = set(re.findall(r"\(\.\./test/truth/tables/forms/([\w.]+)\)", text))
     assert named == {*FILES, "plain.csv"} == {path.name for path in FOLDER.iterdir()}
 
