@@ -14,11 +14,11 @@ def add_view_options(parser: argparse.ArgumentParser) -> None:
         ("--angles", "draw both frames and Euler's angles phi, theta, psi"),
         (
             "--torques",
-            "draw dL/dt and the inertial torque, in the body frame and in that of the nodes",
+            "draw dL/dt and the inertial torque, in the body frame and in the precessing frame",
         ),
         (
             "--fictitious",
-            "draw the torques in the precessing frame: gravity's, Coriolis' and centrifugal",
+            "draw the torques in the precessing frame: gravity, Coriolis and centrifugal",
         ),
     ):
         parser.add_argument(option, action="store_true", help=text)
@@ -40,15 +40,15 @@ def make_parser() -> argparse.ArgumentParser:
         "top_replay",
         "Play a log of top_node, or a run of the page, in the Rerun viewer; or save, "
         "check, repair or convert it.",
-        epilog="Plain `rerun FILE.mcap` draws the top as well, on the timeline that it opens.",
+        epilog="Plain `rerun FILE.mcap` also draws the top, on the timeline that it selects.",
     )
     parser.add_argument(
         "files",
         type=Path,
         nargs="+",
         metavar="FILE.mcap|run.json",
-        help="a log, complete or damaged; a rosbag2 folder or a .db3 file; several are one run; or "
-        "a run that the page has saved",
+        help="a log, complete or damaged; a rosbag2 folder or a .db3 file; several files of one "
+        "run; or a run that the page has saved",
     )
     parser.add_argument("--node", help="full name of the node if the log has several tops")
     add_view_options(parser)
@@ -75,15 +75,15 @@ def make_parser() -> argparse.ArgumentParser:
         "--mcap",
         type=Path,
         metavar="OUT.mcap",
-        help="write the log that a node would have written of run.json",
+        help="convert run.json to the log that a node would have written",
     )
     parser.add_argument(
         "--strict",
         action="store_true",
-        help="with --check: status 1 as well if the log lacks topics of the node",
+        help="with --check: status 1 also if topics of the node are missing in the log",
     )
     parser.add_argument(
-        "--json", action="store_true", help="with --check: print JSON in place of text"
+        "--json", action="store_true", help="with --check: print JSON instead of text"
     )
     parser.add_argument(
         "--rate", type=decimal, help=f"samples per second for --mcap (default {RATE:g})"

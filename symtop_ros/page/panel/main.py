@@ -40,8 +40,9 @@ def make_parser() -> argparse.ArgumentParser:
     """Return the parser of the command line."""
     parser = new_parser(
         "top_panel",
-        "Play with a top on a page in the browser. The page is a file with a top of "
-        f"its own, {FILE} in this folder, unless it is served or shows a running node.",
+        "Open a page with a top in the browser. By default the page is a file with its own top, "
+        f"{FILE} in this folder; with --host or --port it is served, and with --node it shows a "
+        "running node.",
     )
     parser.add_argument(
         "--lesson", action="store_true", help="open the lesson: fifteen steps for a class"
@@ -49,7 +50,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--language", choices=LANGUAGES, help="language of the page (default: the browser's)"
     )
-    parser.add_argument("--write", type=Path, metavar="FILE.html", help="write the page, and end")
+    parser.add_argument("--write", type=Path, metavar="FILE.html", help="write the page, and exit")
     parser.add_argument(
         "--node", metavar="NAME", help="show and control a running node, such as /top (needs ROS)"
     )
@@ -61,9 +62,9 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--host",
         help=f"serve the page on this address (default {LOCAL_HOST}: this machine only); 0.0.0.0: "
-        "to other machines as well",
+        "other machines too",
     )
-    parser.add_argument("--no-browser", action="store_true", help="open no browser")
+    parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
     return parser
 
 

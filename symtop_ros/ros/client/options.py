@@ -30,24 +30,27 @@ def make_parser() -> argparse.ArgumentParser:
             )
     for command in ("record", "clamp"):
         parsers[command].add_argument("switch", choices=("on", "off"))
-    parsers["state"].add_argument("--json", action="store_true", help="as JSON in one line")
+    parsers["state"].add_argument("--json", action="store_true", help="print JSON in one line")
     parsers["hurry"].add_argument(
         "factor",
         nargs="?",
         type=decimal,
-        help="of phi'; the spin rate is held (default: the parameter hurry_factor)",
+        help="multiplies phi' at constant spin rate (default: the parameter hurry_factor)",
     )
-    commands.add_parser("delay", help="divide the precession rate, by 1.4 or FACTOR").add_argument(
+    commands.add_parser("delay", help="divide the precession rate by 1.4 or FACTOR").add_argument(
         "factor", nargs="?", type=positive, default=1.4, help="by which phi' is divided"
     )
     commands.add_parser(
         "body",
-        help="a top of parts: disc:170g,5.5cm,10.5cm point:0.9kg,-25.3cm (mass, size, distance "
-        "from the pivot), or a name such as bicycle_wheel; measured: gravity=9.8 Ix=1e-3 Iz=5e-4",
+        help="set a top made of parts: disc:170g,5.5cm,10.5cm point:0.9kg,-25.3cm (mass, size, "
+        "distance from the pivot), or a known body such as bicycle_wheel; measured values may be "
+        "added: gravity=9.8 Ix=1e-3 Iz=5e-4",
     ).add_argument("parts", nargs="+", metavar="PART")
     commands.add_parser("resume", help="continue the motion from where it stopped")
     commands.add_parser("keys", help="send requests by single keys: hurry, delay, pause, push")
-    commands.add_parser("watch", help="show the motion in a line that is updated").add_argument(
+    commands.add_parser(
+        "watch", help="show the motion in one line, continuously updated"
+    ).add_argument(
         "--seconds", type=positive, default=math.inf, help="how long (default: until Ctrl-C)"
     )
     return parser

@@ -22,22 +22,24 @@ SERVICES: dict[str, Service] = {
     "set_initial_conditions": Service(
         "named",
         "start",
-        "restart: theta=0.5 psi_dot=1900rpm precession=slow ..., or from what is seen: theta=90deg "
-        "precession_period=2.2s",
+        "restart with theta=0.5 psi_dot=1900rpm precession=slow ..., or from observed quantities: "
+        "theta=90deg precession_period=2.2s",
     ),
     "kick": Service(
-        "named", "kick", "precession_rate=9 hold=spin_momentum, or angular_impulse=0,0,1e-4"
+        "named",
+        "kick",
+        "kick the top: precession_rate=9 hold=spin_momentum, or angular_impulse=0,0,1e-4",
     ),
-    "step": Service("named", "step", "while paused: duration=0.01"),
-    "release": Service("plain", "release", "end a series of pushes that is under way"),
-    "clamp": Service("switch", "clamp", "hold the precession by hand, or let it go"),
+    "step": Service("named", "step", "advance the paused motion: duration=0.01 (s)"),
+    "release": Service("plain", "release", "end the current series of pushes"),
+    "clamp": Service("switch", "clamp", "hold the precession, or release it"),
     "hurry_precession": Service(
-        "plain", "hurry", "multiply phi' by the parameter hurry_factor, spin rate held"
+        "plain", "hurry", "multiply phi' by the parameter hurry_factor at constant spin rate"
     ),
-    "reset": Service("plain", "reset", "back to the last initial conditions"),
+    "reset": Service("plain", "reset", "restart from the last initial conditions"),
     "pause": Service("switch", "pause", "stop the motion; `resume` continues it"),
     "record": Service("switch", "record", "start or stop a log"),
-    "get_state": Service("plain", "state", "full state, constants and verdict"),
+    "get_state": Service("plain", "state", "print the state, the constants and the verdict"),
 }
 
 

@@ -32,10 +32,10 @@ from symtop_ros.truth.residuals.sampling import (
 )
 from symtop_ros.truth.tables.forms import is_table
 
-DESCRIPTION = """Find the motion of a heavy symmetric top from a record of what was seen of it: a
-table (columns with names: t and theta, phi; x, y, z of the axis; u, v of a point in a picture; wx,
-wy, wz of the body; w, x, y, z), a log or a bag. It prints what the record shows, with standard
-deviations, what it cannot show, and whether the model holds."""
+DESCRIPTION = """Find the motion of a heavy symmetric top from a measured record: a table, a log
+or a bag. A table has named columns: t, and theta, phi; or x, y, z of the axis; or u, v of a point
+in a picture; or wx, wy, wz of the body; or w, x, y, z. The program prints what the record shows,
+with standard deviations, what it cannot show, and whether the model holds."""
 EXAMPLE = "example.csv"
 NOT_GIVEN = (None, False)
 CAMERA_OPTIONS = "pivot", "scale", "elevation", "perspective", "distance", "centre", "size"
@@ -60,16 +60,16 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--example", action="store_true", help=f"copy a record to ./{EXAMPLE} and fit it"
     )
-    parser.add_argument("--kind", choices=READ, help="kind of record if its columns do not say it")
+    parser.add_argument("--kind", choices=READ, help="kind of record, if columns do not show it")
     parser.add_argument("--topic", help="full name of a topic of a log")
     parser.add_argument("--frame", help="child frame of the top, for /tf")
-    parser.add_argument("--friction", action="store_true", help="look for linear friction as well")
+    parser.add_argument("--friction", action="store_true", help="fit linear friction as well")
     parser.add_argument(
         "--mount",
         type=positive,
         metavar="RAD/S",
-        help="look for biases and the tilt of a gyroscope as well; deviation of its bias about z, "
-        "which no record shows",
+        help="fit the biases and the tilt of a gyroscope as well; RAD/S is the standard deviation "
+        "of its bias about z, which no record shows",
     )
     for name, unit in zip(RATIOS, ("", " in kg m^2", " in J"), strict=True):
         parser.add_argument(
@@ -85,7 +85,7 @@ def make_parser() -> argparse.ArgumentParser:
         type=decimal,
         nargs=3,
         metavar=("X", "Y", "Z"),
-        help="place of an accelerometer on the body, in m from the pivot: use it as well",
+        help="use the accelerometer as well; its position in the body frame, in m from the pivot",
     )
     parser.add_argument("--pivot", type=decimal, nargs=2, metavar=("U", "V"), help="known pivot")
     parser.add_argument("--scale", type=positive, metavar="PIXELS", help="known length of the axis")
@@ -100,7 +100,7 @@ def make_parser() -> argparse.ArgumentParser:
         "--elevation", type=decimal, metavar="DEGREES", help="known elevation of the camera"
     )
     parser.add_argument(
-        "--perspective", action="store_true", help="look for the distance of the camera as well"
+        "--perspective", action="store_true", help="fit the distance of the camera as well"
     )
     parser.add_argument(
         "--distance",
@@ -113,7 +113,7 @@ def make_parser() -> argparse.ArgumentParser:
         type=decimal,
         nargs=2,
         metavar=("U", "V"),
-        help="point of the picture at which a near camera looks, as a rule its middle",
+        help="point of the picture at which a near camera looks, usually its middle",
     )
     parser.add_argument(
         "--size",
@@ -124,7 +124,7 @@ def make_parser() -> argparse.ArgumentParser:
         "corner",
     )
     add_options(parser)
-    parser.add_argument("--json", action="store_true", help="print JSON in place of text")
+    parser.add_argument("--json", action="store_true", help="print JSON instead of text")
     parser.add_argument(
         "--run",
         type=Path,

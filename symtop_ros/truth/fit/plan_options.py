@@ -32,23 +32,27 @@ ASKED = "rate", "noise", "seconds", "camera", "range", "resolution"  # options o
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the options of a plan to a parser."""
-    group = parser.add_argument_group("a plan, in place of RECORD")
+    group = parser.add_argument_group("a plan, instead of RECORD")
     group.add_argument(
         "--plan",
         nargs="+",
         metavar=("SCENE", "NAME=VALUE"),
-        help="deviations that a record of this scene will have, with parameters of the node "
-        "changed, such as initial.phi_dot=0",
+        help="print the deviations that a record of this scene will have; NAME=VALUE changes "
+        "parameters of the node, such as initial.phi_dot=0",
     )
-    group.add_argument("--rate", type=positive, metavar="HZ", help=f"rows a second, {RATE:g}")
-    group.add_argument("--seconds", type=positive, help=f"length of the record, {SECONDS:g}")
+    group.add_argument(
+        "--rate", type=positive, metavar="HZ", help=f"rows per second (default {RATE:g})"
+    )
+    group.add_argument(
+        "--seconds", type=positive, help=f"length of the record (default {SECONDS:g})"
+    )
     group.add_argument(
         "--noise",
         type=positive,
         nargs="+",
         metavar="SIGMA",
-        help="standard deviation of the noise of a row, in the unit of the kind (rad; 1 is the "
-        "length of an axis; pixels; rad/s, and m/s^2 of an accelerometer)",
+        help="standard deviation of the noise of a row, in the unit of the kind of record (rad; "
+        "lengths of the axis; pixels; rad/s, and m/s^2 of an accelerometer)",
     )
     group.add_argument(
         "--camera",
@@ -56,10 +60,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         nargs=3,
         metavar=("PIXELS", "DEGREES", "LENGTHS"),
         help="length of the axis, elevation of the camera, and its distance, which --perspective "
-        f"looks for; {' '.join(f'{each:g}' for each in CAMERA)}",
+        f"fits (default {' '.join(f'{each:g}' for each in CAMERA)})",
     )
 
-    for name, what in (("range", "largest number"), ("resolution", "step of the numbers")):
+    for name, what in (("range", "largest value"), ("resolution", "step of the values")):
         group.add_argument(
             f"--{name}",
             type=positive,

@@ -19,8 +19,8 @@ from symtop_ros.truth.imu.record import ImuRecord, record_imu
 INSTRUMENTS = "gyroscope", "accelerometer"
 MAX_BYTES = 65_536  # of a file with noise
 DESCRIPTION = """Write what an inertial sensor on the top measures, next to the exact truth: a log
-(FILE.mcap), a table (FILE.csv, with the event of the run in FILE.json), or a folder with the CSV
-files of EuRoC and poses as TUM has them. Stamps begin at 0."""
+(FILE.mcap), a table (FILE.csv, with the event of the run in FILE.json), or a folder with CSV
+files as of EuRoC and poses as of TUM. Stamps begin at 0."""
 
 
 def main(args: list[str] | None = None) -> int:
@@ -125,7 +125,7 @@ def make_parser() -> argparse.ArgumentParser:
         nargs=3,
         default=(),
         metavar=("X", "Y", "Z"),
-        help="place of the sensor in the body frame, m; default: the pivot",
+        help="position of the sensor in the body frame, m; default: the pivot",
     )
     parser.add_argument(
         "--orientation",
@@ -134,7 +134,7 @@ def make_parser() -> argparse.ArgumentParser:
         default=(),
         metavar=("X", "Y", "Z", "W"),
         help="quaternion, sensor to body, W last (links of the page and tables have w first); "
-        "default: along the body",
+        "default: parallel to the axes of the body",
     )
     parser.add_argument(
         "--magnetic-field",
@@ -146,22 +146,22 @@ def make_parser() -> argparse.ArgumentParser:
         "default: as in central Europe, with y north",
     )
     parser.add_argument(
-        "--noise", metavar="FILE", help="consumer, or YAML in Kalibr's form; default: exact"
+        "--noise", metavar="FILE", help="`consumer`, or a YAML file as of Kalibr; default: no noise"
     )
-    for name, what in (("range", "largest component"), ("resolution", "step of the numbers")):
+    for name, what in (("range", "largest value"), ("resolution", "step of the values")):
         parser.add_argument(
             f"--{name}",
             type=decimal,
             nargs="+",
             default=(),
             metavar=("RAD/S", "M/S^2"),
-            help=f"{what} of the gyroscope, and of the accelerometer; default: none",
+            help=f"{what} of the gyroscope, and of the accelerometer; default: unlimited",
         )
     parser.add_argument("--seed", type=integer, default=0, help="seed of the noise, default 0")
     parser.add_argument(
         "--average",
         action="store_true",
-        help="measure means over the sample interval, as a sensor that integrates does",
+        help="output means over the sample interval, as integrating sensors do",
     )
     parser.add_argument(
         "-o",

@@ -25,9 +25,9 @@ from symtop_ros.truth.judge.runs import (
 from symtop_ros.truth.tables.attitudes import ORDERS
 from symtop_ros.truth.testset.score import enforce_limit
 
-DESCRIPTION = """Compares estimates of attitude and angular velocity with the exact motion of the
-top at the estimates' own stamps. The run must be in the log with its ~/events, or be a scene that
-starts at the stamp 0."""
+DESCRIPTION = """Compare estimates of attitude and angular velocity with the exact motion of the
+top at the estimates' own stamps. The log must contain the ~/events of the run; instead of a log,
+--scene names a scene that starts at the stamp 0."""
 
 
 def main(args: list[str] | None = None) -> int:
@@ -76,7 +76,8 @@ def make_parser() -> argparse.ArgumentParser:
         "--topic",
         action="append",
         default=[],
-        help="full name of the topic with the estimates; repeat it for a table of several",
+        help="full name of the topic with the estimates; repeat it to compare several topics "
+        "in a table",
     )
     parser.add_argument("--frame", help="child frame of the estimates, for /tf")
     parser.add_argument(
@@ -85,13 +86,14 @@ def make_parser() -> argparse.ArgumentParser:
         help="whose attitude the estimates describe; default: the sensor for Imu messages, else "
         "the body",
     )
-    parser.add_argument("--scene", help="a scene that starts at the stamp 0, in place of LOG")
-    parser.add_argument("--node", help="full name of the top if there are several")
+    parser.add_argument("--scene", help="a scene that starts at the stamp 0, instead of LOG")
+    parser.add_argument("--node", help="full name of the node if the log has several tops")
     parser.add_argument(
         "--estimates",
         type=Path,
         metavar="FILE",
-        help="another log, or a table: columns with names, Motive, TUM, EuRoC, KITTI with times",
+        help="another log, or a table: with named columns, or as of Motive, TUM, EuRoC or KITTI "
+        "(with times)",
     )
     parser.add_argument(
         "--rpy",
@@ -104,8 +106,8 @@ def make_parser() -> argparse.ArgumentParser:
         action="append",
         choices=("offset", "delay", "drift"),
         default=[],
-        help="subtract the constant rotations, the delay (up to 0.5 s), or the drift of the "
-        "heading that were found",
+        help="subtract what was found: the constant rotations, the delay (up to 0.5 s), or the "
+        "drift of the heading",
     )
     parser.add_argument(
         "--aligned",
@@ -123,16 +125,16 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--robust",
         action="store_true",
-        help="leave outliers out of causes and models: estimates more than five deviations off",
+        help="ignore outliers, more than five standard deviations off, in causes and models",
     )
     parser.add_argument(
         "--rpe",
         type=read_lag,
         metavar="TIME",
-        help="measure the errors of the turns over a time as well, such as 1s or 50ms: the "
-        "relative pose error of evo",
+        help="also compute the error of the rotation over a time, such as 1s or 50ms (the relative "
+        "pose error of evo)",
     )
-    parser.add_argument("--json", action="store_true", help="print JSON in place of text")
+    parser.add_argument("--json", action="store_true", help="print JSON instead of text")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FOLDER", help="folder for JSON and plots"
     )

@@ -36,8 +36,8 @@ def make_parser() -> argparse.ArgumentParser:
         "problem",
         nargs="?",
         metavar="PROBLEM",
-        help="a name, such as cusps, or that of another description of its body, cusps.turned; "
-        "all: every problem; default: list them",
+        help="name of a problem, such as cusps, or with another description of its body, such as "
+        "cusps.turned; all: every problem; default: list all names",
     )
     parser.add_argument(
         "trajectory",
@@ -52,8 +52,8 @@ def make_parser() -> argparse.ArgumentParser:
         "--output",
         type=Path,
         metavar="FOLDER",
-        help="write the problem into this folder; with all: each into its own; without a name: "
-        "the whole set",
+        help="write the problem into this folder; with all: each into its own folder; without a "
+        "name: the whole set",
     )
     parser.add_argument("--json", action="store_true", help="print the score as JSON")
     parser.add_argument(

@@ -181,7 +181,7 @@ def test_the_page_says_how_far_a_start_moves_for_the_last_digits_that_were_typed
     said = shared.tab.locator("#solutions .spread").all_inner_texts()
     assert len(said) == len(starts)
     for k, text in enumerate(each.replace("\n", "") for each in said):
-        assert text.startswith("within the last digits typed: ")
+        assert text.startswith("within the rounding of the typed digits: ")
         found = re.findall(r"([\U0001d703\U0001d711\U0001d713])\u02d9? (\S+) to (\S+) rad", text)
         assert found, text
         for symbol, *ends in found:
@@ -197,11 +197,12 @@ def test_where_the_last_digits_decide_whether_there_is_a_start_the_page_says_so(
     shared.open_tab("start")
     shared.ask("theta psi_dot", "0.500", "112")  # none below 111.6 rad/s
     said = shared.tab.locator("#solutions .spread").all_inner_texts()
-    unknown = "within the last digits typed there may be more or fewer such starts"
+    unknown = "within the rounding of the typed digits there may be more or fewer such starts"
     assert said == [unknown] * len(shared.list_solutions())
     shared.ask("alpha a b", "600.0 1/s^2", "50.00 1/s", "44.00 1/s")
     said = shared.tab.locator("#solutions .spread").all_inner_texts()
-    assert [each.partition(":")[0] for each in said] == ["within the last digits typed"] * 2
+    assert {each.partition(":")[0] for each in said} == {"within the rounding of the typed digits"}
+    assert len(said) == 2
     shared.ask("theta psi_dot", "pi/6", "pi*50")
     said = shared.tab.locator("#solutions .spread").all_inner_texts()
     assert said == [""] * len(shared.list_solutions())

@@ -40,7 +40,7 @@ def test_every_scene_starts_with_the_doubles_of_a_node_and_says_what_acts(opened
         assert event.get("clamped", False) == motion.clamped
         expected = "Clamped, the " if motion.clamped else SAID[acts]
         assert opened.say("headline").startswith(expected)
-        assert not any(acts) or opened.say("why").startswith("What follows leaves out ")
+        assert not any(acts) or opened.say("why").startswith("What follows neglects ")
     assert said >= {(True, False), (False, True)}
 
 

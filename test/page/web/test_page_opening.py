@@ -39,20 +39,20 @@ def test_a_first_visit_says_why_it_does_not_fall_and_asks_at_once(new):
     new.tab.click("[data-answer=falls]")
     assert [each["kind"] for each in new.read_events()][-1] == "kick"
     assert not new.tab.is_visible("text=Why does this top not fall?")
-    assert not set(list_labels(new)) & {*ARROWS, "along its way"}
+    assert not set(list_labels(new)) & {*ARROWS, "along its precession"}
 
 
 @pytest.mark.slow
 def test_the_arrows_of_the_opening_give_way_to_that_of_the_question(new):
     new.wait_for_time(END)
     new.until(lambda: read_stage(new) == "read")
-    assert list_labels(new) == ["along its way"]
+    assert list_labels(new) == ["along its precession"]
     assert new.tab.is_visible("text=Why does this top not fall?")
     assert not new.tab.is_visible("#skip")
     before = new.read_run()["end"]
     new.wait_for_time(before + 0.05)  # at the usual speed
     new.tab.click("[data-answer=falls]")
-    assert "along its way" not in list_labels(new)
+    assert "along its precession" not in list_labels(new)
 
 
 @pytest.mark.parametrize("way", ["button", "key"])
@@ -61,7 +61,7 @@ def test_the_opening_can_be_skipped(new, way):
         new.tab.click("#skip")
     else:
         new.press("Escape")
-    assert list_labels(new) == ["along its way"]
+    assert list_labels(new) == ["along its precession"]
     assert new.tab.is_visible("#question")
 
 
@@ -77,12 +77,12 @@ def test_the_opening_is_not_shown_again(new):
 @pytest.mark.slow
 def test_without_motion_all_arrows_stand_still_together(open_page):
     page = open_page(known="", reduced_motion="reduce")
-    assert sorted(list_labels(page)) == sorted([*ARROWS, "along its way"])
+    assert sorted(list_labels(page)) == sorted([*ARROWS, "along its precession"])
     places = page.read_labels()
     page.wait_for_texts()
     assert page.read_labels() == places
     page.tab.click("#skip")
-    assert list_labels(page) == ["along its way"]
+    assert list_labels(page) == ["along its precession"]
 
 
 def test_a_word_that_is_pointed_at_takes_no_arrow_of_the_opening_away(new):

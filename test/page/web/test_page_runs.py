@@ -104,7 +104,7 @@ def test_a_browser_without_room_is_said_once(open_page):
     for theme in ("dark", "light"):
         opened.tab.select_option("#theme", theme)
         opened.wait_for_frames()
-        expected = "the browser has no room for what this page keeps" if theme == "dark" else ""
+        expected = "the storage of the browser is full" if theme == "dark" else ""
         assert opened.say("refusal").startswith(expected)
         opened.press("Escape")
         assert opened.say("refusal") == ""

@@ -75,7 +75,8 @@ def test_an_answer_says_how_far_the_start_moves_for_the_last_digits_that_were_ty
     wheel = Top(**read(ctl)["top"])
     answer = ctl("start theta=90.0deg precession_period=57.6s").stdout
     found = re.search(
-        r"Within the last digits typed: .*psi' (\S+) to (\S+) rad/s\. \[event \d+\]\n$", answer
+        r"Within the rounding of the typed digits: .*psi' (\S+) to (\S+) rad/s\. \[event \d+\]\n$",
+        answer,
     )
     tilts = (math.pi / 180 * each for each in (89.95, 90.05))
     corners = [

@@ -112,7 +112,7 @@ CAVEATS = [
     ({}, None, ""),
     ({"friction.axial": 1e-6}, "friction", "under gravity alone; friction acts too."),
     ({"steady_torque": [0.0, 0.0, 1e-4]}, "torque", "under gravity alone; a torque acts too."),
-    ({"initial.clamped": True}, "held", "initial.clamped is true, and phi' is held."),
+    ({"initial.clamped": True}, "held", "initial.clamped is true, so phi' is held."),
 ]
 
 
@@ -125,7 +125,7 @@ def test_it_is_said_for_which_motion_it_was_solved(changes, caveat, words):
     assert isinstance(outcome, Start)
     assert outcome.solved.caveat == caveat
     assert answer.endswith(words)
-    assert ("What was asked for" in answer) == bool(words)
+    assert ("The requested quantities" in answer) == bool(words)
 
 
 def record(folder, *requests):
