@@ -4,7 +4,16 @@ const toNumbers = (rows) => Array.from(rows, Number);
 
 /** Open the modules of the fit, with a kernel. */
 const openFit = async () => {
-  const names = ["answer", "fitting", "linear", "many", "model", "projection", "record", "whitening"];
+  const names = [
+    "answer",
+    "fitting",
+    "linear",
+    "many",
+    "model",
+    "projection",
+    "record",
+    "whitening",
+  ];
   const more = ["refine", "statistics", "twins", "noise", "search", "starts", "least_squares"];
   const found = await Promise.all([...names, ...more].map((name) => import(`/fit/${name}.js`)));
   const modules = Object.assign({}, ...found);
