@@ -1,4 +1,4 @@
-"""The body behind a top: a mass and an arm that fit its three constants, and the forces on it.
+"""The rigid body of a top: its mass, the arm of its centre of mass, and the force on the pivot.
 
 The motion of a top depends on Ix, Iz and Mgl only. The force of the pivot depends on the mass and
 on the distance of its centre from the pivot (the arm) too, and these are not given. A body is
@@ -127,7 +127,7 @@ class Body:
     def from_disc(
         cls, mass: float, radius: float, distance: float, gravity: float = DEFAULT_GRAVITY
     ) -> "Body":
-        """Return a flat disc on an axle without mass.
+        """Return a flat disc on a massless axle.
 
         Parameters
         ----------
@@ -159,7 +159,7 @@ class Body:
         Ix: float | None = None,
         Iz: float | None = None,
     ) -> "Body":
-        """Return the body that parts on an axle without mass make.
+        """Return the body that is composed of parts on a massless axle.
 
         Parameters
         ----------
@@ -206,7 +206,7 @@ class Body:
     def from_top(
         cls, top: Top[float], gravity: float = DEFAULT_GRAVITY, mass: float | None = None
     ) -> "Body":
-        """Return the body of a known mass that is a top, or else the body that is chosen for it.
+        """Return a body with the constants of a top, of the given mass or of a default mass.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""Proved bounds of the errors of states: what the extra `reference` brings is imported here."""
+"""Proved bounds of the errors of states; needs the extra `reference`."""
 
 import math
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ Drive = tuple[tuple[float, float], Vector]  # coefficients of friction, and a to
 
 @dataclass(frozen=True)
 class Certificate(Generic[N]):
-    """Bounds of the errors of states that `Motion.at` gives, each with a proof.
+    """Proved bounds of the errors of the states that `Motion.at` returns.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Accelerations of a body in a given motion, of its angles and of its points, and balances.
+"""Angular and point accelerations of a body in motion, and balances of energy and momentum.
 
 A balance over a stretch of time says how well a motion obeys its equations of motion.
 """

@@ -1,4 +1,4 @@
-"""Shares of a torque on the top: that of the outer ring of a gimbal, and that of its stand."""
+"""The parts of a torque on a top that the outer ring of its gimbal and the stand exert."""
 
 from dataclasses import dataclass
 
@@ -11,7 +11,7 @@ from symtop_ros.physics.values import validate_vectors
 
 @dataclass(frozen=True, eq=False, slots=True)
 class GimbalShares:
-    """A torque (N m) or an angular impulse (N m s), as it reaches a top in a gimbal.
+    """The parts of a torque (N m) or an angular impulse (N m s) on a top in a gimbal.
 
     Attributes
     ----------
@@ -27,7 +27,7 @@ class GimbalShares:
 
 
 def gimbal_shares(torque: ArrayLike) -> GimbalShares:
-    """Return what the outer ring and the stand give of a torque on a top in a gimbal.
+    """Return the parts of a torque on a top that the outer ring and the stand exert.
 
     The outer ring turns about the vertical, so that a hand can give it that part of a torque and
     no other. The rest comes through the bearing of the ring.

@@ -36,7 +36,7 @@ def set_precession_rate(state: State, phi_dot: Many, hold: Hold = "spin_rate") -
 
 
 def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rate") -> State:
-    """Return the state with a new precession rate phi', theta' held.
+    """Return the state with a new precession rate phi' and the same theta'.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def push_axle(top: Top, state: State, impulse: Many) -> State[Real]: ...
 
 
 def push_axle(top: Top, state: State, impulse: ArrayLike) -> State:
-    """Return the state after a horizontal push on the axle, to the side to which phi grows.
+    """Return the state after a horizontal push on the axle in the direction of increasing phi.
 
     It holds theta' and L_z, and so p_psi: its angular impulse is across the axle, in the vertical
     plane of both.

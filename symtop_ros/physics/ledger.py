@@ -1,4 +1,4 @@
-"""The exchange in a stretch of a motion: energy, p_phi, p_psi, angular momentum, and who gives it.
+"""Energy and momenta that are exchanged in an interval of a motion, and their causes.
 
 The kernel forms changes between two states as products (`rule/exchange.hpp`), so that nothing is
 lost in large numbers that cancel. A ledger has the numbers; an exchange is the record of what is
@@ -72,7 +72,7 @@ class Energies:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contribution:
-    """Energy and momenta that one cause gives to a top in a stretch; negative where it takes them.
+    """Energy and momenta that one cause adds to a top in an interval; negative if it removes them.
 
     Attributes
     ----------
@@ -100,7 +100,7 @@ NOTHING.angular_impulse.setflags(write=False)  # it is that of many ledgers
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ledger:
-    """Energy, p_phi, p_psi and angular momentum that a stretch of a motion exchanges.
+    """Changes of energy, p_phi, p_psi and angular momentum in an interval of a motion.
 
     Attributes
     ----------
@@ -151,7 +151,7 @@ class Ledger:
 
     @classmethod
     def from_times(cls, motion: Motion, begin: float, end: float) -> "Ledger":
-        """Return the ledger of a stretch between two times.
+        """Return the ledger of the interval between two times.
 
         Parameters
         ----------
@@ -258,7 +258,7 @@ class Ledger:
 
     @property
     def work(self) -> float:
-        """Work of all but gravity in J; the parts of the energy have gained so much together."""
+        """Work of all causes except gravity in J; it is the total gain of the energy."""
         return sum(each.work for each in self._causes)
 
     @property
@@ -268,7 +268,7 @@ class Ledger:
 
 @dataclass(frozen=True, slots=True)
 class Share:
-    """The energy in mJ that a part gave or got, or that a cause gave or took."""
+    """Energy in mJ that a part of the energy gained or lost, or that a cause added or removed."""
 
     kind: Literal["gave", "got", "took"]
     who: Part | CauseName
@@ -277,7 +277,7 @@ class Share:
 
 @dataclass(frozen=True, slots=True)
 class Gift:
-    """The momentum in N m s that a cause gave to p_phi or p_psi, or took from it."""
+    """The momentum in N m s that a cause added to p_phi or p_psi, or removed from it."""
 
     kind: Literal["gave", "took"]
     who: CauseName
@@ -295,7 +295,7 @@ class Momenta:
 
 @dataclass(frozen=True, slots=True)
 class Exchange:
-    """Exchange of a stretch: shares of energy, the givers first, or none, and momenta."""
+    """The exchange in an interval: gains and losses of energy, the losses first, and of momenta."""
 
     kind: Literal["energy", "none"]
     duration: float  # s

@@ -434,7 +434,7 @@ class Motion:
         return states.reach(self._kernel, t, min(steps, states.LONGEST_WAY))
 
     def piece_at(self, t: float | ExactTimes) -> "Piece":
-        """Return what moves at a time: the motion since the last push.
+        """Return the motion since the last push before a time.
 
         Parameters
         ----------
@@ -486,12 +486,12 @@ class Motion:
         return Piece(motion, int(found.begin), int(found.number))
 
     def end_pushes(self, number: int) -> "Motion":
-        """Return the motion that gets only so many of its pushes.
+        """Return the motion with a given number of its pushes, the first ones.
 
         Parameters
         ----------
         number : int
-            At least 1: the start is the state that the first one leaves.
+            At least 1: the start is the state after the first push.
 
         Raises
         ------
@@ -533,7 +533,7 @@ class Motion:
 
     @bindings.compute_soundly
     def jacobian(self, t: ArrayLike | ExactTimes) -> Real:
-        """Return the derivatives of the state by the top and the start.
+        """Return the derivatives of the state with respect to the top and the start.
 
         Rows 0 to 2 are those of the attitude, as a small rotation vector d in the body frame: the
         orientation becomes q (1, d/2). Rows 3 to 5 are those of omega in the body frame. Columns 0
@@ -633,7 +633,7 @@ class Motion:
 
     @property
     def kind(self) -> Kind:
-        """Name of the motion, by phi' at the two turning angles.
+        """Kind of the motion, such as "cusps", from phi' at the two turning angles.
 
         "regular" (the angles are equal), "unidirectional" (phi' has one sign), "cusps" (phi' is
         zero at one angle), "looping" (phi' has opposite signs), "through the pole", "asymptotic"
@@ -650,7 +650,7 @@ class Motion:
 
     @property
     def nutation_period(self) -> float:
-        """Period of theta in s; infinite if the motion does not return, or if the axis rests."""
+        """Period of theta in s; infinite if theta is not periodic, or if the axis is at rest."""
         return float(self._rates.nutation_period)
 
     @property
@@ -673,7 +673,7 @@ class Motion:
 
     @property
     def precession_period(self) -> float:
-        """Mean time of one turn of the precession in s: 2 pi over the size of the mean phi'.
+        """Mean time of one turn of the precession in s: 2 pi divided by the mean of phi', unsigned.
 
         It is infinite if the mean phi' is 0, and nan where that is.
 
@@ -714,7 +714,7 @@ class Motion:
 
     @property
     def mean_spin_rate(self) -> float:
-        """Mean psi' over a nutation in rad/s; nan where the mean phi' is.
+        """Mean psi' over a nutation in rad/s; nan if the mean phi' is nan.
 
         Of a clamped motion it is p_psi/Iz.
         """
@@ -774,7 +774,7 @@ class Motion:
 
     @property
     def nutation_rate(self) -> float:
-        """2 pi over the nutation period in rad/s; 0 if the motion does not return."""
+        """2 pi divided by the nutation period in rad/s; 0 if the period is infinite."""
         return 2 * math.pi / self.nutation_period
 
     @property

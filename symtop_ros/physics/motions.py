@@ -138,7 +138,7 @@ class Motions:
         return list_starts(self.top, self.start, self.friction, self.applied_torque, self.shape)
 
     def at(self, t: ArrayLike | ExactTimes) -> State[Real]:
-        """Return the states at one time, or at many; the times are the same for all motions.
+        """Return the states of all motions at one time or at many times.
 
         Parameters
         ----------
@@ -408,7 +408,7 @@ class Motions:
 
     @property
     def mean_precession_rate(self) -> Real:
-        """Mean phi' in rad/s, as in `Motion.mean_precession_rate`: nan where `is_driven`."""
+        """Mean phi' in rad/s, as in `Motion.mean_precession_rate`; nan if `is_driven`."""
         return np.where(self.is_driven, np.nan, self._find_rates("mean_precession_rate"))
 
     @property

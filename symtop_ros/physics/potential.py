@@ -20,7 +20,7 @@ from symtop_ros.physics.values import validate_array, validate_number, validate_
 
 @dataclass(frozen=True, slots=True)
 class EffectivePotential:
-    """The motion of theta as that of a point in a potential.
+    """The effective potential in which theta moves like a point mass.
 
     Attributes
     ----------
@@ -106,7 +106,7 @@ class EffectivePotential:
 
     @bindings.compute_soundly
     def find_third_root(self, low: float, high: float) -> float:
-        """Return the root of the cubic that no angle has, from the two turning angles.
+        """Return the root of the cubic that is not the cosine of a turning angle.
 
         The sum of the roots is (alpha + a^2)/beta (Vieta); it is infinite for Mgl = 0.
 

@@ -164,7 +164,7 @@ def _find_tilt_torques(top: Top, theta: Any, phi_dot: Any, psi_dot: Any) -> list
 
 @bindings.compute_soundly
 def theta_acceleration(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
-    """Return theta'' as displayed in the article: sin(theta)/Ix times `theta_torque`.
+    """Return theta'' as in the article: sin(theta)/Ix times `theta_torque`.
 
     Parameters
     ----------
@@ -199,7 +199,7 @@ class FrameTorques(NamedTuple):
 
     @property
     def total(self) -> Real:
-        """Their sum, which is Ix theta'' if nothing else acts."""
+        """Sum of the three torques: Ix theta'' if no other torque acts."""
         return self.gravity + self.coriolis + self.centrifugal
 
 
@@ -207,7 +207,7 @@ class FrameTorques(NamedTuple):
 def precessing_frame_torques(
     top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike
 ) -> FrameTorques:
-    """Return what turns the axis up or down for an observer who precesses with the top.
+    """Return the torques about the line of nodes for an observer who precesses with the top.
 
     The observer turns with phi' about the vertical and sees theta' and psi' only. At any theta'
 

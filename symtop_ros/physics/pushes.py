@@ -17,7 +17,7 @@ PUSH_RATES = (0.01, 1000.0)  # per s
 
 @dataclass(frozen=True)
 class Pushes:
-    """Horizontal pushes on the axle, each to the side to which phi grows at its instant.
+    """Horizontal pushes on the axle, each in the direction of increasing phi at its time.
 
     The first one is at t = 0, and the others at the nearest whole nanoseconds to multiples of
     1/rate.
@@ -65,7 +65,7 @@ class Pushes:
 
     @property
     def last_time(self) -> int:
-        """Time of the last one in ns since the first one, as the kernel rounds it."""
+        """Time from the first to the last push in ns, rounded as in the kernel."""
         return math.floor((self.number - 1) * float(SECOND) / self.rate + 0.5)
 
     @property

@@ -1,4 +1,4 @@
-"""Starts from what is seen: a tilt, a time of one turn, a dip, a nutation period, or constants.
+"""Starts from observed quantities: a tilt, the time of one turn, a dip, a nutation period.
 
 The formulas are in the kernel (`kernel/rule/starts.hpp`; docs/derivation.md, section 12).
 """
@@ -69,7 +69,7 @@ class Solution:
 def solve_start(
     top: Top[float], *, half_widths: Mapping[str, float] | None = None, **known: float
 ) -> tuple[Solution, ...]:
-    """Return all starts of a top that have what is known of its motion.
+    """Return all starts of a top whose motion has the given properties.
 
     ==============================  ==================================================
     known                           motion

@@ -96,17 +96,17 @@ class Rates(NamedTuple, Generic[N]):
 
     @property
     def phi(self) -> N:
-        """The old name of `phi_dot`, until 0.8."""
+        """Old name of `phi_dot`; will be removed in 0.8."""
         return warn_of_name("Rates.phi", "phi_dot", self.phi_dot)
 
     @property
     def theta(self) -> N:
-        """The old name of `theta_dot`, until 0.8."""
+        """Old name of `theta_dot`; will be removed in 0.8."""
         return warn_of_name("Rates.theta", "theta_dot", self.theta_dot)
 
     @property
     def psi(self) -> N:
-        """The old name of `psi_dot`, until 0.8."""
+        """Old name of `psi_dot`; will be removed in 0.8."""
         return warn_of_name("Rates.psi", "psi_dot", self.psi_dot)
 
 
@@ -243,7 +243,7 @@ class State(Generic[N]):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """() for one state, (...) for many."""
+        """Shape of the states: () for one state, (...) for many."""
         return self.orientation.shape[:-1]
 
     @property

@@ -71,7 +71,7 @@ class ExactTimes:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """() for one time, (n,) for an array."""
+        """Shape of the times: () for one time, (n,) for an array."""
         return () if isinstance(self.nanoseconds, int) else self.nanoseconds.shape
 
     @cached_property

@@ -242,7 +242,7 @@ def _validate_moments(Ix: float, Iz: float, Mgl: float) -> None:
 
 
 def match(value: Any, state: State) -> Any:
-    """Return a number of one top, or the numbers of tops that have the shape of their states."""
+    """Return a number of one top, or of tops that have the shape of their states; else refuse."""
     states = state.angular_velocity.shape[:-1]
     if not isinstance(value, float) and np.shape(value) != states:
         raise refuse(
@@ -255,7 +255,7 @@ def match(value: Any, state: State) -> Any:
 
 @dataclass(frozen=True, slots=True, init=False, eq=False)
 class Friction(_Numbers, Generic[N]):
-    """Friction in proportion to the angular velocity, at the pivot and in the air.
+    """Friction proportional to the angular velocity, at the pivot and in the air.
 
     The torque in the body frame is -axial omega_z along the axis and
     -transverse (omega_x, omega_y) across it. A friction is true if a coefficient is not zero.

@@ -124,7 +124,7 @@ def validate_numbers(name: str, value: Any, unit: str = "") -> Any:
 
 
 def validate_rate(name: str, value: Any) -> Any:
-    """Return rates in rad/s as a float or an array, of a size of which squares are doubles."""
+    """Return rates in rad/s as a float or an array, so small that their squares are finite."""
     rate = validate_numbers(name, value, "rad/s")
     largest = float(np.max(np.abs(rate), initial=0.0))
     if largest > LARGEST_ANGULAR_VELOCITY:
@@ -133,7 +133,7 @@ def validate_rate(name: str, value: Any) -> Any:
 
 
 def ignore_underflow(function: Callable[P, T]) -> Callable[P, T]:
-    """Have a function compute although the caller's NumPy raises for what underflows to zero."""
+    """Decorate a function so that NumPy ignores underflow in it."""
 
     @wraps(function)
     def compute(*arguments: P.args, **named: P.kwargs) -> T:
@@ -144,7 +144,7 @@ def ignore_underflow(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def are_floats(values: Iterable[Any]) -> bool:
-    """Return True for finite floats, the common case; where the sum overflows, perhaps False."""
+    """Return True if all arguments are finite floats; may be False if their sum overflows."""
     return all(type(value) is float for value in values) and math.isfinite(sum(values))
 
 
@@ -208,7 +208,7 @@ def fit_shapes(names: str, *shapes: tuple[int, ...], listed: str = "") -> tuple[
 
 
 def validate_one(given: Any, name: str = "top", kind: str = "", instead: str = "") -> None:
-    """Refuse many tops, states or motions where one is wanted.
+    """Refuse an array of tops, states or motions if a single one is required.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Exact truth for authors of engines and filters: to compare with, to feed, to score.
+"""Exact motions for testing engines, filters and measurements.
 
 `judge/` compares estimates with the exact motion and names causes; `testset/` has seventy motions
 to 30 digits, writes them for engines, and scores; `imu/` makes records of an inertial sensor;

@@ -248,7 +248,7 @@ def test_angles_and_rates_of_many_are_those_of_each(name):
 
 
 def test_the_table_of_many_says_what_each_has():
-    table = rows(ROOT / "docs/many.md", "What `Motion` and `Motions` have")
+    table = rows(ROOT / "docs/many.md", "Members of `Motion` and `Motions`")
     for column, motion in ((1, ALONE[0]), (2, MANY)):
         said = {name for row in table for name in names(row[0]) if row[column] == "yes"}
         assert said == list_names(motion)

@@ -83,7 +83,7 @@ def _fit(plan: Plan, draw: np.random.Generator) -> dict[str, float]:
 
 
 def write_plans(rows: list[Row]) -> Iterator[str]:
-    """Yield the lines of a table of docs/fit.md: numbers of the top, and the worst of all."""
+    """Yield the lines of a table of docs/trials.md: numbers of the top, and the worst of all."""
     yield "| record | number | planned | scatter | scatter/planned |"
     yield "|---|---|--:|--:|--:|"
     for row in rows:

@@ -84,7 +84,7 @@ def run_trial(seeds: Sequence[int], path: Path | None = None) -> list[dict[str, 
 
 
 def write_table(rows: Sequence[dict[str, Any]]) -> Iterator[str]:
-    """Yield the lines of the table of docs/fit.md: pulls by kind and noise, and counts by kind."""
+    """Yield the lines of the table of docs/trials.md: pulls by kind and noise, and counts."""
     yield "| " + " | ".join(["kind", *NOISES, *COUNTS]) + " |"
     yield "|---|" + "--:|" * (len(NOISES) + len(COUNTS))
     for kind in READ:

@@ -47,22 +47,29 @@ IMPORTERS = (
 )
 TEXT = """# Which importer reads which description
 
-`make -C workshop importers` writes this page. Programs read the models of {problems} of
-the [test set](../symtop_ros/truth/testset/README.md#descriptions) {version}, those with a joint.
-What each then has of mass, centre of mass and moments of the whole body, in the frame of the link,
-is compared with the numbers of the problem: of the three bodies the worst is shown. Nothing is
-integrated here.
+`make -C workshop importers` writes this page.
+
+Do programs read the models of the [test set](../symtop_ros/truth/testset/README.md#descriptions)
+as they are meant? Each importer read the models of {problems}
+(version {version} of the set), those with a joint, in each description of the body. The mass, the
+centre of mass and the moments of the whole body, in the frame of the link, were then compared with
+the numbers of the problem. Each cell has the worst result of the three bodies. No motion was
+simulated.
 
 {table}
 
-Formats have more words for the same body: [forms](../symtop_ros/truth/testset/README.md#forms), of
-`{formed}` alone. An importer that does not know one refuses it at best.
+- "right": the difference is at most 1e-13 of the largest component.
+- "to 6 digits": it is at most 2e-6. The importer computes in single precision, or MuJoCo gives an
+  empty link its least mass.
+- A dash: the format cannot express the description, or the importer does not read the format.
+
+A format can express the same body in several
+[forms](../symtop_ros/truth/testset/README.md#forms). The second table has those of `{formed}`. An
+importer that does not know a form refuses the model at best.
 
 {forms}
 
-"Right" is 1e-13 of the largest component, "to 6 digits" 2e-6: single precision, or the least mass
-that MuJoCo gives to an empty link. A dash: the format cannot say it, or the importer does not read
-the format.
+These models were refused, with the message of the importer:
 
 {refusals}
 
@@ -98,8 +105,7 @@ def main() -> None:
         forms=format_table(
             ["form", "format", *(each.name for each in readings)], [*_list_forms(readings)]
         ),
-        refusals="What is said where a model is refused:\n\n"
-        + "\n".join(line for each in readings for line in _list_refusals(each)),
+        refusals="\n".join(line for each in readings for line in _list_refusals(each)),
         date=find_date(),
     )
     PAGE.write_text(text, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""`top_fit`: the motion of a top from a record of what was seen of it."""
+"""`top_fit`: find the motion of a top from a record of measurements."""
 
 from symtop_ros.truth.fit.fitting import fit_motion
 from symtop_ros.truth.fit.record import Record, make_record

@@ -1,4 +1,4 @@
-"""What the rates across the axis show of a top, without the spin: two constants, and not Iz/Ix.
+"""Two constants of a motion from the rates across the axis alone, without the spin.
 
 With W = wx + i wy, the vertical G = gx + i gy and gz, all in the frame of the body, r = Iz/Ix and
 m = Mgl/Ix, Euler's equations and those of the vertical are
@@ -36,7 +36,7 @@ class Across:
 
     @classmethod
     def of(cls, motion: Motion) -> "Across":
-        """Return those of a motion."""
+        """Return the constants of a motion."""
         start, top = motion.start, motion.top
         x, y, spin = np.asarray(start.angular_velocity).tolist()
         gx, gy, gz = (top.Mgl / top.Ix * np.asarray(start.to_body([0.0, 0.0, 1.0]))).tolist()

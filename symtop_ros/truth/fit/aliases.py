@@ -1,4 +1,4 @@
-"""Starts for motions whose nutation looks the same at few rows in a nutation.
+"""Starts for aliases: motions with another nutation that few rows cannot distinguish.
 
 At equal steps a nutation of the frequency f shows the same rows as one of 1/step - f or 1/step + f.
 The mean precession stays, and so does the place of the axis in the first row; the velocity of the
@@ -22,7 +22,7 @@ NEAR = np.linspace(0.8, 1.2, 33)  # of p_psi/Ix of a start
 
 
 def count_rows(fit: Fit) -> float:
-    """Return the number of rows in a nutation; infinite where friction or a pole hides it."""
+    """Return the number of rows in a nutation; infinite if friction or a pole hides it."""
     if fit.model.record.has_friction or fit.model.kind.name in RATES:
         return np.inf
     try:
@@ -32,7 +32,7 @@ def count_rows(fit: Fit) -> float:
 
 
 def is_alias(rival: Fit, fit: Fit) -> bool:
-    """Return True if a motion that fits as well has too few rows in a nutation, and the fit enough.
+    """Return True if the fit has enough rows in a nutation and the other motion too few.
 
     As everywhere in sampling, the slower motion is taken, unless the rows say otherwise.
     """

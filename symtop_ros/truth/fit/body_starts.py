@@ -114,7 +114,7 @@ def list_attitude_starts(record: Record) -> Iterator[Starts]:
 
 
 def list_spins(record: Record, seen: float, p: float) -> Iterator[float]:
-    """Yield the spin with the fewest whole turns from row to row; with a known Iz/Ix all of them.
+    """Yield the spin with the fewest whole turns between rows; if Iz/Ix is known, all spins.
 
     With p_psi/Ix = p a body must have Iz/Ix = p/spin.
     """

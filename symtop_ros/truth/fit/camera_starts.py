@@ -44,7 +44,7 @@ class Pictures:
     pivot: Real | None
 
     def see(self, y: Real) -> Real:
-        """Return the columns (k, n, 3 or 4) of which pictures of motions (k, 5) are made."""
+        """Return the columns (k, n, 3 or 4) from which pictures of motions (k, 5) are made."""
         axis = find_axis(make_motions(y).at(self.times).orientation)
         if self.pivot is not None:
             return axis
@@ -59,7 +59,7 @@ class Pictures:
         return np.linalg.solve(normal + RIDGE * size * np.eye(normal.shape[1]), turned @ seen)
 
     def find_residuals(self, y: Real) -> Real:
-        """Return what the best cameras leave of motions (k, 5), (k, 2 n)."""
+        """Return the residuals (k, 2 n) of motions (k, 5) with the best camera for each."""
         columns = self.see(y)
         seen = self.points if self.pivot is None else self.points - self.pivot
         left = columns @ self.fit_cameras(columns) - seen
@@ -100,7 +100,7 @@ def choose_shapes(pictures: Pictures, rate: float) -> Real:
 
 
 def choose_different(y: Real) -> Real:
-    """Return the first motions (k, 5) of some in order, each minimum once: most end in one."""
+    """Return the motions (k, 5) without repetitions of the same minimum, in their order."""
     scales, kept = find_scales(y), [0]
     for k in range(1, len(y)):
         moved = np.abs(y[kept] - y[k])[:, :2] / scales[k, :2]

@@ -46,7 +46,7 @@ class Check:
 
     @cached_property
     def is_white(self) -> bool:
-        """True if what is new in each row is white."""
+        """True if the whitened residuals are white noise."""
         return self.fit.remainder.is_white
 
     @cached_property
@@ -56,7 +56,7 @@ class Check:
 
     @cached_property
     def smoothness(self) -> float:
-        """Size of the residuals in that of noise with the same steps from row to row."""
+        """Size of the residuals divided by that of white noise with the same steps between rows."""
         squares, steps = self._squares
         return float(np.sqrt(squares.mean() / max(steps.mean(), 1e-300)))
 
@@ -73,7 +73,7 @@ class Check:
 
     @cached_property
     def is_smooth(self) -> bool:
-        """True if the residuals, or one column of them, change slowly: they may be motion."""
+        """True if the residuals, or a column of them, change slowly, as a missed motion would."""
         squares, steps = self._squares
         columns = np.sqrt(squares / np.maximum(steps, 1e-300))
         return bool(self.smoothness > SMOOTH or columns.max() > SMOOTH_COLUMN)
@@ -148,7 +148,7 @@ class Check:
 
     @property
     def is_noise(self) -> bool:
-        """True if nothing but noise is left, and nothing was left out but single rows."""
+        """True if the residuals are noise, and at most single rows were left out."""
         is_odd = self.is_smooth or self.fault or self.stretch or self.still
         return self.is_white and not is_odd
 

@@ -230,13 +230,13 @@ def find_others(fit: Fit, rivals: list[Candidate]) -> list[Fit]:
 
 
 def weigh(rival: Candidate, fit: Fit) -> Fit:
-    """Return the motion next to another one of a search that fits best by the noise of a fit."""
+    """Return the best fit near another motion of the search, weighted by the noise of a fit."""
     model = rival.model.move(fit.model.record)
     return Fit(model, fit_weighted(model, rival.x, fit.noise), fit.noise)
 
 
 def differ(first: Real, second: Real) -> bool:
-    """Return whether marks are those of two motions."""
+    """Return whether two sets of marks belong to different motions."""
     return bool(np.abs(first / second - 1).max() >= DIFFERENT)
 
 

@@ -1,4 +1,4 @@
-"""How many of the first rows of a record one motion explains: up to a kick, if there is one.
+"""The number of first rows of a record that one motion explains, up to a possible kick.
 
 The first part is made longer until its motion no longer explains the rows that are added.
 """
@@ -22,7 +22,7 @@ def find_best(record: Record) -> Candidate:
 
 
 def explains(fit: Fit) -> bool:
-    """Return whether a motion leaves noise that is hardly larger than what is new in each row.
+    """Return whether the residuals of a motion are hardly larger than their whitened noise.
 
     In a few rows an autoregression of white noise may be likely by chance, but not large.
     """
@@ -31,7 +31,7 @@ def explains(fit: Fit) -> bool:
 
 
 def find_reach(record: Record) -> int | None:
-    """Return how many of the first rows are of one motion; None if no part is."""
+    """Return the number of first rows that one motion explains; None if there are none."""
     count = min(max(len(record) // 8, SHORTEST), len(record))
     part = record.select(slice(count))
     found = find_best(part)
@@ -52,7 +52,7 @@ def _extend(fit: Fit, record: Record, count: int) -> Fit:
 
 
 def leaves(longer: Fit, fit: Fit, count: int) -> bool:
-    """Return whether a motion does not explain the rows that were added."""
+    """Return whether a motion fails to explain the rows that were added."""
     size = float(np.sqrt((longer.residuals / fit.noise.sigma) ** 2).mean())
     return size > 1.3 or not longer.remainder.is_white
 

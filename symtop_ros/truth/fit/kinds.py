@@ -1,4 +1,4 @@
-"""Kinds of records: what each shows of a top, and with which columns."""
+"""Kinds of records: their columns, and the numbers of a top that each determines."""
 
 from dataclasses import dataclass
 

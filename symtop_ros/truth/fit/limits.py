@@ -1,4 +1,4 @@
-"""Rows of a sensor at its limit, which are no measurements."""
+"""Rows in which a sensor is at its limit: they are left out."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -27,7 +27,7 @@ BESIDE = 8
 
 
 def leave_out_saturated(rows: Rows) -> Rows:
-    """Return what is within the range of the sensor, with a note on what is not.
+    """Return the rows within the range of the sensor, with a note on those left out.
 
     The rate about the axis is left out if it is beyond the range in most rows.
 

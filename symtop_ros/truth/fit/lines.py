@@ -1,4 +1,4 @@
-"""Lines in what a motion leaves: swings at its own frequencies, and at any other.
+"""Spectral lines in the residuals of a motion, at its own frequencies and at others.
 
 What swings at the spin is of the body: one that is not symmetric (Iy = 1.02 Ix), or a sensor with
 unequal scales. Whitening would take it for noise that lasts.
@@ -16,7 +16,7 @@ TURN = 2 * np.pi
 
 
 def list_lines(fit: Fit) -> tuple[Line, ...]:
-    """Return the lines in what a fit leaves, the clearest first.
+    """Return the spectral lines in the residuals of a fit, the clearest first.
 
     The errors of rounding follow the motion and have its frequencies: a line that is no larger
     than they are says nothing.
@@ -30,7 +30,7 @@ def list_lines(fit: Fit) -> tuple[Line, ...]:
 
 
 def name_frequencies(fit: Fit) -> dict[str, float]:
-    """Return the frequencies in Hz at which a wrong model swings, by name.
+    """Return the frequencies in Hz at which residuals of a wrong model oscillate, by name.
 
     They are few, as the more are tried the clearer a line has to be: once and twice the nutation
     and the precession, and of a body the spin, and both together.

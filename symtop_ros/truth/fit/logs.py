@@ -1,4 +1,4 @@
-"""Records from logs and bags: attitudes, or what a sensor on the body measures."""
+"""Records from logs and bags: attitudes, or measurements of a sensor on the body."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -23,7 +23,7 @@ SEEN = ("attitude", *SPINS)  # kinds of which there are messages
 
 
 def read_log(path: Path, topic: str | None, frame: str | None, kind: str | None) -> Rows:
-    """Return what a topic of a log shows: attitudes, unless a kind is asked for."""
+    """Return the record of a topic of a log: attitudes, or the requested kind."""
     if topic is None:
         raise RefusedError(f"--topic must name the measurements in {path}, got none")
     chosen = kind or "attitude"

@@ -1,4 +1,4 @@
-"""Entry point of `top_fit`: the motion of a top from a record of what was seen of it."""
+"""Entry point of `top_fit`: find the motion of a top from a record of measurements."""
 
 import argparse
 import json
@@ -204,7 +204,7 @@ def read(path: Path, options: argparse.Namespace, progress: Progress) -> Rows:
 
 
 def fill_record(rows: Rows, options: argparse.Namespace) -> Record:
-    """Return the record of some rows and of what the options know."""
+    """Return the record of some rows, completed by the options."""
     _refuse_options(rows.kind, options)
     rows = leave_out_saturated(rows.count_once())
     if options.mount is not None and rows.kind not in SPINS:  # a tilt shows as part of the spin
@@ -220,7 +220,7 @@ def fill_record(rows: Rows, options: argparse.Namespace) -> Record:
 
 
 def describe_record(kind: str, options: argparse.Namespace) -> dict[str, Any]:
-    """Return what the options say of a record of a kind, as attributes of it."""
+    """Return the attributes of a record that the options give."""
     return {
         "camera": find_camera(options) if kind == "pixels" else {},
         "known": find_known(kind, options),
@@ -252,7 +252,7 @@ def _refuse_options(kind: str, options: argparse.Namespace) -> None:
 
 
 def find_camera(options: argparse.Namespace) -> dict[str, float]:
-    """Return what is exactly known of a camera."""
+    """Return the numbers of a camera that are known exactly."""
     found: dict[str, float] = {}
     if options.pivot and not options.pivot_deviation:
         found |= dict(zip("uv", options.pivot, strict=True))
@@ -273,7 +273,7 @@ def find_given(options: argparse.Namespace) -> dict[str, Known | None]:
 
 
 def find_known(kind: str, options: argparse.Namespace) -> dict[str, Known]:
-    """Return known parameters of the fit: ratios, a bias of zero, and what was clicked."""
+    """Return known parameters of the fit: ratios, a bias of zero, and clicked points."""
     given, known = find_given(options), find_clicked(options)
     ratio, size, weight = (given[name] for name in RATIOS)
     if ratio and KINDS[kind].shows_spin:
@@ -287,7 +287,7 @@ def find_known(kind: str, options: argparse.Namespace) -> dict[str, Known]:
 
 
 def find_clicked(options: argparse.Namespace) -> dict[str, Known]:
-    """Return what is known of a camera with a deviation: a pivot and a length as clicked."""
+    """Return the numbers of a camera that are known with a deviation: clicked pivot and length."""
     known: dict[str, Known] = {}
     if options.pivot_deviation:
         known |= {

@@ -1,4 +1,4 @@
-"""The model of a record: what the exact motion of some parameters shows, and its derivatives.
+"""The model of a record: the values that the exact motion predicts, and their derivatives.
 
 The unit of moments is Ix. An axis is that of a top with Iz = Ix and the same p_psi, so that only
 records of the body have the parameters Iz/Ix and spin. The start is a small rotation of a reference
@@ -43,7 +43,7 @@ BAD = 1e3  # residual of parameters without a motion
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """The values that parameters x (k, p) show at the times of a record.
+    """Predicted values of parameters x (k, p) at the times of a record.
 
     The start of all of them is near a reference attitude (4,).
     """
@@ -81,7 +81,7 @@ class Model:
 
     @property
     def lacks_ratio(self) -> bool:
-        """True if Iz/Ix is taken as one: rates across the axis show the same with any other."""
+        """True if Iz/Ix is set to 1, because rates across the axis do not depend on it."""
         return self.kind is ACROSS and "Iz/Ix" not in self.record.known
 
     def _seeks(self, name: str) -> bool:
@@ -289,7 +289,7 @@ class Model:
         return np.asarray(np.moveaxis(slopes, 0, -1))
 
     def subtract(self, first: Real, second: Real) -> Real:
-        """Return a difference of residuals; of an angle without whole turns."""
+        """Return a difference of residuals, without whole turns if it is an angle."""
         difference = first - second
         if self.kind.rounds:  # the residuals of two neighbours may lie on two sides of the period
             last = difference[..., -1]

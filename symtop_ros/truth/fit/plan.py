@@ -1,4 +1,4 @@
-"""A measurement that is planned: what it will show, after how many rows, and from which start.
+"""The plan of a measurement: what it will determine, with how many rows, and from which start.
 
 No unbiased estimate has a smaller deviation than that of Cramer and Rao, the inverse of Fisher's
 matrix of an exact record. A fit reaches it if the valley of motions that fit as well is straight.
@@ -29,7 +29,7 @@ OFF = (0.1, 1.0)  # rad/s; phi' of starts that are off a regular precession
 
 
 class Planned(Fit):
-    """A motion that will be fitted: what is left is zero, and deviations are Cramer and Rao's."""
+    """A motion that will be fitted: zero residuals, and Cramer-Rao bounds as deviations."""
 
     def find_deviation(self, slope: Real) -> float:
         """Return the deviation of a combination (p,)."""
@@ -57,7 +57,7 @@ class Start:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """A measurement that is planned.
+    """The plan of a measurement.
 
     Attributes
     ----------
@@ -97,7 +97,7 @@ class Plan:
 
     @cached_property
     def fit(self) -> Planned:
-        """The motion with what the record will show."""
+        """The motion with the planned record."""
         return self.expect(self.motion, self.record)
 
     def expect(self, motion: Motion, record: Record) -> Planned:
@@ -124,7 +124,7 @@ class Plan:
         return self.expect(self.motion, replace(self.record, times=times))
 
     def count_rows(self, name: str) -> int | None:
-        """Return the rows by which a number has a relative deviation of PRECISE that holds.
+        """Return the number of rows for a reliable relative deviation of PRECISE.
 
         None: it takes more than LONGEST rows.
         """
@@ -150,7 +150,7 @@ class Plan:
 
     @cached_property
     def starts(self) -> list[Start]:
-        """Starts of the same top, the best first; none if no start shows p_psi."""
+        """Starts of the same top, the best first; empty if no start determines p_psi."""
         if self.fit.model.lacks_ratio:
             return []
         found = [self._try(*each) for each in self._list_starts()]
@@ -158,7 +158,7 @@ class Plan:
 
     @property
     def best(self) -> Start:
-        """The start that shows p_psi best."""
+        """The start from which p_psi is determined best."""
         return self.starts[0]
 
     def _list_starts(self) -> Iterator[tuple[str, float, float, float]]:
@@ -192,7 +192,7 @@ class Plan:
 
 
 def bisect(is_enough: Callable[[int], bool], low: int, high: int) -> int:
-    """Return the least number from low to high that is enough, if high is."""
+    """Return the smallest sufficient number from low to high, if high is sufficient."""
     while low < high:
         middle = (low + high) // 2
         low, high = (low, middle) if is_enough(middle) else (middle + 1, high)

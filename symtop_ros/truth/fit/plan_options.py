@@ -74,7 +74,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def refuse_plan_options(options: argparse.Namespace) -> None:
-    """Refuse options of a plan without one."""
+    """Refuse options of a plan if no plan is requested."""
     for name in ASKED:
         if getattr(options, name) is not None:
             raise RefusedError(f"--{name} must have --plan, got a record")
@@ -148,7 +148,7 @@ def spread(numbers: Sequence[float], kind: Kind) -> Real:
 
 
 def limit_plan(plan: Plan) -> Plan:
-    """Return a plan without what is beyond the range of the sensor, as a fit leaves it out."""
+    """Return a plan without the columns beyond the range of the sensor, as in a fit."""
     values = np.abs(plan.fit.model.record.values)
     shares = (values > plan.limits).mean(axis=0)
     note, kind = "wz is beyond the range of the sensor: it will be left out", plan.record.kind
@@ -182,7 +182,7 @@ def find_plan_camera(kind: Kind, options: argparse.Namespace) -> dict[str, float
 
 
 def make_plan(options: argparse.Namespace, kind: str, more: Mapping[str, object]) -> Plan:
-    """Return the plan that the options ask for; `more` are attributes of its record."""
+    """Return the plan that the options describe; `more` are attributes of its record."""
     motion, found = read_motion(options.plan, options.friction), KINDS[kind]
     rows = round((options.seconds or SECONDS) * (options.rate or RATE)) + 1
     if not FEWEST <= rows <= record.MOST:

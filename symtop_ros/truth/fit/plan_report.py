@@ -24,7 +24,7 @@ ALIKE = 1.05  # times a deviation, which is no difference
 
 @dataclass(frozen=True, eq=False)
 class PlanReport:
-    """Everything that is said of a plan.
+    """The report of a plan.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class PlanReport:
 
     @cached_property
     def unknown(self) -> list[Unknown]:
-        """Statements on what the record will not show."""
+        """Statements on what the record will not determine."""
         return list_unknown(self.plan.fit, self.values, self.given)
 
     @cached_property

@@ -1,4 +1,4 @@
-"""A record: what was seen of a top at some times, and what is known of it besides."""
+"""A record: measurements of a top at some times, and what else is known."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -87,7 +87,7 @@ class Record:
 
     @cached_property
     def follows(self) -> Mask:
-        """True (n,) for rows that come one step after the row before, so that noise lasts."""
+        """True (n,) for rows one step after the row before: their noise is correlated with it."""
         return np.append(False, np.diff(self.times) < GAP * self.step)
 
     @cached_property
@@ -97,7 +97,7 @@ class Record:
 
     @property
     def plain(self) -> "Record":
-        """The same record without what breaks twins: an accelerometer, or perspective."""
+        """The same record without the data that distinguish twins: accelerometer or perspective."""
         if self.kind.name == "inertial":
             steps = None if self.steps is None else self.steps[:3]
             return replace(self, kind=KINDS["rates"], values=self.values[:, :3], steps=steps)
@@ -108,7 +108,7 @@ class Record:
 
     @property
     def breaks_twins(self) -> bool:
-        """True if this record differs for twins of the plain one."""
+        """True if this record distinguishes twins of the plain record."""
         return self.kind.name == "inertial" or self.has_perspective or "nearness" in self.camera
 
     def select(self, rows: slice | Mask | Places) -> "Record":

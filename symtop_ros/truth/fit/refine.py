@@ -1,4 +1,4 @@
-"""Least squares with the noise that is found: outliers, noise that lasts, and deviations.
+"""Least squares with the estimated noise: outliers, correlation and deviations.
 
 The weights are those of the noise of each column. Noise that lasts is taken as an autoregression,
 of the order that Hannan and Quinn's criterion chooses: flicker has another power at a nutation than
@@ -67,7 +67,7 @@ class Fit:
 
     @cached_property
     def columns(self) -> Real:
-        """Derivatives of these, (n, r, p)."""
+        """Derivatives (n, r, p) of the whitened residuals."""
         slopes = self.model.find_jacobian(self.x, central=True)
         return self.noise.whiten(slopes)
 
@@ -78,7 +78,7 @@ class Fit:
 
     @cached_property
     def priors(self) -> Real:
-        """Weights (p,) of what is known."""
+        """Weights (p,) of parameters that are known beforehand."""
         found = np.zeros(len(self.x))
         for name, (_, deviation) in self.model.record.known.items():
             if name in self.model.place:
@@ -155,7 +155,7 @@ def find_spectrum(columns: Real, priors: Real, sizes: Real) -> tuple[Real, Real]
 
 
 def refine(model: Model, x: Real) -> Fit:
-    """Return the fit, weighted by the noise that it leaves, from a motion that is near it."""
+    """Return the least squares near a motion, weighted by the noise of its residuals."""
     noise = find_noise(model, x, lasts=False)
     for _ in range(ROUNDS):
         x = fit_weighted(model, x, noise)
@@ -191,7 +191,7 @@ def fit_weighted(model: Model, x: Real, noise: Noise) -> Real:
 
 
 def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
-    """Return outliers, correlation and size of what parameters leave."""
+    """Return the outliers, the correlation and the size of the residuals of parameters."""
     record, left = model.record, model.find_residuals(x)
     rounding, fixed = find_rounding(record, left.shape[1])
     least = np.maximum(rounding, DOUBLE * np.abs(record.values).max())

@@ -38,7 +38,7 @@ ANGLES = "theta", "phi", "theta_dot", "phi_dot"
 
 @dataclass(frozen=True, eq=False)
 class Report:
-    """Everything that is said of a fit.
+    """The report of a fit.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class Report:
 
     @classmethod
     def compare(cls, source: str, rows: int, fit: Fit, given: dict[str, Known]) -> "Report":
-        """Return the report of a fit of one free motion, or of what explains the record better."""
+        """Return the report of one free motion, or of a model that explains the record better."""
         rivals = find_rivals(fit, Check(fit))
         calm = find_calm(fit, rivals)
         if calm is not fit:
@@ -92,7 +92,7 @@ class Report:
 
     @cached_property
     def unknown(self) -> list[Unknown]:
-        """Statements on what the record does not show."""
+        """Statements on what the record does not determine."""
         return list_unknown(self.fit, self.values, self.given)
 
     def facts(self) -> dict[str, Any]:
@@ -220,12 +220,12 @@ def write_row(value: Value) -> str:
 
 
 def write_legend(values: Sequence[Value]) -> list[str]:
-    """Return a line on what stands after +-, if any number has a second deviation."""
+    """Return a line that explains the numbers after +-, if any number has a second deviation."""
     return [write("legend", {})] if any(map(write_systematic, values)) else []
 
 
 def write_systematic(value: Value) -> str:
-    """Return the deviation by what is assumed, with its causes; none if that of the noise hides it.
+    """Return the systematic deviation with its causes; empty if the noise is far larger.
 
     The causes are the largest, as many as make up nearly all of it.
     """
@@ -241,7 +241,7 @@ def write_systematic(value: Value) -> str:
 
 
 def write_unknown(unknown: Unknown) -> str:
-    """Return what a record does not show, and why, in a sentence."""
+    """Return a sentence on what a record does not determine, and why."""
     record: dict[str, Any] = {f"n{k}": number for k, number in enumerate(unknown.numbers)}
     if unknown.kind in {"weak", "together", "cut"}:  # the last two are a value with its deviation
         value, deviation = unknown.numbers[-2:]

@@ -1,4 +1,4 @@
-"""What explains a record that one free motion does not: linear friction, or a kick.
+"""Models for a record that one free motion does not explain: linear friction, or a kick.
 
 The three are compared by one noise, that of the motion with a kick, which leaves least: noise that
 lasts would take up what friction or a kick does. A kick has a place only if there is a kick, so
@@ -40,7 +40,7 @@ LOSES = 5.0  # deviations by which friction is not zero
 
 @dataclass(frozen=True, eq=False)
 class Rival:
-    """A motion with more parameters, next to one free motion.
+    """A motion with more parameters, compared with one free motion.
 
     Attributes
     ----------
@@ -65,17 +65,17 @@ class Rival:
 
     @cached_property
     def explains(self) -> bool:
-        """True if it leaves noise, and the same constants in both halves."""
+        """True if its residuals are noise, and both halves have the same constants."""
         return self.is_clear and Check(self.fit).verdict == HOLDS
 
     @property
     def margin(self) -> float:
-        """Gain beyond that of chance."""
+        """Gain beyond the gain that is needed to exceed chance."""
         return self.gain - CLEAR * self.needed
 
     @property
     def loses_spin(self) -> bool:
-        """True if friction takes spin away, by far more than its deviation."""
+        """True if the loss of spin by friction is far larger than its deviation."""
         if self.kind != "friction":
             return False
         place = self.fit.model.place[FRICTION[0]]
@@ -84,7 +84,7 @@ class Rival:
 
 
 def find_rivals(fit: Fit, check: Check) -> list[Rival]:
-    """Return what explains more than one free motion does, the clearest first.
+    """Return the rivals that explain more than one free motion, the clearest first.
 
     It is looked for if the motion leaves more than white noise, of a long record in a part of its
     rows.
@@ -161,7 +161,7 @@ def fit_friction(fit: Fit, is_slight: bool) -> Fit:
 
 
 def fit_kick(fit: Fit, beginnings: Sequence[Fit]) -> Fit:
-    """Return the best motion with a kick: a slight one, or where a motion of the beginning ends."""
+    """Return the best motion with a kick: a weak one, or one where the first motion ends."""
     record = replace(fit.model.record, has_kick=True)
     starts = [add_kick(*_move(fit, record), place) for place in rate_places(whiten_plainly(fit))]
     starts += [join(each, record) for each in beginnings]
@@ -174,7 +174,7 @@ def fit_kick(fit: Fit, beginnings: Sequence[Fit]) -> Fit:
 
 
 def whiten_plainly(fit: Fit) -> Fit:
-    """Return a fit whose noise is taken as white."""
+    """Return the fit with its noise treated as white."""
     return Fit(fit.model, fit.x, find_noise(fit.model, fit.x, lasts=False))
 
 

@@ -1,4 +1,4 @@
-"""A fit as a run of the page: the motion that was found, with the points that were measured.
+"""A fit as a run of the page: the fitted motion and the measured points.
 
 A record shows no moment alone, and one of an axis neither Iz nor the spin: what is not given is
 that of the default scene, with the same p_psi and the same path of the axis.
@@ -55,7 +55,7 @@ class FittedRun:
         path.write_text(json.dumps(self.to_json()), encoding="utf-8")
 
     def describe(self, path: Path) -> str:
-        """Return what was written, and what of it was not measured, in a sentence."""
+        """Return a sentence on what was written, and on which numbers were not measured."""
         count, rows = len(self.points), self.points.rows
         assumed = [
             {"name": name, "value": value, "unit": UNITS[name]}
@@ -98,7 +98,7 @@ def make_run(fit: Fit, rows: int, given: Mapping[str, Known]) -> FittedRun:
 
 
 def find_points(fit: Fit, rows: int) -> Points:
-    """Return the points of a record and what the motion leaves of them.
+    """Return the points of a record, and their residuals.
 
     Of a sensor whose bias and tilt were found they are those of a sensor without, of points at a
     distance from the pivot that was found those at one, and of a camera that looks elsewhere those

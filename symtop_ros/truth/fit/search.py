@@ -46,7 +46,7 @@ EFFORTS = (Effort(24, 4, 40), Effort(24, 4, 40, 0.35), Effort(80, 6, 24), Effort
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """Parameters of a model, and what their residuals cost."""
+    """Parameters of a model, and the cost of their residuals."""
 
     model: Model
     x: Real
@@ -118,7 +118,7 @@ def minimise(
     most: int,
     precise: float,
 ) -> Candidate:
-    """Return the least squares of residuals and of what is known, from a start.
+    """Return the least squares of residuals and known parameters, from a start.
 
     It ends if a step makes the sum of squares smaller by less than a part `precise`.
     """

@@ -1,4 +1,4 @@
-"""What wrong assumptions may cost: a systematic deviation beside that of the noise.
+"""The effect of wrong assumptions: a systematic deviation in addition to that of the noise.
 
 Each cause changes what a record shows, by as much as is usual. Least squares follow: to first order
 the parameters move by the weighted least squares of that change. No look at what is left tells,
@@ -33,7 +33,7 @@ GAIN, TILT = 0.01, 0.01  # of each axis of a sensor, and rad
 
 @dataclass(frozen=True)
 class Part:
-    """What one cause changes a number by; its name is that of the template `cause.NAME`."""
+    """The change of a number by one cause; the template `cause.NAME` has its name."""
 
     cause: str
     shift: float
@@ -46,7 +46,7 @@ class Budget:
     fit: Fit
 
     def list_parts(self, slope: Real) -> tuple[Part, ...]:
-        """Return what each cause does to a combination (p,) of the parameters."""
+        """Return the effect of each cause on a combination (p,) of the parameters."""
         sums: dict[str, float] = {}
         for cause, shift in self._shifts:
             sums[cause] = float(np.hypot(sums.get(cause, 0.0), slope @ shift))

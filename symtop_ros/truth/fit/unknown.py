@@ -1,4 +1,4 @@
-"""Statements on what a record cannot show, and why: exact twins, null directions, and too little.
+"""Statements on what a record cannot determine, and why.
 
 A twin is named only if it was computed and shows the same record to rounding.
 """
@@ -78,7 +78,7 @@ class Unknown:
 
 
 def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> list[Unknown]:
-    """Return what a record leaves open."""
+    """Return statements on what a record does not determine."""
     together = [*list_together(fit, values)]
     found = [*list_twins(fit, given), *_list_aim(fit), *together, *_list_ambiguities(fit, values)]
     said = {name for each in found for name in each.names.split(", ")}
@@ -140,7 +140,7 @@ def is_above(fit: Fit) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Twin:
-    """A twin: what it shows, the names that it changes, and its numbers."""
+    """A twin: its record, the names of the numbers that differ, and these numbers."""
 
     shown: Real
     names: str
@@ -263,7 +263,7 @@ def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
 
 
 def find_rest(fit: Fit) -> tuple[float, float]:
-    """Return what Mgl is more than the mean precession times p_psi, in Ix, and its deviation.
+    """Return (Mgl minus mean precession rate times p_psi)/Ix, and its deviation.
 
     A regular precession has Mgl = p_psi Omega - Ix Omega^2 cos(theta), of any p_psi. So the rate is
     the factor: that of the covariance holds next to the p_psi that was found, which may be far off.

@@ -1,4 +1,4 @@
-"""The valley of motions that fit about as well: whether deviations hold along it.
+"""The valley of motions that fit nearly as well, and whether deviations hold along it.
 
 One deviation away from the best motion the squares of what is left grow by one. Where the valley is
 curved, a straight step leaves it, and they grow by much more. Often only the parameters are curved:

@@ -1,4 +1,4 @@
-"""Numbers of a motion that was fitted: those that the record shows, each with its deviation."""
+"""Numbers of a fitted motion that the record determines, each with its deviation."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -79,17 +79,17 @@ class Value:
 
     @property
     def systematic(self) -> float:
-        """Deviation by what is assumed."""
+        """Deviation from usual violations of the assumptions."""
         return float(np.sqrt(sum(part.shift**2 for part in self.parts)))
 
     @property
     def total(self) -> float:
-        """Deviation in all: by the noise, and by what is assumed."""
+        """Total deviation: from the noise and from violated assumptions."""
         return float(np.hypot(self.deviation, self.systematic))
 
 
 def list_values(fit: Fit) -> list[Value]:
-    """Return what the record shows, in the order of the text.
+    """Return the numbers that the record determines, in the order of the report.
 
     A number is not known if a twin or another motion that fits as well has a different one.
     """

@@ -99,7 +99,7 @@ def read_noise(name: str | None) -> dict[str, Any]:
 
 
 def find_writer(path: Path) -> Callable[[ImuRecord, Path], None]:
-    """Return the function that writes the form that the name of a path asks for."""
+    """Return the function that writes the format selected by the name of a path."""
     writers = {".mcap": write_log, ".csv": write_table, "": write_folder}
     if path.suffix in writers or path.is_dir():
         return writers.get(path.suffix, write_folder)

@@ -82,7 +82,7 @@ def record_imu(
     gravity: float = DEFAULT_GRAVITY,
     average: bool = False,
 ) -> ImuRecord:
-    """Return what a sensor measures from the start of a motion on.
+    """Return the measurements of a sensor from the start of a motion on.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Delays that leave as little: of a motion that nearly repeats itself there are many.
+"""Delays that explain the errors equally well, for motions that nearly repeat themselves.
 
 In a steady precession a delay that is longer by a turn of the spin is another heading. So the least
 squares are profiled over the delay, with the rotations that are best for each, and all minima are
@@ -49,7 +49,7 @@ def describe_family(members: Sequence[Cause]) -> dict[str, Any]:
 
 
 def find_period(delays: Real) -> float | None:
-    """Return the time by which sorted delays differ, of two next to each other, if it is one."""
+    """Return the period of sorted delays, if all their differences are multiples of it."""
     steps = np.diff(delays)
     counts = np.rint(steps / steps.min())
     period = float((delays[-1] - delays[0]) / counts.sum())

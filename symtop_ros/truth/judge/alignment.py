@@ -46,7 +46,7 @@ class Alignment:
 
     @cached_property
     def start(self) -> Offset:
-        """No error, from the first estimate on."""
+        """The offset without any error, with times from the first estimate on."""
         return replace(NONE, begin=int(self.some.stamps[0]))
 
     def exact(self, offset: Offset) -> tuple[Real, Mask]:
@@ -80,7 +80,7 @@ class Alignment:
         return self.some.orientations[known], self.model(offset)[2][known]
 
     def find_left(self, offset: Offset) -> Real:
-        """Return the rotation vectors in the world that are left, (n, 3)."""
+        """Return the remaining errors as rotation vectors in the world, (n, 3)."""
         q, model = self.residuals(offset)
         return find_rotation_vectors(compose(q, invert(model)))
 
@@ -184,7 +184,7 @@ class Alignment:
         return moved * ((1 + offset.scale) * NANOSECONDS / (2 * SPEED_STEP))
 
     def hides(self, offset: Offset, others: list[int], place: int) -> bool:
-        """Return whether a parameter near an offset changes nothing that others do not."""
+        """Return whether other parameters have the same effect as a parameter, near an offset."""
         columns = self.derive(offset, [*others, place])
         sizes = np.linalg.norm(columns, axis=0) + np.finfo(float).tiny
         ranks = [
@@ -194,7 +194,7 @@ class Alignment:
         return bool(ranks[0] == ranks[1])
 
     def find_remainder(self, offset: Offset) -> Residuals:
-        """Return what an offset leaves of the known estimates."""
+        """Return the residuals of the known estimates with an offset."""
         q, model = self.residuals(offset)
         left = find_rotation_vectors(compose(q, invert(model)))
         body = to_rotation(model).inv().apply(left) if len(left) else left

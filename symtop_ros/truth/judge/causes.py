@@ -36,7 +36,7 @@ SIGNIFICANT = 6.0  # deviations: thousands of values are tried
 
 @dataclass(frozen=True, eq=False)
 class Cause:
-    """One explanation, and what it leaves."""
+    """One explanation, and its residual."""
 
     change: str
     level: str  # which rotations are free
@@ -64,7 +64,7 @@ class Cause:
 
     @property
     def residual(self) -> float:
-        """Root mean square of the angle that is left in rad; nearly, if it was not computed."""
+        """Root mean square of the remaining angle in rad; estimated if it was not computed."""
         return float(np.sqrt(4 * self.cost)) if self.rms is None else self.rms
 
     @property
@@ -74,7 +74,7 @@ class Cause:
 
     @property
     def kind(self) -> tuple[str, str, tuple[str, ...]]:
-        """Its kind, without numbers."""
+        """Kind of the cause, without numbers."""
         return self.change, self.level, self.parameters
 
     @property
@@ -89,7 +89,7 @@ class Cause:
 
     @property
     def is_significant(self) -> bool:
-        """True if all parameters and the rotations are many deviations from zero."""
+        """True if all parameters and rotations differ from zero by many deviations."""
         sizes = [abs(getattr(self.offset, name)) for name in self.parameters]
         pairs = [*zip(sizes, self.deviations, strict=True)] if self.deviations else []
         turned = zip(self.offset.angles, self.turn_deviations, strict=False)
@@ -124,7 +124,7 @@ class Finding:
 
     @property
     def said(self) -> Cause:
-        """The one cause of which all sentences and keys speak: named, or else a candidate."""
+        """The cause that sentences and keys describe: the named one, or else the candidate."""
         return self.candidate or self.best
 
 
@@ -156,7 +156,7 @@ CHANGES = CONVENTIONS | {name: (1.5, ALL[:2], _turn(each.undo)) for name, each i
 
 
 class Fits(dict[str, Alignment]):
-    """Fits of estimates of which a change is undone, made when they are asked for."""
+    """Fits of the estimates after a change is undone, computed when they are needed."""
 
     def __init__(self, estimates: Estimates, truth: Truth) -> None:
         super().__init__()

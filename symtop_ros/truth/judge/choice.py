@@ -43,7 +43,7 @@ CLEAR = 1000.0  # the error becomes so many times smaller: its cause is clear, w
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """The simplest cause, others that are as simple and good, and the least cost of any."""
+    """The simplest cause, equally simple and good ones, and the smallest cost of all."""
 
     best: Cause
     others: tuple[Cause, ...]
@@ -112,7 +112,7 @@ def _is_sound(best: Cause, fit: Alignment) -> bool:
 
 
 def explains_part(best: Cause, start: Cause, fit: Alignment, plain: Alignment) -> bool:
-    """Return whether an explanation that leaves more than noise explains a part of the error.
+    """Return whether an explanation explains a part of the error, although more than noise remains.
 
     What is left may be the errors of a filter, or those of another cause. The parameters must gain
     more than in such errors by chance, and those of each half of the run must fit the other half.

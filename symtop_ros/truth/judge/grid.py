@@ -36,7 +36,7 @@ Fitted = tuple[Real, Real, Real]  # costs (g,), and rotations of the world and t
 
 @dataclass(eq=False)
 class Tables:
-    """Consequences of values of parameters; exact attitudes of whole ranges are kept."""
+    """Predicted attitudes for values of parameters; exact attitudes of whole ranges are cached."""
 
     truth: Truth
     fastest: float  # angular velocity of the motion in rad/s

@@ -78,7 +78,7 @@ class Court:
         node.create_subscription(message_class, topic, self._new.append, BEST_EFFORT, raw=True)
 
     def judge(self) -> Second:
-        """Return what is known of the estimates of the second before the last.
+        """Return the judgement of the estimates of the second before the last.
 
         They wait for a second because the event of a kick may arrive after the estimates of the
         motion that follows from it. When the clock goes back, those of that second and of the one

@@ -1,4 +1,4 @@
-"""Likely mistakes as sentences: that of the attitude, and that of the angular velocities."""
+"""Sentences on likely mistakes of convention, of the attitude and of the angular velocity."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -28,7 +28,7 @@ SMALL = 0.05  # part of the rates; smaller errors are no mistakes of convention
 
 
 def find_mistakes(estimates: Estimates, truth: Truth, found: Finding) -> list[str]:
-    """Return the likely mistakes as sentences: that of the attitude, then that of the rates.
+    """Return sentences on the likely mistakes: of the attitude, then of the rates.
 
     Rates of a sensor at its limit are no mistake of units or frames.
     """

@@ -1,4 +1,4 @@
-"""Causes that the user names: what is to be removed, or a model of the alignment."""
+"""Causes that the user selects, by `--remove` or `--aligned`."""
 
 from collections.abc import Collection
 from dataclasses import replace
@@ -88,5 +88,5 @@ def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = No
 
 
 def find_nearest(run: Estimates, truth: Truth, model: str | None) -> Cause:
-    """Return what leaves least, whether it is named or not: of a stated model, or of all causes."""
+    """Return the cause with the smallest residual, named or not: of a given model, or of all."""
     return Search(run, truth).choose().best if model is None else align(run, truth, model)

@@ -1,4 +1,4 @@
-"""Estimates that are no part of the noise of the others, and how to do without them."""
+"""Outliers among estimates, and fits without them."""
 
 from collections.abc import Callable
 
@@ -17,7 +17,7 @@ FEWEST = 0.5  # part of the estimates that is kept, at least
 
 
 def find_outliers(fit: Alignment, cause: Cause) -> Mask:
-    """Return True (n,) for estimates that a cause leaves far off, by the spread of the others.
+    """Return True (n,) for estimates with a residual that is large for the spread of the others.
 
     In both frames: noise about an axis of one has a component in the other that swings, and is far
     off its own median more often than normal numbers are.
@@ -37,7 +37,7 @@ def _find_far(left: Real, least: float) -> Mask:
 
 
 def trim(run: Estimates, truth: Truth, find: Callable[[Estimates], Cause]) -> Estimates:
-    """Return the estimates without outliers, which a cause of the others leaves far off."""
+    """Return the estimates without outliers; the cause is fitted to the others."""
     kept = np.ones(len(run), dtype=bool)
     for _ in range(ROUNDS):
         cause = find(run.select(kept))
@@ -49,5 +49,5 @@ def trim(run: Estimates, truth: Truth, find: Callable[[Estimates], Cause]) -> Es
 
 
 def count_outliers(run: Estimates, truth: Truth, cause: Cause) -> int:
-    """Return how many estimates a cause leaves far off."""
+    """Return the number of outliers of a cause."""
     return int(find_outliers(Alignment(CHANGES[cause.change][2](run), truth), cause).sum())

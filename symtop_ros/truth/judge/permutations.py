@@ -37,7 +37,7 @@ class Permutation:
         return right
 
     def describe(self) -> str:
-        """Return it in words."""
+        """Return the permutation in words."""
         signs = [name for name, sign in zip(COLUMNS, self.signs, strict=True) if sign < 0]
         others = [name for name in COLUMNS if name not in signs]
         parts = [*self._list_moves(), *([_describe_signs(signs)] if signs else [])]

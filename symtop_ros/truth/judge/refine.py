@@ -51,7 +51,7 @@ def make_sure(fit: Alignment, cause: Cause) -> Cause:
 
 
 def see(fit: Alignment, cause: Cause) -> Cause:
-    """Return a cause with the changes of its numbers that change the model by what is left.
+    """Return a cause with the changes of its numbers that have an effect as large as the residual.
 
     They are no deviations: errors that last may hide more.
     """

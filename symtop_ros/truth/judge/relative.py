@@ -1,4 +1,4 @@
-"""Errors of the turn from each estimate to that a lag later: the relative pose error (RPE).
+"""The relative pose error (RPE): errors of the rotation from each estimate to one a lag later.
 
 A constant rotation of the world is none of them, and a drift is one that does not grow (Sturm et
 al. 2012). evo computes the same for a lag in whole estimates, with `--delta_unit f --all_pairs

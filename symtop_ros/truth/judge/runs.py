@@ -48,7 +48,7 @@ class Source:
 
 
 def read_run(options: argparse.Namespace) -> Run:
-    """Return the run that is asked for."""
+    """Return the run that the options select."""
     if options.scene:
         return Run(scene_truth(options.scene))
     if [path.suffix for path in options.files] == [".json"]:  # as top_imu writes them
@@ -64,7 +64,7 @@ def read_run(options: argparse.Namespace) -> Run:
 
 
 def read_sources(options: argparse.Namespace, run: Run) -> list[Source]:
-    """Return the estimates that are asked for."""
+    """Return the estimates that the options select."""
     other: Path | None = options.estimates
     if other and is_table(other):
         table = _read_table(other, options.rpy)

@@ -1,4 +1,4 @@
-"""A gyroscope whose range ends below the spin, seen in rates or in the turns of attitudes."""
+"""A gyroscope whose range is smaller than the spin, recognised from rates or attitudes."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ BEYOND = 1.01  # limits that an exact rate is at least
 
 @dataclass(frozen=True)
 class Saturated:
-    """A limit of a sensor, in rad/s, at which a rate is that is beyond it.
+    """A limit of a sensor, in rad/s, that the estimates show while the exact rate is beyond it.
 
     Attributes
     ----------
@@ -38,13 +38,13 @@ class Saturated:
     of: str
 
     def describe(self) -> str:
-        """Return it as a sentence."""
+        """Return a sentence on the limit."""
         numbers = {"degrees": float(np.degrees(self.limit)), "share": 100 * self.share}
         return write("saturated", {**vars(self), **numbers})
 
 
 def find_saturated(estimates: Estimates, truth: Truth) -> Saturated | None:
-    """Return the limit at which rates are, or the turns of attitudes about the axis."""
+    """Return the limit at which the rates, or the rotations about the axis, stay."""
     some = estimates.select(np.arange(len(estimates)) < MOST)
     _, exact, known = truth.states_at(some.stamps, some.of_sensor)
     some, exact = some.select(known), exact[known]

@@ -70,7 +70,7 @@ HIDDEN = {"regular": ("delay",), "sleeping": ("rotations", "delay")}
 
 
 def find_causes(estimates: Estimates, truth: Truth) -> Finding:
-    """Return the simplest explanation that leaves little."""
+    """Return the simplest explanation with a small residual."""
     run = truth.select(estimates)
     if len(run) < 2:
         left = compare(run, truth).total
@@ -163,7 +163,7 @@ class Search:
         return self.refine(cause.kind, cause.offset, with_more=True)
 
     def profile(self, best: Cause) -> list[Cause]:
-        """Return a cause and those like it whose delays leave as little, the smallest delay first.
+        """Return a cause and others with delays that fit equally well, the smallest delay first.
 
         If the body is turned as well, and no delay at all leaves as little, the delay is unknown:
         then it is the cause without one.
@@ -190,7 +190,7 @@ class Search:
     def find_delays(
         self, best: Cause, others: Sequence[Cause], *, is_valley: bool
     ) -> dict[str, Any]:
-        """Return what else the delay of a cause may be, by the names of a finding."""
+        """Return the other possible delays of a cause, by the names of a finding."""
         if "delay" not in best.parameters:
             hidden = tuple(dict.fromkeys([*self.hidden, *["delay"] * is_valley]))
             is_turned = hidden == ("delay",) and best.level in TURNED

@@ -1,4 +1,4 @@
-"""Sentences of what explains the errors of estimates, and of what the motion hides."""
+"""Sentences on the causes of errors, and on what the motion cannot show."""
 
 import math
 from collections.abc import Iterator
@@ -34,7 +34,7 @@ def choose_key(found: Finding) -> str:
 
 
 def list_sentences(found: Finding, key: str) -> Iterator[str]:
-    """Yield what is said of a finding; `key` is the name of the first sentence."""
+    """Yield the sentences on a finding; `key` is the name of the first one."""
     yield write(f"found.{key}", _write_whole(found))
     if found.candidate or key in ("unexplained", "wanders"):
         yield from _write_left(found)

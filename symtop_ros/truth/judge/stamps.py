@@ -1,4 +1,4 @@
-"""Stamps that are rounded or cut, as to ms: their errors are those of the attitude.
+"""Stamps that are rounded or cut, for example to ms, recognised from errors of the attitude.
 
 Each time may be off by a step. What is left along the angular velocity is then time, as a clock
 shows it, and what is left across it is what remains.

@@ -1,4 +1,4 @@
-"""What a cause leaves of the errors: its strongest line, a swing of one frequency."""
+"""The strongest spectral line in the residuals of a cause."""
 
 import math
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ ABOUT = ("across_axis", "across_axis", "axis", "horizontal", "horizontal", "vert
 
 @dataclass(frozen=True)
 class Swing:
-    """A line of what is left.
+    """A spectral line of the residuals.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Swing:
 
 
 def find_swing(fit: Alignment, offset: Offset) -> Swing | None:
-    """Return the strongest line of what an offset leaves, if noise hardly has it."""
+    """Return the strongest line of the residuals of an offset, if noise hardly explains it."""
     stamps = fit.some.stamps[fit.exact(offset)[1]]
     stamps, firsts = np.unique(stamps, return_index=True)
     if len(stamps) < 2:

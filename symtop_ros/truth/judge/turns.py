@@ -1,4 +1,4 @@
-"""The axis of a rotation that was found: what a user must change to be rid of it.
+"""The axis of a rotation that was found, in words that help a user to correct it.
 
 Mounts and conventions of axes differ by rotations that take the axes to each other: by a quarter or
 a half of a turn about one of them, a half about the middle of two, or a third about that of three.

@@ -1,4 +1,4 @@
-"""What an explanation leaves: its noise, what is no noise, and the deviations that follow from it.
+"""Analysis of residuals: noise, spectral lines, outliers, and standard deviations.
 
 Nothing here knows what was explained: the judge and the fit stand on it.
 """

@@ -1,4 +1,4 @@
-"""What a fit gains in noise by chance: a block bootstrap of what it leaves.
+"""The gain of a fit by chance, from a block bootstrap of its residuals.
 
 Errors that last are no independent numbers, and a fit may follow them. Blocks of rows that are
 longer than they last are drawn with replacement (Kuensch, The jackknife and the bootstrap for

@@ -1,4 +1,4 @@
-"""Lines in the spectrum of residuals: swings of one frequency, which are no noise.
+"""Lines in the spectrum of residuals: oscillations of one frequency.
 
 An autoregression takes a line for noise that lasts, and whitens it away, so lines are tried before.
 The test is Thomson's F-test for lines (Spectrum estimation and harmonic analysis, 1982, section
@@ -34,7 +34,7 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Line:
-    """A swing of residuals at one frequency.
+    """An oscillation of residuals at one frequency.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What an explanation leaves: whether it is noise, of one kind, and how much of it is independent.
+"""The residuals of an explanation: whether they are noise, and how many are independent.
 
 Errors of filters are correlated in time and differ along axes, so nothing here assumes white or
 isotropic noise.
@@ -37,7 +37,7 @@ MINOR = 0.01  # part of the mean square, below which a component is not looked a
 
 @dataclass(frozen=True, eq=False)
 class Residuals:
-    """The rotation vectors that an explanation leaves, at stamps in order."""
+    """Residuals of an explanation as rotation vectors, at increasing stamps."""
 
     frames: tuple[Real, Real]  # in the world and in the frame of the body, (n, 3) each, in rad
     seconds: float  # from the first to the last stamp
@@ -94,7 +94,7 @@ class Residuals:
 
     @property
     def has_shape_of_noise(self) -> bool:
-        """True if errors are small, and distributed as those of one kind of noise may be."""
+        """True if errors are small, and distributed like those of a single source of noise."""
         square = float((self.frames[0] ** 2).sum(axis=1).mean())
         if square > LOUD**2:
             return False
@@ -115,7 +115,7 @@ class Residuals:
 
 
 def is_one_kind(values: Real) -> bool:
-    """Return whether numbers are distributed as those of one kind of noise may be."""
+    """Return whether numbers are distributed like those of a single source of noise."""
     chance = ODD_SHAPE + SHAPE_CHANCE / np.sqrt(max(len(values), 1))
     return not len(values) or measure_distance(values) <= chance
 

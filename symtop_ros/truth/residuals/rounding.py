@@ -10,7 +10,7 @@ EVEN = 0.1  # of a unit; what decimals, or a change of units, leave of whole num
 
 
 def find_steps(values: Real, written: Real | None = None) -> Real:
-    """Return the steps (m,) to which columns (n, m) are rounded; 0: none is seen.
+    """Return the steps (m,) to which columns (n, m) are rounded; 0 if no rounding is seen.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def find_steps(values: Real, written: Real | None = None) -> Real:
 
 
 def find_step(values: Real) -> float:
-    """Return the step of which all values (n,) are multiples, apart from a constant; 0: of none."""
+    """Return the step of which all values (n,) are multiples, up to a constant; 0 if none."""
     differences = np.diff(np.unique(values))
     if not len(differences):
         return find_decimal(values[0])

@@ -1,4 +1,4 @@
-"""The rows of a record: those that are there twice, and times that were rounded or cut."""
+"""Rows of a record that occur twice, and times that are rounded or cut."""
 
 from collections.abc import Iterator
 
@@ -14,7 +14,7 @@ WITHIN = 3  # steps of rounding in a step of time; of fewer a step is a row that
 
 
 def find_repeats(times: Real | Stamps, values: Real) -> Mask:
-    """Return True (n,) for rows whose time and values (n, m) are those of a row before.
+    """Return True (n,) for rows that repeat the time and the values (n, m) of an earlier row.
 
     Two bags that were merged have the messages of both; a row that counts twice makes deviations
     too small by the square root of two.
@@ -34,7 +34,7 @@ def find_repeats(times: Real | Stamps, values: Real) -> Mask:
 
 
 def describe_repeats(times: Real) -> Iterator[str]:
-    """Yield that rows at some times (n,) in s are there twice, if there are any."""
+    """Yield a note on rows that occur twice, at times (n,) in s, if there are any."""
     if len(times):
         rows = write_count(len(times), "row", "is" if len(times) == 1 else "are")
         yield f"{rows} there a second time, the first at {times[0]:.9g} s: counted once"
@@ -56,7 +56,7 @@ def find_time_step(stamps: Stamps) -> float:
 
 
 def describe_time_step(step: float) -> Iterator[str]:
-    """Yield that times are rounded, if they are."""
+    """Yield a note if times are rounded."""
     if step:
         size, half = f"{1e3 * step:g} ms", f"{1e3 * step / 2:g} ms"
         yield (

@@ -1,4 +1,4 @@
-"""Noise that lasts from row to row: a prediction by the rows before, and what is new in each row.
+"""Correlated noise: its prediction from earlier rows, and the whitened remainder.
 
 The order of an autoregression is the one that Hannan and Quinn's criterion chooses. Flicker, whose
 power goes with 1/f, has no order: its slowest part would be taken for a tenth of its size. It is
@@ -63,7 +63,7 @@ class Noise:
         return len(self.partial) > ORDERS
 
     def whiten(self, rows: Real) -> Real:
-        """Return what is new in the kept rows (n, r, ...), in deviations."""
+        """Return the whitened kept rows (n, r, ...), in deviations."""
         shape = (-1, rows.shape[1], *[1] * (rows.ndim - 2))
         slopes, deviations = self.predictors
         new = rows.copy()
@@ -86,7 +86,7 @@ def find_predictors(partial: Real) -> tuple[Real, Real]:
 
 
 def find_noise(left: Real, follows: Mask, parameters: int) -> Noise:
-    """Return the noise of what so many parameters leave (n, r), without outliers."""
+    """Return the noise of residuals (n, r) after a fit of some parameters, without outliers."""
     good = np.ones(len(left), dtype=bool)
     partial = find_pacf(left, good, follows, parameters)
     noise = measure_noise(left, good, follows, partial, parameters)

@@ -12,12 +12,12 @@ Row = Sequence[str]
 
 
 def find_separator(line: str) -> str | None:
-    """Return what separates the cells of a line; None for white space."""
+    """Return the separator of the cells of a line; None for white space."""
     return next((each for each in SEPARATORS if each in line), None)
 
 
 def choose_separator(line: str, count: int) -> str | None:
-    """Return what separates a row into so many cells; 0: into any number.
+    """Return the separator that gives a row the required number of cells; 0: any number.
 
     A row of `0,5 1,5` between names without commas is separated by spaces.
     """
@@ -56,7 +56,7 @@ def split_lines(lines: Sequence[str], separator: str | None) -> list[list[str]]:
 
 
 def is_missing(cell: str) -> bool:
-    """Return whether a cell says that there is no number."""
+    """Return whether a cell stands for a missing number."""
     return cell.strip().lower() in MISSING
 
 

@@ -126,7 +126,7 @@ class Head:
         return tuple(units[self.units[place]] for place in places)
 
     def refuse_twice(self, places: Sequence[int]) -> None:
-        """Refuse columns that are there twice."""
+        """Refuse columns that occur twice."""
         for place in places:
             if self.names.count(self.names[place]) > 1:
                 raise RefusedError(
@@ -136,7 +136,7 @@ class Head:
 
 
 def find_name_separator(line: str) -> str | None:
-    """Return what separates names: of a line with commas and semicolons the commas."""
+    """Return the separator of names; commas if a line has commas and semicolons."""
     return "," if "," in line and ";" not in line and "\t" not in line else find_separator(line)
 
 
@@ -160,7 +160,7 @@ def find_flags(names: Row, places: Sequence[int]) -> tuple[int, ...]:
 
 
 def find_times(head: Head) -> tuple[tuple[int, ...], str]:
-    """Return the places of the time, or () if it has none, and its unit.
+    """Return the places of the time, or () if there is none, and its unit.
 
     These are one place, or two of s and ns. A stamp comes before seconds; of a message's stamp and
     the time of its arrival it is the stamp. The unit is "" if the numbers have to show it.

@@ -1,4 +1,4 @@
-"""The form of a file by its first bytes: names of files may end in anything."""
+"""The format of a file, recognised by its first bytes instead of its name."""
 
 from codecs import BOM_UTF8, BOM_UTF16_BE, BOM_UTF16_LE
 from pathlib import Path
@@ -43,7 +43,7 @@ UTF16 = (BOM_UTF16_LE, BOM_UTF16_BE)  # as Excel writes "Unicode text"
 
 
 def name_unpacked(path: Path) -> str:
-    """Return a name for what is in a packed file, which may end as if it were not packed."""
+    """Return a file name for the content of a compressed file."""
     if path.suffix in SUFFIXES:
         return path.stem
     return f"unpacked{path.suffix}"
@@ -73,7 +73,7 @@ def is_table(path: Path) -> bool:
 
 
 def refuse_binary(path: Path, first: bytes) -> None:
-    """Refuse a file that is no text and no log, with what it is."""
+    """Refuse a file that is neither text nor a log, and name its kind."""
     what = f"{path} must be a log or a table, got"
     for magic, words in PACKED.items():
         if first.startswith(magic):

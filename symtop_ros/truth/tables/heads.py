@@ -68,7 +68,7 @@ class Form:
 
 
 def find_form(path: object, cells: Row, separator: str | None) -> Form | None:
-    """Return the names that a first row without names has by its numbers, or None."""
+    """Return column names for a table without names, from its first row; or None."""
     if found := _find_echo(cells):
         return found
     if not all(is_number(cell) for cell in cells):
@@ -98,13 +98,13 @@ def _find_echo(cells: Row) -> Form | None:
 
 
 def is_data(cells: Row) -> bool:
-    """Return whether a line is a row of numbers, of which the first may be a time of ISO 8601."""
+    """Return whether a line is a row of numbers; the first may be a time in ISO 8601."""
     filled = [cell for cell in cells if cell]
     return len(filled) > 1 and all(is_number(cell) or ISO.fullmatch(cell) for cell in filled)
 
 
 def is_units(cells: Row, places: Sequence[int]) -> bool:
-    """Return whether a row below the names has words where numbers are to be read."""
+    """Return whether a row below the names has words in the columns of numbers."""
     some = [cells[place] for place in places if place < len(cells)]
     words = [cell for cell in some if not is_missing(cell)]
     return bool(words) and not any(is_number(cell) or ISO.fullmatch(cell) for cell in words)

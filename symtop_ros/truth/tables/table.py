@@ -1,4 +1,4 @@
-"""Rows of a table, the columns that are read of it, and what a program wants."""
+"""Rows of a table, the columns that are read, and those that a program requires."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,13 +36,13 @@ class Columns:
 
 
 class Wanted(Protocol):
-    """What a program reads of a table."""
+    """The columns that a program requires of a table."""
 
     def find(self, head: Head) -> Columns | None:
-        """Return the columns by their names; None if these are no names of them."""
+        """Return the columns by their names; None if the names do not have them."""
 
     def describe(self, path: Path, first: str) -> str:
-        """Return the refusal of a table that lacks them, whose first line is given."""
+        """Return the refusal of a table without these columns; its first line is given."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Times of rows, as exact as their text: whole units as integers, and the rest as doubles.
+"""Times of rows, as exact as their text: whole units as integers, fractions as doubles.
 
 A stamp of epoch seconds with nine decimals has more digits than a double.
 """
@@ -83,11 +83,11 @@ class Times:
 
 
 class SplitStampError(ValueError):
-    """A stamp that is no whole number of ns."""
+    """A stamp that is not a whole number of ns."""
 
 
 class TimeReader:
-    """Reads the times of one row after the other, of stamps in ns whole ones."""
+    """Reader of the times of rows; stamps in ns must be whole numbers."""
 
     def __init__(self, unit: str, *, is_stamp: bool) -> None:
         self._unit, self._decimals = unit, 0

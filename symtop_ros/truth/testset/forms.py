@@ -1,4 +1,4 @@
-"""The legal forms in which a format can say a body: the problem `cusps` in each of them.
+"""The legal forms in which a format can describe a body, for the problem `cusps`.
 
 A form says one thing of the models of a description in other words: the rotation of an inertial
 frame, the place of a child, the inertia itself as the shape of a solid, or the units. The rest of a

@@ -166,12 +166,12 @@ class Score:
 
     @property
     def in_limits(self) -> Real:
-        """Errors of the attitude in units of what 2^-53 of each input does to it, (20,)."""
+        """Errors of the attitude in limits of double precision, (20,)."""
         return self._divide("orientation_limits")
 
     @property
     def in_float32_limits(self) -> Real:
-        """The same for inputs in single precision, (20,): for engines that compute in it."""
+        """Errors of the attitude in limits of single precision, (20,)."""
         return self._divide("orientation_limits_float32")
 
     def _divide(self, limits: str) -> Real:
@@ -212,7 +212,7 @@ class Score:
         )
 
     def format_start(self) -> str:
-        """Return that a row at t = 0 is not the start, and how it differs."""
+        """Return a sentence on how the row at t = 0 differs from the start."""
         return f"the row at t = 0 is not the start: {self.start}"
 
 
@@ -263,7 +263,7 @@ def describe_platform() -> dict[str, str]:
 
 
 def format_citation(program: str, testset: dict[str, Any]) -> str:
-    """Return the line by which a score can be cited: the set, and what scored it, and where.
+    """Return the line that cites a score: the test set, the scorer and the platform.
 
     Examples
     --------
@@ -279,7 +279,7 @@ def format_citation(program: str, testset: dict[str, Any]) -> str:
 
 
 def format_engine(engine: str) -> str:
-    """Return the line that says what computed a trajectory, or how its file can say it."""
+    """Return the line that names the engine, or how the file can name it."""
     return (
         f"engine: {engine or 'not stated; a first line such as # engine: MuJoCo 4.0.0 states it'}"
     )

@@ -49,7 +49,7 @@ class Entry:
 
     @property
     def described(self) -> tuple[str, str]:
-        """Names of the problem and of the description of its body, which is empty for its own."""
+        """Names of the problem and of the description, which is empty for the plain body."""
         name, _, description = self.problem["name"].partition(".")
         return name, description
 
@@ -161,7 +161,7 @@ def _is_stuck(small: float, large: float, own: Mapping[float, Entry]) -> bool:
 
 
 def find_differences(entries: Sequence[Entry]) -> dict[tuple[str, str], dict[str, float]]:
-    """Return the errors (rad) by description where an entry's differ more than rounding does."""
+    """Return the errors (rad) by description, if they differ by more than rounding."""
     found: dict[tuple[str, str], dict[str, Entry]] = {}
     for each in entries:
         name, description = each.described

@@ -66,7 +66,7 @@ class Estimates:
         angular_velocities: Real | None = None,
         left_out: int = 0,
     ) -> Estimates:
-        """Return estimates sorted by stamp, without numbers that are no attitude."""
+        """Return estimates sorted by stamp, without invalid attitudes."""
         times = np.asarray(stamps, dtype=np.int64)
         q = np.asarray(orientations, dtype=float).reshape(-1, 4)
         with np.errstate(all="ignore"):
@@ -102,7 +102,7 @@ class Estimates:
         )
 
     def count_once(self) -> Estimates:
-        """Return the estimates without those that are there a second time, as in merged bags.
+        """Return the estimates without repeated ones, as merged bags have.
 
         One of two may have fewer decimals, or the quaternion of the other sign.
         """
@@ -129,7 +129,7 @@ class Estimates:
         return again
 
     def thin(self, most: int) -> Estimates:
-        """Return at least so many of the estimates, and less than twice, spread over the run.
+        """Return estimates spread over the run: at least a number, less than twice as many.
 
         One is drawn at random of each so many that follow each other: of two publishers that take
         turns, every other estimate would be that of one. The first one is kept, as drifts count

@@ -1,4 +1,4 @@
-"""What messages measure. What they say is absent, in the words of their type, is nan here.
+"""Measurements in messages; a quantity that a message marks as absent is nan.
 
 - `sensor_msgs/Imu`: a covariance that begins with -1 means that its quantity is not measured.
 - `nav_msgs/Odometry`: the twist is in the child frame; if that has no name, its axes are unknown.

@@ -1,4 +1,4 @@
-"""The trial of docs/fit.md: pulls of what is said to be known, and no wrong minimum unsaid."""
+"""The trial of docs/trials.md: pulls of what is said to be known, and no wrong minimum unsaid."""
 
 from itertools import product
 

@@ -1,6 +1,6 @@
 """A hundred files of tops, errors and noises at random, judged as their users do it.
 
-docs/judge.md has the counts.
+docs/trials.md has the counts.
 """
 
 import json
@@ -54,7 +54,7 @@ KEYS = {
 SIZE = 1e-3  # rad, of noise
 FILES = [f"{cause}, {noise}, {n}" for cause, noise, n in product(CAUSES, NOISES, range(2))]
 SHORT = ["scale, rounding, 0", "columns, lasting, 1"]
-RIGHT = 98  # of a hundred; docs/judge.md has 99, of which one may be next to a threshold
+RIGHT = 98  # of a hundred; docs/trials.md has 99, of which one may be next to a threshold
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """The trial of workshop/judge: files that share no formula with the judge, and what it says.
 
-docs/judge.md has the counts.
+docs/trials.md has the counts.
 """
 
 import importlib
@@ -16,7 +16,7 @@ from workshop.judge.trial import ALL_NOISES, FILES, WITHOUT, Random, draw_file, 
 # One of each noise but filters, whose packages are those of the trial.
 OFTEN = (1, 6, 8, 9, 16)
 PEERS = "ahrs", "vqf", "imufusion"
-FALSE = 0.02  # part of the files without a cause that may get a name; docs/judge.md promises it
+FALSE = 0.02  # part of the files without a cause that may get a name; docs/trials.md promises it
 LEAST = 0.9  # part of all that is right, or said with its share
 
 
@@ -42,7 +42,7 @@ def test_what_is_said_of_all_files_is_true():
     ]
     rms, count = find_rms(rows)
     assert sum(row.outcome == "wrong" for row in rows) <= FALSE * FILES
-    assert count >= 40  # docs/judge.md has 51
+    assert count >= 40  # docs/trials.md has 51
     assert 0.8 <= rms <= 1.25
 
 

@@ -75,7 +75,7 @@ def measure(row, seeds):
 @pytest.mark.parametrize("name", ROWS)
 def test_the_pulls_of_deviations_are_about_one(name):
     found, given = measure(ROWS[name], range(200))
-    # docs/judge.md promises it; of 200 normal numbers a root mean square is 1 +- 0.05
+    # docs/trials.md promises it; of 200 normal numbers a root mean square is 1 +- 0.05
     assert all(0.8 <= each <= 1.25 for each in found), found
     assert given >= 200 * ROWS[name][-1]
 

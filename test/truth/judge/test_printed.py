@@ -173,7 +173,7 @@ def test_a_clock_is_printed_as_it_is():
     assert_honest([measure_stamps(seed) for seed in range(8)], 0.25, 1.9)
 
 
-# docs/judge.md promises 0.8 to 1.25; of 200 normal numbers a root mean square is 1 +- 0.05.
+# docs/trials.md promises 0.8 to 1.25; of 200 normal numbers a root mean square is 1 +- 0.05.
 @pytest.mark.long
 @pytest.mark.parametrize("kind", PARTS)
 def test_the_pulls_of_causes_as_printed_are_about_one(kind):
