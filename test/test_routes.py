@@ -86,7 +86,7 @@ def _checkout(tmp_path):
 
 
 def test_the_guide_promises_programs_that_there_are():
-    assert PROMISED["the page of a checkout"] == [".venv", "top_panel"]
+    assert PROMISED["the page from a checkout"] == [".venv", "top_panel"]
     assert {*PROMISED["the node, with ROS 2 from PyPI"]} == {"top_node", "top_ctl"}
     assert {*NEED_ROS, "top_panel"} < {*PROGRAMS}
 

@@ -4,6 +4,7 @@ import pytest
 from documents import ROOT, find_section
 
 from workshop.load import links, node_cost, starts, stress
+from workshop.records import assumptions
 from workshop.speed import derivatives, filters, many, summary, testset
 from workshop.speed.ahead import TABLES
 from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
@@ -46,6 +47,7 @@ SECTIONS = (
     summary.NAME,
     summary.AHEAD,
     node_cost.MEASURED,
+    assumptions.NAME,
     *(
         each.NAME
         for each in (derivatives, filters, many, testset, links, node_cost, starts, stress)
