@@ -60,7 +60,9 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--example", action="store_true", help=f"copy a record to ./{EXAMPLE} and fit it"
     )
-    parser.add_argument("--kind", choices=READ, help="kind of record, if columns do not show it")
+    parser.add_argument(
+        "--kind", choices=READ, help="kind of record, if the columns do not show it"
+    )
     parser.add_argument("--topic", help="full name of a topic of a log")
     parser.add_argument("--frame", help="child frame of the top, for /tf")
     parser.add_argument("--friction", action="store_true", help="fit linear friction as well")
@@ -94,7 +96,8 @@ def make_parser() -> argparse.ArgumentParser:
             f"--{name}-deviation",
             type=positive,
             metavar="PIXELS",
-            help=f"standard deviation of {of}, as of a click; without it --{name} is exact",
+            help=f"standard deviation of {of}, such as the error of a click; "
+            f"without it --{name} is exact",
         )
     parser.add_argument(
         "--elevation", type=decimal, metavar="DEGREES", help="known elevation of the camera"

@@ -20,7 +20,7 @@ INSTRUMENTS = "gyroscope", "accelerometer"
 MAX_BYTES = 65_536  # of a file with noise
 DESCRIPTION = """Write what an inertial sensor on the top measures, next to the exact truth: a log
 (FILE.mcap), a table (FILE.csv, with the event of the run in FILE.json), or a folder with CSV
-files as of EuRoC and poses as of TUM. Stamps begin at 0."""
+files in the form of EuRoC and poses in the form of TUM. Stamps begin at 0."""
 
 
 def main(args: list[str] | None = None) -> int:
@@ -146,16 +146,21 @@ def make_parser() -> argparse.ArgumentParser:
         "default: as in central Europe, with y north",
     )
     parser.add_argument(
-        "--noise", metavar="FILE", help="`consumer`, or a YAML file as of Kalibr; default: no noise"
+        "--noise",
+        metavar="FILE",
+        help="`consumer`, or a YAML file in the form of Kalibr; default: no noise",
     )
-    for name, what in (("range", "largest value"), ("resolution", "step of the values")):
+    for name, what, default in (
+        ("range", "largest value", "unlimited"),
+        ("resolution", "step of the values", "not rounded"),
+    ):
         parser.add_argument(
             f"--{name}",
             type=decimal,
             nargs="+",
             default=(),
             metavar=("RAD/S", "M/S^2"),
-            help=f"{what} of the gyroscope, and of the accelerometer; default: unlimited",
+            help=f"{what} of the gyroscope, and of the accelerometer; default: {default}",
         )
     parser.add_argument("--seed", type=integer, default=0, help="seed of the noise, default 0")
     parser.add_argument(

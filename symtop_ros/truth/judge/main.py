@@ -92,14 +92,14 @@ def make_parser() -> argparse.ArgumentParser:
         "--estimates",
         type=Path,
         metavar="FILE",
-        help="another log, or a table: with named columns, or as of Motive, TUM, EuRoC or KITTI "
-        "(with times)",
+        help="another log, or a table: with named columns, or in the form of Motive, TUM, "
+        "EuRoC or KITTI (with times)",
     )
     parser.add_argument(
         "--rpy",
         choices=ORDERS,
         help="order of roll, pitch and yaw of a table, about the axes of the body: zyx, yaw first, "
-        "is that of ROS and of aircraft",
+        "is the order of ROS and of aircraft",
     )
     parser.add_argument(
         "--remove",
@@ -114,7 +114,7 @@ def make_parser() -> argparse.ArgumentParser:
         choices=MODELS,
         metavar="MODEL",
         help="align with the given model without looking for other causes: none, heading, world or "
-        "world-and-body, and with +delay, +clock or +delay+clock the error of the stamps",
+        "world-and-body; +delay, +clock or +delay+clock after it also fits the error of the stamps",
     )
     parser.add_argument(
         "--clock",

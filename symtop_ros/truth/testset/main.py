@@ -15,7 +15,7 @@ NAME = "top_testset"
 ALL = "all"  # in place of a name: every problem
 DESCRIPTION = """\
 Seventy exact motions of heavy tops, to test a physics engine or integrator:
-  top_testset cusps -o cusps        writes one: models, start, how to begin
+  top_testset cusps -o cusps        writes one problem: models, start, README
   top_testset cusps cusps/mine.csv  scores your engine's table of t, w, x, y, z"""
 
 
