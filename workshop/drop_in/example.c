@@ -11,9 +11,10 @@ int main(int words, char** word) {
   const double spin = words > 1 ? strtod(word[1], NULL) : 200.0;
   const double t = words > 2 ? strtod(word[2], NULL) : 10.0;
   const symtop_start start = {
+      /* kg m^2, kg m^2, J */
       .Ix = 0.000228,
       .Iz = 0.0000572,
-      .Mgl = 0.068,                                                       /* kg m^2, kg m^2, J */
+      .Mgl = 0.068,
       .orientation = {0.9689124217106447, 0.24740395925452294, 0.0, 0.0}, /* w, x, y, z */
       .angular_velocity = {0.0, 0.0, spin}, /* about the axes of the body, in rad/s */
   };

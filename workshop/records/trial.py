@@ -13,12 +13,11 @@ from typing import Any
 import numpy as np
 
 from symtop_ros.truth.fit.main import main
-from workshop.records.assumptions import NAME, write_assumptions
+from workshop.records.assumptions import NAME, WITHIN, write_assumptions
 from workshop.records.draws import CLEAN, FAULTS, draw_record
 from workshop.speed.publish import publish
 
 EACH = 40  # records of a fault; of those without one this many and a half more
-WITHIN = 2.0  # deviations
 VERDICTS = {"holds": "holds", "in doubt": "unclear", "fails": "fails", "refused": "refused"}
 HEADS = *VERDICTS, "pulls, rms", "within 2 in all", "wider", "CPU, s"
 

@@ -16,7 +16,8 @@ static void launch(int64_t grid, int64_t block, Function function, Arguments... 
   blockDim.x = static_cast<unsigned>(block);
   for (int64_t b = 0; b < grid; b++)
     for (int64_t t = 0; t < block; t++) {
-      blockIdx.x = static_cast<unsigned>(b), threadIdx.x = static_cast<unsigned>(t);
+      blockIdx.x = static_cast<unsigned>(b);
+      threadIdx.x = static_cast<unsigned>(t);
       function(arguments...);
     }
 }

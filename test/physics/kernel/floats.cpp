@@ -31,6 +31,11 @@ static void print(const Float<3>& x) {
 int main() {
   for (int k = 0; k < 1000; k++) {
     const Float<3> a = draw_float(), b = draw_float();
-    print(a), print(b), print(a * b), print(a + b), print(a - b), puts("");
+    print(a);
+    print(b);
+    print(a * b);
+    print(a + b);
+    print(a - b);
+    puts("");
   }
 }

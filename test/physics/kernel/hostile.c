@@ -24,7 +24,9 @@ static const double UNTOUCHED = -7.25;
 static uint64_t state;
 
 static uint64_t draw(void) { /* xorshift64* */
-  state ^= state >> 12, state ^= state << 25, state ^= state >> 27;
+  state ^= state >> 12;
+  state ^= state << 25;
+  state ^= state >> 27;
   return state * 2685821657736338717u;
 }
 
@@ -62,7 +64,11 @@ static size_t used;
 static int has_null, has_overlap; /* of the call that is prepared */
 static void* last;
 
-static void prepare(void) { used = 0, has_null = has_overlap = 0, last = NULL; }
+static void prepare(void) {
+  used = 0;
+  has_null = has_overlap = 0;
+  last = NULL;
+}
 
 /* Room for so many words; or null, or the room of another argument, if `is_hostile`. */
 static void* take(size_t words, int is_hostile) {
@@ -145,7 +151,8 @@ static int judge(symtop_status status, int is_allowed, int line) {
                               status == SYMTOP_BAD_STEPS || status == SYMTOP_BAD_RATE ||
                               status == SYMTOP_BAD_ARITHMETIC || status == SYMTOP_BAD_TORQUE ||
                               status == SYMTOP_BAD_FRICTION || status == SYMTOP_BAD_PUSHES;
-  calls++, answered += status == SYMTOP_OK;
+  calls++;
+  answered += status == SYMTOP_OK;
   /* Of buffers that overlap nothing is promised but that the call ends: a count that is written to
      one of them has another length elsewhere. */
   if (!has_overlap) add_to_hash((uint64_t)status);
@@ -171,7 +178,10 @@ static double* take_orientations(size_t count, int* are_allowed) {
   for (size_t i = 0; room && i < count; i++) {
     double* q = room + 4 * i;
     double norm = 0.0;
-    for (int k = 0; k < 4; k++) q[k] = draw_number(1.0), norm += q[k] * q[k];
+    for (int k = 0; k < 4; k++) {
+      q[k] = draw_number(1.0);
+      norm += q[k] * q[k];
+    }
     /* of norm 1 to rounding, or nearly, or hardly */
     const double wanted = is_rare(3) ? 1 + 4e-3 * (draw_unit() - 0.5) : 1.0;
     if (!is_rare(10))
@@ -191,7 +201,9 @@ static double* take_omegas(size_t count, int* are_allowed) {
 
 static symtop_top draw_top(void) {
   symtop_top top;
-  top.Ix = draw_number(1.0), top.Iz = draw_number(1.0), top.Mgl = draw_number(100.0);
+  top.Ix = draw_number(1.0);
+  top.Iz = draw_number(1.0);
+  top.Mgl = draw_number(100.0);
   return top;
 }
 
@@ -207,7 +219,9 @@ static symtop_top* take_tops(size_t count, int* are_allowed) {
 static void draw_start(symtop_start* start) {
   double norm = 0.0;
   const symtop_top top = draw_top();
-  start->Ix = top.Ix, start->Iz = top.Iz, start->Mgl = top.Mgl;
+  start->Ix = top.Ix;
+  start->Iz = top.Iz;
+  start->Mgl = top.Mgl;
   for (int k = 0; k < 4; k++) {
     start->orientation[k] = draw_number(1.0);
     norm += start->orientation[k] * start->orientation[k];
@@ -262,8 +276,10 @@ static void try_angles(void) {
   size_t* done = take_done();
   if (angles && rates) good &= are_finite(angles, 3 * n) && are_finite(rates, 3 * n);
   const symtop_status status = symtop_from_angles(angles, rates, count, q, omega, done);
-  if (CHECK(status, allow(good, count, done) && done))
-    ROOM(status, q, 4 * n), ROOM(status, omega, 3 * n);
+  if (CHECK(status, allow(good, count, done) && done)) {
+    ROOM(status, q, 4 * n);
+    ROOM(status, omega, 3 * n);
+  }
 }
 
 static void try_orientations(void) {
@@ -285,12 +301,16 @@ static void try_orientations(void) {
   if (n < 2) ROOM(status, room, 3 * n);
   good = count == n;
   prepare();
-  q = take_orientations(n, &good), omega = take_omegas(n, &good);
+  q = take_orientations(n, &good);
+  omega = take_omegas(n, &good);
   double* unit = take_room(4 * n);
   room = take_room(3 * n);
   status = symtop_normalize(q, omega, count, unit, room);
   CHECK(status, allow(good, count, &count));
-  if (n < 2) ROOM(status, unit, 4 * n), ROOM(status, room, 3 * n);
+  if (n < 2) {
+    ROOM(status, unit, 4 * n);
+    ROOM(status, room, 3 * n);
+  }
 }
 
 static void try_regular_rates(void) {
@@ -420,7 +440,8 @@ static void try_spreads(void) {
   CHECK(status, good && !has_null && seen >= 0 && seen < 7);
   if (status != SYMTOP_OK || has_overlap) return;
   for (int k = 0; k < 4 && !isnan(found->least[k].theta); k++) {
-    check_solution(&found->least[k]), check_solution(&found->most[k]);
+    check_solution(&found->least[k]);
+    check_solution(&found->most[k]);
     if (!(found->least[k].psi_dot <= found->most[k].psi_dot)) fault = fault ? fault : __LINE__;
   }
 }
@@ -446,13 +467,19 @@ static void try_kicks(void) {
 }
 
 static void hash_verdict(const symtop_verdict* v) {
-  add_numbers(v->turning_angles, 2), add_numbers(&v->factor, 1), add_numbers(&v->average.rate, 1);
-  add_numbers(&v->reason.before, 4), add_to_hash((uint64_t)v->motion);
-  add_numbers(&v->cause.torque_share, 1), add_numbers(v->cause.torque_from_perpendicular, 2);
-  add_numbers(v->cause.momentum_from_axle, 3), add_numbers(v->cause.momentum_from_vertical, 3);
+  add_numbers(v->turning_angles, 2);
+  add_numbers(&v->factor, 1);
+  add_numbers(&v->average.rate, 1);
+  add_numbers(&v->reason.before, 4);
+  add_to_hash((uint64_t)v->motion);
+  add_numbers(&v->cause.torque_share, 1);
+  add_numbers(v->cause.torque_from_perpendicular, 2);
+  add_numbers(v->cause.momentum_from_axle, 3);
+  add_numbers(v->cause.momentum_from_vertical, 3);
   add_to_hash(v->cause.constant + 10u * (unsigned)v->cause.explanation);
-  add_numbers(v->means.rates, 2), add_numbers(v->means.cosines, 2),
-      add_numbers(&v->disturbed_to, 1);
+  add_numbers(v->means.rates, 2);
+  add_numbers(v->means.cosines, 2);
+  add_numbers(&v->disturbed_to, 1);
   add_to_hash((unsigned)v->means.sense + 10u * (unsigned)v->means.height);
   add_to_hash((unsigned)v->direction + 1000u * (unsigned)v->reason.kind);
   if (!are_finite(v->turning_angles, 2) || v->motion > SYMTOP_DRIVEN)
@@ -537,7 +564,8 @@ static void try_many(void) {
   status = symtop_describe_many(starts, count, found, done);
   if (CHECK(status, allow(good, count, done) && done))
     for (size_t i = 0; i < n; i++) {
-      add_to_hash((uint64_t)found[i].kind), add_numbers(found[i].turning_angles, 2);
+      add_to_hash((uint64_t)found[i].kind);
+      add_numbers(found[i].turning_angles, 2);
       if (found[i].kind > SYMTOP_DRIVEN || !are_finite(found[i].turning_angles, 2))
         fault = fault ? fault : __LINE__;
     }
@@ -564,14 +592,18 @@ static void try_states(symtop_motion* given) {
   if (times) good &= are_finite(times, n);
   symtop_status status = symtop_states(motion, times, count, steps, q, omega, done);
   good &= motion && done && steps >= 0;
-  if (CHECK(status, good && (has_arrays || !count)))
-    ROOM(status, q, 4 * n), ROOM(status, omega, 3 * n);
+  if (CHECK(status, good && (has_arrays || !count))) {
+    ROOM(status, q, 4 * n);
+    ROOM(status, omega, 3 * n);
+  }
   good = count == n;
   prepare();
   motion = draw_handle(given);
   symtop_clock* clock = (symtop_clock*)take(5, 1);
   int64_t* stamps = (int64_t*)take(n, 1);
-  q = take_room(4 * n), omega = take_room(3 * n), done = take_done();
+  q = take_room(4 * n);
+  omega = take_room(3 * n);
+  done = take_done();
   for (size_t i = 0; stamps && i < n; i++)
     stamps[i] = is_rare(30) ? INT64_MIN : (int64_t)(is_rare(3) ? draw() : draw() >> 30);
   if (clock) {
@@ -585,7 +617,10 @@ static void try_states(symtop_motion* given) {
   for (size_t i = 0; stamps && i < n; i++) good &= stamps[i] != INT64_MIN;
   status = symtop_states_of_clock(motion, clock, stamps, count, STEPS, q, omega, done);
   good &= motion && clock && done && (!count || !has_null);
-  if (CHECK(status, good)) ROOM(status, q, 4 * n), ROOM(status, omega, 3 * n);
+  if (CHECK(status, good)) {
+    ROOM(status, q, 4 * n);
+    ROOM(status, omega, 3 * n);
+  }
 }
 
 static void try_one_state(symtop_motion* given) {
@@ -605,7 +640,8 @@ static void try_one_state(symtop_motion* given) {
   const double asked = isfinite(t) ? time : t;
   status = symtop_state(motion, asked, q, omega);
   CHECK(status, !has_null && isfinite(asked));
-  ROOM(status, q, 4), ROOM(status, omega, 3);
+  ROOM(status, q, 4);
+  ROOM(status, omega, 3);
   prepare();
   motion = draw_handle(given);
   double* torque = take_numbers(3, 1.0);
@@ -625,17 +661,22 @@ static void try_constants(symtop_motion* given) {
   if ((kind == SYMTOP_UNKNOWN_KIND) != !motion || (engine == SYMTOP_UNKNOWN_ENGINE) != !motion ||
       (unsigned)kind > SYMTOP_UNKNOWN_KIND || (unsigned)engine > SYMTOP_UNKNOWN_ENGINE)
     fault = fault ? fault : __LINE__;
-  add_to_hash((uint64_t)kind), calls += 2;
+  add_to_hash((uint64_t)kind);
+  calls += 2;
   double *angles = take_room(2), *rate = take_room(2), *farthest = take_room(1);
   symtop_rates* rates = (symtop_rates*)take(5, 1);
   symtop_status status = symtop_find_turning_angles(motion, angles);
-  CHECK(status, motion && angles), ROOM(status, angles, 2);
+  CHECK(status, motion && angles);
+  ROOM(status, angles, 2);
   status = symtop_find_nutation_rate(motion, rate);
-  CHECK(status, motion && rate), ROOM(status, rate, 2);
+  CHECK(status, motion && rate);
+  ROOM(status, rate, 2);
   status = symtop_find_farthest_time(motion, farthest);
-  CHECK(status, motion && farthest), ROOM_OR_NAN(status, farthest, 1);
+  CHECK(status, motion && farthest);
+  ROOM_OR_NAN(status, farthest, 1);
   status = symtop_find_rates(motion, rates);
-  CHECK(status, motion && rates), ROOM_OR_NAN(status, (double*)(void*)rates, 4);
+  CHECK(status, motion && rates);
+  ROOM_OR_NAN(status, (double*)(void*)rates, 4);
 }
 
 static void try_piece(symtop_motion* given) {
@@ -643,7 +684,10 @@ static void try_piece(symtop_motion* given) {
   symtop_motion* motion = draw_handle(given);
   symtop_clock* clock = (symtop_clock*)take(5, 1);
   double* piece = (double*)take(17, 1);
-  if (clock) memset(clock, 0, sizeof *clock), clock->factor = draw_number(1.0);
+  if (clock) {
+    memset(clock, 0, sizeof *clock);
+    clock->factor = draw_number(1.0);
+  }
   const double size = clock ? fabs(clock->factor) : 1.0;
   const int64_t stamp = is_rare(30) ? INT64_MIN : (int64_t)(draw() >> 30);
   const symtop_status status =
@@ -658,7 +702,10 @@ static void try_piece(symtop_motion* given) {
 static void use(symtop_status status, symtop_motion* motion, int is_asked) {
   if (is_asked && (status == SYMTOP_OK) != (motion != NULL)) fault = fault ? fault : __LINE__;
   if (!motion) return;
-  try_states(motion), try_one_state(motion), try_constants(motion), try_piece(motion);
+  try_states(motion);
+  try_one_state(motion);
+  try_constants(motion);
+  try_piece(motion);
   symtop_free(motion);
 }
 
@@ -680,7 +727,8 @@ static void try_pushed(void) {
   symtop_start* start = take_starts(1, 0, &good);
   symtop_pushes* pushes = (symtop_pushes*)take(3, 1);
   if (pushes) {
-    pushes->impulse = draw_number(1.0), pushes->rate = draw_number(30.0);
+    pushes->impulse = draw_number(1.0);
+    pushes->rate = draw_number(30.0);
     pushes->number = is_rare(8) ? draw_number(30.0) : (double)(draw() % 8);
     good &= are_finite(&pushes->impulse, 1) && pushes->rate >= 0.01 && pushes->rate <= 1000;
     good &=
@@ -732,7 +780,9 @@ int run(unsigned first, unsigned number) {
       try_angles, try_orientations, try_regular_rates, try_tilts,    try_discs, try_bodies,
       try_starts, try_spreads,      try_kicks,         try_verdicts, try_map,   try_many,
       try_motion, try_pushed,       try_clamped,       try_exchange};
-  hash = 14695981039346656037u, calls = answered = 0, fault = 0;
+  hash = 14695981039346656037u;
+  calls = answered = 0;
+  fault = 0;
   for (unsigned seed = first; seed < first + number && !fault; seed++) {
     oddness = seed % 2 ? 6 : 60;
     state = (uint64_t)seed * 0x9e3779b97f4a7c15u | 1;

@@ -70,7 +70,9 @@ static void print_states(symtop_motion* motion) {
   }
   demand(symtop_states(motion, times, count, INFINITY, orientation, omega, &written));
   write_states(orientation, omega, written);
-  free(times), free(orientation), free(omega);
+  free(times);
+  free(orientation);
+  free(omega);
 }
 
 /* A clock, the number of stamps, and the stamps. */
@@ -81,13 +83,16 @@ static void print_states_of_clock(symtop_motion* motion) {
   size_t count, written;
   read_all(&clock, 5);
   count = read_count();
-  stamps = (int64_t*)allocate(count), orientation = allocate(4 * count),
+  stamps = (int64_t*)allocate(count);
+  orientation = allocate(4 * count);
   omega = allocate(3 * count);
   read_all(stamps, count);
   demand(symtop_states_of_clock(motion, &clock, stamps, count, INFINITY, orientation, omega,
                                 &written));
   write_states(orientation, omega, written);
-  free(stamps), free(orientation), free(omega);
+  free(stamps);
+  free(orientation);
+  free(omega);
 }
 
 /* A time and a torque: the state as long after the torque has changed. */
@@ -104,6 +109,7 @@ static void print_continued(symtop_motion* motion) {
 static void print_verdict(const symtop_verdict* v) {
   const symtop_reason* r = &v->reason;
   const symtop_cause* c = &v->cause;
+  /* clang-format off: not one number a line */
   const double numbers[] = {v->subject,
                             v->direction,
                             v->turning_angles[0],
@@ -155,6 +161,7 @@ static void print_verdict(const symtop_verdict* v) {
                             v->highest.amount,
                             v->lowest.kind,
                             v->lowest.amount};
+  /* clang-format on */
   write_all(numbers, sizeof numbers / sizeof numbers[0]);
 }
 
@@ -167,7 +174,9 @@ static void print_verdicts(const symtop_start* start) {
   demand(symtop_find_angles(start->orientation, 1, angles));
   demand(symtop_find_angle_rates(start->orientation, start->angular_velocity, 1, rates));
   demand(symtop_from_angles(angles, rates, 1, q, omega, &done));
-  write_all(angles, 3), write_all(rates, 3), write_states(q, omega, 1);
+  write_all(angles, 3);
+  write_all(rates, 3);
+  write_states(q, omega, 1);
   for (int hold = SYMTOP_SPIN_RATE; hold <= SYMTOP_SPIN_MOMENTUM; hold++) {
     symtop_start after = *start;
     symtop_verdict verdicts[2] = {0};
@@ -186,7 +195,8 @@ static void print_verdicts(const symtop_start* start) {
 
 int main(void) {
 #ifdef _WIN32 /* where a stream is one of lines */
-  _setmode(0, _O_BINARY), _setmode(1, _O_BINARY);
+  _setmode(0, _O_BINARY);
+  _setmode(1, _O_BINARY);
 #endif
   for (size_t count = read_count(); count > 0; count--) {
     symtop_start start;

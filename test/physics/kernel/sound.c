@@ -49,7 +49,9 @@ int main(int count, char** words) {
   if (count < 2) return 2;
   const symtop_status first = symtop_new(&start, &motion);
   set_state(words[1]);
-  clear(q, 4), clear(omega, 3), clear(few, 4);
+  clear(q, 4);
+  clear(omega, 3);
+  clear(few, 4);
   if (motion) { /* it was made before; nothing is computed of it now */
     show(symtop_state(motion, 0.3, q, omega), q, 4);
     show(symtop_states(motion, rates, 1, INFINITY, q, omega, &done), q, 4);
@@ -71,7 +73,8 @@ int main(int count, char** words) {
   show(symtop_new_clamped(&start, &refused), q, 0);
   symtop_held held;
   show(symtop_judge_clamp(&start, &held), q, 0);
-  clear(q, 4), clear(omega, 3);
+  clear(q, 4);
+  clear(omega, 3);
   show(symtop_from_angles(angles, rates, 1, q, omega, &done), q, 4);
   show(symtop_find_angles(start.orientation, 1, few), few, 3);
   show(symtop_find_regular_rates(&top, angles + 1, rates + 2, 1, SYMTOP_SPIN_RATE, few), q, 0);
