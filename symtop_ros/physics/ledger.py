@@ -295,7 +295,7 @@ class Momenta:
 
 @dataclass(frozen=True, slots=True)
 class Exchange:
-    """The exchange in an interval: gains and losses of energy, the losses first, and of momenta."""
+    """The exchange in an interval: shares of energy, those that gave it first, and momenta."""
 
     kind: Literal["energy", "none"]
     duration: float  # s

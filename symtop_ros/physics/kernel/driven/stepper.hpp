@@ -15,8 +15,8 @@ const double LAST = 1e-20;
 // tilt: so that steps do not become shorter at ordinary tilts.
 const double CLOSER = 8.0;
 const double LONGEST = 16.0;  // in units of about 1/rate; so the powers of a step stay in range
-// rad by which the frame turns in a step. Further on the terms of a sine would exceed their sum,
-// and rounding with them.
+// rad by which the frame turns in a step at most. Further on, terms after the first ten would need
+// more digits than a double, too (piece.hpp).
 const double LARGEST_TURN = 2.0;
 const double LARGEST_ANGULAR_VELOCITY = 1e100;
 // The unit of time is next to the length of the step before, so that terms in parts are about 1 in
