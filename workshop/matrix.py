@@ -82,7 +82,7 @@ def try_cell(cell: Cell) -> str:
     """Try a combination and return its row of the table."""
     python = find_python(cell.python)
     if python is None:
-        return row(cell, {}, "not tried: no such Python on this machine")
+        return row(cell, {}, "not tried: this Python was not installed")
     shutil.rmtree(ENVIRONMENT, ignore_errors=True)
     try:
         run(python, "-m", "venv", ENVIRONMENT)

@@ -171,7 +171,7 @@ def format_few(runs: Runs) -> str:
         ("highest rate", runs[HIGHEST], "g", " Hz"),
     )
     return format_table(
-        ["", "`top_node`", "bare rclpy", "bare rclpy, messages serialized before"],
+        ["", "`top_node`", "bare rclpy", "bare rclpy, messages serialized in advance"],
         [
             [name, *(f"{median(of[node]):{form}}{unit}" for node in (TOP, BARE, PREPARED))]
             for name, of, form, unit in rows

@@ -24,8 +24,8 @@ def format_measured(results: Results, motion: ReferenceMotion) -> str:
     head = [
         f"{SPAN:g} s of the article's top",
         OWN,
-        "most exact of the others",
-        f"fastest of the others within {level} rad",
+        "most exact other program",
+        f"fastest other program within {level} rad",
     ]
     rows = [["gravity alone", *_compare(free, CLOSED_FORM)]]
     if driven:

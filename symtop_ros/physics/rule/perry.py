@@ -254,12 +254,13 @@ def kick_verdict(motion: Motion, before: State[float], hold: Hold | None) -> Kic
     >>> answer = kick_verdict(Motion(top, hurry(before)), before, "spin_rate")
     >>> print(answer)  # doctest: +NORMALIZE_WHITESPACE
     At this instant: precession 6.50 -> 9.10 rad/s, spin rate held; the axis moves up. Perry's rule
-    holds: hurried, theta'' is -49.7 instead of 0 rad/s^2 (9.10 rad/s lies between the regular rates
-    6.50 and 69.82 rad/s at this spin rate). From now on: theta will stay between 0.437 and 0.500
-    rad. On average phi' is 6.41 rad/s (one turn in 0.98 s), 0.157 turns per nutation (slow
-    precession of a fast top: Mgl/p_psi = 5.72 rad/s). Compared with no kick: the highest point is
-    0.063 rad higher, the lowest point is unchanged, and the mean height rises (mean of cos(theta):
-    0.892 instead of 0.878). The kick is along the mean precession (6.50 rad/s without the kick).
+    holds: hurried, theta'' is -49.7 instead of 0 rad/s^2 (9.10 rad/s lies between the rates of
+    regular precession, 6.50 and 69.82 rad/s, at this spin rate). From now on: theta will stay
+    between 0.437 and 0.500 rad. On average phi' is 6.41 rad/s (one turn in 0.98 s), 0.157 turns per
+    nutation (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s). Compared with no kick: the
+    highest point is 0.063 rad higher, the lowest point is unchanged, and the mean height rises
+    (mean of cos(theta): 0.892 instead of 0.878). The kick is along the mean precession (6.50 rad/s
+    without the kick).
     """
     validate_one(motion, "motion")
     held = HOLDS.index(hold if hold is None else validate_hold(hold))

@@ -76,11 +76,11 @@ class Verdict:
     >>> verdict = perrys_rule(top, State.from_euler(theta=0.5, phi_dot=9.0, psi_dot=200.0))
     >>> print(verdict)  # doctest: +NORMALIZE_WHITESPACE
     At this instant: the axis moves up. Perry's rule holds: hurried from 9.00 to 12.60 rad/s,
-    theta'' would be -110 instead of -48 rad/s^2 (9.00 rad/s lies between the regular rates 6.50
-    and 69.82 rad/s at this spin rate). From now on: theta will stay between 0.439 and 0.500 rad. On
-    average phi' is 6.42 rad/s (one turn in 0.979 s), 0.157 turns per nutation (slow precession of a
-    fast top: Mgl/p_psi = 5.72 rad/s). Such a kick would be along the mean precession, and the mean
-    height would rise (mean of cos(theta): 0.908 instead of 0.891).
+    theta'' would be -110 instead of -48 rad/s^2 (9.00 rad/s lies between the rates of regular
+    precession, 6.50 and 69.82 rad/s, at this spin rate). From now on: theta will stay between 0.439
+    and 0.500 rad. On average phi' is 6.42 rad/s (one turn in 0.979 s), 0.157 turns per nutation
+    (slow precession of a fast top: Mgl/p_psi = 5.72 rad/s). Such a kick would be along the mean
+    precession, and the mean height would rise (mean of cos(theta): 0.908 instead of 0.891).
     """
 
     subject: Subject

@@ -152,8 +152,8 @@ def test_a_number_that_is_asked_for_is_checked(open_page, number, near, far):
         field.fill(typed)
         field.press("Enter")
         answers[typed] = page.say("lesson-checked")
-    assert answers[near] == f"Right, to {ask['within']:g} rad."
-    assert answers[far] == f"Not to {ask['within']:g} rad. Try again."
+    assert answers[near] == f"Right, within {ask['within']:g} rad."
+    assert answers[far] == f"Not within {ask['within']:g} rad. Try again."
     assert [answers["deep"], answers[""]] == ["Write a number.", ""]
     field.fill(near)
     field.blur()

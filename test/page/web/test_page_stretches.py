@@ -21,7 +21,7 @@ from symtop_ros.physics import (
 
 ARTICLE = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
 UNSAID = (
-    "Shown if theta has passed two turning points since the last act or push, "
+    "Shown if theta has passed two turning points since the last action or push, "
     "and neither friction nor a torque acts."
 )
 KEPT = "p_phi and p_psi are constant."

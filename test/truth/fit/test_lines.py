@@ -79,7 +79,7 @@ def test_a_line_that_is_none_of_the_motion_is_named_and_the_model_holds(tmp_path
     path = write_table(tmp_path / "mains.csv", seen, head="t,wx,wy,wz")
     assert main([str(path)]) == 0
     out = capsys.readouterr().out
-    assert "holds but for a line: what else is left is white noise" in out
+    assert "holds except for a line in the spectrum of the residuals" in out
     assert re.search(r"; wy swings at (50|50\.\d+|49\.\d+) Hz, with", out)
 
 

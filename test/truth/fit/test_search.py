@@ -77,7 +77,7 @@ def test_a_motion_that_one_search_alone_found_is_in_doubt():
     lone = replace(fit, is_lone=True)
     report = Report("record", len(TIMES), lone, {})
     assert report.check.verdict == UNCLEAR
-    assert "one search of several found this motion" in report.write_verdict()
+    assert "only one of several searches found this motion" in report.write_verdict()
     assert report.facts()["model"]["is_lone"] is True
 
 
