@@ -73,9 +73,9 @@ class Cause:
     >>> print(cause)  # doctest: +NORMALIZE_WHITESPACE
     Gravity's torque turns the angular momentum round. L stays near the axle, so the axle goes round
     as well. The torque is perpendicular to L to within 0.064 rad. L stays within 0.14 rad of the
-    line of the axle, and the angular velocity omega within 0.037 rad. The axle does not go round:
-    all of gravity's torque is left, so the axle accelerates downwards. On its way the axle goes
-    round faster and faster.
+    line of the axle, and the angular velocity omega within 0.037 rad. The axle does not go round,
+    so all of gravity's torque accelerates the axle downwards. On its way the axle goes round faster
+    and faster.
     """
 
     explanation: Explanation | None

@@ -170,7 +170,8 @@ def _look_for_nodes(node: Node) -> Status:
         others = "another node has" if count == 1 else f"{count} other nodes have"
         sentence = (
             f"{others} the name {name}, and a request may reach any of these nodes: rename this "
-            "one with --ros-args -r __node:=NAME or -r __ns:=/NAME (a killed node is listed for 20 s)"
+            "one with --ros-args -r __node:=NAME or -r __ns:=/NAME "
+            "(a killed node is listed for 20 s)"
         )
     return make_status("name", WARN if count else OK, sentence, {"name": name, "others": count})
 

@@ -148,7 +148,8 @@ def test_the_time_at_which_rounding_decides_is_one_of_the_run(open_page):
     for time, began in ((5.5, 5.0), (1.0, 0.0)):
         page.seek(time)
         said = f"from {began + shows_at:.3g} s on"
-        page.until(lambda: read_constants(page).get("rounding of the start decides", "").startswith(said))  # noqa: B023
+        row = "rounding of the start decides"
+        page.until(lambda: read_constants(page).get(row, "").startswith(said))  # noqa: B023
 
 
 def test_the_map_of_kinds_has_the_exact_curve_and_the_present_motion(open_page):

@@ -360,7 +360,7 @@ def test_the_page_says_how_much_the_slow_rate_depends_on_the_tilt(shared):
     level = ARTICLE.Mgl / (ARTICLE.Iz * 200)
     share = 100 * (1 - level / here)
     said = shared.say("roots-elsewhere")
-    assert f"At 90\u00b0 the slow rate is {level:.4g} rad/s" in said
+    assert f"At 90\u00b0 and the same psi' it is {level:.4g} rad/s" in said
     assert f"{share:.2g} % less" in said
     shared.enter("psi_dot", "2000")
     shared.until(lambda: "0.078 % less" in shared.say("roots-elsewhere"))  # the square of a tenth

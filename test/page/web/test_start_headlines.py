@@ -95,8 +95,6 @@ def test_an_unstable_rest_on_the_vertical_is_said_with_how_far_it_may_go(tab, Mg
     touched = State.from_euler(theta=abs(theta - 1e-7), psi_dot=130.0)
     low, high = Motion(Top(**top), touched).turning_angles
     reached = high if Mgl > 0 else low
-    words = (
-        f"The {name} sleeps on the vertical and is unstable there: the least disturbance lets it"
-    )
-    assert falls == f"{words} go as far as theta = {reached:.3f} rad."
+    words = f"The {name} sleeps on the vertical and is unstable there: the smallest disturbance"
+    assert falls == f"{words} makes it swing out to theta = {reached:.3f} rad."
     assert "unstable" not in sleeps

@@ -294,7 +294,8 @@ UNSTABLE = [  # by p_psi^2/(2 Ix |Mgl|) - 1 = cos of the way, from the pole at w
 @pytest.mark.parametrize(("top", "start", "reached"), UNSTABLE)
 def test_of_an_unstable_rest_it_is_said_how_far_the_least_disturbance_leads(top, start, reached):
     verdict = perrys_rule(top, start)
-    assert f"The smallest disturbance makes it swing out to theta = {reached:.3f} rad." in str(verdict)
+    words = f"The smallest disturbance makes it swing out to theta = {reached:.3f} rad."
+    assert words in str(verdict)
     if top.Mgl:
         touched = State(start.orientation, (1e-9, 0.0, start.angular_velocity[2]))
         low, high = Motion(top, touched).turning_angles
