@@ -177,7 +177,9 @@ class Body:
         ValueError
             If a value is refused, there is no part, or the parts have no moment about the axis.
 
-        Examples -------- A disc of 1.7 kg, almost balanced by a counterweight of 0.9 kg:
+        Examples
+        --------
+        A disc of 1.7 kg, almost balanced by a counterweight of 0.9 kg:
 
         >>> from symtop_ros.physics import Body, Part
         >>> disc = Part("disc", mass=1.7, distance=0.141, size=0.128)
@@ -287,7 +289,9 @@ class Body:
         ValueError
             If the motion is that of another top.
 
-        Examples -------- The pivot carries the weight of a top that sleeps upright:
+        Examples
+        --------
+        The pivot carries the weight of a top that sleeps upright:
 
         >>> from symtop_ros.physics import Body, Motion, State, Top
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)

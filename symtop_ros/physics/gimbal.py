@@ -46,9 +46,11 @@ def gimbal_shares(torque: ArrayLike) -> GimbalShares:
     ValueError
         If the torque is refused.
 
-    Examples -------- While a hand holds the precession, p_psi theta' acts on the top across its
-    axis. The hand feels only the part p_psi theta' sin(theta), and nothing when the axis points
-    down (derivation, section 11):
+    Examples
+    --------
+    While a hand holds the precession, p_psi theta' acts on the top across its axis. The hand feels
+    only the part p_psi theta' sin(theta), and nothing when the axis points down (derivation,
+    section 11):
 
     >>> from symtop_ros.physics import Motion, State, Top, gimbal_shares
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)

@@ -123,8 +123,9 @@ class Ledger:
     momentum_size : float
         A bound in N m s of the momenta at both ends.
 
-    Examples -------- On the way down, the weight gives all the energy that the precession has at
-    the lowest point:
+    Examples
+    --------
+    On the way down, the weight gives all the energy that the precession has at the lowest point:
 
     >>> from symtop_ros.physics import Ledger, Motion, State, Top
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)

@@ -699,8 +699,10 @@ class Motion:
         be of another kind. It is infinite otherwise, and for motions with friction, a torque,
         pushes or a clamp.
 
-        Examples -------- In exact numbers this axis approaches the vertical for ever. The start is
-        rounded to doubles, and its axis passes through the vertical.
+        Examples
+        --------
+        In exact numbers this axis approaches the vertical for ever. The start is rounded to
+        doubles, and its axis passes through the vertical.
 
         >>> import math
         >>> from symtop_ros.physics import Motion, State, Top
