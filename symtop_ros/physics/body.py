@@ -31,18 +31,18 @@ class Body:
     """A rigid body that moves as a top does.
 
     A body of mass M whose centre is at a distance r from the pivot has Mgl = M g r, and about its
-    centre the moments Ix - M r^2 and Iz. Of the two transverse axes and the axial one none may have
-    more than the other two together, so that M r^2 <= Ix - Iz/2: no arm is longer than
-    (Ix - Iz/2) g / |Mgl|. The body chosen has half of that arm, in the middle between a point mass
-    that is much too heavy and a flat disc, but at most 10 m.
+    centre the moments Ix - M r^2 and Iz. No principal moment of a rigid body is larger than the sum
+    of the other two. So M r^2 <= Ix - Iz/2, and no arm r is longer than (Ix - Iz/2) g / |Mgl|.
+    Without a given mass, `from_top` chooses half of this longest arm, but at most 10 m: the longest
+    arm is that of a flat disc, and a very short one needs a very heavy body.
 
     Attributes
     ----------
     mass : float
-        In kg; 1 kg if Mgl is zero, where any mass will do.
+        In kg. `from_top` chooses 1 kg if Mgl is zero, because Mgl then allows any mass.
     arm : float
-        Position of the centre of mass on the z axis of the body, in m: negative if Mgl is, zero if
-        Mgl is.
+        Position of the centre of mass on the z axis of the body, in m. It has the sign of Mgl, and
+        is zero if Mgl is zero.
     Ix, Iz : float
         Transverse and axial moment of inertia about the centre of mass, in kg m^2.
     gravity : float
@@ -134,7 +134,7 @@ class Body:
         mass, radius : float
             In kg and m, > 0.
         distance : float
-            Of its centre from the pivot, on the z axis, in m.
+            Position of its centre on the z axis, from the pivot, in m.
         gravity : float
             Acceleration of gravity in m/s^2, > 0.
 
@@ -169,8 +169,8 @@ class Body:
         gravity : float
             Acceleration of gravity in m/s^2, > 0.
         Ix, Iz : float, optional
-            Measured moments of inertia about the pivot in kg m^2, instead of those of
-            the parts: then one point may stand for a body.
+            Measured moments of inertia about the pivot in kg m^2, instead of those of the parts. A
+            single point then suffices, with the mass and the arm of the body.
 
         Raises
         ------
@@ -179,7 +179,7 @@ class Body:
 
         Examples
         --------
-        A disc of 1.7 kg that a counterweight of 0.9 kg keeps almost in balance.
+        A disc of 1.7 kg, almost balanced by a counterweight of 0.9 kg:
 
         >>> from symtop_ros.physics import Body, Part
         >>> disc = Part("disc", mass=1.7, distance=0.141, size=0.128)
@@ -219,9 +219,9 @@ class Body:
         Raises
         ------
         ValueError
-            If gravity or mass is refused, or if no body has these constants: a flat disc
-            (Iz = 2 Ix) has its centre in the pivot, and no weight that turns it. A mass is at
-            least Mgl^2/(gravity^2 (Ix - Iz/2)), that of a flat disc.
+            If gravity or mass is refused, or if no body has these constants: a flat disc (Iz = 2
+            Ix) has its centre in the pivot, so gravity has no torque on it. A given mass must be at
+            least Mgl^2/(gravity^2 (Ix - Iz/2)): the body with this mass is a flat disc.
 
         Examples
         --------
@@ -275,7 +275,7 @@ class Body:
         Parameters
         ----------
         motion : Motion
-            Its top is that of the body; its friction and applied torque count.
+            A motion of the body's top. Its friction and applied torque are included.
         state : State
             One state or many.
 
@@ -287,11 +287,11 @@ class Body:
         Raises
         ------
         ValueError
-            If the top of the motion is that of another body.
+            If the motion is that of another top.
 
         Examples
         --------
-        A top that sleeps upright is carried, and no more.
+        The pivot carries the weight of a top that sleeps upright:
 
         >>> from symtop_ros.physics import Body, Motion, State, Top
         >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)

@@ -28,8 +28,9 @@ STRETCH = 4.0  # rad of the fastest rate
 def angular_acceleration(motion: Motion, state: State) -> Real:
     """Return the rate of change of omega, in the world frame.
 
-    It is that of Euler's equations (Goldstein, section 5.5), turned into the world: the rates of
-    change of a vector in the body and in the world differ by omega x omega = 0.
+    It follows from Euler's equations (Goldstein, section 5.5), and is rotated into the world frame.
+    Seen from the body and from the world, omega has the same rate of change: the two differ by
+    omega x omega = 0.
 
     Parameters
     ----------
@@ -118,7 +119,8 @@ def specific_force(
 ) -> Real:
     """Return what an ideal accelerometer at a point of the body measures, in the body frame.
 
-    It is the acceleration of the point minus that of free fall, a + g z': at rest g upwards.
+    It is the acceleration a of the point minus that of free fall: a + g z'. At rest it is g,
+    upwards.
 
     Parameters
     ----------
@@ -126,7 +128,7 @@ def specific_force(
     state : State
         One state or many.
     position : array_like (3,)
-        Of the accelerometer, in the body frame, in m.
+        Position of the accelerometer in the body frame, in m.
     gravity : float
         Acceleration of gravity in m/s^2.
 
@@ -198,7 +200,8 @@ def balance(motion: Motion, end: float, longest: float) -> Balance:
     Raises
     ------
     ValueError
-        If a time is refused, or if the motion gets pushes: each changes both at once.
+        If a time is refused, or if the motion has pushes: each of them changes energy and momentum
+        suddenly.
 
     Examples
     --------

@@ -29,8 +29,8 @@ class GimbalShares:
 def gimbal_shares(torque: ArrayLike) -> GimbalShares:
     """Return the parts of a torque on a top that the outer ring and the stand exert.
 
-    The outer ring turns about the vertical, so that a hand can give it that part of a torque and
-    no other. The rest comes through the bearing of the ring.
+    The outer ring turns about the vertical, so a hand at the ring can exert only the vertical part
+    of a torque. The bearing of the ring exerts the rest.
 
     Parameters
     ----------
@@ -49,7 +49,8 @@ def gimbal_shares(torque: ArrayLike) -> GimbalShares:
     Examples
     --------
     While a hand holds the precession, p_psi theta' acts on the top across its axis. The hand feels
-    p_psi theta' sin(theta) of it, and nothing when the axis points down (derivation, section 11):
+    only the part p_psi theta' sin(theta), and nothing when the axis points down (derivation,
+    section 11):
 
     >>> from symtop_ros.physics import Motion, State, Top, gimbal_shares
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)

@@ -51,8 +51,9 @@ def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rat
     Returns
     -------
     State
-        Its phi' is the new one within 15 eps of the larger angular velocity, before or after, over
-        sin(theta): next to the vertical doubles of omega may have few digits of phi'.
+        Its phi' differs from the new rate by at most 15 eps times the angular velocity (the larger
+        one of before and after) divided by sin(theta). So next to the vertical phi' may have few
+        correct digits.
 
     Raises
     ------
@@ -157,8 +158,8 @@ def push_axle(top: Top, state: State, impulse: Many) -> State[Real]: ...
 def push_axle(top: Top, state: State, impulse: ArrayLike) -> State:
     """Return the state after a horizontal push on the axle in the direction of increasing phi.
 
-    It holds theta' and L_z, and so p_psi: its angular impulse is across the axle, in the vertical
-    plane of both.
+    It keeps theta' and p_psi = L_z: its angular impulse is perpendicular to the axle, in the
+    vertical plane of the axle.
 
     Parameters
     ----------
@@ -174,7 +175,7 @@ def push_axle(top: Top, state: State, impulse: ArrayLike) -> State:
     Raises
     ------
     ValueError
-        If the axis is vertical, where no side is that of phi, or if an argument is refused.
+        If the axis is vertical, where phi is undefined, or if an argument is refused.
 
     Examples
     --------
@@ -272,7 +273,7 @@ def _refuse_vertical(state: State) -> ValueError:
 
 
 def validate_hold(hold: Any) -> Hold:
-    """Return what a kick holds.
+    """Return what a kick holds, if it is valid.
 
     Parameters
     ----------

@@ -50,13 +50,13 @@ class Energies:
     Attributes
     ----------
     weight : float
-        Of the potential energy Mgl cos(theta).
+        Gain of the potential energy Mgl cos(theta).
     precession : float
-        Of Ix phi'^2 sin^2(theta)/2; zero on the vertical.
+        Gain of Ix phi'^2 sin^2(theta)/2, which is zero on the vertical.
     nutation : float
-        Of Ix theta'^2/2.
+        Gain of Ix theta'^2/2.
     spin : float
-        Of p_psi^2/(2 Iz).
+        Gain of p_psi^2/(2 Iz).
     """
 
     weight: float
@@ -79,9 +79,9 @@ class Contribution:
     work : float
         In J.
     vertical_momentum, axial_momentum : float
-        Given to p_phi and to p_psi, in N m s.
+        Changes of p_phi and of p_psi, in N m s.
     angular_impulse : ndarray (3,)
-        Given to the angular momentum, world frame, in N m s.
+        Change of the angular momentum, world frame, in N m s.
     """
 
     work: float
@@ -105,26 +105,27 @@ class Ledger:
     Attributes
     ----------
     begin, end : float
-        Times of the stretch in s.
+        Times of the interval in s.
     gained : Energies
         Gains of the weight, the precession, the nutation and the spin.
     gravity : Contribution
-        Its work is what the weight has lost; it gives nothing to p_phi and p_psi.
+        Its work is the energy that the weight has lost; it does not change p_phi and p_psi.
     pushes : Contribution
-        Of the pushes after `begin`, up to `end`; the first one, which leaves the start of the
-        motion, is in no stretch. A push of J gives J sin(theta) to p_phi and nothing to p_psi.
+        The share of the pushes after `begin`, up to `end`. The first push, which leads to the start
+        of the motion, is in no interval. A push of J gives J sin(theta) to p_phi and nothing to
+        p_psi.
     clamp : Contribution
-        Of the hand that holds phi: it does no work, and gives to p_phi only.
+        The share of the hand that holds phi: it does no work, and changes p_phi only.
     friction, torque : Contribution
-        Of friction and of the applied torque.
+        The shares of friction and of the applied torque.
     sizes : Energies
-        Of each part the larger one of both ends, in size; for the weight that is |Mgl|.
+        For each part, its larger absolute value at the two ends; for the weight |Mgl|.
     momentum_size : float
         A bound in N m s of the momenta at both ends.
 
     Examples
     --------
-    On the way down the weight gives all that the precession has at the lowest point.
+    On the way down, the weight gives all the energy that the precession has at the lowest point:
 
     >>> from symtop_ros.physics import Ledger, Motion, State, Top
     >>> top = Top(Ix=0.000228, Iz=0.0000572, Mgl=0.068)
@@ -158,13 +159,13 @@ class Ledger:
         motion : Motion
             One motion, also with pushes, a clamp, friction or a torque.
         begin, end : float
-            Times in s, begin <= end. A push at `begin` has been given before the stretch.
+            Times in s, begin <= end. A push at `begin` does not belong to the interval.
 
         Raises
         ------
         ValueError
-            If a time is refused, or if the stretch is too long for the quadrature of friction and
-            torques, which takes 30 000 parts of 2 rad of the fastest rate at most.
+            If a time is refused, or if the interval is too long for the quadrature of friction and
+            torques, which uses at most 30 000 parts of 2 rad of the fastest rate.
 
         Examples
         --------
@@ -295,7 +296,7 @@ class Momenta:
 
 @dataclass(frozen=True, slots=True)
 class Exchange:
-    """The exchange in an interval: shares of energy, those that gave it first, and momenta."""
+    """Energy and momenta that parts and causes exchange in an interval; givers come first."""
 
     kind: Literal["energy", "none"]
     duration: float  # s

@@ -99,14 +99,13 @@ class Motion:
         Applied torque in the world frame, constant, in N m.
     pushes : Pushes, optional
         Pushes on the axle. The first one is at t = 0: `start` is the state that it leaves. The kind
-        is "driven" then, and what is constant is that of the start, up to the second push;
-        `piece_at` has the motion between two pushes.
+        is then "driven". Turning angles, periods and mean rates are those of the motion from the
+        start to the second push; `piece_at` has the motion between any two pushes.
     clamped : bool
         True if a hand holds phi, by the outer ring of a gimbal. The axis then falls as a pendulum
-        in its vertical plane, and the body turns about it at the constant rate omega_z. The hand
-        takes phi' of `start` in the first instant; theta' and the spin momentum are kept. The kind
-        is "clamped", and p_phi is not constant. The axis must be tilted, and neither friction, a
-        torque nor pushes may act.
+        in its vertical plane, and the body turns about it at the constant rate omega_z. At t = 0
+        the hand stops phi'; theta' and the spin momentum are kept. The kind is "clamped", and p_phi
+        is not constant. The axis must be tilted, and neither friction, a torque nor pushes may act.
 
     Attributes
     ----------
@@ -170,7 +169,7 @@ class Motion:
     def restart(self, start: State[float]) -> "Motion":
         """Return the motion of the same top from another state, under the same friction and torque.
 
-        It gets no pushes, and no clamp.
+        The new motion has no pushes and no clamp.
 
         Parameters
         ----------
@@ -244,9 +243,9 @@ class Motion:
     def added_torque(self, state: State) -> Real:
         """Return the torque of friction, the applied torque and a clamp, without gravity.
 
-        A clamp turns the axle otherwise than gravity alone would: its torque is p_psi times the
-        velocity of the end of the axle, p_psi theta' in the direction in which theta grows. Of it
-        -p_psi theta' sin(theta) is about the vertical.
+        The torque of a clamp is p_psi times the velocity of the unit vector along the axle: p_psi
+        theta', in the direction in which theta grows. Its component about the vertical is -p_psi
+        theta' sin(theta).
 
         Parameters
         ----------
@@ -274,8 +273,8 @@ class Motion:
     def euler_rates(self, state: State[N]) -> Rates[N]:
         """Return the rates of Euler's angles in states of this motion, in rad/s.
 
-        They are those of `State.euler_rates`, but for a motion that a hand holds: there phi' is 0
-        and psi' is omega_z, not what rounding leaves of them.
+        They are those of `State.euler_rates`, except for a clamped motion: there phi' is exactly 0
+        and psi' exactly omega_z, without rounding errors.
 
         Parameters
         ----------
@@ -315,7 +314,7 @@ class Motion:
         Returns
         -------
         ndarray (..., 3)
-            p_psi times the velocity of the axle: derivation.md, section 11.
+            p_psi times the velocity of the unit vector along the axle (derivation.md, section 11).
         """
         x, y, _ = np.moveaxis(state.angular_velocity, -1, 0)
         across = np.stack([y, -x, np.zeros_like(x)], axis=-1)  # of the axle, at 1 m
@@ -347,8 +346,8 @@ class Motion:
         ----------
         t : float, array_like (...) or ExactTimes
             Time since the start in s, of either sign, up to 1e15 turns of the fastest phase, or
-            exact times in ns. A driven motion takes steps on the way, about 10 us for each: some
-            seconds for a time of six hours. A way of more than 1e7 steps is refused.
+            exact times in ns. A driven motion is integrated in steps of about 10 us of computing
+            time: a few seconds for six hours. A time that needs more than 1e7 steps is refused.
 
         Returns
         -------
@@ -444,10 +443,11 @@ class Motion:
         Returns
         -------
         Piece
-            Its `motion`, which starts at the last push up to then (before the second one with the
-            start of this motion), the time `begin` of that push in ns, and the `number` of pushes
-            up to then. Without pushes that is this motion itself, 0 and 0. Its start is rounded to
-            doubles, where this motion has 32 digits (docs/accuracy.md, "Pushes").
+            `motion` starts at the last push up to `t`; `begin` is the time of that push in ns, and
+            `number` the number of pushes up to `t`. The first push is at 0, and its piece starts
+            from the start of this motion. Without pushes the piece is this motion itself, with 0
+            and 0. The start of a piece is rounded to doubles, while this motion keeps 32 digits
+            (docs/accuracy.md, "Pushes").
 
         Raises
         ------
@@ -486,7 +486,7 @@ class Motion:
         return Piece(motion, int(found.begin), int(found.number))
 
     def end_pushes(self, number: int) -> "Motion":
-        """Return the motion with a given number of its pushes, the first ones.
+        """Return the motion with only the first pushes, up to a given number.
 
         Parameters
         ----------
@@ -496,7 +496,7 @@ class Motion:
         Raises
         ------
         ValueError
-            If the motion has no pushes, or not so many.
+            If the motion has no pushes, or fewer than this number.
 
         Examples
         --------
@@ -518,8 +518,9 @@ class Motion:
     def farthest_time(self) -> float:
         """Time in s at which the fastest phase has made 1e15 turns: later states are refused.
 
-        Or that of a push that cannot be made: the axis is vertical then, or the top would be too
-        fast. It is infinite with friction or an applied torque, and if all phases stand still.
+        If a push before that time cannot be made, it is the time of this push: the axis is then
+        vertical, or the top would become too fast. The time is infinite with friction or an applied
+        torque, and if all phases stand still.
 
         Examples
         --------
@@ -540,10 +541,11 @@ class Motion:
         to 2 are derivatives by Ix, Iz and Mgl, columns 3 to 5 by a small rotation vector of the
         start in the body frame, columns 6 to 8 by its omega.
 
-        They are differences of exact states. The error of an element is at most 1e-8 of the largest
-        one of its block, of rows 0 to 2 or 3 to 5 and of columns 0, 1, 2, 3 to 5 or 6 to 8. By a
-        parameter that hardly counts it is 1e-11 rad, or of the spin, for a change by all of a
-        moment, by 1 rad, or by the fastest rate.
+        They are differences of exact states. A block is formed by rows 0 to 2 or 3 to 5, and by
+        columns 0, 1, 2, 3 to 5 or 6 to 8. The error of an element is at most 1e-8 of the largest
+        element of its block. For a parameter with hardly any effect, the error is at most 1e-11 rad
+        (attitude) or 1e-11 of the spin (omega), after multiplying the derivative by the size of the
+        parameter: the absolute value of Ix, Iz or Mgl, 1 rad, or the fastest rate.
 
         Parameters
         ----------
@@ -559,9 +561,9 @@ class Motion:
         ------
         ValueError
             If a time is refused by `at`, if double precision does not resolve the derivatives (the
-            start is within 1e-6 rad of the vertical or 1e-8 of the separatrix, the time is late for
-            a nutation that is as small, or a driven motion comes back to an unstable vertical), or
-            if driven motions would take more than a minute.
+            start is within 1e-6 rad of the vertical or 1e-8 of the separatrix, the time is late and
+            the nutation far smaller than 1e-6 rad, or a driven motion comes back to an unstable
+            vertical), or if driven motions would take more than a minute.
 
         Examples
         --------
@@ -638,9 +640,9 @@ class Motion:
         "regular" (the angles are equal), "unidirectional" (phi' has one sign), "cusps" (phi' is
         zero at one angle), "looping" (phi' has opposite signs), "through the pole", "asymptotic"
         (the axis approaches the vertical for ever; the separatrix) or "sleeping" (it rests on the
-        vertical). The article calls a unidirectional motion spiralling. With friction or an applied
-        torque or pushes it is "driven": the angles then change, and phi' at them. If phi is held,
-        it is "clamped".
+        vertical). The article calls a unidirectional motion spiralling. With friction, an applied
+        torque or pushes the kind is "driven": the turning angles, and phi' at them, then change. If
+        phi is held, it is "clamped".
         """
         return self._kernel.kind
 
@@ -662,10 +664,10 @@ class Motion:
     def mean_precession_rate(self) -> float:
         """Mean phi' over a nutation in rad/s.
 
-        It is 0 while a hand holds it (`clamped`). It is nan under friction or an applied torque,
-        which change it from nutation to nutation; for an axis that rests on the vertical; and for a
-        free one that passes through a pole: there phi jumps by half a turn, to the left or to the
-        right by the rounding of the start.
+        It is 0 for a clamped motion. It is nan under friction or an applied torque, which change it
+        from nutation to nutation; for an axis that rests on the vertical; and for an axis that
+        passes through a pole (not clamped): there phi jumps by half a turn, in a direction that
+        depends on the rounding of the start.
         """
         if self.is_driven:
             return math.nan
@@ -675,7 +677,7 @@ class Motion:
     def precession_period(self) -> float:
         """Mean time of one turn of the precession in s: 2 pi divided by the mean of phi', unsigned.
 
-        It is infinite if the mean phi' is 0, and nan where that is.
+        It is infinite if the mean phi' is 0, and nan if the mean phi' is nan.
 
         Examples
         --------
@@ -691,14 +693,16 @@ class Motion:
     def rounding_shows_at(self) -> float:
         """Time in s from which on the rounding of the start decides where the axis is.
 
-        It is finite if an asymptotic motion lies within 64 EPS of the start, and one last place of
-        one of its numbers turns the axis by 0.01 rad within two nutations: such a start is next to
-        the separatrix, and in exact numbers it may be of another kind. It is infinite otherwise,
-        and for motions with friction, a torque, pushes or a clamp.
+        It is finite if two conditions hold: an asymptotic motion lies within 64 EPS of the start,
+        and a change of one number of the start in its last place turns the axis by 0.01 rad within
+        two nutations. Such a start is next to the separatrix, and in exact numbers its motion may
+        be of another kind. It is infinite otherwise, and for motions with friction, a torque,
+        pushes or a clamp.
 
         Examples
         --------
-        In exact numbers this axis approaches the vertical for ever; its doubles pass through it.
+        In exact numbers this axis approaches the vertical for ever. The start is rounded to
+        doubles, and its axis passes through the vertical.
 
         >>> import math
         >>> from symtop_ros.physics import Motion, State, Top
@@ -716,7 +720,7 @@ class Motion:
     def mean_spin_rate(self) -> float:
         """Mean psi' over a nutation in rad/s; nan if the mean phi' is nan.
 
-        Of a clamped motion it is p_psi/Iz.
+        For a clamped motion it is p_psi/Iz.
         """
         # psi' is omega_z as long as phi' is 0, and omega_z is constant.
         held = self.start.angular_velocity[2] if self.clamped else self._rates.mean_spin_rate
@@ -726,8 +730,8 @@ class Motion:
     def precession_per_nutation(self) -> float:
         """Precession in a nutation as a fraction of a turn, 2 pi rad.
 
-        The trace of the axis closes if it is a ratio of integers. It is nan where the mean phi' is,
-        and for a motion that does not return.
+        The trace of the axis is closed if this fraction is a ratio of integers. It is nan if the
+        mean phi' is nan, and for a motion that does not return.
 
         Examples
         --------
@@ -741,11 +745,12 @@ class Motion:
 
     @property
     def mean_cosine(self) -> float:
-        """Mean of cos(theta) in time over a nutation: Mgl times it is the mean potential energy.
+        """Mean of cos(theta) over the time of a nutation; times Mgl, the mean potential energy.
 
-        The axis is longer near its upper turning point than near its lower one, so it exceeds the
-        middle of both heights (docs/derivation.md, section 7). For an asymptotic motion it is that
-        of the pole. Of a driven motion it is that without friction, torque and pushes.
+        The axis spends more time near its upper turning point than near its lower one, so the mean
+        exceeds the middle of both heights (docs/derivation.md, section 7). For an asymptotic motion
+        it is cos(theta) of the pole. For a driven motion it is the mean without friction, torque
+        and pushes.
 
         Examples
         --------
@@ -800,7 +805,8 @@ class Motion:
     def fast_top_nutation_rate(self) -> float:
         """Nutation rate of the fast top in rad/s: |p_psi|/Ix (Goldstein, section 5.7).
 
-        The exact value is `nutation_rate`. It is nan for a clamped motion, a pendulum's.
+        The exact value is `nutation_rate`. It is nan for a clamped motion, which is that of a
+        pendulum.
 
         Examples
         --------

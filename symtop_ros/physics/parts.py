@@ -22,13 +22,15 @@ class Part:
     mass : float
         In kg, > 0.
     distance : float
-        Of its centre from the pivot, on the z axis of the body, in m; negative on the other side.
+        Position of its centre on the z axis of the body, from the pivot, in m; negative on the
+        other side of the pivot.
     size : float
-        Length of a rod or radius, in m, > 0. A point has none.
+        Length of a rod, or radius of a hoop, disc or ball, in m, > 0. A point has no size.
     spins : bool
-        Whether it turns about the axle with the body. A counterweight that does not is exact only
-        if it has no moment about the axle: a point or a rod. Any other one, held by the fork, would
-        add I phi'^2 cos(theta)^2/2 to the energy, which no top has.
+        True if the part turns about the axle with the body. A part that does not, such as a
+        counterweight, must have no moment about the axle: a point or a rod. Any other part, held by
+        the fork, would add I phi'^2 cos(theta)^2/2 to the energy, a term that the energy of a top
+        does not have.
 
     Raises
     ------

@@ -77,10 +77,10 @@ def regular_precession_rates(
     Returns
     -------
     slow, fast : float or ndarray (...)
-        In rad/s, with |slow| <= |fast|; nan for a rate that there is not. If the equation is
-        linear, as for a horizontal axis, there is no fast one; if the spin is too small, there is
-        neither. They are the nearest doubles to the exact rates of the doubles given, but
-        |cos(theta)| <= 2.2e-16 counts as zero: no double is exactly pi/2.
+        In rad/s, with |slow| <= |fast|; nan for a rate that does not exist. If the equation is
+        linear, as for a horizontal axis, there is no fast rate; if the spin is too small, there is
+        neither. The rates are the doubles nearest to the exact rates of the given doubles, except
+        that |cos(theta)| <= 2.2e-16 counts as zero, because no double is exactly pi/2.
 
     Raises
     ------
@@ -209,13 +209,14 @@ def precessing_frame_torques(
 ) -> FrameTorques:
     """Return the torques about the line of nodes for an observer who precesses with the top.
 
-    The observer turns with phi' about the vertical and sees theta' and psi' only. At any theta'
+    The observer turns with phi' about the vertical and sees theta' and psi' only. For any theta',
 
         Ix theta'' = Mgl sin(theta) - Iz psi' phi' sin(theta)
                      + (Ix - Iz) phi'^2 sin(theta) cos(theta),
 
-    gravity's torque and those of the Coriolis and of the centrifugal forces. That of a change of
-    phi' is along the other axes: the line of nodes is a principal axis.
+    the torques of gravity, of the Coriolis force and of the centrifugal force. The force that a
+    change of phi' causes (the Euler force) has no torque about the line of nodes, which is a
+    principal axis.
 
     Parameters
     ----------

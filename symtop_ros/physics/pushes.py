@@ -19,17 +19,16 @@ PUSH_RATES = (0.01, 1000.0)  # per s
 class Pushes:
     """Horizontal pushes on the axle, each in the direction of increasing phi at its time.
 
-    The first one is at t = 0, and the others at the nearest whole nanoseconds to multiples of
-    1/rate.
+    The first one is at t = 0. The others are at multiples of 1/rate, rounded to whole nanoseconds.
 
     Parameters
     ----------
     impulse : float
-        Angular impulse of each in N m s, as of `push_axle`.
+        Angular impulse of each push in N m s, as in `push_axle`.
     rate : float
         Pushes in a second, 0.01 to 1000.
     number : int
-        Number of them, with the first one; 1 to 1000.
+        Number of pushes, including the first one; 1 to 1000.
 
     Raises
     ------

@@ -43,9 +43,10 @@ class Solution:
     theta_dot, phi_dot, psi_dot : float
         Rates in rad/s; phi' is 0 on the vertical, where psi' is the whole spin.
     least, most : Solution or None
-        The least and the largest of each number, as far as what is known may be off. None without
-        half-widths, or if somewhere within them there are more or fewer starts, a rate of regular
-        precession changes its sign, or p_phi = p_psi or -p_psi, where phi' has no bound.
+        The smallest and the largest value of each number within the given half-widths. None without
+        half-widths. None, too, if somewhere within them the number of starts is another one, a rate
+        of regular precession changes its sign, or p_phi is p_psi or -p_psi (phi' then has no
+        bound).
     """
 
     theta: float
@@ -91,28 +92,29 @@ def solve_start(
     top : Top
         One top.
     half_widths : mapping of str to float, optional
-        By how much numbers that are known may be off, >= 0 in their units: the solutions then have
-        `least` and `most`, of any numbers in the box, if the same starts exist in all of it.
-        Extremes inside of it are found as well.
+        Half-widths of the intervals in which the known numbers lie, >= 0, in the units of the
+        numbers. The solutions then have `least` and `most`, the extremes over all numbers in these
+        intervals. Extremes between the ends of the intervals are found, too.
     **known : float
-        Two or three numbers of one row, in rad, rad/s, s, J, N m s, 1/s^2 and 1/s. The time of one
-        turn of phi, `precession_period`, has no sign: the top may go round in either direction.
+        The two or three numbers of one row, in rad, rad/s, s, J, N m s, 1/s^2 and 1/s. The time of
+        one turn of phi, `precession_period`, has no sign: the top may go round in either direction.
 
     Returns
     -------
     tuple of Solution
-        One to four: first those with phi' > 0, or let go those with psi' > 0; of constants the
-        start at the smaller theta first. Each number is right to some EPS for what is given. A
-        nutation period up to 16 EPS longer than the longest one counts as the longest, and one up
-        to 16 EPS shorter than the pendulum's, where the slow spin would end, as the pendulum's.
-        Constants whose energy is the least one within 64 EPS of its terms, above or below, are
-        those of a regular precession.
+        One to four solutions. The first ones have phi' > 0; for a top let go at rest, psi' > 0; for
+        given constants, the smaller theta. The error of each number is some EPS (2^-52) for exactly
+        the given numbers. A nutation period that is up to 16 EPS longer than the longest possible
+        one counts as the longest one. A period that is up to 16 EPS shorter than that of a
+        pendulum, the limit without spin, counts as the pendulum's. Constants whose energy differs
+        from the least possible energy by at most 64 EPS of its terms are those of a regular
+        precession.
 
     Raises
     ------
     ValueError
-        If the names are of no row, if a number is not finite or out of its range, or if there is no
-        such motion: the message says what the number must be.
+        If the names are not those of one row, if a number is not finite or out of its range, or if
+        there is no such motion: the message says what the number must be.
 
     Examples
     --------

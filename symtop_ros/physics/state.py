@@ -114,8 +114,8 @@ class Rates(NamedTuple, Generic[N]):
 class State(Generic[N]):
     """Orientation and angular velocity at one instant, or at many.
 
-    A state is what was given: parts of many states, copies and kicks keep `given_orientation`, and
-    states are equal if the given numbers are.
+    A state keeps the numbers that were given. Copies, kicks and selections from many states keep
+    `given_orientation`, too. Two states are equal if their given numbers are equal.
 
     Parameters
     ----------
@@ -293,10 +293,10 @@ class State(Generic[N]):
         phi_dot: ArrayLike = 0.0,
         psi_dot: ArrayLike = 0.0,
     ) -> "State":
-        """Return the state with these Euler angles z-x-z and rates, or the states with many.
+        """Return the state with these Euler angles z-x-z and rates, or many states.
 
-        The quaternion and the angular velocity are right to some rounding of doubles. The motion
-        then starts from exactly these doubles.
+        The quaternion and the angular velocity have rounding errors. The motion then starts from
+        exactly these doubles.
 
         Parameters
         ----------
@@ -333,8 +333,8 @@ class State(Generic[N]):
     def vertical(self) -> Real:
         """World z' in the body frame, (..., 3): sin theta sin psi, sin theta cos psi, cos theta.
 
-        The components are products of the quaternion's. No angle and no quotient is formed, so a
-        small tilt keeps all its digits.
+        The components are sums of products of the quaternion's components. No angle and no quotient
+        is formed, so a small tilt keeps all its digits.
         """
         w, x, y, z = self._components
         up = stack(2 * (x * z - w * y), 2 * (y * z + w * x), (w * w + z * z) - (x * x + y * y))
@@ -419,8 +419,9 @@ class State(Generic[N]):
     def from_matrix(cls, matrix: ArrayLike, angular_velocity: ArrayLike) -> "State":
         """Return the state with these rotation matrices from body to world.
 
-        The largest component of each quaternion comes from the trace, the others from it
-        (S. W. Shepperd, J. Guidance and Control 1 (1978) 223): nothing cancels.
+        The largest component of each quaternion is computed from the diagonal of the matrix, and
+        the others from this component (S. W. Shepperd, J. Guidance and Control 1 (1978) 223), so no
+        digits cancel.
 
         Parameters
         ----------
@@ -483,7 +484,7 @@ class State(Generic[N]):
         Raises
         ------
         ValueError
-            If these are not n states.
+            If the number of states is not n.
 
         Examples
         --------
@@ -494,7 +495,7 @@ class State(Generic[N]):
         >>> list(table)[:6], table["psi_dot"].shape
         (['t', 'w', 'x', 'y', 'z', 'wx'], (3,))
 
-        ``pandas.DataFrame(table)`` is a data frame of it.
+        ``pandas.DataFrame(table)`` makes it a data frame.
         """
         t = validate_array("times", to_seconds(times), unit="s")
         shape = self.orientation.shape[:-1]

@@ -37,7 +37,8 @@ class ExactTimes:
         counts.
     elapsed : Fraction
         Time of the motion in ns at which `nanoseconds` is 0. Its denominator is a power of two, as
-        that of every sum of products of integers and doubles; states need a sum of four doubles.
+        in every sum of products of integers and doubles. `Motion.at` needs a time that is a sum of
+        four doubles.
 
     Raises
     ------
@@ -93,7 +94,7 @@ class ExactTimes:
         Raises
         ------
         ValueError
-            If these are not enough, or not 0 or 1e-100 to 1e100 in size.
+            If four doubles are not enough, or if one is neither 0 nor 1e-100 to 1e100 in size.
         """
         parts: list[float] = []
         left = self.elapsed
@@ -138,7 +139,7 @@ class ExactTimes:
         return elapsed / (pieces * SECOND) + self.factor * (self.nanoseconds * 1e-9)
 
     def ravel(self) -> "ExactTimes":
-        """Return the times as an array (n,), of one time (1,)."""
+        """Return the times as an array (n,); a single time as an array (1,)."""
         return ExactTimes(np.atleast_1d(self.nanoseconds), self.factor, self.elapsed)
 
     def __getitem__(self, part: slice | NDArray[np.bool_ | np.intp]) -> "ExactTimes":

@@ -142,8 +142,8 @@ class Top(_Numbers, Generic[N]):
         """Return True if an axis at rest on the vertical stays near it after a small kick.
 
         A centre of mass above the pivot needs p_psi^2 >= 4 Ix |Mgl|; below the pivot the axis is
-        always stable. Without weight it is stable if the top spins: else a small kick turns it on
-        and on.
+        always stable. Without weight the axis is stable if the top spins. If it does not, it keeps
+        turning after a small kick.
 
         Parameters
         ----------

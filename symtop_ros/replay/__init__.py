@@ -1,1 +1,1 @@
-"""`top_replay`: logs in 3D with Rerun, without ROS. Imported by live."""
+"""`top_replay`: logs in 3D with Rerun, without ROS. `ros/live` uses its viewer."""

@@ -5,6 +5,6 @@ to 30 digits, writes them for engines, and scores; `imu/` makes records of an in
 `fit/` finds the motion from a measurement. They stand on `tables/` (rows of text), `topics/`
 (messages) and `residuals/` (noise, and the deviations that follow), which know none of them.
 
-With `physics` it is all that such an author has to know. Begin with `judge/main.py` or
-`testset/main.py`.
+An author of an engine or a filter needs no other package than this one and `physics`. Begin with
+`judge/main.py` or `testset/main.py`.
 """

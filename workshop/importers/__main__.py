@@ -49,23 +49,27 @@ TEXT = """# Which importer reads which description
 
 `make -C workshop importers` writes this page.
 
-Do programs read the models of the [test set](../symtop_ros/truth/testset/README.md#descriptions)
-as they are meant? Each importer read the models of {problems}
-(version {version} of the set), those with a joint, in each description of the body. The mass, the
-centre of mass and the moments of the whole body, in the frame of the link, were then compared with
-the numbers of the problem. Each cell has the worst result of the three bodies. No motion was
-simulated.
+Do programs read the right bodies from the models of the [test
+set](../symtop_ros/truth/testset/README.md#descriptions)? Each importer read the models of
+{problems} (version {version} of the set) that have a joint, in each
+description of the body. The mass, the centre of mass and the inertia tensor of the whole body, in
+the frame of the link, were then compared with the numbers of the problem. Each cell has the worst
+result of the three bodies. No motion was simulated.
 
 {table}
 
 - "right": the difference is at most 1e-13 of the largest component.
-- "to 6 digits": it is at most 2e-6. The importer computes in single precision, or MuJoCo gives an
-  empty link its least mass.
+- "to 6 digits": the difference is at most 2e-6. The importer computes in single precision, or it is
+  MuJoCo, which gives an empty link the smallest mass that it allows.
+- "tensor wrong by": the largest difference of a component of the inertia tensor, divided by the
+  largest component; "mass wrong by": the relative difference of the mass.
+- "refused": the importer reports an error, ends without a result, or reads no mass. The reasons are
+  at the end of the page.
 - A dash: the format cannot express the description, or the importer does not read the format.
 
 A format can express the same body in several
 [forms](../symtop_ros/truth/testset/README.md#forms). The second table has those of `{formed}`. An
-importer that does not know a form refuses the model at best.
+importer that does not support a form should refuse the model; some read a wrong body instead.
 
 {forms}
 

@@ -40,10 +40,11 @@ def exact_state(
     friction: Friction | None = None,
     torque: Sequence[float] = (0.0, 0.0, 0.0),
 ) -> ProvedState:
-    """Return the state of a motion at a time as balls: numbers with a radius that is a proof.
+    """Return the state of a motion at a time as balls: numbers with a proved radius.
 
     The motion under gravity alone has a closed form. With friction or a torque it is integrated by
-    Taylor series, which takes time in proportion to `t`: 10 s of a top of 200 rad/s half a minute.
+    Taylor series, which takes a time proportional to `t`: half a minute for 10 s of a top of 200
+    rad/s.
 
     Parameters
     ----------
@@ -54,8 +55,8 @@ def exact_state(
     t : float or ExactTimes
         Time in s, of any sign, or one exact time.
     digits : int
-        The radius is 10^-digits at most: of the quaternion, and of the angular velocity relative to
-        the `size` of the state.
+        The radius is at most 10^-digits for the quaternion, and at most 10^-digits of the `size` of
+        the state for the angular velocity.
     friction : Friction, optional
         Friction at the pivot and in the air.
     torque : sequence of three floats
@@ -69,8 +70,8 @@ def exact_state(
     Raises
     ------
     ValueError
-        If the top or the start are many, the time is not one finite number, the torque not three,
-        or digits are not positive.
+        If the top or the start are many, the time is not one finite number, the torque is not three
+        numbers, or digits are not positive.
     ArithmeticError
         If more than 200 000 bits are needed.
 
@@ -102,8 +103,8 @@ def exact_constants(
     start : State
         The state at t = 0.
     digits : int
-        Radii are 10^-digits at most: of angles, of the period relative to itself, and of the rates
-        relative to the larger one.
+        Radii are at most 10^-digits: for angles in rad, for the period relative to the period, and
+        for the rates relative to the larger rate.
     clamped : bool
         True if a hand holds phi, as in `Motion`.
 

@@ -28,13 +28,13 @@ class ProvedConstants(NamedTuple):
     kind : str
         As `Motion.kind`, for exactly the doubles given.
     period : flint.arb
-        Period of theta in s, of a regular precession that of a small nutation; infinite if the axis
-        rests on the vertical or approaches it for ever, and for a body at rest without weight.
+        Period of theta in s; for a regular precession, that of a small nutation. Infinite if the
+        axis rests on the vertical or approaches it for ever, and for a body at rest without weight.
     turning_angles : (flint.arb, flint.arb)
         Smallest and largest theta in rad.
     mean_rates : (flint.arb, flint.arb)
-        Mean phi' and psi' over a nutation in rad/s; nan on the vertical, through it and towards it.
-        Of a clamped motion 0 and omega_z.
+        Mean phi' and psi' over a nutation in rad/s; nan if the axis rests on the vertical, passes
+        through it or approaches it for ever. For a clamped motion 0 and omega_z.
     """
 
     kind: str

@@ -59,9 +59,9 @@ class Cause:
     momentum_from_vertical : (float, float, float) or None
         Angle from the line of the vertical.
     constant : tuple of str
-        "size" and "direction" of L, and "tilt", as far as they do not change.
+        Those of "size" (of L), "direction" (of L) and "tilt" that do not change.
     subject : {"top", "axis"}
-        "axis" for Mgl < 0: the axle then rises where the weight falls.
+        "axis" for Mgl < 0: the axle then rises when the weight falls.
 
     Examples
     --------

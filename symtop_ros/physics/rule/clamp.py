@@ -22,10 +22,11 @@ class ClampVerdict:
     ----------
     kind : {"falls", "swings", "rises", "turns", "rests"}
         "falls": it starts at rest, and the weight falls to its lowest place. "swings": it moves,
-        and the weight comes to its lowest place. "rises": it moves up with just the energy to come
-        to rest there. "turns" and "rests": Mgl = 0, and theta' is constant, or 0.
+        and the weight comes to its lowest place. "rises": it moves up with exactly the energy to
+        come to rest at the highest place. "turns" and "rests": Mgl = 0, and theta' is constant, or
+        0.
     subject : {"top", "axis"}
-        "axis" for Mgl < 0: the axle then rises where the weight falls.
+        "axis" for Mgl < 0: the axle then rises when the weight falls.
     theta : float
         Tilt in rad where the clamp takes hold.
     rate : float
@@ -56,7 +57,7 @@ def clamp_verdict(top: Top[float], before: State[float]) -> ClampVerdict:
     top : Top
         One top, without friction and applied torque.
     before : State
-        One state, before the hand takes phi'.
+        One state, before the hand stops phi'.
 
     Returns
     -------

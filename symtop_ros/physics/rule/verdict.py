@@ -49,12 +49,12 @@ class Verdict:
         "axis" for Mgl < 0: the direction of the centre of mass is then the opposite.
     direction : {"rises", "falls", "stays"}
         Direction of the axis from this state on, without the kick: by theta', or by theta'' if
-        theta' = 0. It does not move by less than 1e-7 rad.
+        theta' = 0. A change of less than 1e-7 rad counts as "stays".
     turning_angles : (float, float)
         Smallest and largest theta in rad from this state on, without the kick.
     regular_rates : (float, float)
-        Slow and fast rate of regular precession in rad/s, at this tilt and at the held spin rate or
-        momentum; nan for a rate that there is not, and on the vertical.
+        Slow and fast rate of regular precession in rad/s, at this tilt and at the spin rate or spin
+        momentum that the kick holds; nan for a rate that does not exist, and on the vertical.
     rule_holds : bool or None
         True if Perry's rule holds for the axis; None if it says nothing. For Mgl < 0 the rule is
         the opposite for the centre of mass, which lies on the other side of the pivot.
@@ -109,7 +109,7 @@ class Verdicts:
     turning_angles : two ndarray (...)
         Smallest and largest theta in rad.
     regular_rates : two ndarray (...)
-        Slow and fast rate of regular precession in rad/s; nan for a rate that there is not.
+        Slow and fast rate of regular precession in rad/s; nan for a rate that does not exist.
     rule_applies : ndarray (...) of bool
         False where Perry's rule says nothing.
     rule_holds : ndarray (...) of bool

@@ -42,11 +42,12 @@ class ImuRecord:
     orientations : ndarray (n, 4)
         Exact attitude w, x, y, z, sensor to world.
     positions, velocities : ndarray (n, 3)
-        Of the sensor in the world frame, from the pivot, in m and m/s.
+        Position and velocity of the sensor, from the pivot, in the world frame, in m and m/s.
     rates, forces : ndarray (n, 3)
         Exact angular velocity in rad/s and specific force in m/s^2, in the sensor frame.
     means : ndarray (n, 6) or None
-        Exact means of both over the interval of length 1/rate that ends at the stamp.
+        Exact means of rates and forces over the interval of length 1/rate that ends at the stamp;
+        None without `average`.
     biases : ndarray (n, 6)
         Biases of the gyroscope and the accelerometer.
     measured : ndarray (n, 6)
@@ -55,7 +56,7 @@ class ImuRecord:
     fields, measured_fields : ndarray (n, 3) or None
         Exact and measured magnetic field in T, in the sensor frame.
     event : Event
-        From which the run can be computed again; it names motion, gravity and sensor.
+        The event from which the run can be computed again: motion, gravity and sensor.
     """
 
     imu: Imu
@@ -94,10 +95,10 @@ def record_imu(
     gravity : float
         Acceleration of gravity in m/s^2.
     average : bool
-        True for a sensor that integrates: measurements are means over the interval of length
-        1/rate that ends at the stamp. What the quadrature leaves out is below 1e-17 of
-        F^2 d + gravity, with the distance d of the sensor from the pivot and the sum F of the
-        largest rates on the way; beyond that they have the rounding of states.
+        True for a sensor that integrates: measurements are means over the interval of length 1/rate
+        that ends at the stamp. The error of the quadrature is below 1e-17 of F^2 d + gravity, where
+        d is the distance of the sensor from the pivot, and F the sum of the largest rates in the
+        interval. The rounding errors of the states come on top.
 
     Raises
     ------

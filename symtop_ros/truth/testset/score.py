@@ -153,7 +153,8 @@ class Score:
     rates : ndarray (20,) or None
         |omega - omega_exact| in rad/s.
     start : str
-        Difference of a row at t = 0 from the start; empty without one, or without such a row.
+        Sentence on the difference of the row at t = 0 from the start; empty without a difference or
+        without such a row.
     engine : str
         Program that computed the trajectory, as stated in its file; empty if not stated.
     """
@@ -219,8 +220,9 @@ class Score:
 def read_problems(path: Path = FILE) -> dict[str, Problem]:
     """Return the problems by their names.
 
-    Without that file its packed form is read, which is that of the package, or else every other
-    JSON file next to it, as in the folder of a copied problem.
+    If `path` does not exist, its packed form is read (the package has only this form). Without a
+    packed form, the JSON files of problems in the same folder are read, as in the folder of a
+    copied problem.
 
     Examples
     --------

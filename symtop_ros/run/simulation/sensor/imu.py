@@ -48,7 +48,7 @@ FIRST_STREAM = 4 * AXES  # of numbers, after those of the gyroscope and the acce
 
 @dataclass(frozen=True)
 class Magnetometer:
-    """A magnetometer in the frame of an IMU, with whose rate it is read.
+    """A magnetometer in the frame of an IMU, read at the rate of the IMU.
 
     Attributes
     ----------
@@ -110,13 +110,13 @@ class Imu:
     """An inertial measurement unit on a top.
 
     Noise densities and random walks are in the units of datasheets and of Kalibr's YAML. A sample
-    has white noise of a density times the root of the rate. It is then rounded to a resolution, and
-    what is beyond the range is shown as the end of the range, as sensors do.
+    has white noise of a density times the root of the rate. It is then rounded to the resolution,
+    and clipped at the ends of the range, as in real sensors.
 
     Attributes
     ----------
     position : tuple (3,)
-        Its place in the body frame in m.
+        Position of the sensor in the body frame, in m.
     orientation : tuple (4,)
         Quaternion x, y, z, w, sensor to body.
     gyroscope_noise_density : float
@@ -128,9 +128,9 @@ class Imu:
     accelerometer_random_walk : float
         Random walk of the bias in m/s^3/sqrt(Hz).
     gyroscope_range, accelerometer_range : float
-        Largest size of a component that is shown, in rad/s and m/s^2; 0: any.
+        Largest absolute value of a component, in rad/s and m/s^2; 0 for no limit.
     gyroscope_resolution, accelerometer_resolution : float
-        Step of the numbers that are shown, in rad/s and m/s^2; 0: none.
+        Step to which numbers are rounded, in rad/s and m/s^2; 0 for no rounding.
     seed : int
         Of the noise, >= 0.
     rate : float
@@ -182,14 +182,14 @@ class Imu:
 
     @property
     def is_exact(self) -> bool:
-        """True if the gyroscope and the accelerometer show what there is."""
+        """True if the gyroscope and the accelerometer have no noise, no range and no resolution."""
         return not any(getattr(self, name) for name in (*NOISE, *LIMITS))
 
     @property
     def covariances(self) -> dict[str, float]:
         """Variance of each axis of what is measured, by the names in the message.
 
-        Rounding has the variance of a number anywhere in a step, resolution^2/12.
+        Rounding adds the variance of a uniform distribution over a step, resolution^2/12.
         """
         gyroscope, accelerometer = (
             density * density * self.rate + step * step / 12 or EXACT
@@ -238,7 +238,7 @@ class Imu:
         return self._noise.draw(stamps)
 
     def show(self, exact: Real, stamps: Any) -> Real:
-        """Return what the sensor shows of exact rates and forces (..., 6) at stamps."""
+        """Return the output of the sensor for exact rates and forces (..., 6) at stamps."""
         if self.is_exact:
             return exact
         shown = np.array(exact + self.noise(stamps))
