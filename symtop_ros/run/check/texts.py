@@ -49,7 +49,7 @@ REASONS = {
     CLOCK.name: "a recorder gets it at other times than those that it names",
     MARKERS.name: "markers are drawings of the samples before them",
     APPLIED_TORQUE.name: "it was received, and not computed",
-    POINTS.name: "measured points are seen, and not computed",
+    POINTS.name: "the points were measured, not computed",
 }
 # What is left of a balance is rounding, and the order of its sums is that of the linear algebra of
 # the machine.
