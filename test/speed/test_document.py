@@ -7,7 +7,15 @@ from workshop.load import links, node_cost, starts, stress
 from workshop.records import assumptions
 from workshop.speed import derivatives, filters, many, summary, testset
 from workshop.speed.ahead import TABLES
-from workshop.speed.benchmarks import ArrayCost, DrivenCase, Growth, HardCase, Results
+from workshop.speed.benchmarks import (
+    DRIVEN_BEST,
+    DRIVEN_OWN,
+    ArrayCost,
+    DrivenCase,
+    Growth,
+    HardCase,
+    Results,
+)
 from workshop.speed.many import ManyCost
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
 from workshop.speed.sweep import Curve, Measurement
@@ -36,6 +44,17 @@ def test_a_peer_that_is_ahead_in_a_table_is_named(name):
     lines = [*TABLES[name](results_of(2e-3, 1e-3))]
     assert lines
     assert all("peer" in line for line in lines)
+
+
+@pytest.mark.parametrize(("ours", "is_ahead"), [(1e-3, False), (3e-3, True)])
+def test_a_peer_at_a_level_is_compared_with_the_series_at_this_level(ours, is_ahead):
+    seconds = {TAYLOR: 4e-3, DRIVEN_OWN: ours, DRIVEN_BEST: 2e-3}
+    errors = {TAYLOR: 1e-16, DRIVEN_OWN: 1e-10, DRIVEN_BEST: 1e-10}
+    results = Results(driven=[DrivenCase("plain", errors, seconds)])
+    lines = [line for line in TABLES["driven"](results) if "faster" in line]
+    assert bool(lines) == is_ahead
+    table = summary.format_others_ahead(results)
+    assert (DRIVEN_BEST in table) == is_ahead
 
 
 TESTSET = ROOT / "symtop_ros/truth/testset/README.md"

@@ -8,7 +8,15 @@ from itertools import product
 from statistics import median
 from typing import TypeVar
 
-from workshop.speed.benchmarks import CHECK, ArrayCost, DrivenCase, Growth, Results
+from workshop.speed.benchmarks import (
+    CHECK,
+    DRIVEN_BEST,
+    DRIVEN_OWN,
+    ArrayCost,
+    DrivenCase,
+    Growth,
+    Results,
+)
 from workshop.speed.many import ManyCost
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
 from workshop.speed.publish import format_ms, group
@@ -39,15 +47,20 @@ def _list_curves(results: Results) -> Iterator[str]:
 
 def _compare_curves(results: Results, curve: Curve) -> Iterator[str]:
     own = TAYLOR if curve.motion == FRICTION else CLOSED_FORM
-    ours = results.find_curve(own, curve.motion).best
-    best = curve.best
-    faster = [point for point in curve.points if point.seconds < ours.seconds]
+    own_curve = results.find_curve(own, curve.motion)
+    ours, best = own_curve.best, curve.best
+    faster = [
+        point
+        for point in curve.points
+        if point.seconds < (own_curve.find_cheapest(point.error) or ours).seconds
+    ]
     if faster:
         quick = min(faster, key=lambda point: point.error)
+        same = own_curve.find_cheapest(quick.error) or ours
         yield (
             f"{curve.motion}: {curve.peer} reaches {quick.error:.1e} rad in "
-            f"{format_ms(quick.seconds)} ms, {own.removeprefix(OWN)} {ours.error:.1e} in "
-            f"{format_ms(ours.seconds)} ms."
+            f"{format_ms(quick.seconds)} ms, {own.removeprefix(OWN)} {same.error:.1e} in "
+            f"{format_ms(same.seconds)} ms."
         )
     if best.error < ours.error and best not in faster:
         yield (
@@ -106,10 +119,16 @@ def _list_driven(results: Results) -> Iterator[str]:
 
 def _compare_family(where: str, cases: list[DrivenCase], peer: str) -> Iterator[str]:
     errors = [[case.errors[name] for case in cases] for name in (peer, TAYLOR)]
-    seconds = [median([case.seconds[name] for case in cases]) for name in (peer, TAYLOR)]
+    own = find_own(peer)
+    seconds = [median([case.seconds[name] for case in cases]) for name in (peer, own)]
     yield from _compare_errors(f"{where}, median", peer, *map(median, errors))
     yield from _compare_errors(f"{where}, largest", peer, *map(max, errors))
     yield from _compare_times(f"{where}, median", peer, *seconds)
+
+
+def find_own(peer: str) -> str:
+    """Return the setting of the series with which a peer's driven motions are compared."""
+    return DRIVEN_OWN if peer == DRIVEN_BEST else TAYLOR
 
 
 def _leave_own(values: dict[str, float]) -> dict[str, float]:

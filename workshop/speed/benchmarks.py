@@ -11,7 +11,7 @@ import numpy as np
 from symtop_ros.physics import Motion
 from workshop.speed.footprint import Footprint, measure_footprint
 from workshop.speed.many import ManyCost, Program, find_programs, measure_many
-from workshop.speed.peers import CLOSED_FORM, TAYLOR, prepare
+from workshop.speed.peers import CLOSED_FORM, SERIES_TOLERANCES, TAYLOR, prepare
 from workshop.speed.peers.peer import Peer, PrepareArrays, Solution, spread_times
 from workshop.speed.reference import EPS, Reference, ReferenceMotion
 from workshop.speed.sweep import REPEATS, Curve, sweep_motion, time_call
@@ -29,6 +29,7 @@ DRIVEN_PEER = "heyoka, turning frame"
 DRIVEN_FORMS = (DRIVEN_PEER, "heyoka, turning frame, known spin")
 DRIVEN_LEVEL = 1e-9  # rad
 DRIVEN_BEST = f"heyoka, best form for {DRIVEN_LEVEL:.0e}"
+DRIVEN_OWN = f"{TAYLOR} for {DRIVEN_LEVEL:.0e}"
 DRIVEN_TOLERANCES = (1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, EPS)
 # The peers of the quick report, which must not take long, by the beginnings of their names
 EVERY_MOTION = (CLOSED_FORM, TAYLOR, "SciPy, elliptic functions", "heyoka", "CyRK")
@@ -262,25 +263,27 @@ def _try(motion: ReferenceMotion, peers: Sequence[Peer], results: Results) -> No
 
 
 def _drive(motion: ReferenceMotion, peers: Sequence[Peer], results: Results) -> None:
-    """Measure a motion with friction or a torque: at defaults, and the best form of a peer."""
-    found = {
-        peer.name: _measure_driven(motion, _prepare_default(peer, motion.task))
-        for peer in peers
-        if peer.name in (TAYLOR, DRIVEN_PEER)
-    }
+    """Measure a motion with friction or a torque: at defaults, and each in its best form."""
+    found = {}
+    for peer in (each for each in peers if each.name in (TAYLOR, DRIVEN_PEER)):
+        found[peer.name] = _measure_driven(motion, _prepare_default(peer, motion.task))
+        if peer.name == TAYLOR:
+            found[DRIVEN_OWN] = _measure_driven_setting(motion, peer, SERIES_TOLERANCES)
     forms = [peer for peer in peers if peer.name in DRIVEN_FORMS]
     if any(motion.task.applied_torque):
         forms = [peer for peer in forms if peer.name == DRIVEN_PEER]  # the others have no torque
     if forms:
-        good = [_measure_driven_setting(motion, peer) for peer in forms]
+        good = [_measure_driven_setting(motion, peer, DRIVEN_TOLERANCES) for peer in forms]
         found[DRIVEN_BEST] = min(good, key=lambda each: each[1])
     errors, seconds = ({name: each[k] for name, each in found.items()} for k in range(2))
     results.driven.append(DrivenCase(motion.name, errors, seconds))
 
 
-def _measure_driven_setting(motion: ReferenceMotion, peer: Peer) -> tuple[float, float]:
+def _measure_driven_setting(
+    motion: ReferenceMotion, peer: Peer, tolerances: Sequence[float]
+) -> tuple[float, float]:
     """Return error and time at the coarsest tolerance good to `DRIVEN_LEVEL`, or at the finest."""
-    for tolerance in DRIVEN_TOLERANCES:
+    for tolerance in tolerances:
         solution = peer.prepare(motion.task, tolerance)
         if _find_driven_error(motion, solution) <= DRIVEN_LEVEL:
             break

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from statistics import median
 
-from workshop.speed.ahead import FRICTION, list_ahead
+from workshop.speed.ahead import FRICTION, OWN, find_own, list_ahead
 from workshop.speed.benchmarks import CHECK, SPAN, ArrayCost, DrivenCase, HardCase, Results
 from workshop.speed.footprint import format_footprint
 from workshop.speed.forms import find_best, find_cheapest, find_form, find_program, write_forms
@@ -189,23 +189,24 @@ def _format_driven(cases: list[DrivenCase]) -> str:
     if not cases:
         return ""
     peers = list(cases[0].errors)
-    labels = [peer.removeprefix("symtop_ros, ") for peer in peers]
+    labels = [peer.removeprefix(OWN) for peer in peers]
+    others = [peer for peer in peers if not peer.startswith(OWN)]
     errors, seconds = [], []
     for family, own in group(cases, lambda case: case.family).items():
         of_peers = [[case.errors[peer] for case in own] for peer in peers]
         cells = [f"{summarize(each):.1e}" for summarize in (median, max) for each in of_peers]
         errors.append([family, f"{len(own)}", *cells])
         times = [median([case.seconds[peer] for case in own]) for peer in peers]
-        seconds.append(
-            [family, *map(format_ms, times), *(f"{each / times[0]:.2g}" for each in times[1:])]
-        )
+        of_names = dict(zip(peers, times, strict=True))
+        ratios = (f"{of_names[peer] / of_names[find_own(peer)]:.2g}" for peer in others)
+        seconds.append([family, *map(format_ms, times), *ratios])
     head = ["family", "motions"]
     head += [f"{name}, {label}" for name in ("median", "largest") for label in labels]
-    ratios = [f"{label}, x ours" for label in labels[1:]]
+    heads = [f"{peer}, x ours" for peer in others]
     return write_chapter(
         "driven",
         errors=format_tables(head, errors, 2),
-        seconds=format_tables(["family", *labels, *ratios], seconds),
+        seconds=format_tables(["family", *labels, *heads], seconds),
     )
 
 

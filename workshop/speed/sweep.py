@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import inf
 from statistics import median
 from timeit import Timer
 from typing import Literal
@@ -91,7 +92,8 @@ def _expect(points: list[Measurement], setting: float) -> float:
     """Return the seconds that the next setting is expected to take."""
     last = points[-1]
     growth = last.seconds / points[-2].seconds if len(points) > 1 else 1.0
-    return last.seconds * max(1.0, min(growth, last.setting / setting))
+    finer = last.setting / setting if setting else inf
+    return last.seconds * max(1.0, min(growth, finer))
 
 
 def time_call(call: Callable[[], object], enough: float = LONG) -> float:

@@ -6,6 +6,7 @@ from symtop_ros.physics import Motion
 from workshop.speed.peers.peer import Arrays, Peer, Solution
 
 CLOSED_FORM, TAYLOR = "symtop_ros, closed form", "symtop_ros, Taylor series"
+SERIES_TOLERANCES = (*(10.0**-k for k in (6, 8, 9, 10, 11, 12, 13, 14, 15)), 0.0)
 OPTIONAL = {  # package, and the file here that needs it
     "heyoka": "heyoka_peer",
     "CyRK": "cyrk_peer",
@@ -17,21 +18,21 @@ OPTIONAL = {  # package, and the file here that needs it
 }
 
 
-def prepare(task: Motion, _: float) -> Solution:
+def prepare(task: Motion, tolerance: float) -> Solution:
     """Return a solution that sets the motion up at each call: that is part of its cost."""
-    compute = prepare_arrays(task)
+    compute = prepare_arrays(task, tolerance)
     return Solution.of_arrays(compute, compute)
 
 
-def prepare_arrays(task: Motion) -> Arrays:
+def prepare_arrays(task: Motion, tolerance: float = 0.0) -> Arrays:
     """Return a function for the orientations at one time or many."""
     given = task.top, task.start, task.friction, task.applied_torque
-    return lambda times: Motion(*given).at(times).orientation
+    return lambda times: Motion(*given, tolerance=tolerance).at(times).orientation
 
 
 OWN = [
     Peer(CLOSED_FORM, (0.0,), prepare, prepare_arrays=prepare_arrays),
-    Peer(TAYLOR, (0.0,), prepare, friction="only"),
+    Peer(TAYLOR, SERIES_TOLERANCES, prepare, friction="only"),
 ]
 
 
