@@ -59,7 +59,7 @@ class Magnetometer:
     magnetometer_random_walk : float
         Random walk of the bias in T/s/sqrt(Hz).
     seed : int
-        Of the noise, >= 0.
+        Seed of the noise, >= 0.
 
     Raises
     ------
@@ -132,13 +132,13 @@ class Imu:
     gyroscope_resolution, accelerometer_resolution : float
         Step to which numbers are rounded, in rad/s and m/s^2; 0 for no rounding.
     seed : int
-        Of the noise, >= 0.
+        Seed of the noise, >= 0.
     rate : float
         Samples per second.
     begin : int
         Stamp in ns at which the biases are zero.
     magnetometer : Magnetometer or None
-        In the same frame.
+        A magnetometer in the frame of the IMU.
 
     Raises
     ------
