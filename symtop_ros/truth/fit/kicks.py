@@ -12,8 +12,9 @@ from symtop_ros.truth.fit.sides import expand
 
 SHORTEST = 3 * FEWEST  # rows that show a motion
 JUMPS = 3.0  # deviations of the first rows that a motion does not explain
-ROWS = 4  # of them
-CALM = 1.4  # deviations of a row in those of what is new in it
+ROWS = 4  # rows that the motion must not explain
+# largest ratio of the deviation of a row to the deviation of what the rows before do not predict
+CALM = 1.4
 
 
 def find_best(record: Record) -> Candidate:
@@ -31,7 +32,7 @@ def explains(fit: Fit) -> bool:
 
 
 def find_reach(record: Record) -> int | None:
-    """Return the number of first rows that one motion explains; None if there are none."""
+    """Return the number of first rows that one motion explains; None if it explains no part, or all."""
     count = min(max(len(record) // 8, SHORTEST), len(record))
     part = record.select(slice(count))
     found = find_best(part)

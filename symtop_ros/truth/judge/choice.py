@@ -36,7 +36,8 @@ LASTS = 4.0
 TIE = 1.5  # explanations that are as good, by their mean squares
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
 SMALL = 1e-3  # rad; smaller rotations count as zero in a comparison of explanations
-LASTING = 100.0  # the squares become so many times smaller, of errors that last or have a mistake
+# required reduction of the mean square, for long correlations or with a mistake of convention
+LASTING = 100.0
 SURER = 4.0  # a gain is so many times larger than by chance: many kinds and values are tried
 CLEAR = 1000.0  # the error becomes so many times smaller: its cause is clear, whatever is left
 
@@ -114,10 +115,10 @@ def _is_sound(best: Cause, fit: Alignment) -> bool:
 def explains_part(best: Cause, start: Cause, fit: Alignment, plain: Alignment) -> bool:
     """Return whether an explanation explains a part of the error, although more than noise remains.
 
-    What is left may be the errors of a filter, or those of another cause. The parameters must gain
-    more than in such errors by chance, and those of each half of the run must fit the other half.
-    Of errors that last too long for deviations, and of mistakes of convention, the squares must
-    become LASTING times smaller as well.
+    The rest may be the errors of a filter, or come from another cause. The parameters must reduce
+    the squares by more than they would reduce such errors by chance, and the values from each half
+    of the run must fit the other half. If errors are correlated for too long for deviations, and
+    for mistakes of convention, the mean square must also become LASTING times smaller.
     """
     is_far = best.change or not _is_sound(best, fit)
     wanted = 1 / LASTING if is_far else (1 + best.cost / start.cost) / 2

@@ -23,12 +23,12 @@ from symtop_ros.truth.topics.estimates import Estimates
 GRID_STEP, MOST_STEPS = 0.5, 1000
 MOST_CLOCK, MOST_SCALE = 5e-3, 0.05  # s per s, and part of the scale of a gyroscope
 WHOLE = 8 * 2 * np.pi  # rad, of world or body within the run, by a drift
-BATCH = 32  # scales of which paths are computed together, as far as a cache reaches
+BATCH = 32  # scales whose paths are computed together; more would not fit into a cache
 COARSE = 150  # estimates that the search takes; the refinement takes SAMPLES
 # An eigenvalue at a grid point is at most a quarter of a step from the best value; with more than
 # this left, nothing is explained there.
 HOPELESS = 0.05  # mean square of half angles
-# Components that a rotation of a level may have; of the other levels all.
+# Components that a rotation of a level may have; other levels have all.
 FREE = {"none": (1, 0, 0, 0), "heading": (1, 0, 0, 1)}
 Models = tuple[Real, Real, Real]  # estimates and exact attitudes (g, n, 4), and the known (g, n)
 Fitted = tuple[Real, Real, Real]  # costs (g,), and rotations of the world and the body, (g, 4)
@@ -47,7 +47,8 @@ class Tables:
     ) -> tuple[Real, Models]:
         """Return values (g,) of a parameter, the whole range if none are given, and their models.
 
-        Without a name they are those of nothing. The drift of the base is taken away.
+        Without a name there is one model, that of the base. The drift of the base is removed from
+        the estimates.
         """
         some, is_whole = some.thin(COARSE) if name else some, values is None
         if values is None:
@@ -119,7 +120,7 @@ def fit_levels(models: Models, levels: Collection[str]) -> dict[str, Fitted]:
 def fit_rotations(models: Models, level: str) -> Fitted:
     """Return the rotations W and M of a level, for which W exact M is nearest to the estimates.
 
-    First about the mean squares of the half angles that are left, (g,), then W and M, (g, 4).
+    Return the approximate mean squares of the remaining half angles, (g,), then W and M, (g, 4).
     """
     return fit_levels(models, [level])[level]
 
@@ -131,7 +132,7 @@ def _multiply(left: Real, known: Real) -> Real:
 
 
 def _find_nearest(sums: Real, known: Real) -> tuple[Real, Real]:
-    """Return about the mean squares of half angles, (g,), and the rotations nearest to all."""
+    """Return the approximate mean squares of half angles, (g,), and the nearest rotations."""
     sizes, vectors = np.linalg.eigh(sums)
     means = vectors[..., -1]
     counts = known.sum(axis=1)

@@ -55,12 +55,13 @@ from symtop_ros.truth.topics.estimates import Estimates
 MOST_SAMPLES = 200_000  # estimates from which a cause that was found is estimated again
 TURNING = {"drift", "spin", "scale"}  # parameters with a direction in space
 TURNED = {"body", "both"}  # levels at which the body is turned
-SAME_VALUE = 4  # digits in which values of a parameter are one
+SAME_VALUE = 4  # values of a parameter that agree in so many digits count as one
 PERMUTED_LEVELS = CHANGES[next(iter(PERMUTED))][1]
 VALLEYS, FINER = 4, 31  # of each table that are refined, and values that are tried in each
 LINED = 16_384  # estimates in which lines are looked for, from the first on
-PROFILED = 10_000  # estimates; of more the minima of the delay are those of a search
-MOST_VALLEYS = 100  # of delays, of which the deepest are found in finer steps
+# largest number of estimates for which the minima of the delay are compared with all of them
+PROFILED = 10_000
+MOST_VALLEYS = 100  # valleys of a delay that are searched in finer steps for the deepest
 # Estimates that stay this close (rad) to one attitude do not move, and the exact attitudes move so
 # many times as far.
 STILL, MOVED = 0.05, 10.0
@@ -257,7 +258,7 @@ class Search:
     def _list_periods(self, delay: float) -> list[float]:
         """Return a delay and those that differ by periods of the nutation, which are as good.
 
-        With two free rotations they are; without them one alone is.
+        With two free rotations all of them are equally good; otherwise only one is.
         """
         period = self.truth.period
         if period is None:
@@ -295,7 +296,8 @@ class Search:
         self, change: str, name: str, known: Offset = NONE, values: Real | None = None
     ) -> Iterator[Cause]:
         """Yield explanations with a change and a parameter, or none, next to those of an offset."""
-        # Those of a delay are as deep up to the nutation, and the steps hide which one is deepest.
+        # Valleys of a delay, a nutation apart, are nearly equally deep, and the coarse steps hide
+        # which is deepest.
         most = MOST_VALLEYS if name == "delay" else VALLEYS
         for level, valleys in self.find_valleys(change, name, known, values, most).items():
             for start in valleys[:VALLEYS]:

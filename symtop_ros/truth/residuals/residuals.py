@@ -18,8 +18,8 @@ from symtop_ros.truth.residuals.correlation import (
 )
 
 PER_PARAMETER = 10  # independent estimates for each parameter, at least
-# Noise makes the squares smaller by chance: by less than this, in units of the variance of one
-# independent number, of the thousands of values that are tried.
+# Thousands of values are tried, and each can make the sum of squares smaller by chance: by less
+# than this, in units of the variance of one independent number.
 CHANCE = 36.0
 WANDERING = 0.1  # part of the run; a longer correlation time is no noise
 # Ten squares of normal numbers add up to more than 40 once in 50 000 times.

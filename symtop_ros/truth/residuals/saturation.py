@@ -1,7 +1,7 @@
 """Columns at the limit of their sensor: numbers that are all the same at one end of a column.
 
-What a sensor cannot show it shows as its limit. Such a number is no measurement with noise, and a
-motion that was fitted to it is off by as much as is cut away.
+Beyond its range a sensor outputs the limit. Such a number is no measurement with noise, and a
+motion that is fitted to it is wrong by the part that was cut away.
 """
 
 from dataclasses import dataclass
@@ -33,8 +33,8 @@ class Saturation:
 def find_saturations(values: Real, ranges: Real) -> tuple[Saturation, ...]:
     """Return the limits that columns (n, m) reach.
 
-    `ranges` (k,) are limits of sensors in the unit of the columns: a column that is at one of them
-    in each row shows nothing, where any other number may be that of a steady motion.
+    `ranges` (k,) are limits of sensors in the unit of the columns: a column that has one of them in
+    each row is at its limit, while any other constant may come from a steady motion.
     """
     return tuple(
         Saturation(column, limit, int((numbers == limit).sum()))
