@@ -98,7 +98,7 @@ class StampRows:
     def find_stamp(self, since: int, place: int) -> int | None:
         """Return the stamp (ns) of the last sample between two places of the log; None if none is.
 
-        Of a row that both ends of the interval are in, the stamp is that of a grid.
+        If both ends of the interval are in one row, the stamp is computed from its grid.
         """
         for row in reversed(self.rows[: bisect_left(self.rows, place, key=_find_place)]):
             if row.last_place < place or row.samples == 1:

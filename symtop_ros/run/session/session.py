@@ -151,7 +151,7 @@ class Session:
         self.simulation.speed_up()
         self.recording.report_failure()
         if not self.simulation.segment.running:
-            # for those who came while it stands still
+            # for requests that came while the motion stands still
             self._outputs.send_clock(self.simulation.now)
         self._outputs.send_diagnostics(
             self.simulation.stamp,

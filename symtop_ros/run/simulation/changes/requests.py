@@ -108,7 +108,7 @@ def plan_kick(
         demand_tilted(state, kind)
     try:
         after = KICKS[kind](motion.top, state, amount, hold)
-    except ValueError:  # such an amount that the kernel has no state
+    except ValueError:  # the amount is too large for a state of the kernel
         raise _refuse_rates(kind, request) from None
     _limit_rates(kind, request, after)
     return motion.restart(after), hold
