@@ -3,8 +3,8 @@
 The schema has single precision for all that moves, and a body's mass is more than zero, so that the
 whole of it cannot be in a child. It defines velocities in the space of a body's transform. Some
 readers take the space of the parent, others that of the body. Here both are the same, because the
-parent has the pose of the start, and the body has no transform. Rates are in degrees per second, and a
-linear velocity is that of the centre of mass.
+parent has the pose of the start, and the body has no transform. Rates are in degrees per second,
+and a linear velocity is that of the centre of mass.
 """
 
 import math

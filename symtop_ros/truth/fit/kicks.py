@@ -32,7 +32,7 @@ def explains(fit: Fit) -> bool:
 
 
 def find_reach(record: Record) -> int | None:
-    """Return the number of first rows that one motion explains; None if it explains no part, or all."""
+    """Return the number of first rows that one motion explains; None for none or all."""
     count = min(max(len(record) // 8, SHORTEST), len(record))
     part = record.select(slice(count))
     found = find_best(part)
