@@ -92,7 +92,7 @@ def list_recordings(file: MessageSource) -> list[Recording]:
 
 
 def list_absent_files(file: MessageSource) -> list[int]:
-    """Return the numbers of files of a recording that are not there, but for those after all."""
+    """Return the numbers of missing files of a recording, except files after the last one."""
     found: dict[str, set[int]] = {}
     for each in file.files:
         values = each.metadata.get(METADATA, {})

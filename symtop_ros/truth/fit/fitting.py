@@ -1,4 +1,4 @@
-"""The fit of a record: two searches, more if what is left is no noise, and other motions.
+"""The fit of a record: two searches, more if the residuals are not noise, and other motions.
 
 A search that ends in a wrong minimum leaves residuals that are correlated or larger: the better
 motion of all searches is taken.

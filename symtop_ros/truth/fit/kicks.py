@@ -25,7 +25,8 @@ def find_best(record: Record) -> Candidate:
 def explains(fit: Fit) -> bool:
     """Return whether the residuals of a motion are hardly larger than their whitened noise.
 
-    In a few rows an autoregression of white noise may be likely by chance, but not large.
+    In a few rows of white noise an autoregression may seem likely by chance, but it then explains
+    little.
     """
     whole = fit.noise.predictors[1][0]  # deviations of a row without others before it
     return fit.remainder.is_white and float(whole.max()) < CALM

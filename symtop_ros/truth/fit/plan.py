@@ -143,7 +143,7 @@ class Plan:
         return rows
 
     def _holds(self, rows: int, slope: Real, of: Callable[[Real], float]) -> bool:
-        """Return True if a deviation by so many rows holds."""
+        """Return True if a deviation is reliable for a number of rows."""
         times = self._longest.model.record.times[:rows]
         short = self.expect(self.motion, replace(self.record, times=times))
         return Valley(short).is_straight(slope, of)

@@ -116,7 +116,7 @@ class Record:
         return replace(self, times=self.times[rows], values=self.values[rows])
 
     def thin(self, most: int = MOST) -> "Record":
-        """Return at most so many rows: all, or runs of rows that are spread over the record."""
+        """Return at most `most` rows: all, or runs of rows that are spread over the record."""
         if len(self) <= most:
             return self
         pieces = max(most // RUN, 1)

@@ -1,7 +1,7 @@
 """Motions that give the same record: exact twins, as tops and starts.
 
-Each function returns a motion of which a kind of record is the same. The report compares both
-before it names one, and so do the tests, to rounding.
+Each function returns a motion that has the same record of some kind. The report compares both
+records before it names a twin; the tests compare them, too, to rounding.
 """
 
 import numpy as np

@@ -248,7 +248,7 @@ def _list_aim(fit: Fit) -> Iterator[Unknown]:
 
 
 def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
-    """Yield pairs of numbers that are not known, but for a combination of both."""
+    """Yield pairs of numbers of which only a combination is known."""
     doubtful = {v.name for v in values if not v.is_known and v.name in fit.model.place}
     turning = next((v for v in values if v.name == "mean_precession_rate" and v.is_known), None)
     if {"Mgl/Ix", "p_psi/Ix"} <= doubtful and turning is not None:

@@ -41,7 +41,7 @@ class Alignment:
     # the last motion and gyroscope, by delay, clock and scale
     _exact: dict[tuple[float, ...], tuple[Real, Mask]] = field(default_factory=dict)
     _scalings: dict[tuple[float, ...], Scaling] = field(default_factory=dict)
-    # the last model, which has a cost first, and derivatives if the cost is smaller
+    # the last model: its cost is computed first, and its derivatives only if the cost is smaller
     _models: dict[Offset, tuple[Real, Real, Real]] = field(default_factory=dict)
 
     @cached_property
@@ -152,7 +152,7 @@ class Alignment:
         return np.asarray(columns.reshape(-1, COLUMNS)[:, free])
 
     def derive_frames(self, offset: Offset, free: list[int]) -> Iterator[tuple[Real, Real]]:
-        """Yield derivatives (n, 3, free) and what is left (n, 3), in the world and in the body."""
+        """Yield derivatives (n, 3, free) and residuals (n, 3), in the world and in the body."""
         columns, left = self.derive_vectors(offset, free), self.find_left(offset)
         yield columns, left
         to_body = to_rotation(self.residuals(offset)[1]).inv().as_matrix()

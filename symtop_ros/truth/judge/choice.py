@@ -31,15 +31,16 @@ from symtop_ros.truth.residuals.influence import find_influences
 from symtop_ros.truth.residuals.residuals import CHANCE, PER_PARAMETER
 
 SIMPLER = 4.0  # if no noise is left, simpler causes count with at most twice the error (squared)
-# Errors that last: of those that wander, as flicker, fewer are independent than it seems.
+# For correlated errors: in flicker, for example, fewer estimates are independent than it seems.
 LASTS = 4.0
 TIE = 1.5  # explanations that are as good, by their mean squares
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
 SMALL = 1e-3  # rad; smaller rotations count as zero in a comparison of explanations
 # required reduction of the mean square, for long correlations or with a mistake of convention
 LASTING = 100.0
-SURER = 4.0  # a gain is so many times larger than by chance: many kinds and values are tried
-CLEAR = 1000.0  # the error becomes so many times smaller: its cause is clear, whatever is left
+SURER = 4.0  # required ratio of a gain to that by chance, because many kinds and values are tried
+# if the error becomes this many times smaller, its cause is clear, whatever the residuals are
+CLEAR = 1000.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +53,7 @@ class Choice:
 
 
 def select(found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: float) -> list[Cause]:
-    """Return those that are as good as the best one, in the noise of so many estimates."""
+    """Return the causes that are as good as the best one, within the noise of the estimates."""
     lowest = min(found, key=lambda each: each.cost)
     left = fits[lowest.change].find_remainder(lowest.offset)
     is_noise = not left.find_fault(lowest.count) and left.has_shape_of_noise

@@ -1,9 +1,9 @@
 """The clock of the stamps of estimates: how late they are, how fast that grows, and its jitter.
 
 A top that turns at 200 rad/s turns by 0.2 mrad in a microsecond: an error of a stamp is an error of
-the attitude along the angular velocity, and nowhere else. What is left along it beyond what is left
-across it is jitter, unless it lies along the vertical or along the axis of the body as well: then
-it may be the noise of a heading or of a gyroscope.
+the attitude along the angular velocity, and nowhere else. Residuals along it that exceed those
+across it are jitter, unless residuals along the vertical or along the axis of the body are as
+large: then they may be the noise of a heading or of a gyroscope.
 """
 
 import math
@@ -36,7 +36,7 @@ class Clock:
     independent: float  # number of independent estimates
     correlation_time: float  # s
     delay: float
-    delay_deviation: float | None  # None: what is left does not show it
+    delay_deviation: float | None  # None: the residuals do not show it
     rate: float
     rate_deviation: float | None
     fault: str  # why there are no deviations: "few", "wanders"; or ""

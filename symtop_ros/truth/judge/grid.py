@@ -19,7 +19,7 @@ from symtop_ros.truth.judge.compare import IDENTITY, NONE, Offset, Scaling
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.topics.estimates import Estimates
 
-# A parameter is tried in steps in which it turns the attitude by so many rad, and at most so often.
+# Angle (rad) by which one step of a parameter turns the attitude, and the largest number of steps.
 GRID_STEP, MOST_STEPS = 0.5, 1000
 MOST_CLOCK, MOST_SCALE = 5e-3, 0.05  # s per s, and part of the scale of a gyroscope
 WHOLE = 8 * 2 * np.pi  # rad, of world or body within the run, by a drift
@@ -126,7 +126,7 @@ def fit_rotations(models: Models, level: str) -> Fitted:
 
 
 def _multiply(left: Real, known: Real) -> Real:
-    """Return the sums of the products of the components of what is left, (g, 4, 4)."""
+    """Return the sums of products of the components of the residuals, (g, 4, 4)."""
     left = left * known[..., np.newaxis]
     return np.asarray(np.swapaxes(left, 1, 2) @ left)
 
@@ -151,7 +151,7 @@ def _guess_bodies(q: Real, exact: Real, known: Real) -> Real:
 
 
 def find_minima(costs: Real, most: int, limit: float) -> Places:
-    """Return the places of the lowest minima of costs (g,), at most so many, below a limit."""
+    """Return the places of the lowest minima of costs (g,), at most `most`, below a limit."""
     padded = np.pad(costs, 1, constant_values=np.inf)
     low = (costs <= padded[:-2]) & (costs <= padded[2:]) & (costs <= limit)
     places = np.flatnonzero(low)

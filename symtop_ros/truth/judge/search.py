@@ -109,7 +109,7 @@ class Search:
         return replace(found, swing=find_swing(fit, found.said.offset))
 
     def _find_whole(self, found: Finding) -> Finding:
-        """Return a finding with what is left of all estimates."""
+        """Return a finding with the residuals of all estimates."""
         if len(self.run) == len(self.more):
             return found
         whole: dict[str, Any] = {
@@ -166,8 +166,8 @@ class Search:
     def profile(self, best: Cause) -> list[Cause]:
         """Return a cause and others with delays that fit equally well, the smallest delay first.
 
-        If the body is turned as well, and no delay at all leaves as little, the delay is unknown:
-        then it is the cause without one.
+        If a rotation of the body is fitted, too, and the residual without a delay is as small, the
+        delay is unknown: then the cause without a delay is returned.
         """
         if best.parameters != ("delay",):
             return [self._refine_again(best)]
@@ -306,7 +306,7 @@ class Search:
     def find_valleys(
         self, change: str, name: str, known: Offset, values: Real | None, most: int
     ) -> dict[str, list[Offset]]:
-        """Return where little is left by levels, the deepest first, of at most so many."""
+        """Return values with small residuals by levels, the smallest first, at most `most`."""
         some, levels = self.fits[change].some, CHANGES[change][1]
         values, models = self.tables.tabulate(some, name, known, values)
         places = {

@@ -15,7 +15,7 @@ from symtop_ros.truth.residuals.lines import find_lines
 SMALL = 0.3  # part of the residuals, below which a line is not named
 SLOW = np.arange(10, 40) / 8  # turns in the run of swings that are too slow for a test
 NEARLY_ALL = 0.7  # part of the power of a component that such a swing has
-# Components of what is left: in the frame of the body, then in the world.
+# Components of the residuals: in the frame of the body, then in the world.
 ABOUT = ("across_axis", "across_axis", "axis", "horizontal", "horizontal", "vertical")
 
 

@@ -34,7 +34,7 @@ class Influences:
 
 
 def find_influences(columns: Real, left: Real) -> Real:
-    """Return the changes (n, p) of parameters with derivatives (n, 3, p) by what is left (n, 3)."""
+    """Return the changes (n, p) of parameters by residuals (n, 3), with derivatives (n, 3, p)."""
     sizes = np.sqrt((columns**2).sum(axis=(0, 1))) + np.finfo(float).tiny
     columns = columns / sizes
     inverse = np.linalg.pinv(np.einsum("tij,tik->jk", columns, columns), hermitian=True)

@@ -77,7 +77,7 @@ class Residuals:
         return 2 * self._correlation * self.seconds / max(len(self.frames[0]) - 1, 1)
 
     def find_fault(self, count: int) -> str:
-        """Return why there are no deviations of so many parameters: "few", "wanders", or ""."""
+        """Return why `count` parameters have no deviations: "few", "wanders", or ""."""
         if self.correlation_time > WANDERING * self.seconds > 0:
             return "wanders"
         return "few" if self.independent < PER_PARAMETER * count else ""
@@ -102,7 +102,7 @@ class Residuals:
         return all(is_one_kind(part) for part in parts if float((part**2).mean()) > MINOR * square)
 
     def agrees_on(self, columns: Real) -> bool:
-        """True if all estimates agree on parameters with derivatives (n, 3, p), but for noise.
+        """True if all estimates agree on parameters with derivatives (n, 3, p), up to noise.
 
         If half of them are late, the mean is a delay that none of them has.
         """

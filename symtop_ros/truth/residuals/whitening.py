@@ -173,7 +173,7 @@ def find_flicker(left: Real, good: Mask, follows: Mask) -> Real:
 
 
 def measure_likelihood(noise: Noise, left: Real) -> float:
-    """Return twice the logarithm of the likelihood of normal noise, but for a constant."""
+    """Return twice the logarithm of the likelihood of normal noise, up to a constant."""
     return float(_measure_columns(noise, left).sum())
 
 

@@ -98,7 +98,8 @@ class Pushed:
     """
 
     number: int
-    duration: float | None  # s of the motion from the first to the last one; None of one push
+    # s of the motion from the first to the last push; None for a single push
+    duration: float | None
     driven: bool
     turning_angles: tuple[float, float] | None = None  # rad, after the last one
     former_angles: tuple[float, float] | None = None  # without them

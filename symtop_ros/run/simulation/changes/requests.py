@@ -155,7 +155,8 @@ def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> tup
     demand_tilted(state, "axle_impulse")
     first = push_axle(motion.top, state, pushes.impulse)
     pushed = Motion(motion.top, first, motion.friction, motion.applied_torque, pushes)
-    # Under gravity alone all pushes are tried; else it would take their time to reach the last.
+    # Under gravity alone all pushes are tried; a driven motion would have to be integrated up to
+    # the last one.
     end = ExactTimes(pushes.last_time)
     last = first if motion.is_driven else pushed.piece_at(end).motion.start
     _limit_rates("axle_impulse", request, last)
