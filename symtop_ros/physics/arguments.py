@@ -14,11 +14,12 @@ from symtop_ros.physics.kernel.records import FRICTION_KINDS
 from symtop_ros.physics.state import State
 from symtop_ros.physics.times import ExactTimes
 from symtop_ros.physics.top import Friction, Top
-from symtop_ros.physics.values import fit_shapes, validate_array, validate_vectors
+from symtop_ros.physics.values import fit_shapes, validate_array, validate_number, validate_vectors
 
 NO_FRICTION = Friction()
 NO_TORQUE = (0.0, 0.0, 0.0)
 TORQUE_UNIT = "N m, world frame"
+LEAST_TOLERANCE, LARGEST_TOLERANCE = 1e-15, 1e-6  # of kernel/functions/arguments.hpp
 # States in one call of the kernel, some ms: Python sees signals, such as Ctrl-C, between two calls.
 # To set up a motion takes the time of some hundred states.
 STATES = 2**16
@@ -41,6 +42,15 @@ def validate_times(t: ArrayLike | ExactTimes) -> float | Real | ExactTimes:
         return t  # the common case: no copy
     array = validate_array("t", t, unit="s")
     return array if array.ndim else float(array)
+
+
+def validate_tolerance(tolerance: Any) -> float:
+    """Return the local error that steps may have, or 0."""
+    value = validate_number("tolerance", tolerance)
+    if value and not LEAST_TOLERANCE <= value <= LARGEST_TOLERANCE:
+        allowed = f"0, or {LEAST_TOLERANCE:g} to {LARGEST_TOLERANCE:g}"
+        raise refuse("tolerance", allowed, tolerance)
+    return value
 
 
 def validate_types(top: Any, start: Any, friction: Any) -> None:

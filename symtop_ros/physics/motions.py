@@ -22,6 +22,7 @@ from symtop_ros.physics.arguments import (
     list_starts,
     read_start,
     validate_times,
+    validate_tolerance,
     validate_torque,
     validate_types,
     wrap_states,
@@ -56,6 +57,9 @@ class Motions:
         One friction, or many of shape (...).
     torque : array_like (..., 3)
         Applied torque in the world frame, constant, in N m.
+    tolerance : float
+        Local error that a step of each motion may have under friction or an applied torque, as for
+        `Motion`.
 
     Attributes
     ----------
@@ -64,6 +68,7 @@ class Motions:
     friction : Friction
     applied_torque : (float, float, float) or ndarray (..., 3)
         In the world frame, in N m.
+    tolerance : float
     shape : tuple of int
         Shape (...) of the motions.
 
@@ -91,8 +96,10 @@ class Motions:
         start: State,
         friction: Friction = NO_FRICTION,
         torque: ArrayLike = NO_TORQUE,
+        tolerance: float = 0.0,
     ) -> None:
         validate_types(top, start, friction)
+        self.tolerance = validate_tolerance(tolerance)
         self.top, self.start, self.friction = top, start, friction
         self.applied_torque = validate_torque(torque)
         self.shape = find_shape(top, start, friction, self.applied_torque)
@@ -100,7 +107,8 @@ class Motions:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy and pickle motions by their arguments: copies share no integration."""
-        return Motions, (self.top, self.start, self.friction, self.applied_torque)
+        acting = self.friction, self.applied_torque, self.tolerance
+        return Motions, (self.top, self.start, *acting)
 
     def __repr__(self) -> str:
         """Return the number of motions, as their arrays would fill pages."""
@@ -121,7 +129,7 @@ class Motions:
         start = State._of_given(np.array(q), np.array(omega))
         top = Top(*np.moveaxis(moments, -1, 0))
         drag = Friction(*np.moveaxis(friction, -1, 0))
-        return Motions(top, start, drag, torque)
+        return Motions(top, start, drag, torque, self.tolerance)
 
     def __iter__(self) -> Iterator["Motion | Motions"]:
         """Iterate along the first axis."""
@@ -130,7 +138,8 @@ class Motions:
     def _find_member(self, n: int) -> Motion:
         # Kept, because the pieces of an integration are.
         if n not in self._made:
-            self._made[n] = Motion(*read_start(self._starts[n]))
+            start = read_start(self._starts[n])
+            self._made[n] = Motion(*start, tolerance=self.tolerance)
         return self._made[n]
 
     @cached_property

@@ -151,7 +151,8 @@ def _print_topics(catalog: Catalog, found: Findings) -> None:
     others = sorted(map(one_line, catalog.others))
     if others:
         more = f" and {len(others) - MAX_OTHERS} more" if len(others) > MAX_OTHERS else ""
-        print(f"not compared, as not of {catalog.node}: {', '.join(others[:MAX_OTHERS])}{more}")
+        names = f"{', '.join(others[:MAX_OTHERS])}{more}"
+        print(f"not compared, because they are not topics of {catalog.node}: {names}")
 
 
 def _print_laws(laws: Mapping[str, Agreement]) -> None:

@@ -31,11 +31,11 @@ def main(args: list[str] | None = None) -> int:
     parser = make_parser()
     options = parser.parse_args(args)
     if options.rate is not None and not options.mcap:
-        parser.error("--rate goes with --mcap")
+        parser.error("--rate must be used with --mcap")
     if options.strict and not options.check:
-        parser.error("--strict goes with --check")
+        parser.error("--strict must be used with --check")
     if options.json and not options.check:
-        parser.error("--json goes with --check")
+        parser.error("--json must be used with --check")
     return tell_failures("top_replay", lambda: _run(options))
 
 

@@ -87,7 +87,7 @@ def test_a_check_leaves_the_points_alone_and_says_so(run_file, log, capsys):
         (line,) = [each for each in capsys.readouterr().out.splitlines() if "points" in each]
         assert line.split(maxsplit=1) == [
             "/top/points",
-            "not compared: measured points are seen, and not computed",
+            "not compared: the points were measured, not computed",
         ]
 
 

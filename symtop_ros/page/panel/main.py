@@ -79,7 +79,7 @@ def _run(options: argparse.Namespace, arguments: list[str]) -> int:
         return 0
     if options.port is None and options.host is None:
         return _open_file(options, page)
-    return _serve(options, page, "a top for each page")
+    return _serve(options, page, "each page has its own top")
 
 
 def _write(path: Path, page: str) -> None:
@@ -102,7 +102,7 @@ def _open_file(options: argparse.Namespace, page: str) -> int:
     path = FILE
     number = 1
     while path.exists() and not _is_own(path):
-        print(f"kept {path}, in which something was saved")
+        print(f"kept {path}, because it contains a saved run")
         number += 1
         path = FILE.with_stem(f"{FILE.stem}_{number}")
     _write(path, page)

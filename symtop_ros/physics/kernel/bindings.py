@@ -197,27 +197,40 @@ def write_to(array: NDArray[Any], count: int, code: str = "d") -> Any:
 class KernelMotion:
     """A motion in the library, which is freed with this object."""
 
-    __slots__ = ("_functions", "_functions_of_one", "_handle", "_is_clamped", "_pushes", "start")
+    __slots__ = (
+        "_functions",
+        "_functions_of_one",
+        "_handle",
+        "_is_clamped",
+        "_pushes",
+        "_tolerance",
+        "start",
+    )
 
-    def __init__(self, start: bytes, pushes: bytes = b"", is_clamped: bool = False) -> None:
+    def __init__(
+        self, start: bytes, pushes: bytes = b"", is_clamped: bool = False, tolerance: float = 0.0
+    ) -> None:
         """Make the motion of the 15 numbers of `symtop_start`, and of those of `symtop_pushes`."""
         self._handle: int | None = None
         self.start, self._pushes, self._is_clamped = start, pushes, is_clamped
+        self._tolerance = tolerance
         self._functions = bind_functions()
         # Of a motion with pushes one state may take those of all pieces before it.
         self._functions_of_one = self._functions if pushes else bind_functions_of_one()
         if len(start) != 8 * START:
             raise ValueError(f"start must have {START} numbers, got {len(start) / 8:g}")
-        special = bool(pushes) or is_clamped
+        special = bool(pushes or is_clamped or tolerance)
         self._handle = self._make_special() if special else self._functions.make(start)
         if not self._handle:
             raise refuse_status(self._functions.new(start, byref(ctypes.c_void_p())) or NO_MEMORY)
 
     def _make_special(self) -> int | None:
-        """Make a motion that is pushed or clamped."""
+        """Make a motion that is pushed, clamped or coarse."""
         handle = ctypes.c_void_p()
         if self._is_clamped:
             demand(self._functions.new_clamped(self.start, byref(handle)))
+        elif self._tolerance:
+            demand(self._functions.new_coarse(self.start, self._tolerance, byref(handle)))
         else:
             demand(self._functions.new_pushed(self.start, self._pushes, byref(handle)))
         return handle.value
@@ -228,7 +241,7 @@ class KernelMotion:
 
     def __reduce__(self) -> Any:
         """Copy and pickle a motion by its start: copies share no integration."""
-        return KernelMotion, (self.start, self._pushes, self._is_clamped)
+        return KernelMotion, (self.start, self._pushes, self._is_clamped, self._tolerance)
 
     def at(self, t: float | ExactTimes) -> tuple[float, ...] | None:
         """Return quaternion and angular velocity at one time, in s or exact; None for no state."""

@@ -49,6 +49,7 @@ BAD_PUSHES = 24
 BAD_CLAMP = 25
 BAD_QUESTION = 26
 BAD_PART = 27
+BAD_TOLERANCE = 28
 
 Kind = Literal[
     "regular",
@@ -463,6 +464,7 @@ FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "new": (c_int, (c_char_p, POINTER(c_void_p))),
     "new_pushed": (c_int, (c_char_p, c_char_p, POINTER(c_void_p))),
     "new_clamped": (c_int, (c_char_p, POINTER(c_void_p))),
+    "new_coarse": (c_int, (c_char_p, c_double, POINTER(c_void_p))),
     "free": (None, (c_void_p,)),
     "continue": (c_int, (c_void_p, c_double, c_char_p, POINTER(c_void_p))),
     "state": (c_int, (c_void_p, c_double, POINTER(c_double), POINTER(c_double))),

@@ -58,6 +58,7 @@ const char* symtop_describe_status(symtop_status status) {
     case SYMTOP_BAD_PART:
       return "parts must be one or more, each of a kind, with mass and size > 0, and finite "
              "numbers";
+    case SYMTOP_BAD_TOLERANCE: return "tolerance must be 0 or 1e-15 to 1e-6";
   }
   return "status must be one of symtop_status";
 }

@@ -97,7 +97,8 @@ typedef enum {
   SYMTOP_BAD_PUSHES,
   SYMTOP_BAD_CLAMP,
   SYMTOP_BAD_QUESTION, /* no symtop_question */
-  SYMTOP_BAD_PART
+  SYMTOP_BAD_PART,
+  SYMTOP_BAD_TOLERANCE
 } symtop_status;
 
 /* The version of the library; SYMTOP_VERSION is that of the header. */
@@ -132,6 +133,13 @@ SYMTOP_API symtop_status symtop_new_pushed(const symtop_start* start, const symt
  * be tilted at t = 0, and neither friction nor a torque acts: SYMTOP_BAD_CLAMP. The angular
  * momentum about the vertical is not constant. */
 SYMTOP_API symtop_status symtop_new_clamped(const symtop_start* start, symtop_motion** motion);
+
+/* Make a motion that may be less exact under friction or a torque, and takes less than half of the
+ * time. `tolerance` is the local error of a step, in rad and relative to the angular velocity: 1e-15
+ * to 1e-6, or 0 for a motion as symtop_new makes it. A step turns the axis by up to 4 rad about the
+ * angular momentum; errors of steps add up. Without friction and torque it changes nothing. */
+SYMTOP_API symtop_status symtop_new_coarse(const symtop_start* start, double tolerance,
+                                           symtop_motion** motion);
 
 SYMTOP_API void symtop_free(symtop_motion* motion); /* null is allowed */
 

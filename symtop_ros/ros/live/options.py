@@ -12,8 +12,8 @@ def make_parser() -> argparse.ArgumentParser:
     """Return the parser of the command line."""
     parser = new_parser(
         "top_live",
-        "Show a running top in the Rerun viewer that listens on the port (it may be "
-        "restarted), or else in a new viewer.",
+        "Show a running top in the Rerun viewer that listens on the port (the viewer may "
+        "be restarted), or else in a new viewer.",
     )
     parser.add_argument("--node", default="/top", help="name of the node (default /top)")
     parser.add_argument(

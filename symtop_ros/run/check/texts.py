@@ -49,7 +49,7 @@ REASONS = {
     CLOCK.name: "a recorder gets it at other times than those that it names",
     MARKERS.name: "markers are drawings of the samples before them",
     APPLIED_TORQUE.name: "it was received, and not computed",
-    POINTS.name: "measured points are seen, and not computed",
+    POINTS.name: "the points were measured, not computed",
 }
 # The residual of a balance is a rounding error, and the order of its sums depends on the linear
 # algebra library of the machine.

@@ -146,7 +146,7 @@ class _Again:
             self._simulation.tick()
             self._session.await_recorder()
         if self._host.failures:
-            raise RefusedError(f"the run cannot be followed: {self._host.failures[0]}")
+            raise RefusedError(f"the run cannot be computed: {self._host.failures[0]}")
 
     def do(self, event: RunEvent, name: str, *, is_first: bool) -> None:
         """Do what an event says, at its time."""

@@ -224,7 +224,7 @@ def _read_event(given: Mapping[str, Any], before: Sequence[RunEvent]) -> RunEven
     if not before and kind != "start":
         raise refuse("kind", '"start" for the first event', kind)
     if before and time < before[-1].time:
-        raise refuse("time", "that of the event before it or later", values["time"])
+        raise refuse("time", "at least that of the previous event", values["time"])
     act = _read_kick(given.get("act")) if kind in KICKS else {}
     top = Top(*values["top"])
     start = State(values["orientation"], values["angular_velocity"])

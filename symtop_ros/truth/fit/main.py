@@ -146,7 +146,7 @@ def _plan(options: argparse.Namespace) -> int:
     _refuse_options(kind, options)
     for name in ("plot", "run"):
         if getattr(options, name):
-            raise RefusedError(f"--{name} must have a record, got --plan")
+            raise RefusedError(f"--{name} must be used with a record, got --plan")
     plan = make_plan(options, kind, describe_record(kind, options))
     given = {name: known for name, known in find_given(options).items() if known}
     report = PlanReport(" ".join(options.plan), plan, given)
@@ -237,19 +237,19 @@ def describe_record(kind: str, options: argparse.Namespace) -> dict[str, Any]:
 def _refuse_options(kind: str, options: argparse.Namespace) -> None:
     """Refuse options that say something of a different kind of record."""
     if options.mount is not None and kind not in SPINS:
-        raise RefusedError(f"--mount must have a record of rates, got {kind}")
+        raise RefusedError(f"--mount must be used with a record of rates, got {kind}")
     if kind == "inertial" and not options.position:
         raise RefusedError("--position must be the place of the accelerometer, got none")
     of_cameras = [f"--{name}" for name in CAMERA_OPTIONS if getattr(options, name) not in NOT_GIVEN]
     if kind != "pixels" and of_cameras:
-        raise RefusedError(f"{of_cameras[0]} must have a record of pixels, got {kind}")
+        raise RefusedError(f"{of_cameras[0]} must be used with a record of pixels, got {kind}")
     for name in CLICKED:
         if getattr(options, f"{name}_deviation") and not getattr(options, name):
-            raise RefusedError(f"--{name}-deviation must have a --{name}, got none")
+            raise RefusedError(f"--{name}-deviation must be used with --{name}, got none")
     if options.centre and options.size:
-        raise RefusedError("--size gives --centre: one of them must be given")
+        raise RefusedError("--centre must not be given with --size, which sets it")
     if options.perspective and options.distance:
-        raise RefusedError("--perspective looks for --distance: one of them must be given")
+        raise RefusedError("--distance must not be given with --perspective, which fits it")
     if options.distance and options.distance <= 1 / NEAREST:
         raise RefusedError(f"--distance must be > {1 / NEAREST:.3g}, got {options.distance:g}")
 

@@ -77,7 +77,7 @@ def refuse_plan_options(options: argparse.Namespace) -> None:
     """Refuse options of a plan if no plan is requested."""
     for name in ASKED:
         if getattr(options, name) is not None:
-            raise RefusedError(f"--{name} must have --plan, got a record")
+            raise RefusedError(f"--{name} must be used with --plan, got a record")
 
 
 def read_motion(words: Sequence[str], has_friction: bool) -> Motion:
@@ -100,7 +100,8 @@ def _refuse_odd(motion: Motion, has_friction: bool) -> None:
     rates = motion.friction.axial, motion.friction.transverse
     if has_friction and not all(rates):  # a fit looks for friction that is not negative
         raise RefusedError(
-            "--friction must have a scene with friction.axial and friction.transverse above 0"
+            "--friction must be used with a scene with friction.axial and friction.transverse "
+            "above 0"
         )
     if any(rates) and not has_friction:
         raise RefusedError("--friction must be given for a scene with friction, got none")
@@ -134,7 +135,7 @@ def find_noise(kind: Kind, given: Sequence[float] | None) -> Real:
 def find_limits(name: str, kind: Kind, given: Sequence[float] | None, default: float) -> Real:
     """Return a range or a resolution (m,) of each column of a sensor."""
     if given and kind.name not in SPINS:
-        raise RefusedError(f"--{name} must have a record of rates, got {kind.name}")
+        raise RefusedError(f"--{name} must be used with a record of rates, got {kind.name}")
     numbers, units = [*(given or ())], max(kind.width // 3, 1)
     if len(numbers) > units:
         count = write_count(units, "number")
@@ -158,7 +159,7 @@ def limit_plan(plan: Plan) -> Plan:
         return limit_plan(Plan(plan.motion, record, two[0], plan.camera, two[1]))
     share = float((values > plan.limits).any(axis=1).mean())
     if share > MOST:
-        raise RefusedError(f"--range must show most of the rows, got {share:.0%} beyond it")
+        raise RefusedError(f"--range must contain most of the rows, got {share:.0%} beyond it")
     note = f"{share:.0%} of the rows are beyond the range of the sensor: they will be left out"
     notes = (*plan.record.notes, note) if share else plan.record.notes
     return replace(plan, record=replace(plan.record, notes=notes))

@@ -178,8 +178,8 @@ def _choose_nodes(turn: float, count: int) -> tuple[int, Real, Real]:
     stretches = max(1, math.ceil(turn / LONGEST_STRETCH))
     height = 2 * REGULAR * stretches / turn if turn else math.inf  # of the ellipse, in half widths
     points = 1 + math.ceil(LOST / 2 / math.asinh(min(height, 1e6)))  # asinh(height) is ln(rho)
-    if count * stretches * points > MAX_STATES:
-        raise refuse("states of all means", f"at most {MAX_STATES:g}", count * stretches * points)
+    if (states := count * stretches * points) > MAX_STATES:
+        raise refuse("number of states for the means", f"at most {MAX_STATES:g}", states)
     return stretches, *np.polynomial.legendre.leggauss(points)
 
 

@@ -48,14 +48,14 @@ def _find_fault(options: argparse.Namespace, rest: list[str]) -> str | None:
         f"unrecognized arguments: {one_line(' '.join(rest))}": (
             rest and not (options.live and rest[0] == "--ros-args")
         ),
-        "--clock must have a recorded run, got --live": options.clock and options.live,
+        "--clock must be used with a recorded run, got --live": options.clock and options.live,
         "LOG with --topic or --estimates, --scene with --estimates, or --live with --topic is "
         "needed": not (estimates and run),
-        "--live judges one --topic": options.live and len(options.topic) > 1,
-        "--robust and --rpe judge what was recorded: no --live, no --clock": (
+        "--live must be used with one --topic": options.live and len(options.topic) > 1,
+        "--robust and --rpe must be used without --live and --clock": (
             (options.robust or options.rpe) and (options.live or options.clock)
         ),
-        "--aligned states what is removed: no --remove, no --live": (
+        "--aligned must be used without --remove and --live": (
             options.aligned and (options.remove or options.live)
         ),
     }
@@ -125,7 +125,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--robust",
         action="store_true",
-        help="ignore outliers, more than five standard deviations off, in causes and models",
+        help="leave outliers (more than five standard deviations off) out of causes and models",
     )
     parser.add_argument(
         "--rpe",

@@ -36,8 +36,8 @@ def make_parser() -> argparse.ArgumentParser:
         "problem",
         nargs="?",
         metavar="PROBLEM",
-        help="name of a problem, such as cusps, or with another description of its body, such as "
-        "cusps.turned; all: every problem; default: list all names",
+        help="name of a problem, such as cusps; cusps.turned is the same problem with another "
+        "description of its body; all: every problem; default: list all names",
     )
     parser.add_argument(
         "trajectory",
@@ -69,8 +69,8 @@ def _find_fault(options: argparse.Namespace) -> str | None:
         "PROBLEM with a TRAJECTORY to score, or with -o FOLDER to write it, is needed": (
             options.problem and not is_score and not folder
         ),
-        "TRAJECTORY is scored, -o writes: one of them": is_score and folder,
-        "--json and --max-error are of a score": (
+        "TRAJECTORY (to score) must be given without -o (to write)": is_score and folder,
+        "--json and --max-error must be used with a TRAJECTORY": (
             (options.json or options.max_error) and not is_score
         ),
     }

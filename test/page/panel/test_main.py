@@ -109,8 +109,10 @@ def test_a_page_with_a_run_is_kept_and_named(capsys):
     saved = write_file(run=page_run(1))
     Path("top.html").write_text(saved)
     assert module.main(["--no-browser"]) == 0
-    said = "kept top.html, in which something was saved\nwrote top_2.html, open it in a browser\n"
-    assert capsys.readouterr().out == said
+    assert capsys.readouterr().out.splitlines() == [
+        "kept top.html, because it contains a saved run",
+        "wrote top_2.html, open it in a browser",
+    ]
     assert Path("top.html").read_text() == saved
     assert Path("top_2.html").read_text() == write_file()
 

@@ -215,7 +215,7 @@ def test_noise_that_lasts_is_said_to_be_allowed_for(tab):
     for row, step in enumerate(steps):
         noise[row] = step + (0.75 * noise[row - 1] if row else 0.0)
     show(tab, make_given(CUSPS, values=exact + noise))
-    assert re.search(r"noise of .* in z, correlated from point to point", say(tab, "verdict"))
+    assert re.search(r"noise of .* in z, which is correlated from point", say(tab, "verdict"))
 
 
 @pytest.mark.slow

@@ -155,7 +155,7 @@ def test_a_refused_link_names_its_fields_as_they_are_typed_and_makes_no_button(o
 def test_a_scene_that_is_opened_by_a_link_tells_its_story(open_page):
     page = open_page("#scene=closed_cusps")
     assert page.tab.locator("#scenes").input_value() == "closed_cusps"
-    assert page.say("story").startswith("A trace with six cusps")
+    assert page.say("story").startswith("The trace has six cusps")
     page.follow("scene=friction")
     page.until(lambda: page.say("story").startswith("The article's top with friction"))
     assert not page.tab.is_visible("#start-scene")

@@ -719,6 +719,18 @@ static void try_motion(void) {
   use(status, motion, to != NULL);
 }
 
+static void try_coarse(void) {
+  int good = 1;
+  symtop_motion *motion = NULL, **to = is_rare(40) ? NULL : &motion;
+  prepare();
+  symtop_start* start = take_starts(1, 0, &good);
+  const double tolerance = is_rare(4) ? draw_number(1e-7) : 1e-6;
+  good &= tolerance == 0 || (tolerance >= 1e-15 && tolerance <= 1e-6);
+  const symtop_status status = symtop_new_coarse(start, tolerance, to);
+  CHECK(status, good && start && to);
+  use(status, motion, to != NULL);
+}
+
 /* Few pushes: each costs what a motion costs. */
 static void try_pushed(void) {
   int good = 1;
@@ -777,9 +789,9 @@ static void try_clamped(void) {
 int run(unsigned first, unsigned number);
 int run(unsigned first, unsigned number) {
   static void (*const TRIALS[])(void) = {
-      try_angles, try_orientations, try_regular_rates, try_tilts,    try_discs, try_bodies,
-      try_starts, try_spreads,      try_kicks,         try_verdicts, try_map,   try_many,
-      try_motion, try_pushed,       try_clamped,       try_exchange};
+      try_angles, try_orientations, try_regular_rates, try_tilts,    try_discs,   try_bodies,
+      try_starts, try_spreads,      try_kicks,         try_verdicts, try_map,     try_many,
+      try_motion, try_coarse,       try_pushed,        try_clamped,  try_exchange};
   hash = 14695981039346656037u;
   calls = answered = 0;
   fault = 0;

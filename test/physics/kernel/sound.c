@@ -70,6 +70,8 @@ int main(int count, char** words) {
   symtop_free(refused);
   show(symtop_new_pushed(&start, &pushes, &refused), q, 0);
   symtop_free(refused);
+  show(symtop_new_coarse(&start, 1e-9, &refused), q, 0);
+  symtop_free(refused);
   show(symtop_new_clamped(&start, &refused), q, 0);
   symtop_held held;
   show(symtop_judge_clamp(&start, &held), q, 0);

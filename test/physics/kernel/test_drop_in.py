@@ -51,6 +51,7 @@ STATUSES = (
     "BAD_CLAMP",
     "BAD_QUESTION",
     "BAD_PART",
+    "BAD_TOLERANCE",
 )
 
 

@@ -27,7 +27,7 @@ NAMES = {topic.ros_name: f"/other/{name}s" for name, topic in KNOWN.items()}
 NOT_COMPARED = {
     MARKERS.name: "markers are drawings of the samples before them",
     APPLIED_TORQUE.name: "it was received, and not computed",
-    POINTS.name: "measured points are seen, and not computed",
+    POINTS.name: "the points were measured, not computed",
 }
 
 

@@ -69,7 +69,7 @@ REFUSED = [
     (START, [replace(KICKED, motion=NEARLY)], r"events\[1\]: angular_velocity must be the "),
     # a kick that no node grants
     (START, [replace(KICKED, act={})], r"events\[1\]: a request must have one of"),
-    (WILD, [], "the run cannot be followed: "),
+    (WILD, [], "the run cannot be computed: "),
 ]
 
 

@@ -292,7 +292,7 @@ def test_the_state_has_the_time_of_a_turn_and_the_force_of_the_pivot():
 
 
 @pytest.mark.parametrize("changes", [{}, {"top.Mgl": 0.0}, {"initial.clamped": True}])
-def test_the_state_says_what_gave_energy_and_momentum_since_the_last_event(changes):
+def test_the_state_says_what_gave_energy_and_momentum_since_the_motion_began(changes):
     run = Run("cusps", **changes)
     run.advance(0.08)
     segment, stamp = run.simulation.segment, run.simulation.stamp

@@ -41,7 +41,7 @@ NO_RUNS = [
     ({"format": 1, "events": []}, "events must be "),
     ({"format": 1, "events": [3]}, r"events\[0\]: kind must be "),
     (change(0, kind="torque"), r'events\[0\]: kind must be "start" for the first event, got '),
-    (change(2, time=1.0), r"events\[2\]: time must be that of the event before it or later, "),
+    (change(2, time=1.0), r"events\[2\]: time must be at least that of the previous event, "),
     (change(0, orientation=[2, 0, 0, 0]), r"events\[0\]: .*norm"),
     (change(0, angular_velocity=[math.inf, 0, 0]), r"events\[0\]: angular_velocity must be "),
     (change(0, top=[1, 3, 1]), r"events\[0\]: Iz must be "),

@@ -149,19 +149,19 @@ def test_a_point_that_does_not_move_is_no_record(tmp_path, capsys):
 
 def test_options_of_another_kind_are_refused(table, capsys):
     assert main([str(table), "--mount", "1"]) == 1
-    assert "--mount must have a record of rates, got axis" in capsys.readouterr().err
+    assert "--mount must be used with a record of rates, got axis" in capsys.readouterr().err
     assert main([str(table), "--scale", "100"]) == 1
-    assert "--scale must have a record of pixels, got axis" in capsys.readouterr().err
+    assert "--scale must be used with a record of pixels, got axis" in capsys.readouterr().err
     assert main([str(table), "--perspective"]) == 1
-    assert "--perspective must have a record of pixels, got axis" in capsys.readouterr().err
+    assert "--perspective must be used with a record of pixels, got axis" in capsys.readouterr().err
     assert main([str(table), "--size", "640", "480"]) == 1
-    assert "--size must have a record of pixels, got axis" in capsys.readouterr().err
+    assert "--size must be used with a record of pixels, got axis" in capsys.readouterr().err
 
 
 def test_a_centre_is_given_once(tmp_path, capsys):
     path = write_table(tmp_path / "film.csv", make_axis()[:, :2], head="t,u,v")
     assert main([str(path), "--size", "640", "480", "--centre", "320", "240"]) == 1
-    assert "--size gives --centre: one of them must be given" in capsys.readouterr().err
+    assert "--centre must not be given with --size, which sets it" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("arguments", [[], ["a.csv", "--example"], ["a.csv", "--Ix", "1"]])
@@ -215,7 +215,7 @@ def test_what_was_clicked_is_known_to_its_deviation(tmp_path, capsys):
     wide = fit("--scale", "245", "--scale-deviation", "1e6")
     assert wide["scale"]["value"] == pytest.approx(free["scale"]["value"], rel=1e-3)
     assert main([str(path), "--scale-deviation", "1"]) == 1
-    assert "--scale-deviation must have a --scale, got none" in capsys.readouterr().err
+    assert "--scale-deviation must be used with --scale, got none" in capsys.readouterr().err
 
 
 def test_what_is_known_of_a_camera_is_in_the_numbers_of_the_model():

@@ -159,11 +159,11 @@ REFUSED = {
     "cusps --seconds 1e6": "--seconds times --rate must be 12 to 100000 rows, got 120000001",
     "cusps --kind pixels --camera 0 30 10": "--camera must have PIXELS > 0 and LENGTHS > 1.11, "
     "got 0 and 10",
-    "cusps --scale 100": "--scale must have a record of pixels, got axis",
-    "cusps --range 4": "--range must have a record of rates, got axis",
+    "cusps --scale 100": "--scale must be used with a record of pixels, got axis",
+    "cusps --range 4": "--range must be used with a record of rates, got axis",
     "cusps --kind rates --range 4 5": "--range must have at most 1 number of rates, got 2",
-    "cusps --kind rates --range 1": "--range must show most of the rows, got",
-    "cusps --plot a.png": "--plot must have a record, got --plan",
+    "cusps --kind rates --range 1": "--range must contain most of the rows, got",
+    "cusps --plot a.png": "--plot must be used with a record, got --plan",
 }
 
 
@@ -178,4 +178,4 @@ def test_a_plan_that_cannot_be_is_one_line(words, capsys):
 
 def test_options_of_a_plan_need_one(tmp_path, capsys):
     assert main([str(tmp_path / "a.csv"), "--rate", "100"]) == 1
-    assert capsys.readouterr().err == "top_fit: --rate must have --plan, got a record\n"
+    assert capsys.readouterr().err == "top_fit: --rate must be used with --plan, got a record\n"

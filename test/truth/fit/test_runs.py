@@ -200,4 +200,4 @@ def test_a_run_is_refused_by_its_name_and_place_before_and_after_the_fit(table, 
 
 def test_a_plan_has_no_points(capsys):
     assert main(["--plan", "cusps", "--run", "run.json"]) == 1
-    assert capsys.readouterr().err == "top_fit: --run must have a record, got --plan\n"
+    assert capsys.readouterr().err == "top_fit: --run must be used with a record, got --plan\n"

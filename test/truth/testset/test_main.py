@@ -59,9 +59,12 @@ def test_the_test_set_is_listed_copied_and_scored(tmp_path, capsys):
     ("words", "reason"),
     [
         (["cusps"], "PROBLEM with a TRAJECTORY to score, or with -o FOLDER to write it, is needed"),
-        (["cusps", "mine.csv", "-o", "."], "TRAJECTORY is scored, -o writes: one of them"),
-        (["cusps", "-o", ".", "--json"], "--json and --max-error are of a score"),
-        (["--max-error", "1"], "--json and --max-error are of a score"),
+        (
+            ["cusps", "mine.csv", "-o", "."],
+            "TRAJECTORY (to score) must be given without -o (to write)",
+        ),
+        (["cusps", "-o", ".", "--json"], "--json and --max-error must be used with a TRAJECTORY"),
+        (["--max-error", "1"], "--json and --max-error must be used with a TRAJECTORY"),
     ],
 )
 def test_what_does_not_go_together_is_status_2(words, reason, capsys):

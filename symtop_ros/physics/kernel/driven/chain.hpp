@@ -70,7 +70,7 @@ class Chain {
 
  private:
   const Precise per_ns_ = invert(Precise(1e9));  // in s
-  Stepper stepper_{CARRIED_SHARE, true};
+  Stepper stepper_{CARRIED_SHARE, IN_SUMS};
   Piece piece_;
 
   // By Taylor series, in either direction of time; false if that takes too many steps.

@@ -26,9 +26,11 @@
 
 namespace symtop {
 
-// The length of a vector. Its components are scaled by a power of two, which rounds nothing: the
-// squares of a weak torque or a slow rate would be zero, and steps then far too long.
+// The length of a vector. Very large or small components are scaled by a power of two, which rounds
+// nothing: the squares of a weak torque or a slow rate would be zero, and steps then far too long.
 inline double find_length(double x, double y, double z) {
+  const double squares = x * x + y * y + z * z;
+  if (squares > 0x1p-900 && squares < 0x1p900) return std::sqrt(squares);
   const double largest = std::fmax(std::fmax(std::fabs(x), std::fabs(y)), std::fabs(z));
   if (!(largest > 0 && largest < INFINITY)) return largest;
   int exponent;

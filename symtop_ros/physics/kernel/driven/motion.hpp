@@ -15,9 +15,11 @@ const double MOST_DECAYS = 1e5;  // decay times on the way, each of which takes 
 // A call moves along the pieces of a trail: a lock keeps it whole.
 class DrivenMotion {
  public:
-  // `carried` is the start with 32 digits, where it has them.
-  explicit DrivenMotion(const DrivenArguments& given, const Variables* carried = nullptr)
-      : given_(given), is_carried_(carried) {
+  // Steps may have the local error `tolerance`. `carried` is the start with 32 digits, if it has
+  // them.
+  explicit DrivenMotion(const DrivenArguments& given, double tolerance,
+                        const Variables* carried = nullptr)
+      : given_(given), tolerance_(tolerance), is_carried_(carried) {
     if (carried) carried_ = *carried;
 
     Start s = {};
@@ -64,6 +66,7 @@ class DrivenMotion {
 
  private:
   DrivenArguments given_;
+  double tolerance_;
   bool is_carried_;
   Variables carried_;
   Start start_;
@@ -75,7 +78,7 @@ class DrivenMotion {
     if (!trail) {
       trail.reset(new (std::nothrow) Trail());
       const Variables start = is_carried_ ? carried_ : BodyState(given_).in_frame();
-      if (trail && !trail->prepare(given_, start, t >= 0 ? 1 : -1)) trail.reset();
+      if (trail && !trail->prepare(given_, start, t >= 0 ? 1 : -1, tolerance_)) trail.reset();
     }
     return trail.get();
   }

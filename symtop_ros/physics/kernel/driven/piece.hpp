@@ -10,6 +10,13 @@ namespace symtop {
 // alone need more digits than a double. Longer steps want more of them, and take longer. See
 // design/extended_terms.py; of 20 to 38 terms 34 take the least time (design/driven_steps.py).
 const int DRIVEN_TERMS = 34, EXTENDED_TERMS = 10;
+// In a coarse motion all terms are doubles. Of 16 to 24 these take the least time for a local error
+// of 1e-10 to 1e-12.
+const int COARSE_TERMS = 22;
+
+// How a piece keeps its first terms: in parts, as sums of two doubles (of some, products by halves
+// may be taken), or as doubles.
+enum Digits { IN_PARTS, IN_SPLIT_SUMS, IN_SUMS, IN_DOUBLES };
 
 struct Knot {
   double t;
@@ -17,12 +24,13 @@ struct Knot {
   double unit = 0.0;  // of the time of the step that follows, about its length; 0 if not known
 };
 
-// The terms in doubles, by the first power that is none of them: as two series of the square of u
-// that do not wait for each other.
+// The terms in doubles that follow the first `EXACT`, divided by u^(EXACT + 1): as two series of the
+// square of u that do not wait for each other.
+template <int EXACT, int LAST>
 SYMTOP_INLINE Lanes sum_tail(const Lanes terms[][2], int half, double u, double square) {
-  static_assert(DRIVEN_TERMS % 2 == 0 && EXTENDED_TERMS % 2 == 0, "the tail has pairs of terms");
-  Lanes even = terms[DRIVEN_TERMS][half], odd = terms[DRIVEN_TERMS - 1][half];
-  for (int n = DRIVEN_TERMS - 2; n > EXTENDED_TERMS; n -= 2) {
+  static_assert(LAST % 2 == 0 && EXACT % 2 == 0, "the tail has pairs of terms");
+  Lanes even = terms[LAST][half], odd = terms[LAST - 1][half];
+  for (int n = LAST - 2; n > EXACT; n -= 2) {
     even = even * square + terms[n][half];
     odd = odd * square + terms[n - 1][half];
   }
@@ -35,7 +43,8 @@ SYMTOP_INLINE Lanes sum_tail(const Lanes terms[][2], int half, double u, double 
 template <class Product>
 SYMTOP_INLINE SumOf<Lanes> sum_series(const Lanes terms[][2], const Lanes rests[][2], int half,
                                       const Double2* powers) {
-  const Lanes tail = sum_tail(terms, half, powers[1].high, powers[2].high);
+  const Lanes tail =
+      sum_tail<EXTENDED_TERMS, DRIVEN_TERMS>(terms, half, powers[1].high, powers[2].high);
   SumOf<Lanes> sum = {tail * powers[EXTENDED_TERMS + 1].high, Lanes{}};
   for (int n = EXTENDED_TERMS; n > 0; n--)
     add_product<Product>(sum, {terms[n][half], rests[n][half]}, repeat(powers[n]));
@@ -54,10 +63,9 @@ struct Piece {
   // Coefficients by powers of (t - start.t)/unit, of q and of the rates times the unit, with the
   // spin: terms + rests.
   Lanes terms[DRIVEN_TERMS + 1][2], rests[EXTENDED_TERMS + 1][2];
-  // If it has parts, the first terms are sums of coarse and rests instead, up to rounding.
+  // In parts, the first terms are sums of coarse and rests instead, up to rounding.
   Lanes coarse[EXTENDED_TERMS + 1][2];
-  bool has_parts;
-  bool is_split;  // products by halves may be taken of them
+  Digits digits;
 
   // The terms of order 0, as sums of two doubles.
   void put_first() {
@@ -69,7 +77,10 @@ struct Piece {
   }
 
   // The variables at start.t + u unit.
-  Variables evaluate(Double2 u) const { return has_parts ? evaluate_parts(u) : evaluate_sums(u); }
+  Variables evaluate(Double2 u) const {
+    if (digits == IN_DOUBLES) return evaluate_doubles(u.high);
+    return digits == IN_PARTS ? evaluate_parts(u) : evaluate_sums(u);
+  }
 
  private:
   Variables evaluate_parts(Double2 u) const {
@@ -91,7 +102,8 @@ struct Piece {
     const double highest = powers[EXTENDED_TERMS + 1].whole();
     SYMTOP_UNROLL
     for (int half = 0; half < 2; half++) {
-      const Lanes tail = sum_tail(terms, half, first, square) * highest;
+      const Lanes tail =
+          sum_tail<EXTENDED_TERMS, DRIVEN_TERMS>(terms, half, first, square) * highest;
       PartsOf<Lanes> sum = {Lanes{}, tail};
       SYMTOP_UNROLL
       for (int n = EXTENDED_TERMS; n > 0; n--)
@@ -105,12 +117,24 @@ struct Piece {
     Double2 powers[EXTENDED_TERMS + 2] = {{1.0, 0.0}, u};
     for (int n = 2; n <= EXTENDED_TERMS + 1; n++) powers[n] = powers[n / 2] * powers[n - n / 2];
     SumOf<Lanes> sums[2];
-    if (is_split && std::fabs(u.high) > 0x1p-15)  // of which the tenth power is no tiny number
+    if (digits == IN_SPLIT_SUMS &&
+        std::fabs(u.high) > 0x1p-15)  // of which the tenth power is no tiny number
       sum_both<Split>(terms, rests, powers, sums);
     else
       sum_both<Fused>(terms, rests, powers, sums);
     for (SumOf<Lanes>& each : sums) each = fast_sum_of(each.high, each.low);
     return add_to_start(sums);
+  }
+
+  Variables evaluate_doubles(double u) const {
+    SumOf<Lanes> sums[2];
+    sum_doubles(u, sums);
+    return add_to_start(sums);
+  }
+
+  SYMTOP_CLONES void sum_doubles(double u, SumOf<Lanes> sums[2]) const {
+    for (int half = 0; half < 2; half++)
+      sums[half] = {sum_tail<0, COARSE_TERMS>(terms, half, u, u * u) * u, Lanes{}};
   }
 
   Variables add_to_start(const SumOf<Lanes> sums[2]) const {
@@ -142,7 +166,7 @@ struct Piece {
   void rest_until(double time) {
     end = time;
     unit = INFINITY;
-    is_split = has_parts = false;
+    digits = IN_SUMS;
     std::memset(terms, 0, sizeof terms);
     std::memset(rests, 0, sizeof rests);
   }

@@ -46,16 +46,15 @@ const double LEAST_TURN = 0x1p-90, LEAST_LATE_TURN = 0x1p-60;
 class TaylorSeries {
  public:
   // The coefficients of all orders, from those of order 0 in the piece, for equations in its unit.
-  // The first of them are sums of two doubles if that is asked for, or if numbers in parts do not
-  // fit.
-  void expand(const Coefficients& equations, Double2 share, bool has_torque, bool in_full,
+  // The first of them are as `wanted`, but sums of two doubles if numbers in parts do not fit.
+  void expand(const Coefficients& equations, Double2 share, bool has_torque, Digits wanted,
               Piece& piece) {
     equations_ = &equations;
     share_ = share;
     if (has_torque)
-      expand<6>(in_full, piece);
+      expand<6>(wanted, piece);
     else
-      expand<4>(in_full, piece);
+      expand<4>(wanted, piece);
   }
 
  private:
@@ -76,13 +75,14 @@ class TaylorSeries {
   int turning_orders_, last_turn_;
 
   template <int COUNT>
-  void expand(bool in_full, Piece& piece) {
-    piece.is_split = false;
-    piece.has_parts = !in_full && compute_by_parts<COUNT>(piece);
-    if (piece.has_parts) return;
+  void expand(Digits wanted, Piece& piece) {
+    piece.digits = wanted;
+    if (wanted == IN_DOUBLES) return compute_coarsely<COUNT>(piece);
+    if (wanted == IN_PARTS && compute_by_parts<COUNT>(piece)) return;
     piece.put_first();
-    piece.is_split = !fuses_products() && compute<COUNT, Split>(piece);
-    if (!piece.is_split) compute<COUNT, Fused>(piece);
+    const bool is_split = !fuses_products() && compute<COUNT, Split>(piece);
+    piece.digits = is_split ? IN_SPLIT_SUMS : IN_SUMS;
+    if (!is_split) compute<COUNT, Fused>(piece);
   }
 
   template <int COUNT>
@@ -328,6 +328,71 @@ class TaylorSeries {
         symtop::multiply<Product>(fast_sum_of(sum.high, sum.low), repeat(factor));
     piece.terms[n][half] = term.high;
     piece.rests[n][half] = term.low;
+  }
+
+  // ---- All terms in doubles ----
+
+  // One order after the other. Of an order the next one's q needs the newest factors last: these
+  // are multiplied by terms of order 0 that are turned in advance, so that few operations wait.
+  template <int COUNT>
+  SYMTOP_CLONES void compute_coarsely(Piece& piece) {
+    last_turn_ = COARSE_TERMS;
+    Lanes q = piece.terms[0][0], omega = piece.terms[0][1];
+    put<COUNT>(q, omega, spread<OMEGA_Z>(omega) * share_.high, right_[0]);
+    const Lanes by_x = turn_by_x(q), by_y = turn_by_y(q), by_z = turn_by_z(q) * share_.high;
+    for (int n = 0; n < COARSE_TERMS; n++) {
+      Lanes sums[COUNT] = {};
+      add_inner<COUNT>(piece, n, sums);
+      SYMTOP_UNROLL
+      for (int v = WEIGHT; v < COUNT; v++) {
+        sums[v] += piece.terms[0][0] * right_[n][v];
+        if (n > 0) sums[v] += q * right_[0][v];
+      }
+      Lanes turned = (turn_by_x(sums[0]) + turn_by_y(sums[1])) + turn_by_z(sums[TURN]);
+      turned += (spread<OMEGA_X>(omega) * by_x + spread<OMEGA_Y>(omega) * by_y) +
+                spread<OMEGA_Z>(omega) * by_z;
+      if (n > 0)
+        turned += (turn_by_x(q) * right_[0][0] + turn_by_y(q) * right_[0][1]) +
+                  turn_by_z(q) * right_[0][TURN];
+      const double inverse = INVERSES.high[n + 1];
+      omega = find_acceleration<COUNT>(omega, sums) * inverse;
+      q = turned * (0.5 * inverse);
+      piece.terms[n + 1][0] = q;
+      piece.terms[n + 1][1] = omega;
+      put<COUNT>(q, omega, spread<OMEGA_Z>(omega) * share_.high, right_[n + 1]);
+      note_last_turn<COUNT>(n + 1);
+    }
+  }
+
+  // The products without a term of order 0 or n.
+  template <int COUNT>
+  SYMTOP_INLINE void add_inner(const Piece& piece, int n, Lanes sums[COUNT]) const {
+    for (int m = 1; m < n; m++) {
+      SYMTOP_UNROLL
+      for (int v = 0; v < COUNT; v++)
+        if (v != TURN || COUNT > 4) sums[v] += piece.terms[m][0] * right_[n - m][v];
+    }
+    if (COUNT == 4)
+      for (int m = 1; m < std::min(n, last_turn_); m++)
+        sums[TURN] += piece.terms[n - m][0] * right_[m][TURN];
+  }
+
+  template <int COUNT>
+  SYMTOP_INLINE Lanes find_acceleration(Lanes omega, const Lanes sums[COUNT]) const {
+    const Lanes vertical = take_first(sums[WEIGHT]) + take_last(sums[WEIGHT]);
+    Lanes sum = equations_->friction.high * take_rates(omega) + equations_->weight.high * vertical;
+    if (COUNT > 4) {
+      SYMTOP_UNROLL
+      for (int p = 0; p < SQUARES; p++)
+        sum += equations_->torques[p].high * symtop::repeat<Lanes>(sums[WEIGHT + p / 4][p % 4]);
+    }
+    return sum;
+  }
+
+  template <int COUNT>
+  SYMTOP_INLINE void note_last_turn(int n) {
+    const bool counts = COUNT > 4 || std::fabs(right_[n][TURN][0]) >= LEAST_TURN;
+    if (last_turn_ == COARSE_TERMS && !counts) last_turn_ = n;
   }
 
   // ---- The other terms in doubles ----

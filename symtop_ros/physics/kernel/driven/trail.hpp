@@ -25,13 +25,15 @@ enum Progress { ARRIVED, IS_TOO_FAST, IS_TOO_STIFF, IS_TOO_LONG, NEEDS_STEPS, HA
 
 class Trail {
  public:
-  // False if there is no memory.
-  bool prepare(const DrivenArguments& top, const Variables& start, int direction) {
+  // False if there is no memory. Steps may have the local error `tolerance`.
+  bool prepare(const DrivenArguments& top, const Variables& start, int direction,
+               double tolerance) {
     kept_.reset(new (std::nothrow) Knot[KEPT + 1]);
     recent_.reset(new (std::nothrow) Piece[RECENT]);
     if (!kept_ || !recent_) return false;
     direction_ = direction;
     stepper_.equations.prepare(top);
+    stepper_.allow(tolerance);
     kept_[0] = {0.0, start};
     kept_count_ = spacing_ = 1;
     return true;

@@ -223,6 +223,13 @@ inline symtop_status accept(const symtop_clock& given, Clock& clock) {
   return is_valid ? SYMTOP_OK : SYMTOP_BAD_TIME;
 }
 
+const double LEAST_TOLERANCE = 1e-15, LARGEST_TOLERANCE = 1e-6;
+
+inline symtop_status accept_tolerance(double tolerance) {
+  const bool is = tolerance == 0 || is_between(tolerance, LEAST_TOLERANCE, LARGEST_TOLERANCE);
+  return is ? SYMTOP_OK : SYMTOP_BAD_TOLERANCE;
+}
+
 inline symtop_status accept_steps(double most_steps) {
   return most_steps >= 0 ? SYMTOP_OK : SYMTOP_BAD_STEPS;
 }

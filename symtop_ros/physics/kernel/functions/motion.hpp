@@ -7,21 +7,27 @@ struct symtop_motion {
   symtop::Stretch first;
   symtop::Stretches stretches;  // from push to push; without pushes there is the first one alone
 
-  symtop_motion(const symtop_start& s, const symtop_pushes& pushes, bool clamped)
-      : first(s, clamped), stretches(pushes), is_clamped(clamped) {}
+  symtop_motion(const symtop_start& s, const symtop_pushes& pushes, bool clamped, double tolerance)
+      : first(s, clamped, tolerance),
+        stretches(pushes),
+        is_clamped(clamped),
+        tolerance(tolerance) {}
 
   bool is_clamped;
+  double tolerance;  // local error of steps under friction or a torque; 0 to rounding
 };
 
 namespace symtop {
 
 inline symtop_status make_motion(const symtop_start* start, const symtop_pushes& pushes,
-                                 symtop_motion** motion, bool is_clamped = false) {
+                                 symtop_motion** motion, bool is_clamped = false,
+                                 double tolerance = 0.0) {
   symtop_start s = *start;
   symtop_status status = find_refusal({accept(s), accept(pushes)});
   if (status == SYMTOP_OK && is_clamped) status = accept_clamped(s);
+  if (status == SYMTOP_OK) status = accept_tolerance(tolerance);
   if (status != SYMTOP_OK) return status;
-  *motion = new (std::nothrow) symtop_motion(s, pushes, is_clamped);
+  *motion = new (std::nothrow) symtop_motion(s, pushes, is_clamped, tolerance);
   if (*motion && (*motion)->stretches.prepare(&(*motion)->first)) return SYMTOP_OK;
   delete *motion;
   *motion = nullptr;
@@ -50,6 +56,14 @@ symtop_status symtop_new_clamped(const symtop_start* start, symtop_motion** moti
   return symtop::make_motion(start, symtop::NO_PUSHES, motion, true);
 }
 
+symtop_status symtop_new_coarse(const symtop_start* start, double tolerance,
+                                symtop_motion** motion) {
+  if (motion) *motion = nullptr;
+  const symtop_status status = symtop::admit({start, motion});
+  if (status != SYMTOP_OK) return status;
+  return symtop::make_motion(start, symtop::NO_PUSHES, motion, false, tolerance);
+}
+
 void symtop_free(symtop_motion* motion) { delete motion; }
 
 symtop_status symtop_continue(symtop_motion* motion, double t, const double torque[3],
@@ -61,7 +75,8 @@ symtop_status symtop_continue(symtop_motion* motion, double t, const double torq
   std::memcpy(s.torque, torque, sizeof s.torque);
   status = symtop_state(motion, t, s.orientation, s.angular_velocity);
   if (status != SYMTOP_OK) return status;
-  return motion->is_clamped ? symtop_new_clamped(&s, continued) : symtop_new(&s, continued);
+  if (motion->is_clamped) return symtop_new_clamped(&s, continued);
+  return symtop_new_coarse(&s, motion->tolerance, continued);
 }
 
 symtop_status symtop_state(symtop_motion* motion, double t, double orientation[4],

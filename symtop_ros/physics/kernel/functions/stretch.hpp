@@ -37,17 +37,17 @@ struct Stretch {
   DrivenMotion driven;
   bool is_driven;
 
-  explicit Stretch(const symtop_start& s, bool is_clamped = false)
+  explicit Stretch(const symtop_start& s, bool is_clamped = false, double tolerance = 0.0)
       : start(s),
         gravity(is_clamped ? clamp(to_start(s)) : to_start(s)),
-        driven(to_driven(s)),
+        driven(to_driven(s), tolerance),
         is_driven(symtop::is_driven(s)) {}
 
   // From a state that is carried on, of which `s` has the doubles.
   Stretch(const symtop_start& s, const BodyState& body, const Variables& carried)
       : start(s),
         gravity(to_start(s, body)),
-        driven(to_driven(s), &carried),
+        driven(to_driven(s), 0.0, &carried),
         is_driven(symtop::is_driven(s)) {}
 
   // States at the times that `split` returns in two parts, or under gravity at `times`; *steps is

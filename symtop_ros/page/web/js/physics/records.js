@@ -32,6 +32,7 @@ export const STATUS = {
   BAD_CLAMP: 25,
   BAD_QUESTION: 26,
   BAD_PART: 27,
+  BAD_TOLERANCE: 28,
 };
 
 /** Names of the enums, in the order of the header. @type {{[list: string]: any[]}} */

@@ -131,7 +131,7 @@ const readEvent = (table, given, before) => {
   if (!before && read.kind !== "start")
     throw reject("kind", 'be "start" for the first event', read.kind);
   if (before && read.time < before.time)
-    throw reject("time", "be that of the event before it or later", read.time);
+    throw reject("time", "be at least that of the previous event", read.time);
   const { request, made_by, ...event } = read;
   if (request) event.request = request;
   if (made_by) event.made_by = made_by;
