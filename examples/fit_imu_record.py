@@ -21,7 +21,7 @@ exact = Imu(position=sensor.position, rate=sensor.rate)
 
 
 def residuals(p: Any, count: int) -> Any:
-    """Differences in standard deviations, of Iz/Ix, Mgl/Ix, theta, psi and angular velocity."""
+    """Computed minus measured, in deviations; p is Iz/Ix, Mgl/Ix, theta, psi and omega."""
     q = State.from_euler(theta=p[2], psi=p[3]).orientation
     guess = Motion(Top(1.0, *p[:2]), State(q, p[4:]))
     record = record_imu(guess, exact, seconds=count / sensor.rate)
@@ -30,7 +30,7 @@ def residuals(p: Any, count: int) -> Any:
 
 p: Any = [0.3, 250.0, 0.4, 0.3, *measured[0, :3]]  # a guess
 low, high = np.full(7, -np.inf), np.full(7, np.inf)
-low[0], high[0] = 1e-3, 1.999  # what a body can have
+low[0], high[0] = 1e-3, 1.999  # Iz/Ix of a rigid body is at most 2
 for count in (25, len(measured)):
     fit: Any = least_squares(residuals, p, args=(count,), x_scale="jac", bounds=(low, high))
     p = fit.x

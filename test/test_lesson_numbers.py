@@ -129,6 +129,7 @@ def fast_root():
         f"{torque / flat:.1f}",
         f"{1e3 * SHORT_ARM:.1f}",
         f"{SHORT_ARM * friction:.2f}",
+        f"{TOP.Mgl / (body.gravity * SHORT_ARM):.2f}",
         f"{1e3 / friction:.1f}",
         f"{1e3 * body.arm:.1f}",
         f"{body.arm * friction:.1f}",

@@ -26,9 +26,9 @@ class Certificate(Generic[N]):
     Attributes
     ----------
     attitude : float or ndarray (...)
-        At least the angle of the rotation that would correct the orientation, in rad.
+        Upper bound of the angle of the rotation that would correct the orientation, in rad.
     angular_velocity : float or ndarray (...)
-        At least the length of the error of the angular velocity, in rad/s.
+        Upper bound of the length of the error of the angular velocity, in rad/s.
     """
 
     attitude: N

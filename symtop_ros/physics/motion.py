@@ -51,7 +51,7 @@ def find_period(rate: ArrayLike) -> float | Real:
     Parameters
     ----------
     rate : float or array_like (...)
-        Of either sign. That of nan is nan.
+        A rate of either sign; nan gives nan.
 
     Returns
     -------

@@ -67,7 +67,7 @@ class EffectivePotential:
         ----------
         theta : array_like (...)
             Tilt in rad. On the vertical the potential is infinite, or Mgl cos(theta) if the axis
-            can reach it there.
+            can reach the vertical.
 
         Examples
         --------

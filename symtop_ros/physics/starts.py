@@ -44,9 +44,8 @@ class Solution:
         Rates in rad/s; phi' is 0 on the vertical, where psi' is the whole spin.
     least, most : Solution or None
         The smallest and the largest value of each number within the given half-widths. None without
-        half-widths. None, too, if somewhere within them the number of starts is another one, a rate
-        of regular precession changes its sign, or p_phi is p_psi or -p_psi (phi' then has no
-        bound).
+        half-widths. Also None if within them the number of starts changes, a rate of regular
+        precession changes its sign, or p_phi is p_psi or -p_psi (phi' then has no bound).
     """
 
     theta: float
@@ -78,8 +77,8 @@ def solve_start(
     theta, precession_period        regular precession
     theta, psi_dot                  regular precession
     psi_dot, precession_period      regular precession
-    theta, dip                      let go at rest: theta goes so far until the weight
-                                    is lowest
+    theta, dip                      let go at rest; dip is the change of theta until
+                                    the weight is lowest
     theta, nutation_period          let go at rest
     energy, p_phi, p_psi            any, at its turning angles
     alpha, a, b                     the same by Goldstein's constants (section 5.7):

@@ -21,7 +21,7 @@ from symtop_ros.run.log.top_log import TopLog
 from symtop_ros.run.simulation.topics import EVENTS
 
 WIDTH = 28  # of a topic in its line
-MAX_OTHERS = 20  # topics of others that are named
+MAX_OTHERS = 20  # largest number of topics of other nodes that are listed
 
 
 def check(log: TopLog, strict: bool = False, header: Mapping[str, Any] | None = None) -> int:

@@ -1,7 +1,8 @@
 """A log as a recording, and the Rerun viewer: on the screen, or in a browser on this machine.
 
 The page of the viewer asks servers on the internet for fonts, examples, a log-in and telemetry, and
-has no switch for that. So it is passed on with a policy by which the browser itself refuses.
+has no switch for that. So the page is served with a policy that makes the browser refuse such
+connections.
 """
 
 import errno

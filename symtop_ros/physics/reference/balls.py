@@ -52,7 +52,7 @@ class ProvedState(NamedTuple):
         return "\n".join(lines)
 
     def is_within(self, least: Ball) -> bool:
-        """Return True if the radii are at most `least`, for omega `least` times `size`."""
+        """Return True if the radii are at most `least`, and for omega `least` times `size`."""
         limits = [least] * 4 + [least * self.size] * 3
         balls = (*self.orientation, *self.angular_velocity)
         # a comparison with nan is False, so a ball that is not finite must be looked for

@@ -46,8 +46,8 @@ class Cause:
         tilt with theta' = 0: the weight rises if phi' is faster, and falls in the other cases.
         "vertical": L is vertical, and the axis goes round it without a torque.
     pace : {"speeds", "slows"} or None
-        Change of |phi'| on the whole way to the next turning angle, in these cases, if it is more
-        than 5 %.
+        Change of |phi'| on the way to the next turning angle. None if it is at most 5 %, or if
+        |phi'| both grows and falls on this way.
     torque_share : float or None
         The share of gravity's torque that it takes to turn L as fast as the axle goes round now.
     rate_about_momentum : float or None
@@ -55,11 +55,11 @@ class Cause:
     torque_from_perpendicular : (float, float) or None
         Angle between the torque and the plane perpendicular to L: now, and the most in a nutation.
     momentum_from_axle, omega_from_axle : (float, float, float) or None
-        Angle from the line of the axle.
+        Angles of L and of omega from the line of the axle.
     momentum_from_vertical : (float, float, float) or None
-        Angle from the line of the vertical.
+        Angle of L from the line of the vertical.
     constant : tuple of str
-        Those of "size" (of L), "direction" (of L) and "tilt" that do not change.
+        What does not change, of "size" (of L), "direction" (of L) and "tilt".
     subject : {"top", "axis"}
         "axis" for Mgl < 0: the axle then rises when the weight falls.
 

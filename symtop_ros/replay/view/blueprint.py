@@ -1,6 +1,7 @@
 """Layout of a recording: the 3D scene on the left, the plots of the article on the right.
 
-The framing of a motion says how much of it is visible: of its trace, and in the plots.
+The framing of a motion states how much of its trace is visible, and which range of time the plots
+show.
 """
 
 import math
@@ -24,10 +25,11 @@ EYE_WHOLE_SPHERE = ((1.85, -2.1, 0.9), (0.0, 0.0, 0.0))
 PLOT_BACKGROUND = PlotBackground(color=entities.BACKGROUND)
 TRACE_NUTATIONS = 12  # longest trace in nutations, if one turn of the precession has more
 PLOT_NUTATIONS = 30  # nutations on each side of the cursor
-LEAST_SPAN = 0.02  # of the size of a quantity: what a plot spans at least
+LEAST_SPAN = 0.02  # least range of a plot, relative to the size of the quantity
 HORIZON = 1.65  # rad; slightly below the horizontal plane of the pivot
-# What a chart shows around its box, in heights of it: at the sides and above, and below. The angles
-# stand below the potential's box; in a window of 1280 x 720 they end at 0.25.
+# Margins around the box of a chart, in heights of the box: at the sides and above, and below. The
+# texts with the angles stand below the box of the potential; in a window of 1280 x 720 they end at
+# 0.25.
 MARGIN, BELOW = 0.06, 0.3
 
 
@@ -39,7 +41,8 @@ class Framing:
     window: float = 10.0  # range of the plots on each side of the cursor, s of the clock
     # True if the axis moves below the pivot: the whole sphere is drawn, and no stand
     below_pivot: bool = True
-    # ranges of plots, by entity, of quantities that hardly change: else rounding would fill them
+    # ranges of plots, by entity, for quantities that hardly change: otherwise their rounding errors
+    # would fill the plot
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @classmethod

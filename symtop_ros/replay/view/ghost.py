@@ -28,7 +28,7 @@ class GhostView:
     """The motion without the last kick or clamp, drawn with its trace."""
 
     def __init__(self, stream: Stream) -> None:
-        # the run without it; None before the first one and after a restart
+        # the run without the last kick or clamp; None before the first one and after a restart
         self.segment: Segment | None = None
         self._stream = stream
         self._trace = Trace()
@@ -47,7 +47,7 @@ class GhostView:
         self._redraw(old)
 
     def remove(self) -> None:
-        """Remove it: what happens to the run from the current time on is not known."""
+        """Remove the ghost: the run is not known from the current time on."""
         old, self.segment = self.segment, None
         self._redraw(old)
 

@@ -82,7 +82,8 @@ class Plots:
             square = (momentum.numbers[:, :2] ** 2).sum(axis=1, keepdims=True)
             self._stream.send_scalars(entities.L_HORIZONTAL, momentum.stamps, square)
         if segment:
-            if not (segment.motion.pushes or segment.motion.clamped):  # which change the constants
+            # pushes and a clamp change the constants
+            if not (segment.motion.pushes or segment.motion.clamped):
                 self._send_drift(columns, segment.motion.top)
             self._send_constants(columns, segment.motion)
 
@@ -143,7 +144,7 @@ def describe_motion(
 
 
 def _name_condition(segment: Segment) -> str:
-    """Return what angles and rates leave out, or when they hold; empty if they hold now."""
+    """Return which forces angles and rates leave out, or when they hold; empty if they hold now."""
     motion = segment.motion
     if motion.is_driven:
         acting = {
@@ -156,7 +157,8 @@ def _name_condition(segment: Segment) -> str:
 
 
 def _list_rates(motion: Motion, state: State) -> dict[str, str]:
-    if motion.is_driven:  # the table says that these are without what drives it
+    # the table states that these numbers are those without friction and torque
+    if motion.is_driven:
         motion = Motion(motion.top, motion.start)
     found = perrys_rule(motion.top, state).regular_rates
     rates = ", ".join(f"{rate:.4g}" for rate in found if not math.isnan(rate))

@@ -30,7 +30,7 @@ def _from_euler_angles(angles: Real) -> Real:
     )
 
 
-# By the topic, first of all that of the attitude itself.
+# By the topic; the topic of the attitude itself comes first.
 READ_ATTITUDE: dict[str, Callable[[Real], Real]] = {
     "orientation": lambda quaternions: quaternions,
     "tf": lambda transforms: transforms[:, 3:],
@@ -109,8 +109,8 @@ def potentials_at(top: Top, angles: Real) -> list[EffectivePotential]:
 def scales_of_constants(top: Top, values: Real) -> Real:
     """Return the sizes (3,) that a drift of the constants is divided by: of the terms in each sum.
 
-    These are products of parts of omega and of L, whose rounding is there when their sum is zero,
-    too: of the largest L and omega that the motion can have.
+    The terms are products of components of omega and L, and have rounding errors even if their sum
+    is zero. So the largest L and omega that the motion can have are used.
     """
     energy, axial = float(values[0]), abs(float(values[1]))
     depth = abs(top.Mgl)
@@ -160,7 +160,9 @@ class EnergyBook:
     def rows(self, samples: ColumnsByTopic, motion: Motion) -> tuple[Stamps, Real] | None:
         """Return stamps and four energies (n, 4) in J; None if a topic is missing.
 
-        Kinetic; with potential (from its lowest point); with what is lost; start and work.
+        The columns are cumulative: the kinetic energy; with the potential energy (from its lowest
+        point) added; with the energy lost by friction added; and the energy of the start plus the
+        work.
         """
         found = join(samples, "orientation", "angular_velocity", "angular_momentum")
         if found is None:

@@ -38,7 +38,7 @@ def send_points(stream: entities.Stream, points: Points, intervals: Sequence[Int
 
 
 def _fill(shown: tuple[Real, Real], inside: Mask, points: Points, states: State) -> None:
-    """Fill in what the points of an interval show: axes, and theta, phi', psi'."""
+    """Add what the points of an interval show: axes, theta, phi' and psi'."""
     part = points.select(inside)
     shown[0][inside] = part.find_axes(states)
     shown[1][inside] = np.stack([part.find_tilts(states), *part.find_rates(states)], axis=1)

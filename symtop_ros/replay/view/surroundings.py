@@ -40,7 +40,7 @@ BODY_AXES = (0.8, 0.8, 1.55)
 RADII = {"phi": 0.5, "theta": 1.08, "psi": 0.66}
 NODES_LENGTH = 0.95
 LETTERS = {"phi": "\u03c6", "theta": "\u03b8", "psi": "\u03c8"}
-# Those of their curves in the plots.
+# Colours of the arcs: those of their curves in the plots.
 COLORS = {"phi": entities.ORANGE, "theta": entities.GOLD, "psi": entities.GREEN}
 BEYOND = 1.08  # a letter's distance from the origin, in radii of its arc
 

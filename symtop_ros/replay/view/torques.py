@@ -1,10 +1,10 @@
 """Arrows of torques: the inertial torque in two frames, and the torques in the precessing frame.
 
-The inertial torque shows which part of the torque changes L, seen from which frame. In the body
-frame torque = dL/dt + omega x L. In the frame of the line of nodes, which follows the precession
-alone, torque = dL/dt + phi' z' x L, and in regular precession dL/dt is zero there. The arrows lie
-below and above the pivot, so that those along one line do not hide each other: omega x L begins
-below the tip of dL/dt and ends below the tip of the torque.
+The arrows show, for two frames, which part of the torque changes L as seen from the frame. In the
+body frame torque = dL/dt + omega x L. In the frame of the line of nodes, which follows the
+precession alone, torque = dL/dt + phi' z' x L, and in regular precession dL/dt is zero there. The
+arrows lie below and above the pivot, so that those along one line do not hide each other: omega x L
+begins below the tip of dL/dt and ends below the tip of the torque.
 
 The torques in the precessing frame are along the line of nodes, head to tail: gravity's, Coriolis'
 and the centrifugal one. Each of the three begins below the tip of the one before. So the third ends
@@ -31,7 +31,8 @@ EQUATIONS = {
     "in the frame of the nodes": "torque = dL/dt + \u03c6' z' x L",
 }
 DEPTHS = {"gravity": 0.08, "Coriolis": 0.15, "centrifugal": 0.22, "sum": -0.08}  # below the pivot
-HIGHEST, LONGEST = 1.0, 2.5  # in scene units: of the largest at the start, and of any
+# lengths in scene units: of the longest arrow at the start, and of any later arrow
+HIGHEST, LONGEST = 1.0, 2.5
 GAP, RAISED = 0.3, 0.05  # of labels: beyond the tip, and up; the viewer draws them below a point
 COLORS = {
     "gravity": entities.RED,
@@ -148,7 +149,8 @@ class FictitiousView:
             return
         step = find_step(euler.stamps, RATE)
         stamps, numbers = euler.stamps[::step], euler.numbers[::step]
-        sound = (np.abs(numbers) <= MAX_RATE).all(axis=1)  # others are of no node
+        # other numbers were not published by a node
+        sound = (np.abs(numbers) <= MAX_RATE).all(axis=1)
         stamps = stamps[sound]
         phi, theta, _, phi_dot, _, psi_dot = numbers[sound].T
         torques = precessing_frame_torques(self._top, theta, phi_dot, psi_dot)

@@ -140,7 +140,7 @@ class View:
             equations |= self._fictitious.follow(motion.top, event.state())
         scales = self._name_scales()
         self._log_panel(describe_motion(self._segment, event.state(), scales, equations))
-        if is_new:  # else what was said before still holds
+        if is_new:  # otherwise the previous sentence still holds
             self._log_sentence(event.verdict)
 
     def _log_panel(self, text: str) -> None:

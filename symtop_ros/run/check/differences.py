@@ -1,9 +1,9 @@
 """Samples compared with each other and with the moments in the events, by NumPy alone.
 
-The other checks compute a run again with the kernel that has computed it. Here the laws of motion
-themselves are tried: dL/dt is the torque, the attitude turns with omega, L follows from
-omega by Ix and Iz, and the torque from the attitude by Mgl and from what else acts. So a
-reader of a log need not trust the kernel.
+The other checks compute a run again with the same kernel. Here the laws of motion are tested: dL/dt
+is the torque; the attitude turns with omega; L follows from omega, Ix and Iz; and the torque
+follows from the attitude, Mgl, friction and applied torque. So a reader of a log need not trust the
+kernel.
 
 A derivative is taken within one motion at one pace: not across events, pushes, pauses and gaps.
 """
@@ -34,12 +34,14 @@ VECTORS = {
 MOMENTUM, ATTITUDE = "dL/dt = torque", "q' = omega q/2"
 INERTIA, WEIGHT = "L of omega", "torque of q"
 UNITS = {MOMENTUM: "N m", ATTITUDE: "1/s", INERTIA: "N m s", WEIGHT: "N m"}  # of deviations
-# EPS of the sizes of the terms: rotations of both sides round by six each, and their sums by some.
+# Bound of rounding errors, in EPS of the sizes of the terms: the rotations of both sides have
+# errors of six each, and the sums of a few.
 TERMS = 32
-# Largest product of step and rate: twice that, and the samples would show a slower motion as well.
+# Largest product of step and rate. With twice this product a slower motion would have the same
+# samples.
 FASTEST = 1.5
 LEAST = 2 * MARGIN + 1  # samples of a stretch in which a derivative is taken
-GAP = 1.5  # usual steps; a longer one is a gap
+GAP = 1.5  # in usual steps; a longer step is a gap
 KEPT = 2 * MARGIN  # rows before new ones, so that each derivative has its neighbours
 NEAR = 1e-6  # of the time between two pushes, in which a sample may be before or after one
 
@@ -48,16 +50,17 @@ NEAR = 1e-6  # of the time between two pushes, in which a sample may be before o
 class Agreement:
     """Agreement of samples with a law of motion."""
 
-    samples: int = 0  # that were compared
-    wrong: int = 0  # of which the deviation exceeds its bound
+    samples: int = 0  # number of samples that were compared
+    wrong: int = 0  # number of samples whose deviation exceeds its bound
     largest: float = 0.0  # largest deviation
     share: float = 0.0  # largest deviation, as a share of its bound
-    too_fast: int = 0  # for whose motion the rate of the samples is too low
+    # number of samples not compared, because their rate is too low for the motion
+    too_fast: int = 0
 
     def add(self, deviation: Real, bound: Real) -> None:
         """Add deviations of samples and their bounds, (n,)."""
         self.samples += len(deviation)
-        self.wrong += int((~(deviation <= bound)).sum())  # with those that are nan
+        self.wrong += int((~(deviation <= bound)).sum())  # nan counts as wrong
         self.largest = max(self.largest, float(deviation.max(initial=0.0)))
         with np.errstate(all="ignore"):
             shares = np.nan_to_num(deviation / bound)
@@ -111,7 +114,7 @@ class DifferenceCheck:
             self._compare_slopes(0)
 
     def _join(self, batch: Batch) -> Rows | None:
-        """Return the samples of the topics by their event and stamp; each that is there once."""
+        """Return the samples of the topics by their event and stamp, each of them once."""
         found = {}
         for name in VECTORS.keys() & batch.columns.keys():
             columns = batch.columns[name]
@@ -164,7 +167,7 @@ class DifferenceCheck:
     # What holds between samples
 
     def _compare_slopes(self, left: int) -> None:
-        """Compare the derivatives at the rows that have others after them, `left` at least."""
+        """Compare the derivatives at the rows that at least `left` rows follow."""
         rows = self._rows
         if rows is None:
             return
@@ -177,7 +180,7 @@ class DifferenceCheck:
         self._rows, self._judged = rows.select(slice(kept, None)), end - kept
 
     def _find_breaks(self, rows: Rows) -> list[int]:
-        """Return the first row of each stretch of one motion without a gap, and that after all."""
+        """Return the first row of each gapless stretch of one motion, and the number of rows."""
         pieces = np.zeros(len(rows.stamps))
         for owner in np.unique(rows.owners).tolist():
             mine = _find_slice(rows.owners == owner)
@@ -189,7 +192,7 @@ class DifferenceCheck:
         return [0, *breaks.tolist(), len(rows.stamps)]
 
     def _compare_stretch(self, rows: Rows, begin: int, end: int) -> None:
-        """Compare the derivatives at the rows from one to before another of a stretch."""
+        """Compare the derivatives at the rows from `begin` to before `end`."""
         segment = self._event_order.segment(int(rows.owners[0]))
         if not segment.running:
             return
@@ -257,7 +260,7 @@ def _count_pushes(segment: Segment, stamps: Stamps) -> Real:
     count = (segment.begin_time + offset) * pushes.rate
     nearest = np.rint(count)
     is_near = (np.abs(count - nearest) < NEAR) & (nearest < pushes.number)
-    # A sample at the time of a push is of no stretch: half a number.
+    # A sample at the time of a push belongs to no stretch, so it gets half a number.
     return np.where(is_near, nearest - 0.5, np.minimum(np.floor(count), pushes.number - 1))
 
 

@@ -41,7 +41,7 @@ def _judge(previous: Event | None, event: Event, budget: StepBudget) -> Iterable
         return [Mismatch(EVENTS.name, event.stamp, "outcome", "readable", str(error))]
     try:
         expected = _compute(previous.segment() if previous else None, event, budget)
-    except (ValueError, ArithmeticError) as error:  # a request that no node grants
+    except (ValueError, ArithmeticError) as error:  # a request that every node refuses
         return [Mismatch(EVENTS.name, event.stamp, "request", str(error), str(event.request))]
     right, got = (
         {**each.values, "name": each.name, "message": each.verdict} for each in (expected, event)
@@ -71,8 +71,8 @@ def _compute(previous: Segment | None, event: Event, budget: StepBudget) -> Even
 def read_act(event: Event) -> Act:
     """Return what an event says was done.
 
-    What a request leaves open is taken from the event itself: initial conditions that come from
-    parameters, the paths of logs, factors of real time, and what a bug of the node left.
+    What a request does not state is taken from the event itself: initial conditions from
+    parameters, paths of logs, real-time factors, and the state after a bug of the node.
     """
     given, told = event.segment(), event.outcome()
     request: Mapping[str, Any] = event.request

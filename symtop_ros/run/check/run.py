@@ -46,7 +46,7 @@ class Findings:
 
     @property
     def unjudged(self) -> int:
-        """Number of samples that cannot be judged: no event that is there gives them."""
+        """Number of samples that cannot be judged, because they follow from no event in the log."""
         each = self.deviations.values()
         return sum(one.unjudged + one.unchecked + one.unreached for one in each)
 
@@ -80,7 +80,7 @@ def check_run(log: TopLog) -> Findings:
 
 
 def check_messages(log: TopLog) -> tuple[LogCheck, TextCheck, DifferenceCheck]:
-    """Compare all messages of a log but the events with what these give."""
+    """Compare all messages of a log except events with what the events give."""
     samples, texts = LogCheck(log.catalog), TextCheck(log.catalog)
     differences = DifferenceCheck(log.catalog)
     reader = BatchReader()

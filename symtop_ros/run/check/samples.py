@@ -13,11 +13,11 @@ from symtop_ros.run.simulation.budget import SPARE_STEPS, StepBudget
 from symtop_ros.run.simulation.segment import Segment
 from symtop_ros.run.simulation.topics import SAMPLE_TOPICS, STATE_TOPICS, Samples
 
-# Under gravity alone a state has the same bits on every machine, and so has what follows from it by
-# products, sums and the arc tangent of this package: no difference is accepted there. The noise of
-# the sensor takes a function whose last place depends on the version of SciPy, and version 0.3
-# recorded driven motions with other bits. The largest difference seen was 12 eps; the bound leaves
-# a factor of five.
+# Under gravity alone a state has the same bits on every machine. So have all numbers that follow
+# from it by products, sums and the arc tangent of this package, and no difference is accepted in
+# them. The noise of the sensor uses a function whose last place depends on the version of SciPy,
+# and version 0.3 recorded driven motions with other bits. The largest difference seen was 12 eps;
+# the bound leaves a factor of five.
 BOUND = 64 * float(np.finfo(float).eps)
 # Another version differs in many samples. A difference in fewer than this share is damage, however
 # small it is.
@@ -83,7 +83,7 @@ class LogCheck:
         follows = owners >= 0
         deviation.unchecked += int((~follows).sum())
         unknown = self._unknown.find(columns.stamps, columns.places) & follows
-        # Where the motion is not known, a sample that is exactly that of an event is one of it.
+        # If the motion is not known, a sample that agrees exactly with an event belongs to it.
         left, _ = self._take_agreeing(
             deviation, name, columns.select(unknown), owners[unknown], 0.0
         )
@@ -93,7 +93,8 @@ class LogCheck:
 
     def _add_known(self, deviation: Deviation, name: str, left: Columns, owners: Places) -> None:
         """Compare samples that follow from an event that is there."""
-        # Where stamps are repeated two events may agree up to rounding: the exact one holds.
+        # If stamps are repeated, a sample may agree with two events up to rounding: the event with
+        # exact agreement is taken.
         for bound in [BOUND] if self._event_order.is_ordered else [0.0, BOUND]:
             left, owners = self._take_agreeing(deviation, name, left, owners, bound)
         for number in np.unique(owners).tolist():
@@ -146,7 +147,7 @@ def _compare(name: str, columns: Columns, segment: Segment) -> tuple[Real, Real]
     difference = np.abs(columns.numbers - computed)
     difference[np.isnan(columns.numbers) & np.isnan(computed)] = 0.0  # a force that is unknown
     if topic.angles and segment.motion.clamped:
-        # Logs up to version 0.5 have what rounding left of phi', and took it from psi'.
+        # In logs up to version 0.5 phi' is a rounding error instead of 0, and so psi' is off, too.
         older = [*samples.state.euler_angles, *samples.state.euler_rates]
         difference[columns.numbers == np.stack(older, axis=-1)] = 0.0
     computed, scale = np.nan_to_num(computed), np.empty(computed.shape)

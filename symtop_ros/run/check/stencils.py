@@ -2,10 +2,10 @@
 
 The weights are those of the polynomial through the samples (Fornberg 1988, for any steps), so that
 a grid of whole nanoseconds, or one that a machine was late for, costs no digits. The bound is taken
-from the same samples: the difference of orders 6 and 8 nearby. Order 8 errs less than order 6 by
-a factor 0.22 (rate times step)^2 for each frequency, so that the bound holds up to 1.5 rad of each
-in a step. Where orders 4, 6 and 8 do not converge like a geometric series there is more than that,
-such as the harmonics of a swing, and nothing is known. NumPy only.
+from the same samples: the difference of orders 6 and 8 nearby. Order 8 errs less than order 6 by a
+factor 0.22 (rate times step)^2 for each frequency, so that the bound holds up to 1.5 rad of each in
+a step. If orders 4, 6 and 8 do not converge like a geometric series, there are higher frequencies,
+such as harmonics of an oscillation, and no bound is known. NumPy only.
 """
 
 from dataclasses import dataclass
@@ -18,8 +18,9 @@ from symtop_ros.base.arrays import Mask, Real
 EPS = float(np.finfo(float).eps)
 REACH = 4  # samples on each side of the one at which the derivative is taken
 WIDTH = 2 * REACH + 1
-# Samples on each side among which the largest difference of both orders is taken: alone it may pass
-# through 0 where the error does not, or be that of a slow moment before a fast one.
+# Samples on each side among which the largest difference of both orders is taken: a single
+# difference may pass through 0 while the error does not, or may belong to a slow phase before a
+# fast one.
 AROUND = 4
 MARGIN = REACH + AROUND  # samples at each end whose derivative has no bound
 # Of the values of the samples in EPS: attitudes have 20 and angular velocities 10 (library.md).

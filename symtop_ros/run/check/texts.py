@@ -1,7 +1,7 @@
 """Messages that are neither events nor samples, compared with what the events give.
 
-They are descriptions, fixed frames, the clock and diagnostics; of these last the motion and the
-balances are computed again. Pace, log and duplicates describe the machine.
+These are descriptions, fixed frames, the clock and diagnostics. In diagnostics the statuses of the
+motion and of the balances are computed again. Pace, log and duplicates describe the machine.
 """
 
 import html
@@ -39,7 +39,7 @@ from symtop_ros.run.wire.layout import DecodeError, Reader
 from symtop_ros.run.wire.messages import encode_transforms
 
 Described = tuple[Top, Rig, str]  # what a description depends on: top, gravity and sensor, frame
-Found = list[Mismatch] | None  # in a message; None: it was not compared
+Found = list[Mismatch] | None  # mismatches in a message; None: it was not compared
 STATUSES: dict[str, Callable[[Segment, int, int], Status]] = {
     "motion": motion_status,
     "balance": lambda segment, stamp, _: balance_status(segment, stamp),
@@ -51,8 +51,8 @@ REASONS = {
     APPLIED_TORQUE.name: "it was received, and not computed",
     POINTS.name: "the points were measured, not computed",
 }
-# What is left of a balance is rounding, and the order of its sums is that of the linear algebra of
-# the machine.
+# The residual of a balance is a rounding error, and the order of its sums depends on the linear
+# algebra library of the machine.
 ROUNDING = ("energy.balance", "angular_momentum.balance")
 
 
@@ -148,7 +148,7 @@ class TextCheck:
         return [one for each in judged for one in each] if judged else None
 
     def _judge_status(self, name: str, status: Status, kind: str, place: int) -> Found:
-        """Return the fields of a status that are those of no event that can hold."""
+        """Return the fields of a status that agree with no event that can hold."""
         found: list[list[Mismatch]] = []
         for number in self._list_owners(status.stamp, place):
             event = self._catalog.events[number]

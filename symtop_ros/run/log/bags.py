@@ -26,9 +26,9 @@ from symtop_ros.run.log.writer import BEGUN_ENTRY, FILE_ENTRY, METADATA
 
 MCAP, SQLITE, ZSTD = ".mcap", ".db3", ".zstd"
 SUFFIXES = (MCAP, SQLITE, f"{MCAP}{ZSTD}", f"{SQLITE}{ZSTD}")
-MALFORMED = "malformed"  # in what SQLite says of a database that is damaged
+MALFORMED = "malformed"  # a word in SQLite's message on a damaged database
 MAX_FILES = 10_000  # of one run
-# What SQLite says of the disk, of rights, of memory and of locks: not of the file.
+# Errors of SQLite about the disk, permissions, memory and locks: the file itself may be sound.
 OF_MEDIUM = {
     *(sqlite3.SQLITE_PERM, sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED, sqlite3.SQLITE_NOMEM),
     *(sqlite3.SQLITE_READONLY, sqlite3.SQLITE_IOERR, sqlite3.SQLITE_FULL, sqlite3.SQLITE_CANTOPEN),
@@ -64,9 +64,9 @@ def _files_of(path: Path) -> list[Path]:
 def _without_copies(folder: Path, files: list[Path]) -> list[Path]:
     """Return each file of a bag once, compressed or not.
 
-    A player of rosbag2 unpacks compressed files next to them and leaves copies, perhaps in part; in
-    the bag's metadata are the compressed ones. Without metadata the recorder was killed: then the
-    compressed one may be in part.
+    A player of rosbag2 unpacks compressed files next to them and leaves copies, perhaps in part;
+    the metadata of the bag names the compressed ones. If there is no metadata, the recorder was
+    killed, and a compressed file may be incomplete.
     """
     known = {*files}
     pairs = [(file, packed) for file in files if (packed := _packed(file)) in known]
@@ -163,7 +163,7 @@ class SqliteBag(MessageSource):
         self._report_rows(lost)
 
     def _report_rows(self, lost: int) -> int:
-        """Report rows without a readable message; return 0, those that are left to report."""
+        """Report rows without a readable message; return 0, the new number of unreported rows."""
         if lost:
             self.report(f"{write_count(lost, 'row')} without a message: the bag is damaged")
         return 0
@@ -248,7 +248,7 @@ class SeveralFiles(MessageSource):
                     replace(each, channel_id=self._number(place, each.channel_id))
                     for each in messages
                 ]
-            self.metadata = source.metadata | self.metadata  # of several the first
+            self.metadata = source.metadata | self.metadata  # the first of several values counts
             self.losses += [
                 Loss(
                     f"{source.path.name}: {each.text}",

@@ -1,7 +1,7 @@
 """The catalog of a log: all that is known of it, found out once, for everything that reads it.
 
 For each interval of time it has the motion that is known, or why none is; for each topic its name,
-its rate and its count; what is damaged, missing or there twice; and what the log leaves open.
+its rate and its count; what is damaged, missing or repeated; and what the log does not determine.
 """
 
 import math
@@ -62,10 +62,10 @@ class CatalogTopic:
     rate: float | None  # samples per s, of the first ones; None for topics without samples
     missing: int  # samples, beyond those that the node has counted as missed
     is_least: bool  # True if more of them may be missing
-    uncounted: int  # samples that are missing where the node has not counted any more
+    uncounted: int  # missing samples after the last count of the node
     repeated: int  # samples with the stamp of another sample
     has_more: bool  # True if more of them may be repeated
-    is_repeat: bool  # False if the clock may have gone back, so that they are others
+    is_repeat: bool  # False if the clock may have gone back: then they are different samples
     unreadable: str  # why messages cannot be read; empty: all can
 
 
@@ -76,17 +76,17 @@ class Catalog:
     path: Path
     node: str | None  # full name; None: the log has no top
     topics: Mapping[str, CatalogTopic]  # those of the top that the log has, by our names
-    guess: str  # what is said if the log does not name the topics of the top; else empty
+    guess: str  # note for a log that does not name the topics of the top; else empty
     others: Mapping[str, str]  # types of the other topics of the log, by their full names
     ordered: Ordered  # its events
     intervals: tuple[Interval, ...]  # in the order of the run
     undecided: tuple[Interval, ...]  # in which the order does not show to which a sample belongs
     end: int | None  # stamp (ns) of the last sample; None without samples
     count: int  # messages of all topics
-    losses: tuple[Loss, ...]  # as reading the files has found them
+    losses: tuple[Loss, ...]  # found while the files were read
     never_recorded: tuple[str, ...]  # topics that the node has and the log lacks, by our names
     problems: tuple[str, ...]  # everything that is damaged, missing or there twice
-    doubts: tuple[str, ...]  # what may be lost: the log ends before the node has counted again
+    doubts: tuple[str, ...]  # possible losses: the log ends before the next count of the node
     notes: tuple[str, ...]  # what else a reader should know
 
     @property
@@ -170,7 +170,7 @@ class _Conclusions:
         grid = Grid(self._ordered, self._recordings)
         self._passes = grid.passes
         self._found = {name: grid.judge(name, rows) for name, rows in contents.rows.items()}
-        # the topic with the fewest gaps: where it has one, the others have one too
+        # the topic with the fewest gaps: in each of its gaps the other topics have one, too
         self._main = min(
             self._found,
             key=lambda name: (self._found[name].missing, -contents.rows[name].count),
@@ -340,8 +340,8 @@ class _Conclusions:
         return not (is_begun and self._ordered.events) or not all(each.is_off for each in missing)
 
     def _list_gaps(self, name: str) -> list[Gap]:
-        """Return the gaps of a topic, but for those that an event may explain that is lost."""
-        # After a gap that is not counted, what one topic alone lacks is no event's.
+        """Return the gaps of a topic, except those that a lost event may explain."""
+        # After a gap that is not counted, a gap in one topic alone is not caused by an event.
         passed = {gap.place for gap in self._list_uncounted(self._main)}
         intervals = (each for each in self._intervals if each.event is None)
         unknown = [each for each in intervals if each.places[0] not in passed]
@@ -453,7 +453,7 @@ class _Conclusions:
         yield from self._describe_unproved(lambda place: place not in places)
 
     def _describe_unproved(self, chosen: Callable[[int], bool]) -> Iterator[str]:
-        """Yield from when on the motion is not known for want of a proof, by the first place."""
+        """Yield since when no proof follows, so that the motion is unknown, by the first place."""
         unproved = (each for each in self._intervals if each.reason.startswith(NO_PROOF))
         for (place, _), parts in groupby(unproved, key=lambda each: each.places):
             first = next(parts)
@@ -508,7 +508,7 @@ def _count_missing(gaps: Iterable[Gap]) -> int:
 
 
 def _describe_uncounted(gaps: Sequence[Gap]) -> str:
-    """Return how many samples are missing, and where, and that it is open why."""
+    """Return how many samples are missing, and where; the cause is not known."""
     least = "at least " if any(gap.has_event for gap in gaps) else ""
     return (
         f"{least}{_count_samples(_count_missing(gaps))} missing, {_describe_where(gaps)}; no count "

@@ -37,7 +37,7 @@ from symtop_ros.run.log.reader import (
 from symtop_ros.run.log.source import MessageSource
 
 Index = dict[int, list[Entry]]  # log time and offset of each message, by channel
-FOOTER_HEAD = struct.Struct("<BQQQ")  # of which the checksum of the summary is taken, too
+FOOTER_HEAD = struct.Struct("<BQQQ")  # the checksum of the summary includes it
 
 
 def find_damage(file: MessageSource) -> list[str]:

@@ -26,10 +26,10 @@ class Ordered:
 
     events: tuple[Event, ...] = ()
     places: tuple[int, ...] = ()  # in the log
-    runs: tuple[int, ...] = ()  # number of the run of each: a node that is started again begins one
+    runs: tuple[int, ...] = ()  # number of the run of each event: a restarted node begins a new run
     repeated: tuple[Placed, ...] = ()  # those that a recorder has repeated at the begin of a file
     doubled: int = 0  # events that are there twice in other places
-    contradicting: tuple[Event, ...] = ()  # that are there twice, and differ
+    contradicting: tuple[Event, ...] = ()  # events that are repeated with different contents
 
 
 def order_events(found: Sequence[Placed], begins: Sequence[int]) -> Ordered:
@@ -78,7 +78,7 @@ def _begins_run(event: Event, run: dict[object, Placed]) -> bool:
 
 
 def _find_end(event: Event, after: Event) -> int:
-    """Return the stamp (ns) up to which an event holds; any, if others may be in between."""
+    """Return the stamp (ns) up to which an event holds; unlimited if events may be missing."""
     is_next = after.number <= event.number + 1  # a smaller number is that of another run
     return after.previous_end if is_next else MAX_STAMP
 

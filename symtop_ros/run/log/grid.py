@@ -92,7 +92,7 @@ def list_recordings(file: MessageSource) -> list[Recording]:
 
 
 def list_absent_files(file: MessageSource) -> list[int]:
-    """Return the numbers of files of a recording that are not there, but for those after all."""
+    """Return the numbers of missing files of a recording, except files after the last one."""
     found: dict[str, set[int]] = {}
     for each in file.files:
         values = each.metadata.get(METADATA, {})
@@ -117,7 +117,7 @@ class Grid:
             *(_list_resumptions(ordered.events, self._periods[1:]) if is_own_time else ()),
         ]
         self._jumps = _find_jumps(ordered)
-        # Of each event, and at the end, for owner -1, of what is before all of them.
+        # One entry for each event, and one at the end (owner -1) for what is before all events.
         self._runs = np.array([*ordered.runs, *ordered.runs[:1]], dtype=np.int64)
         # Places at which recordings begin, and events that say so.
         self._recordings = [each.place for each in recordings[1:]]
@@ -136,7 +136,8 @@ class Grid:
         returns = tuple(self._list_returns(*samples))
         passes = self.passes.find(stamps, places)
         if passes is None:
-            # Which samples are neighbours is not known, and what is there too often is.
+            # It is not known which samples are neighbours, but the number of extra samples is
+            # known.
             repeated = self._count_too_many(stamps)
             return GridFindings((), repeated, returns, self._find_rate(rows), is_least=True)
         repeated = rows.count_repeated(passes)
@@ -147,7 +148,7 @@ class Grid:
         return GridFindings(tuple(gaps), repeated, returns, self._find_rate(rows))
 
     def _count_too_many(self, stamps: Stamps) -> int:
-        """Return how many samples are there beyond one for each event that holds at their stamp."""
+        """Return the number of extra samples: more than one for each event that holds then."""
         times, counts = np.unique(stamps, return_counts=True)
         allowed = np.maximum(self._event_order.count_holding(times), 1)
         return int(np.maximum(counts - allowed, 0).sum())
@@ -188,7 +189,7 @@ class Grid:
         # Between two runs no node published. A run begins like a log: with its first sample.
         is_one_run = self._runs[owners[:-1]] == self._runs[owners[1:]] if len(self._runs) else True
         is_wide = (after - before > WIDE * period) | (np.diff(passes) > 0)
-        # Before the first event one that is lost may explain it.
+        # Before the first event, a lost event may explain the gap.
         is_wide &= ~self._is_unsaid(places, owners) & (owners[:-1] >= 0)
         wide = np.flatnonzero((period > 0) & is_wide & is_one_run)
         columns = before, after, owners[:-1], owners[1:], period, places[:-1] + 1, places[1:]
@@ -200,7 +201,7 @@ class Grid:
                 *(bisect_right(empty, (each, MAX_STAMP)) for each in (owner, next_owner))
             )
             has_event = any(number in self._changes for number in range(owner + 1, next_owner + 1))
-            # An event between both may have had a slower grid; what is not known is nan.
+            # An event between two samples may have had a slower grid; an unknown period is nan.
             between = self._periods[owner + 1 : next_owner + 2]
             slowest = float(np.fmax.reduce(between, initial=step))
             for first, last, is_first in self.passes.cut(owner, next_owner, begin, end):
@@ -222,7 +223,7 @@ def _changes_grid(event: Event) -> bool:
 
 
 def _measure(intervals: Iterable[Empty], begin: int, end: int) -> int:
-    """Return how much (ns) of a stretch is in intervals, which may overlap."""
+    """Return how many ns of a stretch are inside intervals, which may overlap."""
     covered = 0
     reached = begin
     for first, last in sorted((first, min(last, end)) for _, first, last in intervals):

@@ -31,12 +31,13 @@ NOWHERE = 2**62  # a place after the end of every log
 class Interval:
     """An interval of stamps in which one motion is known, or none."""
 
-    begin: int  # stamps in ns, from the first on and before the second
+    begin: int  # stamps in ns: from `begin` on, and before `end`
     end: int
     # the last one, whose segment is the motion and its times; None: the motion is not known
     event: Event | None
     reason: str = ""  # why it is not known
-    places: tuple[int, int] = (0, 0)  # of what is not known: the messages from the first to before
+    # if nothing is known: places of the first message, and after the last one
+    places: tuple[int, int] = (0, 0)
 
 
 def partition(intervals: Sequence[Interval]) -> Iterator[tuple[int, list[Interval]]]:
@@ -178,7 +179,7 @@ class Finder:
     def _find_end_before(self) -> int:
         """Return the stamp (ns) before which samples may be those of events before all of them.
 
-        If the clock has gone back since, stamps after the first event are among them.
+        If the clock has gone back since then, these samples may have stamps after the first event.
         """
         event, place = self._ordered.events[0], self._ordered.places[0]
         rows = [row for row in self._rows.rows if row.first_place < place]
@@ -218,7 +219,7 @@ class Finder:
         following = events[k + 1]
         if _next_of_run(self._ordered, k):
             return following.previous_end
-        # Between two runs no node was there: the samples show how long the one before was.
+        # No node publishes between two runs, so the samples show how long the earlier run was.
         first = places[self._ordered.runs.index(self._ordered.runs[k])]
         is_later = following.stamp > events[k].stamp
         lasts = [
@@ -256,7 +257,7 @@ def _list_pieces(
         pieces[-1][1] = row.last + 1
     pieces[-1][1] = max(end, pieces[-1][1])
     found = [(since, until) for since, until in pieces if since < until]
-    return found or [(begin, begin)]  # which has messages of other topics
+    return found or [(begin, begin)]  # the range of places has only messages of other topics
 
 
 def _find_last_place(row: Row) -> int:

@@ -28,9 +28,9 @@ def read_entries(data: bytes) -> tuple[int, list[Entry]]:
 class DamagedChunk:
     """A chunk without readable messages: the indexes behind it, its head and that of the summary.
 
-    Any of these may be damaged as well. Times are stated if no two of them contradict each other,
-    or if two agree; a number if the indexes are complete, and their times are those that are
-    stated.
+    Any of these may be damaged as well. The message states times if no two of the sources
+    contradict each other, or if two agree. It states a number if the indexes are complete and have
+    these times.
     """
 
     def __init__(

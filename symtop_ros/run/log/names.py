@@ -1,7 +1,7 @@
 """The topics of a top in a log: which channel each of them is.
 
 A log of the node has the full names of its topics, which may be remapped, in its metadata. In logs
-of other recorders, and in those of before, topics are recognised by the last part of their names
+of other recorders, and of earlier versions, topics are recognised by the last part of their names
 and by their types, so that namespaces and other topics do not matter.
 """
 

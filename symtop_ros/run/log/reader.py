@@ -181,8 +181,8 @@ class McapFile(MessageSource):
         """Yield the messages of a record, and report or note its damage."""
         is_of_index = self._is_chunk_of_index(record)
         if record.opcode == Opcode.CHUNK or is_of_index:
-            # Until its messages are found: readers pass over another opcode, and a head of zeros
-            # is that of an empty chunk. The indexes behind it decide.
+            # This holds until its messages are found: readers skip another opcode, and a head of
+            # zeros looks like that of an empty chunk. The indexes behind the chunk decide.
             index = self._index.get(record.start)
             self._damaged = DamagedChunk(_chunk_of(record), index, self._has_messages(index))
         try:
@@ -208,7 +208,7 @@ class McapFile(MessageSource):
         if self._damaged and (is_of_index or not self._index):
             self._damaged.is_certain = True
             return
-        self._damaged = None  # a flipped bit makes a chunk of the index behind one
+        self._damaged = None  # a flipped bit can turn the index behind a chunk into a chunk
         self.report(f"the record before byte {record.end} is damaged")
 
     def _has_messages(self, chunk: ChunkIndex | None) -> bool:
@@ -405,14 +405,14 @@ class McapFile(MessageSource):
         self.report(damage + self._describe_lost(lost), is_place=bool(lost))
 
     def _doubt_end(self) -> str:
-        """Return that the log may have had further messages."""
+        """Return the sentence that the log may have had further messages."""
         if self._span is None:
             return "all messages may be lost"
         latest = self.since_start(self._span[1])
         return f"messages after the last one, at {latest:.3f} s, may be lost"
 
     def _describe_lost(self, chunks: Sequence[ChunkIndex]) -> str:
-        """Return that chunks of the index are lost, with their times; nothing without any."""
+        """Return the sentence on lost chunks of the index, with their times; empty without any."""
         if not chunks:
             return ""
         first = min(each.message_start_time for each in chunks)
@@ -423,7 +423,7 @@ class McapFile(MessageSource):
         return f": {are} lost, with messages of {times}"
 
     def _report_ending(self) -> None:
-        """Report what the recorder noted itself, if symtop_ros wrote the log, and what a repair."""
+        """Report the notes of the recorder, if symtop_ros wrote the log, and those of a repair."""
         ending = self.metadata.get(ENDING, {})
         dropped = ending.get("dropped", "0")
         if dropped != "0":

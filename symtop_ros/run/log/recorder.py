@@ -151,7 +151,7 @@ class Recorder:
         except Exception as error:
             file.abandon()
             self.running = False
-            # Set last: who reads it may open the file, which must be complete by then.
+            # Set last: a reader of the path may open the file, so it must be complete by then.
             self.failure = f"{file.path}: {describe_error(error)}"
 
     def _await_message(self) -> bool:
@@ -168,12 +168,13 @@ class Recorder:
             self._drain(file, latched)
             if ending:
                 return True
-            # Asked last: an empty file may be larger than a small limit, and would be for ever.
+            # This is tested last: an empty file may be larger than a small limit, so an earlier
+            # test would create empty files for ever.
             size, duration = self.settings.max_size, self.settings.max_duration  # 0: no limit
             if 0 < size <= file.size or 0 < duration <= file.duration:
                 return False
             if self._oldest is not None and self._clock() - self._oldest > LONGEST_AGE:
-                self._oldest = None  # what is added from now on has an age of its own
+                self._oldest = None  # messages that are added from now on are timed anew
                 self._drain(file, latched)
                 file.flush()
 

@@ -28,7 +28,7 @@ class StampRows:
 
     rows: list[Row] = field(default_factory=list)
     count: int = 0
-    _events: int = 0  # before the last of them
+    _events: int = 0  # number of events before the last sample
 
     def add(self, stamps: Stamps, places: Places, events: Places) -> None:
         """Add stamps (n,) in ns, with their places (n,) and the numbers of events before them."""
@@ -54,7 +54,7 @@ class StampRows:
 
     @staticmethod
     def _find_cuts(stamps: Stamps, events: Places) -> list[int]:
-        """Return the places at which rows begin, but for the first: other steps, and events."""
+        """Return the places at which rows after the first begin: at other steps, and events."""
         steps = np.diff(stamps)
         differs = np.abs(np.diff(steps, prepend=steps[:1])) > ROUNDING
         must = (steps <= 0) | (np.diff(events) > 0)
@@ -98,7 +98,7 @@ class StampRows:
     def find_stamp(self, since: int, place: int) -> int | None:
         """Return the stamp (ns) of the last sample between two places of the log; None if none is.
 
-        Of a row that both ends of the interval are in, the stamp is that of a grid.
+        If both ends of the interval are in one row, the stamp is computed from its grid.
         """
         for row in reversed(self.rows[: bisect_left(self.rows, place, key=_find_place)]):
             if row.last_place < place or row.samples == 1:

@@ -40,7 +40,7 @@ class TimeOrder:
     def find(self, stamps: Stamps, places: Places) -> Places | None:
         """Return the number of the pass of each sample (n,), in the order of the log.
 
-        None if the order does not show it, as that of a log that was sorted by time.
+        None if the order of the log does not show it, for example in a log that was sorted by time.
         """
         found = self.find_by_place(stamps, places)
         if found is not None:
@@ -100,7 +100,7 @@ class TimeOrder:
         return bool(((begins[passes] <= stamps) & (stamps < ends[passes])).all())
 
     def _find_end(self, number: int) -> int:
-        """Return the end (ns) of the pass before an event; any, if that is of another run."""
+        """Return the end (ns) of the pass before an event; unlimited for a pass of another run."""
         event = self._events[number]
         return event.previous_end if event.previous_end > event.stamp else MAX_STAMP
 
@@ -127,7 +127,7 @@ class TimeOrder:
     ) -> Iterator[tuple[int, int, bool]]:
         """Yield the intervals of time (ns) between two samples, of which the owners are given.
 
-        The third is True if a sample is at the begin.
+        The third value of each interval is True if a sample is at its begin.
         """
         is_sample = True
         for number in self._begins:
@@ -140,7 +140,7 @@ class TimeOrder:
 def _begins_pass(before: Event, event: Event) -> bool:
     """Return True if the clock went back at an event, or may have gone back at one that is lost.
 
-    A run in its own time is paused at once, which may be before the stamp of the act before.
+    A run in its own time pauses at once, so its stamp may be before that of the previous act.
     """
     is_next = event.number == before.number + 1
     return event.previous_end > event.stamp or (before.stamp > event.stamp and not is_next)

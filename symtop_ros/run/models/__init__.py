@@ -37,9 +37,9 @@ FREE_FORMATS: dict[str, Format] = {
     "free.mjcf": format_free_mjcf,
     "free.usd": format_free_usd,
 }
-# What a format cannot say: the axis of a URDF's joint goes through the origin of its link, and a
-# link of SDF and a body of USD have mass. USD has no other words for a turned body than those of
-# "turned", principal axes and moments.
+# Descriptions that a format cannot express: the axis of a URDF joint goes through the origin of its
+# link, and a link of SDF and a body of USD must have mass. USD describes a turned body only as in
+# "turned", by principal axes and moments.
 UNSAID = {("offset", "urdf"), ("inertial", "usd"), ("inertial", "free.usd")}
 UNSAID |= {("nested", form) for form in ("sdf", "free.sdf", "usd", "free.usd")}
 

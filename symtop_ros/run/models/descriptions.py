@@ -2,8 +2,8 @@
 
 A turned frame has a full tensor of inertia, or three moments along the axes of an inertial frame.
 
-There is one motion for all of them, and each number is rounded once from the exact one. Engines
-that take frames or children to be special have several.
+There is one motion for all of them, and each number is rounded once from the exact one. An engine
+that handles such frames or children wrongly shows different motions.
 """
 
 import math
@@ -30,7 +30,7 @@ BACK: tuple[float, ...] = (float(TURN[0]), *(-float(each) for each in TURN[1:]))
 ROLL_PITCH_YAW_BACK: Vector = (0.6435011087932844, -0.9272952180016122, -1.5707963267948966)
 UPRIGHT: Exact = tuple(map(Fraction, (0, 0, 1)))
 ORIGIN: Vector = (0.0, 0.0, 0.0)
-# Of a moved frame, in units of the size of the body: no symmetry, no digit to spare.
+# Origin of a moved frame, in units of the size of the body. It has no symmetry, and few digits.
 SHIFT = (0.25, -0.375, 0.5)
 
 

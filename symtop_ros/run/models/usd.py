@@ -1,10 +1,10 @@
 """A body as a stage of USD with its physics (UsdPhysics), held by a spherical joint, or by nothing.
 
 The schema has single precision for all that moves, and a body's mass is more than zero, so that the
-whole of it cannot be in a child. It says that velocities are in the space of a body's transform:
-some readers take that of its parent, and others the body's. Here both are the same: the parent has
-the pose of the start, and the body none. Rates are in degrees per second, and a linear velocity is
-that of the centre of mass.
+whole of it cannot be in a child. It defines velocities in the space of a body's transform. Some
+readers take the space of the parent, others that of the body. Here both are the same, because the
+parent has the pose of the start, and the body has no transform. Rates are in degrees per second,
+and a linear velocity is that of the centre of mass.
 """
 
 import math

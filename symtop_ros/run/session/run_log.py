@@ -163,7 +163,7 @@ class _Again:
         self._compare(event, name)
 
     def _prepare_start(self, motion: Motion) -> None:
-        """Let a start begin held or free, and forces act on a motion that was held."""
+        """Set whether a start is clamped, and release a clamp if forces are to act."""
         if self._simulation.settings.initial.clamped != motion.clamped:
             self._session.apply_settings({CLAMPED: motion.clamped})
         is_forced = motion.friction or any(motion.applied_torque)

@@ -78,8 +78,8 @@ class Session:
     def answer(self, service: str, read: Callable[[], Any]) -> Response:
         """Carry out a request; `read` returns its argument, or raises RefusedError.
 
-        A granted answer ends with the number of its event, or of the latest one if the request
-        changed nothing. That of `~/get_state` is JSON, and has it as a field.
+        A granted answer ends with the number of its event, or of the latest event if the request
+        changed nothing. The answer of `~/get_state` is JSON, and has this number as a field.
         """
         act = self._requests.find(service, read)
         if service != "get_state":
@@ -151,7 +151,7 @@ class Session:
         self.simulation.speed_up()
         self.recording.report_failure()
         if not self.simulation.segment.running:
-            # for those who came while it stands still
+            # for requests that came while the motion stands still
             self._outputs.send_clock(self.simulation.now)
         self._outputs.send_diagnostics(
             self.simulation.stamp,

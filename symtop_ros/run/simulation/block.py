@@ -128,7 +128,7 @@ class Blocks:
         return next(filter(None, found), None) or segment.state_at(stamp)
 
     def begin(self, segment: Segment, stamps: Sequence[int]) -> None:
-        """Go to a new block; of it those topics are due that were asked for in the last one."""
+        """Go to a new block; the topics that were asked for in the last block are due in it."""
         self.current = Block(segment, stamps, self._encode, self.current.requested)
         self._later = None
 

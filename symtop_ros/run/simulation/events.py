@@ -46,8 +46,8 @@ WHOLE = re.compile(r"-?\d{1,19}")  # a stamp
 
 Number = TypeVar("Number", int, float, Fraction)
 
-# What an event says of the motion and of the segment that follow. It is the only list of them: of
-# it events are made and compared, and by it a run of the page is known from another.
+# What an event says of the motion and of the segment that follow. This is the only list of them:
+# events are made and compared by it, and runs of the page are distinguished by it.
 MOTION: dict[str, Callable[[Motion], Any]] = {
     "top": lambda motion: astuple(motion.top),
     "friction": lambda motion: astuple(motion.friction),
@@ -58,7 +58,7 @@ MOTION: dict[str, Callable[[Motion], Any]] = {
     "motion.pushes": lambda motion: astuple(motion.pushes) if motion.pushes else (),
     "motion.clamped": lambda motion: motion.clamped,
 }
-# What the rig says of the body: if one of them changes, the motion is as before.
+# Fields of the rig on the body: a change of one of them does not change the motion.
 BODY = ("gravity", "mass")
 SEGMENT: dict[str, Callable[[Segment], Any]] = {
     "motion.stamp": lambda segment: segment.stamp,

@@ -96,10 +96,10 @@ class Waits:
         self._advance = 0.0  # ns of the run
 
     def measure(self, kept: float, asked: float) -> str | None:
-        """Measure since the last call; return a warning of what the waits amount to.
+        """Measure the waits since the last call; return a warning if they are long.
 
-        `kept` is the real-time factor but for waits, `asked` that of the settings. None: the waits
-        are shorter than `GAP`, or the last warning is too recent.
+        `kept` is the real-time factor without the waits, `asked` that of the settings. The result
+        is None if the waits are shorter than `GAP`, or if the last warning is too recent.
         """
         waited, ran = self._clock.take_waits()
         self.latest = waited / NANOSECONDS

@@ -40,7 +40,7 @@ class OwnTimeSimulation(Simulation):
             super()._stop_at(reached)
 
     def _stop(self) -> None:
-        """Let the time stand still: what is changed from now on acts 1 ns after the last sample."""
+        """Let the time stand still: changes from now on act 1 ns after the last sample."""
         self._clock.stop(max(self.last, self.segment.stamp - 1))
         self.restart_grid(self.now + 1)
 

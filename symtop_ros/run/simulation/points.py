@@ -65,7 +65,7 @@ class Points:
     residuals : ndarray (n, r)
         Measured minus computed values; for attitudes a rotation vector in the body frame.
     camera : mapping
-        Of pixels: the numbers of the camera, by their names in run_fields.json.
+        For `pixels` the numbers of the camera, by their names in run_fields.json.
     """
 
     kind: str
@@ -107,7 +107,7 @@ class Points:
         Parameters
         ----------
         states : State
-            Those of the motion at the times of the points.
+            States of the motion at the times of the points.
         """
         with np.errstate(invalid="ignore"):  # a row of zeros has no direction
             return self._find_directions(states)

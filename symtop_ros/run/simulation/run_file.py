@@ -29,10 +29,10 @@ from symtop_ros.run.wire.layout import NANOSECONDS
 
 # A time is at most 4e6 s: up to there a double in s has its own ns.
 FORMATS: list[int] = TABLE["formats"]  # that are read
-# Formats by what a run has that readers of the one before would not know: a run without it has the
-# format that it had before, which more versions read.
+# Formats, by the content that readers of the previous format do not know. A run without this
+# content keeps the previous format, which more versions read.
 PLAIN, CLAMPED, WEIGHED, MEASURED = FORMATS[1:]
-# Mass and gravity of a body, as events of a run have them that do not say so.
+# Mass and gravity of a body in events that do not state them.
 ASSUMED = {name: TABLE["event"][name]["absent"] for name in BODY}
 KINDS: list[str] = TABLE["event"]["kind"]["words"]
 ACTS = ("start", *KICKS, "clamp", "unclamp")

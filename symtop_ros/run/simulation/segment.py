@@ -1,4 +1,4 @@
-"""A stretch of a run between two changes: a motion, and which of its times belongs to a stamp.
+"""A stretch of a run between two changes: a motion, and the relation of its time to the stamps.
 
 Stamps are integer nanoseconds of the simulation's clock, and times of the motion are exact: sums of
 products of integers and doubles. So the state at a stamp is defined to the last bit, after any

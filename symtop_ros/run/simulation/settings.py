@@ -371,7 +371,7 @@ def read_body(values: Mapping[str, Any]) -> tuple[Top, Friction]:
 def override_scene(scene: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
     """Return the parameters of a scene with others; a given rate ends its regular precession.
 
-    As in a request: else the rate would be read and silently replaced.
+    This is as in a request; otherwise the given rate would be silently replaced.
     """
     is_given = any(f"initial.{name}" in given for name in ("phi_dot", "theta_dot"))
     regular = {"initial.precession": ""} if is_given else {}

@@ -1,8 +1,8 @@
 """The simulation: a sample at every stamp of a grid, and an event for every change.
 
 A change takes effect at the next stamp that is not published yet: samples before it belong to the
-old motion, samples from it on to the new one. What a change is says the `timeline`; here is when it
-takes effect, and what is published.
+old motion, samples from it on to the new one. The `timeline` defines each change; this module
+decides when it takes effect, and what is published.
 """
 
 from collections.abc import Callable, Sequence
@@ -174,8 +174,8 @@ class Simulation:
         self._release_torque()
         if not (self.publish() and self._work_on_block()):
             return AT_ONCE
-        # What is left of the block is computed now, so that it is ready when it is due. Of the
-        # first sample after a change each topic is computed when it is sent.
+        # The rest of the block is computed now, so that it is ready in time. In the first sample
+        # after a change, each topic is computed when it is sent.
         self._blocks.current.finish()
         self._work_ahead()
         return self._clock.wait_for(self.stamp)

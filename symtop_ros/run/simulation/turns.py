@@ -5,7 +5,7 @@ from collections import deque
 
 
 class Turns:
-    """A lock to take with `with`: who publishes late samples sees that a turn waits for it."""
+    """A lock for `with`, which shows a thread that publishes late samples that a turn waits."""
 
     def __init__(self) -> None:
         self.lock = threading.RLock()  # to take it without being waited for

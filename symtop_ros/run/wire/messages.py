@@ -202,7 +202,7 @@ def decode_messages(form: Format, messages: Sequence[bytes]) -> tuple[list[Decod
 def _decode_first_layout(
     form: Format, messages: Sequence[bytes], indices: NDArray[np.int64]
 ) -> Decoded:
-    """Decode, of some messages of one size, those with the layout of the first one."""
+    """Decode those of some messages of one size that have the layout of the first one."""
     first = messages[indices[0]]
     names = form.read_names(first)
     layout = form.layout(*names)

@@ -22,7 +22,7 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Motion, State, Top
 from symtop_ros.truth.fit.model import THINNEST
 
-PAD = 8  # by which a spectrum is finer
+PAD = 8  # factor by which padding with zeros makes a spectrum finer
 
 
 @dataclass(frozen=True)
@@ -58,9 +58,9 @@ class Across:
 def measure_across(times: Real, w: Any) -> Across:
     """Return the constants that rates (n,) at some times show, by linear least squares.
 
-    Twice the integral of W'' is linear in them, and needs no derivative of noise. W turns by up to
-    some rad from row to row, so it is looked at from a frame that turns with its strongest
-    frequency: there V = W exp(-i c t) has the same equation with k + 2 c and e + k c + c^2.
+    W'', integrated twice, is linear in the constants, and no noise is differentiated. W turns by up
+    to some rad from row to row, so it is seen from a frame that turns with its strongest frequency:
+    there V = W exp(-i c t) has the same equation with k + 2 c and e + k c + c^2.
     """
     t = times - times[0]
     c = find_frequency(t, w)

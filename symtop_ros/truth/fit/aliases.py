@@ -2,7 +2,7 @@
 
 At equal steps a nutation of the frequency f shows the same rows as one of 1/step - f or 1/step + f.
 The mean precession stays, and so does the place of the axis in the first row; the velocity of the
-nutation grows with its frequency, and turns round for the first of both if that is positive.
+nutation grows with its frequency, and is reversed for a positive 1/step - f.
 """
 
 import numpy as np
@@ -15,10 +15,11 @@ from symtop_ros.truth.fit.refine import Fit
 from symtop_ros.truth.fit.starts import Starts, fill
 
 SPARSE = 4.0  # rows in a nutation, below which a different motion may show the same rows
-NYQUIST = 2.0  # rows in a nutation, more than which are assumed of two motions that fit as well
+# rows in a nutation; a motion with fewer is excluded if one with SPARSE rows fits as well
+NYQUIST = 2.0
 SPINS = "rates", "inertial"  # kinds whose rows show the spin itself
 RATES = *SPINS, "across"  # kinds of a gyroscope
-NEAR = np.linspace(0.8, 1.2, 33)  # of p_psi/Ix of a start
+NEAR = np.linspace(0.8, 1.2, 33)  # factors of p_psi/Ix of a start
 
 
 def count_rows(fit: Fit) -> float:

@@ -19,8 +19,8 @@ from symtop_ros.truth.fit.starts import Starts, fill, fill_axis_starts, list_axi
 RATIOS = (0.25, 1.0, 1.7)  # Iz/Ix of starts
 ALLOWED = 0.01, 2.0  # Iz/Ix of bodies that spin
 WHOLE = 0, 1, -1, 2, -2  # turns from row to row, besides those that are seen
-FACTORS = np.linspace(0.85, 1.15, 7)  # of a constant by the rule of trapezoids
-PAD = 8  # by which a spectrum is finer
+FACTORS = np.linspace(0.85, 1.15, 7)  # factors of a constant that the rule of trapezoids gives
+PAD = 8  # factor by which padding with zeros makes a spectrum finer
 
 
 def list_starts(record: Record) -> Iterator[Starts]:
@@ -58,7 +58,7 @@ def list_rate_starts(record: Record) -> Iterator[Starts]:
 def _integrate(times: Real, rates: Real, spins: Real) -> tuple[Real, Real]:
     """Return columns (n, 2, 6) of the integrals: by Iz/Ix, by the vertical, and the first rates.
 
-    And the rates across the axis, (n, 2), that they explain.
+    Also return the rates across the axis, (n, 2), that they explain.
     """
     steps = np.diff(times)
     angle = _sum_up(spins[:, np.newaxis], steps)[:, 0]
@@ -69,7 +69,8 @@ def _integrate(times: Real, rates: Real, spins: Real) -> tuple[Real, Real]:
     turned = [Rotation.identity()]
     for each in small:
         turned.append(turned[-1] * each)
-    seen = Rotation.concatenate(turned).inv().as_matrix()  # the first vertical, later
+    # turns the first vertical into later frames
+    seen = Rotation.concatenate(turned).inv().as_matrix()
     by_ratio = _sum_up(np.median(spins) * np.stack([-w[:, 1], w[:, 0]], axis=1), steps)
     force = _sum_up((seen[:, [1, 0]] * np.array([[1.0], [-1.0]])).reshape(-1, 6), steps)
     first = np.broadcast_to(np.eye(2), (len(times), 2, 2))

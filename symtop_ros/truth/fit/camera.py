@@ -4,12 +4,12 @@ The picture has u to the right and v upwards. `elevation` is the angle of the li
 pivot below the horizontal (0: seen from the side, pi/2: from above), `roll` turns the picture about
 that line, (u, v) is the pivot, and exp(log_scale) the distance of the point from the pivot, all in
 the units of the picture. `nearness` is the length of the axis in distances of the camera from the
-pivot; zero if the camera is far away. What is nearer is larger.
+pivot; zero if the camera is far away. A point nearer to the camera is shown larger.
 
 A pinhole looks at the point of the picture that is its centre; if that is not known, at the pivot.
 A camera at one place that looks elsewhere sees the same lines of sight, turned. With T the picture
-of the one that looks at the pivot, in lengths of the axis, a = nearness (pivot - centre)/scale and
-q^2 = 1 + a.a, Rodrigues' formula gives
+of the camera that looks at the pivot, in lengths of the axis, a = nearness (pivot - centre)/scale
+and q^2 = 1 + a.a, Rodrigues' formula gives
 
     (q T + (T.a) a q/(q + 1)) / (1 - nearness T.a)
 
@@ -46,10 +46,10 @@ def project(axis: Real, camera: Mapping[str, Real]) -> Real:
 
 
 def rectify(points: Real, camera: Mapping[str, float]) -> Real:
-    """Return points (n, 2) of a picture as a camera at the same place sees them from the pivot.
+    """Return points (n, 2) of a picture as seen by a camera that looks at the pivot.
 
-    It is the inverse of the turn above: of D, the picture in lengths of the axis, it is
-    (q D - (D.a) a/(q + 1)) / (q^2 + nearness D.a).
+    The camera stays at its place. This inverts the formula above: a picture D, in lengths of the
+    axis, becomes (q D - (D.a) a/(q + 1)) / (q^2 + nearness D.a).
     """
     if "centre_u" not in camera:
         return points

@@ -2,9 +2,10 @@
 
 Without perspective a picture of the axis is linear in it, (u, v) = c + M e. So c and M, of any
 camera, are linear least squares for each motion (variable projection, Golub and Pereyra 1973), and
-five numbers are left: Mgl/Ix, p_psi/Ix, and the tilt and its rates at the start. By the azimuth of
-the camera phi is zero, and by its mirror images Mgl and p_psi are positive. Motions of many shapes
-are scaled to the frequencies of the record; the best of them are improved together.
+five numbers are left: Mgl/Ix, p_psi/Ix, and the tilt and its rates at the start. Phi can be zero,
+because the azimuth of the camera is free, and Mgl and p_psi positive, because its mirror images are
+tried. Motions of many shapes are scaled to the frequencies of the record; the best of them are
+improved together.
 """
 
 from collections.abc import Iterator
@@ -23,14 +24,15 @@ from symtop_ros.truth.fit.starts import Starts, fill
 
 SHAPES = 250  # motions whose nutation is scaled to each frequency
 RATES = 20  # frequencies from the slowest to the fastest, besides those of the spectrum
-PEAKS = 6  # of a spectrum
-PAD = 8  # by which a spectrum is finer
+PEAKS = 6  # peaks of a spectrum that are tried
+PAD = 8  # factor by which padding with zeros makes a spectrum finer
 IMPROVED, STEPS = 2, 20  # motions of a frequency that are improved, and how often
 KEPT = 16
-SAME = 0.02  # of the sizes of Mgl/Ix and p_psi/Ix
-ROWS = 120  # of a part, at which motions are compared
-DELTA = 1e-6  # of differences, in rad or of a rate
-RIDGE = 1e-10  # of the squares of a column: two columns may be one, as without nutation
+SAME = 0.02  # relative difference of Mgl/Ix and p_psi/Ix below which two motions are one
+ROWS = 120  # rows of a part, at which motions are compared
+DELTA = 1e-6  # step of differences, in rad or relative to a rate
+# part of a column's squares that is added: two columns may be equal, as without nutation
+RIDGE = 1e-10
 DAMPING = 1e-3  # of Levenberg and Marquardt, at the start
 FASTEST = 30.0  # p_psi/sqrt(Ix Mgl)
 
@@ -92,7 +94,8 @@ def list_camera_starts(part: Record) -> Iterator[Starts]:
 def choose_shapes(pictures: Pictures, rate: float) -> Real:
     """Return the best shapes (k, 5) whose nutation has an angular frequency.
 
-    Those of all frequencies together would be a precession without the nutation, if that is small.
+    They are chosen for each frequency alone: among the shapes of all frequencies, those without a
+    nutation would be best if the nutation is small.
     """
     y = scale(draw_shapes(), rate)
     costs = (pictures.find_residuals(y) ** 2).sum(axis=1)
@@ -133,8 +136,8 @@ def scale(shapes: tuple[Real, Real], rate: float) -> Real:
 def list_rates(part: Record) -> Real:
     """Return angular frequencies of a nutation: from slow to fast, and of the spectrum.
 
-    A nutation may be a hundred times smaller than the precession, whose sidelobes are lower by this
-    window than noise is.
+    A nutation may be a hundred times smaller than the precession. This window makes the sidelobes
+    of the precession smaller than the noise.
     """
     times = np.arange(part.times[0], part.times[-1], part.step)
     points = np.stack([np.interp(times, part.times, each) for each in part.values.T], axis=1)
@@ -153,8 +156,9 @@ def improve_all(pictures: Pictures, y: Real) -> Real:
     """Return motions (k, 5) after some steps of Levenberg and Marquardt, all at once.
 
     SciPy's `least_squares` begins at one motion and asks for six at a time. From the same starts it
-    takes 7 times as long, and a whole fit twice as long. In 12 pairs of records 1207 of its starts
-    ended within a tenth of the best cost, and 1148 of these; both had one wrong minimum.
+    takes 7 times as long, and a whole fit twice as long. In 12 pairs of records 1207 starts of
+    `least_squares` and 1148 starts of this function ended within a tenth of the best cost; each of
+    the two had one wrong minimum.
     """
     damping = np.full(len(y), DAMPING)
     left = pictures.find_residuals(y)

@@ -15,11 +15,11 @@ from symtop_ros.truth.residuals.lines import Line
 # The constants of two halves differ by more than five deviations once in two million records; noise
 # that wanders makes deviations of halves uncertain, which the sandwich of a half allows for.
 CHANGED = 5.0
-# Residuals of a wrong model swing with the motion: they are larger than their steps from row to row
-# by more than this. Noise that keeps nine tenths from row to row reaches 3.2.
+# Residuals of a wrong model swing with the motion: their size exceeds that of their steps from row
+# to row by more than this factor. Noise with a correlation of 0.9 from row to row reaches 3.2.
 SMOOTH = 4.0
-# The same of one column, as a spin that falls while the rates across it swing. Noise that keeps
-# 0.99 from row to row reaches 10.
+# The same factor for one column, such as a spin that falls while the rates across the axis
+# oscillate. Noise with a correlation of 0.99 reaches 10.
 SMOOTH_COLUMN = 12.0
 # Of rows that are outliers by chance, 5 % of all, eight follow each other once in 4e10 rows.
 STRETCH = 8
@@ -62,7 +62,7 @@ class Check:
 
     @cached_property
     def _squares(self) -> tuple[Real, Real]:
-        """Mean squares (r,) of the residuals, and those that their steps would have as noise.
+        """Mean squares (r,) of the residuals, and of white noise with the same steps.
 
         A rate that is constant, and rounded, has a residual without steps, which is no motion.
         """
@@ -116,7 +116,7 @@ class Check:
     def still(self) -> tuple[int, ...]:
         """Rates that are the same in all rows although the noise of others is far above rounding.
 
-        A sensor at a limit that is not known shows that, and no spin with noise does.
+        A sensor at an unknown limit outputs the same rate in all rows; a spin with noise does not.
         """
         record = self.fit.model.record
         if record.kind.name not in RATES:
@@ -141,7 +141,7 @@ class Check:
 
     @property
     def of_noise(self) -> str:
-        """The verdict if what is left has no lines: a search that found the motion leaves them."""
+        """The verdict without the test for lines, which the right motion may leave, too."""
         if self.changes or (not self.is_white and self.is_smooth):
             return FAILS
         return HOLDS if self.is_noise and not self.fit.is_lone else UNCLEAR
@@ -155,7 +155,7 @@ class Check:
 
 @dataclass(frozen=True, eq=False)
 class Half:
-    """Parameters (p,) by one half of a record, by one step of Gauss and Newton, and deviations."""
+    """Parameters (p,) from one half of a record, by one Gauss-Newton step, with deviations."""
 
     x: Real
     deviations: Real

@@ -1,4 +1,4 @@
-"""The plot of a fit: the record, the motion that was found, and what is left; needs Matplotlib."""
+"""The plot of a fit: the record, the motion that was found, and the residuals; needs Matplotlib."""
 
 from pathlib import Path
 

@@ -48,7 +48,7 @@ class Rows:
     steps: Real | None = None
 
     def count_once(self) -> "Rows":
-        """Return the rows without those that are there a second time."""
+        """Return the rows without repeated ones."""
         again = find_repeats(self.times, self.values)
         if not again.any():
             return self
@@ -58,7 +58,7 @@ class Rows:
 
 @dataclass(frozen=True)
 class WantedKind:
-    """The columns of a kind of record; without one, of the kind that they say."""
+    """The columns of a kind of record; if no kind is given, the columns decide it."""
 
     kind: str | None
 
@@ -106,7 +106,7 @@ def _find_factors(head: Head, kind: str, places: Places) -> tuple[float, ...]:
 
 
 def read_rows(path: Path, kind: str | None, report: Report | None = None) -> Rows:
-    """Return the rows of a table of a kind; without one, of the kind that its columns say.
+    """Return the rows of a table; if no kind is given, its columns decide it.
 
     `report` is called with the number of characters that were read, now and then.
     """

@@ -1,4 +1,4 @@
-"""The fit of a record: two searches, more if what is left is no noise, and other motions.
+"""The fit of a record: two searches, more if the residuals are not noise, and other motions.
 
 A search that ends in a wrong minimum leaves residuals that are correlated or larger: the better
 motion of all searches is taken.
@@ -21,7 +21,7 @@ from symtop_ros.truth.fit.search import ALIKE, EFFORTS, Candidate, search
 from symtop_ros.truth.fit.sides import expand, restate
 from symtop_ros.truth.fit.twins import mirror_view, turn_camera, turn_over
 
-AGAIN = 1.001  # costs of two searches that found one minimum
+AGAIN = 1.001  # ratio of the costs of two searches that found the same minimum
 SURE = 2  # searches that have to find it
 FARTHEST = 6.0  # deviations; a residual beyond it counts as this
 CLEAR = 25.0  # squares of deviations by which a motion fits worse than another
@@ -35,7 +35,7 @@ def fit_motion(record: Record, report: Callable[[float], None] | None = None) ->
     Parameters
     ----------
     record : Record
-        Of any number of rows; at most `record.MOST` are taken.
+        A record with any number of rows; at most `record.MOST` of them are used.
     report : callable
         Is called with the part that is done, 0 to 1.
 
@@ -61,7 +61,7 @@ def fit_motion(record: Record, report: Callable[[float], None] | None = None) ->
         rivals += ends
         found = choose_better(found, ends, record)
     best = settle(choose_twin(found), rivals)
-    # What is left of a wrong minimum lasts from row to row.
+    # The residuals of a wrong minimum are correlated from row to row.
     return replace(best, is_lone=is_lone and len(best.noise.partial) > 0)
 
 
@@ -87,9 +87,10 @@ def seek(
 
 
 def is_sure(fit: Fit, bests: list[float]) -> bool:
-    """Return True if two searches found one minimum, and what it leaves is noise.
+    """Return True if two searches found the same minimum, and its residuals are noise.
 
-    Noise that lasts may be the motion that a wrong minimum leaves: then three have to find it.
+    Correlated residuals may be motion that a wrong minimum leaves: then three searches have to find
+    it.
     """
     needed = SURE + (len(fit.noise.partial) > 0)
     return count_agreeing(bests) >= needed and Check(fit).of_noise == HOLDS
@@ -108,10 +109,11 @@ def choose_better(fit: Fit | None, ends: list[Candidate], record: Record) -> Fit
 
 
 def is_better(new: Fit, fit: Fit) -> bool:
-    """Return True if a fit leaves less than another, by the noise of either.
+    """Return True if a fit has smaller residuals than another, by the noise of either.
 
-    Noise that lasts may hide in a median that is smaller by chance. If each leaves less by its own
-    noise, one of them takes motion for noise, which makes residuals large: the median decides.
+    A median alone may be smaller by chance, if the noise is correlated. So sums of squares are
+    compared, by the noise of each fit. If they disagree, one of the fits has taken motion for
+    noise; its residuals are large, so the median decides.
     """
     gains = [
         sum_squares(each, fit.residuals) - sum_squares(each, new.residuals) for each in (new, fit)
@@ -140,8 +142,8 @@ def settle(fit: Fit, rivals: list[Candidate]) -> Fit:
 def choose_twin(fit: Fit) -> Fit:
     """Return the usual one of exact twins.
 
-    By rates Mgl > 0; a camera is upright and high; attitudes turn as little from row to row as a
-    body may.
+    For rates, the one with Mgl > 0; for pictures, with an upright camera above the pivot; for
+    attitudes, with the smallest turns from row to row that a rigid body allows.
     """
     model, x = fit.model, fit.x
     if model.kind.name == "attitude":
@@ -156,8 +158,8 @@ def choose_twin(fit: Fit) -> Fit:
 def choose_side(fit: Fit) -> Fit:
     """Return the fit with a camera above the pivot, unless the record shows that it was below.
 
-    Only what is nearer and larger shows the side. That a near camera is looked for decides nothing:
-    of a film from far away both sides fit as well.
+    The side shows only because nearer points are larger. To fit the distance of the camera is not
+    enough: both sides fit a film from far away equally well.
     """
     model, is_below = fit.model, fit.x[fit.model.place["elevation"]] < 0
     if not model.record.breaks_twins:

@@ -12,8 +12,9 @@ from symtop_ros.truth.fit.sides import expand
 
 SHORTEST = 3 * FEWEST  # rows that show a motion
 JUMPS = 3.0  # deviations of the first rows that a motion does not explain
-ROWS = 4  # of them
-CALM = 1.4  # deviations of a row in those of what is new in it
+ROWS = 4  # rows that the motion must not explain
+# largest ratio of the deviation of a row to the deviation of what the rows before do not predict
+CALM = 1.4
 
 
 def find_best(record: Record) -> Candidate:
@@ -24,14 +25,15 @@ def find_best(record: Record) -> Candidate:
 def explains(fit: Fit) -> bool:
     """Return whether the residuals of a motion are hardly larger than their whitened noise.
 
-    In a few rows an autoregression of white noise may be likely by chance, but not large.
+    In a few rows of white noise an autoregression may seem likely by chance, but it then explains
+    little.
     """
     whole = fit.noise.predictors[1][0]  # deviations of a row without others before it
     return fit.remainder.is_white and float(whole.max()) < CALM
 
 
 def find_reach(record: Record) -> int | None:
-    """Return the number of first rows that one motion explains; None if there are none."""
+    """Return the number of first rows that one motion explains; None for none or all."""
     count = min(max(len(record) // 8, SHORTEST), len(record))
     part = record.select(slice(count))
     found = find_best(part)

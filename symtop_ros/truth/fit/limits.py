@@ -21,8 +21,8 @@ from symtop_ros.truth.residuals.saturation import Saturation, find_saturated, fi
 
 MOST = 0.5  # of the rows that may be left out
 SPIN = 2  # column of the rate about the axis
-# A spin next to a limit is beyond it if the noise is up: the rows that are left would be those with
-# noise that is down. Where one of so many rows on either side is at the limit, none is taken.
+# If a spin is close to a limit, positive noise puts a row at the limit, and the remaining rows have
+# negative noise. So this many rows before and after a row at the limit are left out, too.
 BESIDE = 8
 
 
@@ -58,7 +58,7 @@ def leave_out_saturated(rows: Rows) -> Rows:
 
 
 def _leave_out(rows: Rows, bad: Mask, why: str, parts: str) -> Rows:
-    """Return the other rows."""
+    """Return the rows that are not bad, with a note that says why."""
     if bad.mean() > MOST:
         raise RefusedError(f"a record must be within the range of its sensor, got {parts}")
     if not bad.any():
@@ -77,9 +77,9 @@ def _leave_out_spin(rows: Rows, note: str) -> Rows:
 def fit_record(record: Record, report: Callable[[float], None]) -> Fit:
     """Return the motion that explains a record.
 
-    That of the rates across the axis, if the one about it does not change although others have
-    noise: the sensor is at a limit that is not one of the usual ones. With a mount it stays in
-    doubt, as a tilt shows as a part of the spin.
+    Only the rates across the axis are fitted if the rate about the axis never changes although the
+    other rates have noise: the sensor is then at an unusual limit. With a mount the model stays in
+    doubt, because a tilt adds a part of the spin to the other rates.
     """
     fit = fit_motion(record, report)
     if record.kind.name != "rates" or record.has_mount or SPIN not in Check(fit).still:

@@ -1,7 +1,7 @@
 """Spectral lines in the residuals of a motion, at its own frequencies and at others.
 
-What swings at the spin is of the body: one that is not symmetric (Iy = 1.02 Ix), or a sensor with
-unequal scales. Whitening would take it for noise that lasts.
+An oscillation at the spin frequency comes from a body that is not symmetric (Iy = 1.02 Ix), or from
+a sensor with unequal scales. Whitening would take it for correlated noise.
 """
 
 import numpy as np
@@ -32,8 +32,9 @@ def list_lines(fit: Fit) -> tuple[Line, ...]:
 def name_frequencies(fit: Fit) -> dict[str, float]:
     """Return the frequencies in Hz at which residuals of a wrong model oscillate, by name.
 
-    They are few, as the more are tried the clearer a line has to be: once and twice the nutation
-    and the precession, and of a body the spin, and both together.
+    These are the nutation, the precession and their doubles; for records of the body also the spin,
+    alone and with the precession. Only few are tried, because a line must be clearer the more are
+    tried.
     """
     found = fit.model.find_motion(fit.x)
     motion = Motion(found.top, found.start)  # friction has no periods

@@ -36,7 +36,7 @@ def read_log(path: Path, topic: str | None, frame: str | None, kind: str | None)
 
 
 def _read(form: str, messages: Sequence[bytes], topic: str, frame: str | None, chosen: str) -> Rows:
-    """Return the rows that the messages of a topic are, of a type and a kind."""
+    """Return the messages of a topic as rows of a kind, by their type."""
     if chosen != "attitude" and form == IMU.type:
         return _read_sensor(topic, messages, chosen)
     found = decode_estimates(form, messages, frame)

@@ -30,12 +30,12 @@ FORCE_BIASES = ("bias_fx", "bias_fy", "bias_fz")  # of an accelerometer
 LENGTH = "log_length"  # of points of an axis; their distance from the pivot is exp(log_length)
 TURNS = ("turn_1", "turn_2", "turn_3")
 FRICTION = ("axial/Iz", "transverse/Ix")
-# Of a sudden change of the rates: its time after the first row, and the change in the world frame,
-# which does not turn with the spin while its time is looked for.
+# Parameters of a kick: its time after the first row, and the change of the rates in the world
+# frame, which does not turn with the spin while its time is looked for.
 KICK = ("kick_time", "kick_x", "kick_y", "kick_z")
 THINNEST = 1e-4  # Iz/Ix of a rod
-# A phase that changes by DELTA has a forward difference that is wrong by DELTA/2 of itself, and a
-# central one by DELTA^2/6; the rounding of phases, below 1e-14 rad, adds less than 1e-8 to both.
+# If a step changes the phase by DELTA, a forward difference has the relative error DELTA/2, and a
+# central one DELTA^2/6; the rounding of phases, below 1e-14 rad, adds less than 1e-8 to both.
 DELTA, CENTRAL_DELTA = 2e-6, 2e-4
 LARGEST_STEP = 1e-5  # of the scale of a parameter
 BAD = 1e3  # residual of parameters without a motion
@@ -99,8 +99,8 @@ class Model:
     def _basis(self) -> Real:
         """Axes (r, 3) of the body about which the reference is turned, so that the record shows it.
 
-        One of the body is turned about all three; rates do not show a turn about the vertical, an
-        axis none about itself, and theta alone neither.
+        Attitudes show a turn about all three axes. Rates do not show one about the vertical, points
+        of an axis do not show one about the axis, and theta alone shows neither of these.
         """
         if self.kind.name == "attitude":
             return np.eye(3)
@@ -211,14 +211,14 @@ class Model:
         return {name: float(each[0]) for name, each in self._find_cameras(x[np.newaxis]).items()}
 
     def _mount(self, rates: Real, x: Real) -> Real:
-        """Return rates as a gyroscope shows them that is biased, and not along the axis."""
+        """Return rates as a biased and tilted gyroscope shows them."""
         if not self.record.has_mount:
             return rates
         bias = np.stack([self.take(x, n) for n in MOUNT[:3]], axis=-1)
         return np.asarray(self._turn_sensor(rates, x) + bias[:, np.newaxis])
 
     def _turn_sensor(self, vectors: Real, x: Real) -> Real:
-        """Return vectors (k, n, 3) of the body as a sensor sees them that is tilted."""
+        """Return vectors (k, n, 3) of the body as a tilted sensor sees them."""
         if not self.record.has_mount:
             return vectors
         tilt = np.stack([self.take(x, n) for n in MOUNT[3:]] + [np.zeros(len(x))], axis=-1)
@@ -283,7 +283,7 @@ class Model:
         count = len(x)
         far = left[count:]  # those of the other side, or of x itself
         taken = moved[:count] - (moved[count:] if central else x)
-        # Phases beyond 1e10 rad have steps of no digit: NaN ends a search that has lost its way.
+        # For phases beyond 1e10 rad a step changes no digit: NaN then ends the search.
         with np.errstate(invalid="ignore"):
             slopes = self.subtract(left[:count], far) / np.diag(taken)[:, np.newaxis, np.newaxis]
         return np.asarray(np.moveaxis(slopes, 0, -1))

@@ -24,7 +24,7 @@ from symtop_ros.truth.residuals.whitening import Noise
 
 PRECISE = 0.01  # relative deviation that is asked for
 LONGEST = 20_000  # rows that are tried
-STEPS = 8  # parts of the rows, by one of which they grow while a deviation does not hold
+STEPS = 8  # 1/8 of the rows is added as long as a deviation is not reliable
 OFF = (0.1, 1.0)  # rad/s; phi' of starts that are off a regular precession
 
 
@@ -63,11 +63,11 @@ class Plan:
     ----------
     motion : Motion
     record : Record
-        Its times and its kind, and what is known; values are not looked at.
+        Its times and its kind, and what is known; its values are ignored.
     noise : ndarray (r,)
         Deviations of the noise of each residual, which is white.
     camera : mapping
-        Of pixels: the camera, by the names of `camera.CAMERA`.
+        For `pixels` the camera, by the names of `camera.CAMERA`.
     limits : ndarray (m,) or float
         Largest size of the values of each column that the sensor shows; rows beyond it show
         nothing.
@@ -143,7 +143,7 @@ class Plan:
         return rows
 
     def _holds(self, rows: int, slope: Real, of: Callable[[Real], float]) -> bool:
-        """Return True if a deviation by so many rows holds."""
+        """Return True if a deviation is reliable for a number of rows."""
         times = self._longest.model.record.times[:rows]
         short = self.expect(self.motion, replace(self.record, times=times))
         return Valley(short).is_straight(slope, of)

@@ -19,7 +19,7 @@ from symtop_ros.truth.fit.unknown import Unknown, list_unknown
 from symtop_ros.truth.fit.values import SIZED, Value, convert, list_quantities, list_values
 from symtop_ros.words import write
 
-ALIKE = 1.05  # times a deviation, which is no difference
+ALIKE = 1.05  # ratio of two deviations up to which they count as equal
 
 
 @dataclass(frozen=True, eq=False)

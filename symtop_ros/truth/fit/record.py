@@ -17,8 +17,8 @@ FEWEST = 12  # rows
 MOST = points.MOST  # rows of a fit, as many as a run has points; more are thinned
 RUN = 200  # rows that follow each other in a record that was thinned, for the correlation of noise
 GAP = 1.5  # medians of the steps; a longer step ends a run of noise
-LENGTH, USUAL = 0.1, 75  # relative differences of lengths in most rows, in per cent of them
-STILL = 1e-9  # of the size of the numbers; what changes less does not move
+LENGTH, USUAL = 0.1, 75  # largest relative difference of lengths, in this percentage of the rows
+STILL = 1e-9  # relative change below which a record counts as without motion
 Known = tuple[float, float]  # a value and its standard deviation
 
 
@@ -31,28 +31,28 @@ class Record:
     times : ndarray (n,)
         In s, growing.
     values : ndarray (n, m)
-        By the columns of the kind, in rad, rad/s or pixels; axis and attitude have norm 1,
-        but for the errors of points at one distance.
+        By the columns of the kind, in rad, rad/s or pixels; axes and attitudes have the norm 1;
+        points at a fixed distance have it up to their errors.
     kind : Kind
     camera : mapping
-        Of pixels: what is known of the camera, by the names of `camera.CAMERA`.
+        For `pixels` the known numbers of the camera, by the names of `camera.CAMERA`.
     known : mapping
         Known values with their standard deviations: "Mgl/Ix", "Iz/Ix", and biases.
     has_friction : bool
         True if friction is looked for.
     has_length : bool
-        Of points of an axis: True if their distance from the pivot is looked for; values are about
-        one.
+        For points of an axis, True if their distance from the pivot is fitted; values are then
+        close to the norm 1.
     has_kick : bool
         True if a sudden change of the rates is looked for.
     has_mount : bool
-        Of rates: True if biases and the tilt of the sensor are looked for.
+        For rates, True if biases and the tilt of the sensor are fitted.
     has_perspective : bool
-        Of pixels: True if the distance of the camera is looked for.
+        For `pixels`, True if the distance of the camera is fitted.
     position : tuple of float
-        Of inertial records: the place of the accelerometer in the body, in m.
+        For inertial records, the place of the accelerometer in the body, in m.
     notes : tuple of str
-        Sentences on what is odd about the file.
+        Sentences on unusual properties of the file.
     steps : ndarray (m,), optional
         Steps of the last decimals of each column, if the record was read from text.
     """
@@ -116,7 +116,7 @@ class Record:
         return replace(self, times=self.times[rows], values=self.values[rows])
 
     def thin(self, most: int = MOST) -> "Record":
-        """Return at most so many rows: all, or runs of rows that are spread over the record."""
+        """Return at most `most` rows: all, or runs of rows that are spread over the record."""
         if len(self) <= most:
             return self
         pieces = max(most // RUN, 1)
@@ -127,7 +127,7 @@ class Record:
 def make_record(
     times: Real, values: Real, kind: str, *, steps: Real | None = None, **more: object
 ) -> Record:
-    """Return a record of which numbers, times and motion were looked at.
+    """Return a record, after its numbers, times and motion are checked.
 
     Parameters
     ----------
@@ -195,10 +195,11 @@ def _refuse_odd(times: Real, values: Real) -> None:
 
 
 def _normalize(values: Real, kind: str) -> tuple[Real, float]:
-    """Return rows of norm 1, and by which length those of points at one distance were divided.
+    """Return rows of norm 1, and the length by which points at a fixed distance were divided.
 
-    Errors that last would be modulated by the motion, if each row were divided by its own. Points
-    whose length is 1 but for their errors are not divided: the errors would become one of the tilt.
+    If each row were divided by its own length, the motion would modulate correlated errors. Points
+    whose length is 1 up to their errors are not divided at all: an error of the length would become
+    an error of the tilt.
     """
     norms = np.linalg.norm(values, axis=1, keepdims=True)
     if not norms.all():

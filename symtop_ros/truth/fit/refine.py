@@ -1,8 +1,9 @@
 """Least squares with the estimated noise: outliers, correlation and deviations.
 
-The weights are those of the noise of each column. Noise that lasts is taken as an autoregression,
-of the order that Hannan and Quinn's criterion chooses: flicker has another power at a nutation than
-on average. Noise of any other correlation is left to the sandwich of `truth/residuals`.
+The weights are those of the noise of each column. Correlated noise is modelled as an
+autoregression, of the order that Hannan and Quinn's criterion chooses, because flicker, for
+example, has another power at the frequency of the nutation than on average. Noise of any other
+correlation is left to the sandwich of `truth/residuals`.
 """
 
 from dataclasses import dataclass, field, replace
@@ -23,10 +24,11 @@ OUTLIER = 5.0  # deviations; a normal number is farther once in two million
 ROUNDS = 8  # of weights and least squares
 SETTLED = 1e-3  # of the deviations and correlations of noise
 PRECISE = 1e-7  # of the sum of squares: a hundredth of a deviation of a parameter
-FIXED = 12.0  # deviations of rounding, of which a step has 3.5
-DOUBLE = 1e-14  # of the values; what exact states leave is rounding, and no smaller
+FIXED = 12.0  # deviations of rounding: a column within about three steps (one step has 3.5)
+DOUBLE = 1e-14  # smallest deviation, relative to the values: exact states leave rounding errors
 LONG = 1e4  # rad, of the fastest phase in a record
-SLIGHT = 1e-3  # part of the errors of rounding, below which they are noise
+# rounding errors count as noise if the part of them that is not averaged out is smaller
+SLIGHT = 1e-3
 PLACES = 16  # of the steps of rounding, from one to the next
 NULL = 1e-16  # of the largest eigenvalue, to which a smaller one is raised
 
@@ -43,9 +45,9 @@ class Fit:
     others : tuple of Fit
         Other motions that fit as well.
     is_lone : bool
-        True if one search of all found this motion, and what it leaves lasts from row to row.
+        True if only one of all searches found this motion, and its residuals are correlated.
     has_mirror : bool
-        Of a near camera: True if one below the pivot, with -p_psi, shows the record as well.
+        For a near camera, True if a camera below the pivot, with -p_psi, fits the record as well.
     """
 
     model: Model
@@ -110,10 +112,11 @@ class Fit:
     def _shifts(self) -> Real:
         """Changes (k, r, p) of the parameters if each column is rounded, for k places of the steps.
 
-        Rounding that follows a slow motion is no noise: its errors are those of the motion that was
-        found, whose rows all have one error if a number stays within its last decimal. Where the
-        steps are is chance. Noise makes the errors noise: their mean is smaller by the factor
-        exp(-2 (pi sigma/step)^2) at least (Widrow and Kollar, Quantization Noise, 2008).
+        In a slow motion, rounding errors are no noise: if a number stays within its last decimal,
+        all rows have the same error. So the motion that was found is rounded, with steps at several
+        places, because where they are is chance. Noise makes rounding errors independent: their
+        mean is smaller by at least the factor exp(-2 (pi sigma/step)^2) (Widrow and Kollar,
+        Quantization Noise, 2008).
         """
         rounding, fixed = find_rounding(self.model.record, self.white.shape[1])
         steps = np.where(rounding, np.sqrt(12) * rounding, np.inf)
@@ -209,7 +212,7 @@ def find_noise(model: Model, x: Real, lasts: bool) -> Noise:
 def find_rounding(record: Record, width: int) -> tuple[Real, Mask]:
     """Return the deviation (r,) of rounding, and True (r,) for columns within a few steps of it.
 
-    All rows of such a column have one error, so that they count as one.
+    All rows of such a column have the same error, so they count as one row.
     """
     rounding = record.rounding
     if len(rounding) != width:  # residuals of attitudes are no differences of columns

@@ -32,7 +32,8 @@ LABELS = {
     "kick": "change of the rates",
 }
 SLIGHT = 0.1  # of the deviation by the noise: less is not written
-REST = 0.1  # of the square of a systematic deviation, which causes that are not named may make
+# part of the square of a systematic deviation that may come from causes that are not named
+REST = 0.1
 ANGLES = "theta", "phi", "theta_dot", "phi_dot"
 
 
@@ -50,8 +51,8 @@ class Report:
     given : dict
         Known values, as for `values.convert`.
     rivals : sequence of Rival
-        What explains the record and one free motion does not, the clearest first; the fit is that
-        of the first.
+        Models that explain the record better than one free motion does, the clearest first; `fit`
+        is the fit of the first one.
     """
 
     source: str

@@ -1,9 +1,10 @@
 """Models for a record that one free motion does not explain: linear friction, or a kick.
 
-The three are compared by one noise, that of the motion with a kick, which leaves least: noise that
-lasts would take up what friction or a kick does. A kick has a place only if there is a kick, so
-that squares which grow by chance are not those of chi-squared (Davies 1987; Andrews 1993): how much
-they grow at the best place is drawn, from white noise about the one motion.
+The three models are compared with the same noise model, that of the motion with a kick, which has
+the smallest residuals: the correlated noise of another model would include the effect of friction
+or of a kick. A kick that does not exist has no time, so its gain by chance does not follow the
+chi-squared distribution (Davies 1987; Andrews 1993). The gain at the best time is simulated, with
+white noise added to one motion.
 """
 
 from collections.abc import Iterator, Sequence
@@ -24,17 +25,18 @@ from symtop_ros.truth.fit.refine import Fit, find_noise, fit_weighted, refine
 from symtop_ros.truth.fit.search import list_bounds
 from symtop_ros.truth.fit.starts import fill
 
-SURE = 0.999  # of the records of one free motion leave less to gain by chance
-# The noise is estimated with the kick, and takes a part of its gain from chance: of records with
-# noise that lasts one in thirty gained a tenth more than white noise does in one of a thousand.
+SURE = 0.999  # part of the records of one free motion in which the gain by chance is smaller
+# Factor on the gain by chance. The noise is estimated together with the kick, which makes gains
+# larger: with correlated noise one record in thirty gained a tenth more than one in a thousand does
+# with white noise.
 CLEAR = 1.5
 DRAWS = 1000  # of white noise
-PLACES = 40  # of a kick
+PLACES = 40  # of a kick, that are tried
 MANY = 2000  # rows in which rivals are looked for
 TRIED = 3  # places that are followed by least squares
-SLIGHT = 1e-6  # of the rates; change of a derivative
-STEPS = 3  # before and after a kick that are tried, where rates jump
-BESIDE = 1e-4  # of a step, from a kick to a row at least
+SLIGHT = 1e-6  # change of the rates for a derivative, relative to their size
+STEPS = 3  # steps before and after a kick that are tried, if rates jump
+BESIDE = 1e-4  # smallest distance of a kick from a row, in steps
 LOSES = 5.0  # deviations by which friction is not zero
 
 
@@ -48,7 +50,7 @@ class Rival:
         "friction" or "kick".
     fit : Fit
     gain : float
-        By how much it makes the squares of what is left smaller, in those of a deviation.
+        Reduction of the sum of squared residuals, in squared deviations.
     needed : float
         Gain that one record of a thousand has by chance.
     """
@@ -86,8 +88,7 @@ class Rival:
 def find_rivals(fit: Fit, check: Check) -> list[Rival]:
     """Return the rivals that explain more than one free motion, the clearest first.
 
-    It is looked for if the motion leaves more than white noise, of a long record in a part of its
-    rows.
+    Rivals are tried if the residuals are not white noise; for a long record, in a part of its rows.
     """
     record = fit.model.record
     is_white = check.verdict == HOLDS and not len(fit.noise.partial)
@@ -100,9 +101,9 @@ def find_rivals(fit: Fit, check: Check) -> list[Rival]:
 
 
 def find_calm(fit: Fit, rivals: Sequence[Rival]) -> Fit:
-    """Return the free motion next to a rival if it leaves less than the fit; else the fit.
+    """Return the free motion next to a rival if its residuals are smaller; else the fit.
 
-    All searches may have missed it: then a rival gains much, with a kick of about zero.
+    All searches may have missed this motion: then a rival gains much with a kick close to zero.
     """
     for rival in rivals:
         calm = choose_twin(refine(*_move(rival.fit, fit.model.record)))
@@ -121,11 +122,11 @@ def extend(rival: Rival, record: Record) -> Rival:
 def compare(fit: Fit, check: Check) -> list[Rival]:
     """Return the rivals of a motion that explain more than chance does, the clearest first."""
     record = fit.model.record
-    # a slight kick leaves noise that seems to last, and is found by its linear effect
+    # a weak kick makes the noise seem correlated, and is found by its linear effect
     is_slight = check.verdict == HOLDS
     kicked = fit_kick(fit, [] if is_slight else [*find_beginning(record)])
     rubbed = fit_friction(fit, is_slight)
-    # each by the noise of the richest
+    # each with the noise of the model with most parameters, that with a kick
     own = measure(kicked, fit)
     found = [
         Rival("kick", kicked, own - measure(kicked, kicked), find_chance(kicked, fit)),
@@ -145,13 +146,13 @@ def find_beginning(record: Record) -> Iterator[Fit]:
 
 
 def measure(noise: Fit, fit: Fit) -> float:
-    """Return the squares that a model leaves at most, by the noise of another fit."""
+    """Return the sum of squared residuals of a model, with the noise of another fit."""
     x = fit_weighted(fit.model, fit.x, noise.noise)
     return sum_squares(noise, fit.model.find_residuals(x))
 
 
 def fit_friction(fit: Fit, is_slight: bool) -> Fit:
-    """Return the best motion with linear friction: one near the fit, or, if not slight, of all."""
+    """Return the best motion with friction: next to the fit, or also by a search if not slight."""
     record = replace(fit.model.record, has_friction=True)
     starts = [_move(fit, record)]
     if not is_slight:
@@ -166,7 +167,7 @@ def fit_kick(fit: Fit, beginnings: Sequence[Fit]) -> Fit:
     starts = [add_kick(*_move(fit, record), place) for place in rate_places(whiten_plainly(fit))]
     starts += [join(each, record) for each in beginnings]
     best = _choose([refine(*start) for start in starts])
-    # once more by the noise that is left then: what lasts about one motion may be the kick
+    # once more with the noise of that fit: the correlated residuals of one motion may be the kick
     free = Fit(fit.model, fit_weighted(fit.model, fit.x, best.noise), best.noise)
     starts = [add_kick(*_move(free, record), place) for place in rate_places(free)]
     best = _choose([best, *(refine(*start) for start in starts)])
@@ -181,9 +182,9 @@ def whiten_plainly(fit: Fit) -> Fit:
 def settle_time(fit: Fit) -> Fit:
     """Return the fit with the time of its kick known to a step, if rates jump there.
 
-    Between two rows they may show little of the time, and beyond them they leave the whole jump: so
-    it is known at least as a number is that was rounded to the step. It stays off the rows
-    themselves, where the derivative is that of the jump.
+    Rates may hardly show at which time between two rows the kick was; a time beyond these rows
+    leaves the whole jump as a residual. So the time counts as a known number with the deviation of
+    rounding to the step. It is kept off the rows, where the derivative would be that of the jump.
     """
     fit = _choose([fit, *try_steps(fit)])
     record, place = fit.model.record, fit.model.place["kick_time"]
@@ -230,7 +231,7 @@ def _move(fit: Fit, record: Record) -> tuple[Model, Real]:
 
 
 def _choose(found: Sequence[Fit]) -> Fit:
-    """Return the fit that leaves least by the noise of the one that leaves least by its own."""
+    """Return the best fit, by the noise of the one with the smallest mean residual."""
     best = min(found, key=lambda each: float(np.abs(each.residuals).mean()))
     return min(found, key=lambda each: sum_squares(best, each.residuals))
 

@@ -1,7 +1,8 @@
 """A fit as a run of the page: the fitted motion and the measured points.
 
-A record shows no moment alone, and one of an axis neither Iz nor the spin: what is not given is
-that of the default scene, with the same p_psi and the same path of the axis.
+No record determines a moment alone, and a record of an axis determines neither Iz nor the spin.
+Numbers that are not given are those of the default scene, with the same p_psi and the same path of
+the axis.
 """
 
 import json
@@ -100,9 +101,9 @@ def make_run(fit: Fit, rows: int, given: Mapping[str, Known]) -> FittedRun:
 def find_points(fit: Fit, rows: int) -> Points:
     """Return the points of a record, and their residuals.
 
-    Of a sensor whose bias and tilt were found they are those of a sensor without, of points at a
-    distance from the pivot that was found those at one, and of a camera that looks elsewhere those
-    of one at the same place that looks at the pivot.
+    The values are corrected: for the bias and the tilt of a sensor, if they were fitted; for the
+    fitted distance of points from the pivot, which becomes 1; and for a camera that does not look
+    at the pivot, to those of a camera at the same place that does.
     """
     record = fit.model.record
     values, residuals = record.values, -fit.residuals

@@ -19,13 +19,14 @@ from symtop_ros.truth.fit.record import FEWEST, Record
 from symtop_ros.truth.fit.starts import Starts
 from symtop_ros.truth.residuals.spread import find_spread
 
-GROWTH = 1.7  # of a part
+GROWTH = 1.7  # factor by which the next part is longer
 BROAD = 3.0  # scales of the residuals at which starts are compared
-SOFT = 0.1  # of the spread of the values: the first scale of a robust loss
+SOFT = 0.1  # first scale of a robust loss, relative to the spread of the values
 SAME = 1e-4  # relative difference of the costs of one minimum
 NEAR = 1e-6  # relative change of a cost by the last step
-ALIKE = 1.1  # costs of motions that fit as well, at most
-USUAL, SPIKE = 90, 4.0  # per cent of the differences from medians, and times beyond it
+ALIKE = 1.1  # largest ratio of the costs of motions that fit equally well
+# a row that differs from the median of its neighbours by SPIKE times this percentile is wrong
+USUAL, SPIKE = 90, 4.0
 NEAREST = 0.9  # length of the axis in distances of the camera
 QUICK = 10_000  # rows of a search
 

@@ -20,7 +20,7 @@ from symtop_ros.truth.fit.twins import mirror_view, turn_over
 
 MOST = 3  # motions of a search that are improved with their twins
 STEPS = 60  # evaluations
-SLIGHT = 0.05  # nearness of a start: at zero it has no effect on which side is near
+SLIGHT = 0.05  # nearness of a start: at zero the picture does not depend on which side is near
 
 Side = tuple[Motion, Mapping[str, float]]  # a motion, and the numbers of the camera that differ
 

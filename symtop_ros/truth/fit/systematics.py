@@ -1,10 +1,10 @@
 """The effect of wrong assumptions: a systematic deviation in addition to that of the noise.
 
-Each cause changes what a record shows, by as much as is usual. Least squares follow: to first order
-the parameters move by the weighted least squares of that change. No look at what is left tells,
-since the change is, for the most part, one that other numbers would make. Causes are independent of
-each other (consider covariance; Tapley, Schutz and Born, Statistical Orbit Determination, section
-6.2; type B of the Guide to the Expression of Uncertainty in Measurement, 4.3).
+Each cause changes what a record shows, by as much as is usual. To first order the parameters change
+by the weighted least squares of that change. Residuals do not show it, because for the most part
+other numbers compensate for the change. Causes are independent of each other (consider covariance;
+Tapley, Schutz and Born, Statistical Orbit Determination, section 6.2; type B of the Guide to the
+Expression of Uncertainty in Measurement, 4.3).
 """
 
 from collections.abc import Iterator, Mapping
@@ -25,8 +25,8 @@ SHUTTER = 0.02  # s of a frame, if frames are not closer than that
 READOUT = 0.02  # s from the first row of a picture to the last
 LENS = 0.01  # of its distance from the centre, of a point half a picture away
 SQUARE = 0.01  # part by which pixels are wider than they are high
-AIM = 0.1  # of the picture, by which a camera looks beside its middle, in u and in v
-LENGTH = 0.5  # of the axis, above the pivot: where a camera looks whose aim is not known
+AIM = 0.1  # part of the picture by which the aim of a camera is off its middle, in u and in v
+LENGTH = 0.5  # lengths of the axis above the pivot, at which a camera of unknown aim may look
 NEAR = 0.05  # lengths of the axis in distances of a camera that is taken to be far away
 GAIN, TILT = 0.01, 0.01  # of each axis of a sensor, and rad
 
@@ -58,12 +58,13 @@ class Budget:
         return [(cause, self._follow(change)) for cause, change in list_changes(self.fit)]
 
     def raise_aim(self) -> Real | None:
-        """Return the change (p,) if a camera looks above the pivot; None unless it may be so."""
+        """Return the change (p,) if a camera looks above the pivot; None if far or known."""
         camera = self.fit.model.find_camera(self.fit.x)
         if CENTRE[0] in camera or not camera["nearness"]:
             return None
         above = np.array([0.0, LENGTH * np.exp(camera["log_scale"])])
-        return -self._follow(_aim(self.fit, above))  # the record was shown so, and the fit follows
+        # the record was made with this aim, so the parameters change in the opposite direction
+        return -self._follow(_aim(self.fit, above))
 
     def _follow(self, change: Real) -> Real:
         """Return the change (p,), to first order, that shows a change (n, r)."""
@@ -100,7 +101,7 @@ def _list_of_pictures(fit: Fit) -> Iterator[tuple[str, Real]]:
     exposed = min(SHUTTER, fit.model.record.step)
     before, after = (fit.model.show_at(x, times + side * exposed / 2)[0] for side in (-1, 1))
     velocity = (after - before) / exposed
-    # the time of a frame is that of its beginning, and Simpson's rule is that of a blur
+    # the time of a frame is its beginning; the mean over the exposure is by Simpson's rule
     yield "shutter", velocity * exposed / 2 + (before + after - 2 * shown) / 6
     # the upper rows are read first
     yield "readout", READOUT * velocity * (0.5 - far[:, 1:] / (2 * half))

@@ -1,7 +1,7 @@
 """Motions that give the same record: exact twins, as tops and starts.
 
-Each function returns a motion of which a kind of record is the same. The report compares both
-before it names one, and so do the tests, to rounding.
+Each function returns a motion that has the same record of some kind. The report compares both
+records before it names a twin; the tests compare them, too, to rounding.
 """
 
 import numpy as np
@@ -36,7 +36,7 @@ def exchange_momenta(motion: Motion) -> Motion:
     """Return a motion with the same theta: p_psi and p_phi exchanged.
 
     The effective potential (p_phi - p_psi cos)^2/(2 Ix sin^2) + p_psi^2/(2 Iz) + Mgl cos changes by
-    a constant. The spin is that of the same Iz.
+    a constant. Iz stays the same, and the spin follows from it.
     """
     top, angles, rates = motion.top, motion.start.euler_angles, motion.start.euler_rates
     cos, square = np.cos(angles.theta), np.sin(angles.theta) ** 2
@@ -78,7 +78,7 @@ def turn_azimuth(motion: Motion, angle: float) -> Motion:
 def take_other_end(motion: Motion) -> Motion:
     """Return the motion of the other end of the axis: Mgl and p_psi change sign, e becomes -e.
 
-    A camera that is turned over shows it as the first one.
+    A camera that is turned upside down shows it as it shows the first motion upright.
     """
     top, (wx, wy, wz) = motion.top, motion.start.angular_velocity
     q = compose(motion.start.orientation, OVER_X)
@@ -88,8 +88,8 @@ def take_other_end(motion: Motion) -> Motion:
 def mirror_view(motion: Motion, camera: dict[str, float]) -> tuple[Motion, dict[str, float]]:
     """Return the motion mirrored in the plane of the picture, and the camera that shows it so.
 
-    Without perspective a camera does not show what is near. The mirrored vertical is that of a
-    camera with the other elevation; p_psi changes sign, as all spins do in a mirror.
+    Without perspective a picture does not show which points are near. The mirrored vertical is that
+    of a camera with the other elevation; p_psi changes sign, as all spins do in a mirror.
     """
     turned = {**camera, "elevation": -camera["elevation"]}
     axis, velocity = _find_axis_motion(motion)

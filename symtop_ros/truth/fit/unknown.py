@@ -94,7 +94,7 @@ def list_unknown(fit: Fit, values: Sequence[Value], given: dict[str, Known]) -> 
         if not each.is_known and np.isfinite(each.deviation) and each.name not in paired
         if not any(each.name in other.names.split(", ") for other in found)
     ]
-    # along a combination that alone is known there is a motion for each of its values
+    # if two numbers are known only in combination, any value of one has a motion: none is listed
     others = [] if together else fit.others
     return [*found, *_list_motions(fit, others)]
 
@@ -248,7 +248,7 @@ def _list_aim(fit: Fit) -> Iterator[Unknown]:
 
 
 def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
-    """Yield pairs of numbers that are not known, but for a combination of both."""
+    """Yield pairs of numbers of which only a combination is known."""
     doubtful = {v.name for v in values if not v.is_known and v.name in fit.model.place}
     turning = next((v for v in values if v.name == "mean_precession_rate" and v.is_known), None)
     if {"Mgl/Ix", "p_psi/Ix"} <= doubtful and turning is not None:
@@ -265,8 +265,9 @@ def list_together(fit: Fit, values: Sequence[Value]) -> Iterator[Unknown]:
 def find_rest(fit: Fit) -> tuple[float, float]:
     """Return (Mgl minus mean precession rate times p_psi)/Ix, and its deviation.
 
-    A regular precession has Mgl = p_psi Omega - Ix Omega^2 cos(theta), of any p_psi. So the rate is
-    the factor: that of the covariance holds next to the p_psi that was found, which may be far off.
+    A regular precession has Mgl = p_psi Omega - Ix Omega^2 cos(theta), of any p_psi. So the mean
+    precession rate is the factor. A factor from the covariance would hold only next to the fitted
+    p_psi, which may be far off.
     """
 
     def find(x: Real) -> float:

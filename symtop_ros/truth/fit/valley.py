@@ -1,11 +1,12 @@
 """The valley of motions that fit nearly as well, and whether deviations hold along it.
 
-One deviation away from the best motion the squares of what is left grow by one. Where the valley is
-curved, a straight step leaves it, and they grow by much more. Often only the parameters are curved:
-after thousands of nutations a step that changes Mgl keeps the period to first order alone, and the
-period is known so well that the second order counts. So such a step goes back to the floor of the
-valley, by the directions that are known better. If there the squares grow to both sides as they
-should, also some deviations away, and so does a number, its deviation holds.
+One deviation away from the best motion the sum of squared residuals has grown by one. If the valley
+is curved, a straight step leaves it, and the sum grows by much more. Often only the parameters are
+curved: after thousands of nutations a step that changes Mgl keeps the period to first order alone,
+and the period is known so well that the second order counts. So such a step is followed by one back
+to the floor of the valley, in the directions that are known better. The deviation of a number holds
+if on the floor, some deviations away on both sides, the sum has grown as expected, and the number
+has changed as expected.
 """
 
 from collections.abc import Callable
@@ -18,8 +19,8 @@ from symtop_ros.base.arrays import Mask, Real
 from symtop_ros.truth.fit.refine import Fit, find_rounding
 
 STRAIGHT = 2.0  # times the growth of squares; 1.0 to 1.1 in most records
-GIVEN = 0.5  # part of the information on a step
-CURVED = 0.1  # part of a variance
+GIVEN = 0.5  # share of the information on a step that is given, above which residuals say little
+CURVED = 0.1  # share of a variance that may come from curved directions
 BENT = 0.3  # deviations; a number that is bent by b of them has pulls of sqrt(1 + 3 b^2)
 # Steps of Gauss and Newton to the floor, with the derivatives of the best motion. A valley that
 # takes more is so bent that its deviations are in doubt.
@@ -94,7 +95,7 @@ class Valley:
     def _descend(self, x: Real, k: int) -> Real:
         """Return the lowest point that the directions after the k-th reach from x.
 
-        A valley that is very curved may lead to numbers that are those of no motion.
+        In a very curved valley the result may be parameters without a motion.
         """
         values, vectors = self.fit.spectrum
         better = vectors[:, k + 1 :] / self.fit.sizes[:, np.newaxis]
@@ -107,9 +108,9 @@ class Valley:
 
     @cached_property
     def _are_given(self) -> Mask:
-        """True (p,) for steps of one deviation that what is known, or a last decimal, sets.
+        """True (p,) for steps whose size comes from known values or from rounding.
 
-        Then the squares of what is left do not measure how far the motion may be.
+        For these the residuals do not show how far away the motion may be.
         """
         _, fixed = find_rounding(self.fit.model.record, self.fit.white.shape[1])
         moved = np.einsum("tip,kp->tik", self.fit.columns[:, fixed], self.steps)
@@ -125,5 +126,5 @@ def _ask(of: Callable[[Real], float], x: Real) -> float:
 
 
 def is_near(growth: float) -> bool:
-    """Return True if a growth of squares, over the one that is right, is about one."""
+    """Return True if the growth of a sum of squares, divided by the expected one, is about one."""
     return 1 / STRAIGHT < growth < STRAIGHT

@@ -24,7 +24,7 @@ ALIASED = "Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin", "theta_dot", "phi_dot", "nutati
 ACROSS_HIDDEN = (
     *("Mgl/Ix", "p_psi/Ix", "spin", "theta", "theta_dot", "phi_dot", "mean_precession_rate"),
 )
-# Numbers of a top, whose zero is no choice: a relative deviation means something.
+# Numbers of a top. Their zero is no convention, so a relative deviation has a meaning.
 SIZED = (
     *("Mgl/Ix", "p_psi/Ix", "Iz/Ix", "spin", "mean_precession_rate", "nutation_period", "scale"),
     *FRICTION,
@@ -69,8 +69,8 @@ class Value:
     value: float
     deviation: float
     is_known: bool  # the deviation is small, and so is what the record leaves open
-    is_straight: bool = True  # False: the deviation would be small, but is not to be trusted
-    parts: tuple[Part, ...] = ()  # what usual errors of what is assumed change it by
+    is_straight: bool = True  # False: the deviation would be small, but is not reliable
+    parts: tuple[Part, ...] = ()  # changes of it by usual violations of the assumptions
 
     @property
     def unit(self) -> str:
@@ -114,8 +114,8 @@ def find_half_time(values: list[Value]) -> Iterator[Value]:
 def hold_kick(fit: Fit) -> Fit:
     """Return the fit with the time of its kick held.
 
-    A motion that is some deviations off would have its kick beyond a row, and leave the whole jump
-    there: no valley is straight across it.
+    Otherwise a motion some deviations away would have its kick on the other side of a row. That row
+    would have the whole jump as its residual, so no valley would be straight.
     """
     known = fit.model.record.known
     if "kick_time" not in known:
@@ -256,7 +256,7 @@ def convert(values: list[Value], given: dict[str, Known]) -> list[Value]:
     ----------
     values : list of Value
     given : dict
-        Of "Iz/Ix", "Ix" in kg m^2 and "Mgl" in J, with their deviations.
+        Values of "Iz/Ix", "Ix" in kg m^2 and "Mgl" in J, with their deviations.
     """
     by_name = {each.name: each for each in values}
     found: list[Value] = []
@@ -278,7 +278,7 @@ def _relative(value: float, deviation: float) -> float:
 
 
 def _combine(name: str, value: float, relative: tuple[float, float], of: Value) -> Value:
-    """Return a number that grows as another one does, or as its inverse."""
+    """Return a number that is proportional to another one, or to its inverse."""
     deviation = abs(value) * float(np.hypot(*relative))
     is_known = of.is_known and deviation <= SURE * abs(value)
     size = abs(value / of.value) if of.value else 0.0

@@ -33,7 +33,7 @@ from symtop_ros.run.wire.layout import NANOSECONDS
 from symtop_ros.run.wire.messages import IMU, MAGNETIC_FIELD, ODOMETRY
 from symtop_ros.truth.imu.record import ImuRecord
 
-# The columns of the table, and those that there are with --average or a magnetometer.
+# The columns of the table, and further ones with --average or a magnetometer.
 INERTIAL = ["wx", "wy", "wz", "fx", "fy", "fz"]
 TABLE = ["stamp", *"wxyz", "px", "py", "pz", "vx", "vy", "vz", *INERTIAL]
 MORE = {

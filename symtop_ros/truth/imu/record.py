@@ -15,15 +15,15 @@ from symtop_ros.run.simulation.sensor.imu import Imu, Rig
 from symtop_ros.run.wire.layout import NANOSECONDS
 
 MAX_SECONDS, MAX_SAMPLES = 1e9, 20_000_000
-# Means by the quadrature of Gauss and Legendre, in stretches of at most so many rad of F: the sum
-# of the largest rates on the way, of omega_xy, of omega_z, and sqrt(2 |Mgl|/Ix) of the weight. At
-# complex times up to 1.2/F from the real ones A, B and omega are regular: Gronwall's lemma for
+# Means are computed by Gauss-Legendre quadrature, in stretches of at most so many rad of F. F is
+# the sum of the largest rates on the way: omega_xy, omega_z, and sqrt(2 |Mgl|/Ix) for the weight.
+# At complex times up to 1.2/F from the real ones A, B and omega are regular: Gronwall's lemma for
 # their equations (docs/derivation.md, section 1), whatever shares of F the three rates have, leaves
 # |omega| < 1.7 F and |A|^2 + |B|^2 < 4.2, and so a specific force below 12 (F^2 d + g) with the
-# distance d of the sensor and gravity g. Then n + 1 points err by less than half of
-# 64/15 * 12 (F^2 d + g) rho^(-2 n)/(1 - rho^-2) (Trefethen, Is Gauss quadrature better than
-# Clenshaw-Curtis?, theorem 4.5), with the sum rho of the half axes of the ellipse around a stretch
-# that reaches so far. With LOST = ln(3e18) this is 1e-17 (F^2 d + g).
+# distance d of the sensor and gravity g. Then n + 1 points err by less than half of 64/15 * 12 (F^2
+# d + g) rho^(-2 n)/(1 - rho^-2) (Trefethen, Is Gauss quadrature better than Clenshaw-Curtis?,
+# theorem 4.5), with the sum rho of the half axes of the ellipse around a stretch that reaches so
+# far. With LOST = ln(3e18) this is 1e-17 (F^2 d + g).
 LONGEST_STRETCH, REGULAR, LOST = 2.0, 1.2, 43.0
 MAX_STATES = 10**9  # of a record of means: some minutes
 
@@ -196,9 +196,9 @@ def _find_fastest(motion: Motion, stamps: Stamps, interval: float) -> float:
 
 
 def _find_fastest_driven(motion: Motion, stamps: Stamps, interval: float) -> float:
-    """Return the same with friction, which only slows the top, and a torque.
+    """Return such a bound with friction, which only slows the top, and a torque.
 
-    The root of twice the energy above its lowest grows at most by |torque|/sqrt(I) in a second.
+    The root of twice the energy above its minimum grows by at most |torque|/sqrt(I) in a second.
     """
     Ix, Iz, Mgl = motion.top.moments
     begun = motion.at(ExactTimes(stamps, 1.0, Fraction(-interval)))

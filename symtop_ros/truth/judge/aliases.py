@@ -1,8 +1,9 @@
 """Delays that explain the errors equally well, for motions that nearly repeat themselves.
 
-In a steady precession a delay that is longer by a turn of the spin is another heading. So the least
-squares are profiled over the delay, with the rotations that are best for each, and all minima are
-kept that the noise of so many independent estimates cannot tell apart.
+In a steady precession a delay that is longer by a turn of the spin is equivalent to another
+heading. So the least squares are profiled over the delay, with the best rotations for each delay.
+All minima are kept that cannot be distinguished because of the noise, given the number of
+independent estimates.
 """
 
 from collections.abc import Sequence

@@ -17,8 +17,8 @@ from symtop_ros.truth.topics.estimates import Estimates
 
 SAMPLES = 500  # estimates that a search takes, spread over the run
 MOST_DELAY = 0.5  # s
-# Of Gauss and Newton, which converge quadratically, and the part of the mean square that is no
-# improvement.
+# Most steps of Gauss and Newton, which converge quadratically, and the part of the mean square that
+# counts as no improvement.
 ITERATIONS, ENOUGH = 30, 1e-6
 STEPS = (1.0, 0.3, 0.1)  # parts of a step that are tried, until one is an improvement
 ROUNDING = 1e-28  # mean square of errors that are rounding
@@ -41,7 +41,7 @@ class Alignment:
     # the last motion and gyroscope, by delay, clock and scale
     _exact: dict[tuple[float, ...], tuple[Real, Mask]] = field(default_factory=dict)
     _scalings: dict[tuple[float, ...], Scaling] = field(default_factory=dict)
-    # the last model, which has a cost first, and derivatives if the cost is smaller
+    # the last model: its cost is computed first, and its derivatives only if the cost is smaller
     _models: dict[Offset, tuple[Real, Real, Real]] = field(default_factory=dict)
 
     @cached_property
@@ -50,7 +50,7 @@ class Alignment:
         return replace(NONE, begin=int(self.some.stamps[0]))
 
     def exact(self, offset: Offset) -> tuple[Real, Mask]:
-        """Return exact quaternions, as such a gyroscope shows them, and which are known."""
+        """Return the exact quaternions, with the scale of an offset, and which are known."""
         key = offset.delay, offset.clock, offset.scale
         if key not in self._exact:
             q, _, known = self.truth.states_at(offset.shift(self.some.stamps), self.some.of_sensor)
@@ -66,7 +66,7 @@ class Alignment:
         return self._scalings[key]
 
     def model(self, offset: Offset) -> tuple[Real, Real, Real]:
-        """Return the rotations of the world, these of exact attitudes, and the model of all."""
+        """Return the rotations W of the world, W exact, and the complete model W exact M."""
         if offset not in self._models:
             world = offset.turn_world(self.some.stamps)
             turned = compose(world, self.exact(offset)[0])
@@ -75,7 +75,7 @@ class Alignment:
         return self._models[offset]
 
     def residuals(self, offset: Offset) -> tuple[Real, Real]:
-        """Return the known estimates, and the model of them."""
+        """Return the known estimates, and what the model predicts for them."""
         known = self.exact(offset)[1]
         return self.some.orientations[known], self.model(offset)[2][known]
 
@@ -93,8 +93,8 @@ class Alignment:
     def cost_where(self, offset: Offset, known: Mask) -> float:
         """Return the cost among some estimates, given by a mask (n,).
 
-        Of a late motion the first estimates are not known, so that costs of two offsets are those
-        of different estimates.
+        With a delay the exact states of the first estimates are unknown. So without a mask the
+        costs of two offsets would be those of different estimates.
         """
         both = self.exact(offset)[1] & known
         left = subtract(self.some.orientations[both], self.model(offset)[2][both])
@@ -152,7 +152,7 @@ class Alignment:
         return np.asarray(columns.reshape(-1, COLUMNS)[:, free])
 
     def derive_frames(self, offset: Offset, free: list[int]) -> Iterator[tuple[Real, Real]]:
-        """Yield derivatives (n, 3, free) and what is left (n, 3), in the world and in the body."""
+        """Yield derivatives (n, 3, free) and residuals (n, 3), in the world and in the body."""
         columns, left = self.derive_vectors(offset, free), self.find_left(offset)
         yield columns, left
         to_body = to_rotation(self.residuals(offset)[1]).inv().as_matrix()
@@ -170,9 +170,9 @@ class Alignment:
         return columns.reshape(len(columns) // 3, 3, len(free))
 
     def _find_speeds(self, offset: Offset) -> Real:
-        """Return the angular velocities in the world by the stamps, not by a run's slower time.
+        """Return the angular velocities in the world, per second of the stamps.
 
-        They are zero, which says nothing of a delay, at the ends of the run.
+        At the ends of the run they are set to zero, which has no effect on a delay.
         """
         stamps = offset.shift(self.some.stamps)
         of_sensor = self.some.of_sensor

@@ -45,7 +45,7 @@ class AttitudeTable:
     unreadable: int = 0  # rows that were left out as they have nan
 
     def read(self, part: int = 1, shift: int = 0) -> Estimates:
-        """Return the estimates, with times that are so many times shorter, and shifted by ns."""
+        """Return the estimates, with times divided by `part` and shifted by `shift` ns."""
         stamps = [min(max(each // part + shift, -MAX_STAMP), MAX_STAMP) for each in self.times]
         rates = self.numbers[:, 4:] if self.numbers.shape[1] > 4 else None
         found = Estimates.of(stamps, self.numbers[:, :4], rates, self.unreadable)

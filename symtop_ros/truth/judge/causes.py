@@ -47,7 +47,8 @@ class Cause:
     # were not asked for, or cannot be given
     deviations: tuple[float, ...] = ()
     turn_deviations: tuple[float, ...] = ()
-    # what changes the model by as much as is left, of the same, where there are no deviations
+    # without deviations: changes of the parameters and angles with an effect as large as the
+    # residual
     seen: tuple[float, ...] = ()
     turn_seen: float | None = None
     independent: float | None = (
@@ -112,15 +113,16 @@ class Finding:
     aliases: tuple[Cause, ...] = ()  # the same with other delays, which are as good
     period: float | None = None  # s; delays that differ by it are as good, with `repeated`
     repeated: Offset = NONE
-    repeats: int = 1  # number of periods after which it is
+    repeats: int = 1  # number of periods between `best` and `repeated`
     heading_step: float | None = None  # rad; the heading grows by it, and no other rotation
-    nearest: Cause | None = None  # what leaves least, if nothing is said
-    share: float = 0.0  # part of the root mean square that any cause explains, if none is said
+    nearest: Cause | None = None  # the cause with the smallest residual, if none is named
+    # largest part of the root mean square that a cause explains, if none is named
+    share: float = 0.0
     same: Cause | None = None  # rotations that are the same as the delay in a steady motion
     # rates (rad/s) of `precession` and `spin`, by which an unknown delay turns world and body
     turning: Mapping[str, float] | None = None
     steps: Steps | None = None  # of stamps, which explain the rest
-    swing: Swing | None = None  # the strongest line of what is left, unless all is explained
+    swing: Swing | None = None  # the strongest line of the residuals, unless all is explained
 
     @property
     def said(self) -> Cause:

@@ -31,14 +31,16 @@ from symtop_ros.truth.residuals.influence import find_influences
 from symtop_ros.truth.residuals.residuals import CHANCE, PER_PARAMETER
 
 SIMPLER = 4.0  # if no noise is left, simpler causes count with at most twice the error (squared)
-# Errors that last: of those that wander, as flicker, fewer are independent than it seems.
+# For correlated errors: in flicker, for example, fewer estimates are independent than it seems.
 LASTS = 4.0
 TIE = 1.5  # explanations that are as good, by their mean squares
 ALIGNED = 2.0  # an explanation with this many times smaller rotations is preferred
 SMALL = 1e-3  # rad; smaller rotations count as zero in a comparison of explanations
-LASTING = 100.0  # the squares become so many times smaller, of errors that last or have a mistake
-SURER = 4.0  # a gain is so many times larger than by chance: many kinds and values are tried
-CLEAR = 1000.0  # the error becomes so many times smaller: its cause is clear, whatever is left
+# required reduction of the mean square, for long correlations or with a mistake of convention
+LASTING = 100.0
+SURER = 4.0  # required ratio of a gain to that by chance, because many kinds and values are tried
+# if the error becomes this many times smaller, its cause is clear, whatever the residuals are
+CLEAR = 1000.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +53,7 @@ class Choice:
 
 
 def select(found: Sequence[Cause], fits: Mapping[str, Alignment], rounding: float) -> list[Cause]:
-    """Return those that are as good as the best one, in the noise of so many estimates."""
+    """Return the causes that are as good as the best one, within the noise of the estimates."""
     lowest = min(found, key=lambda each: each.cost)
     left = fits[lowest.change].find_remainder(lowest.offset)
     is_noise = not left.find_fault(lowest.count) and left.has_shape_of_noise
@@ -114,10 +116,10 @@ def _is_sound(best: Cause, fit: Alignment) -> bool:
 def explains_part(best: Cause, start: Cause, fit: Alignment, plain: Alignment) -> bool:
     """Return whether an explanation explains a part of the error, although more than noise remains.
 
-    What is left may be the errors of a filter, or those of another cause. The parameters must gain
-    more than in such errors by chance, and those of each half of the run must fit the other half.
-    Of errors that last too long for deviations, and of mistakes of convention, the squares must
-    become LASTING times smaller as well.
+    The rest may be the errors of a filter, or come from another cause. The parameters must reduce
+    the squares by more than they would reduce such errors by chance, and the values from each half
+    of the run must fit the other half. If errors are correlated for too long for deviations, and
+    for mistakes of convention, the mean square must also become LASTING times smaller.
     """
     is_far = best.change or not _is_sound(best, fit)
     wanted = 1 / LASTING if is_far else (1 + best.cost / start.cost) / 2

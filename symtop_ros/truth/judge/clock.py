@@ -1,9 +1,9 @@
 """The clock of the stamps of estimates: how late they are, how fast that grows, and its jitter.
 
 A top that turns at 200 rad/s turns by 0.2 mrad in a microsecond: an error of a stamp is an error of
-the attitude along the angular velocity, and nowhere else. What is left along it beyond what is left
-across it is jitter, unless it lies along the vertical or along the axis of the body as well: then
-it may be the noise of a heading or of a gyroscope.
+the attitude along the angular velocity, and nowhere else. Residuals along it that exceed those
+across it are jitter, unless residuals along the vertical or along the axis of the body are as
+large: then they may be the noise of a heading or of a gyroscope.
 """
 
 import math
@@ -33,15 +33,15 @@ class Clock:
 
     source: str
     estimates: int
-    independent: float  # of them
+    independent: float  # number of independent estimates
     correlation_time: float  # s
     delay: float
-    delay_deviation: float | None  # None: what is left does not show it
+    delay_deviation: float | None  # None: the residuals do not show it
     rate: float
     rate_deviation: float | None
     fault: str  # why there are no deviations: "few", "wanders"; or ""
     kind: str  # "jitter", "either" (or noise about one axis), or "none"
-    jitter: float  # us; of "none" the largest that noise may hide
+    jitter: float  # us; for "none" the largest that noise may hide
 
 
 def measure_clock(estimates: Estimates, truth: Truth, source: str, model: str = "none") -> Clock:
@@ -98,8 +98,8 @@ def _find_jitter(left: Real, omega: Real, axes: Real) -> tuple[str, float]:
     It is "either" if noise about the vertical or the axis of the body explains as much: a fast top
     turns about its axis.
 
-    Least squares of along - across = square * variance; their deviation is that of what they leave,
-    with its correlations.
+    The variance of the jitter is found by least squares from along - across = square * variance.
+    Its deviation comes from the residuals, with their correlations.
     """
     square = (omega**2).sum(axis=1)
     along = (left * omega).sum(axis=1) ** 2 / np.where(square > 0, square, 1.0)
@@ -116,7 +116,7 @@ def _find_jitter(left: Real, omega: Real, axes: Real) -> tuple[str, float]:
 
 
 def _measure_excess(differences: Real) -> float:
-    """Return a sum in deviations."""
+    """Return the sum of differences, divided by its standard deviation."""
     spread = math.sqrt(len(differences) * sum_lags(differences - differences.mean()))
     return float(differences.sum()) / (spread or 1.0)
 

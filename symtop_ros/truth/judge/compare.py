@@ -43,7 +43,7 @@ class Offset:
     begin: int = 0  # stamp in ns at which nothing has drifted yet
     clock: float = 0.0  # growth of the delay in s per s
     spin: float = 0.0  # rate in rad/s about the axis of the body
-    scale: float = 0.0  # part by which the scale of a gyroscope is too large; see judge.scale
+    scale: float = 0.0  # part by which the scale of a gyroscope is too large; see `Scaling`
 
     def turn_world(self, stamps: Stamps) -> Real:
         """Return the rotations of the world, D(t) W, at stamps, (n, 4)."""
@@ -207,8 +207,9 @@ class Scaling:
 def _accumulate(steps: Real) -> Real:
     """Return the products of the quaternions (..., m, 4) up to each of them.
 
-    They are laid out in rows as long as there are rows: the products within all rows are formed
-    together, then those of whole rows by doubling their number, and at last both are multiplied.
+    The quaternions are arranged in about as many rows as columns. First the products within all
+    rows are formed together, then those of whole rows, by doubling their number, and finally both
+    are multiplied.
     """
     count = steps.shape[-2]
     length = math.isqrt(count - 1) + 1

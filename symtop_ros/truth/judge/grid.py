@@ -19,16 +19,16 @@ from symtop_ros.truth.judge.compare import IDENTITY, NONE, Offset, Scaling
 from symtop_ros.truth.judge.truth import Truth
 from symtop_ros.truth.topics.estimates import Estimates
 
-# A parameter is tried in steps in which it turns the attitude by so many rad, and at most so often.
+# Angle (rad) by which one step of a parameter turns the attitude, and the largest number of steps.
 GRID_STEP, MOST_STEPS = 0.5, 1000
 MOST_CLOCK, MOST_SCALE = 5e-3, 0.05  # s per s, and part of the scale of a gyroscope
 WHOLE = 8 * 2 * np.pi  # rad, of world or body within the run, by a drift
-BATCH = 32  # scales of which paths are computed together, as far as a cache reaches
+BATCH = 32  # scales whose paths are computed together; more would not fit into a cache
 COARSE = 150  # estimates that the search takes; the refinement takes SAMPLES
 # An eigenvalue at a grid point is at most a quarter of a step from the best value; with more than
 # this left, nothing is explained there.
 HOPELESS = 0.05  # mean square of half angles
-# Components that a rotation of a level may have; of the other levels all.
+# Components that a rotation of a level may have; other levels have all.
 FREE = {"none": (1, 0, 0, 0), "heading": (1, 0, 0, 1)}
 Models = tuple[Real, Real, Real]  # estimates and exact attitudes (g, n, 4), and the known (g, n)
 Fitted = tuple[Real, Real, Real]  # costs (g,), and rotations of the world and the body, (g, 4)
@@ -47,7 +47,8 @@ class Tables:
     ) -> tuple[Real, Models]:
         """Return values (g,) of a parameter, the whole range if none are given, and their models.
 
-        Without a name they are those of nothing. The drift of the base is taken away.
+        Without a name there is one model, that of the base. The drift of the base is removed from
+        the estimates.
         """
         some, is_whole = some.thin(COARSE) if name else some, values is None
         if values is None:
@@ -119,19 +120,19 @@ def fit_levels(models: Models, levels: Collection[str]) -> dict[str, Fitted]:
 def fit_rotations(models: Models, level: str) -> Fitted:
     """Return the rotations W and M of a level, for which W exact M is nearest to the estimates.
 
-    First about the mean squares of the half angles that are left, (g,), then W and M, (g, 4).
+    Return the approximate mean squares of the remaining half angles, (g,), then W and M, (g, 4).
     """
     return fit_levels(models, [level])[level]
 
 
 def _multiply(left: Real, known: Real) -> Real:
-    """Return the sums of the products of the components of what is left, (g, 4, 4)."""
+    """Return the sums of products of the components of the residuals, (g, 4, 4)."""
     left = left * known[..., np.newaxis]
     return np.asarray(np.swapaxes(left, 1, 2) @ left)
 
 
 def _find_nearest(sums: Real, known: Real) -> tuple[Real, Real]:
-    """Return about the mean squares of half angles, (g,), and the rotations nearest to all."""
+    """Return the approximate mean squares of half angles, (g,), and the nearest rotations."""
     sizes, vectors = np.linalg.eigh(sums)
     means = vectors[..., -1]
     counts = known.sum(axis=1)
@@ -150,7 +151,7 @@ def _guess_bodies(q: Real, exact: Real, known: Real) -> Real:
 
 
 def find_minima(costs: Real, most: int, limit: float) -> Places:
-    """Return the places of the lowest minima of costs (g,), at most so many, below a limit."""
+    """Return the places of the lowest minima of costs (g,), at most `most`, below a limit."""
     padded = np.pad(costs, 1, constant_values=np.inf)
     low = (costs <= padded[:-2]) & (costs <= padded[2:]) & (costs <= limit)
     places = np.flatnonzero(low)

@@ -26,7 +26,8 @@ from symtop_ros.truth.topics.estimates import decode_estimates
 PERIOD = 1.0  # s between two lines
 PATIENCE = 5.0  # s for the topic to be found
 LATCHED = QoSProfile(depth=EVENTS.depth, durability=QoSDurabilityPolicy.TRANSIENT_LOCAL)
-# Best effort hears every publisher. 2000 messages are a second of the fastest node.
+# A best-effort subscription is compatible with every publisher. 2000 messages are a second of the
+# fastest node.
 BEST_EFFORT = QoSProfile(depth=2000, reliability=QoSReliabilityPolicy.BEST_EFFORT)
 NO_EVENTS = "no events of the top"
 
@@ -81,8 +82,8 @@ class Court:
         """Return the judgement of the estimates of the second before the last.
 
         They wait for a second because the event of a kick may arrive after the estimates of the
-        motion that follows from it. When the clock goes back, those of that second and of the one
-        before it may be of any of two motions.
+        motion that follows from it. When the clock goes back, estimates of that second and of the
+        second before may belong to either of two motions.
         """
         due, self._waiting = self._waiting, self._new[:]
         self._new.clear()

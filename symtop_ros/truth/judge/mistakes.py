@@ -58,8 +58,8 @@ def _name_change(name: str) -> str:
 def _find_rates(some: Estimates, truth: Truth, offset: Offset) -> Iterator[str]:
     """Yield the mistake of the angular velocities, if there is one.
 
-    Rates of an engine that diverges become smaller by any division, too: what is left must be small
-    against the exact rates.
+    The errors of diverging rates also become smaller if the rates are divided by any number. So the
+    remaining error must be small compared with the exact rates.
     """
     now = _rate(compare(some, truth, offset))
     q = some.orientations

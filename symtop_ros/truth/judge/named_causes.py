@@ -62,10 +62,10 @@ def explain(
 def align(estimates: Estimates, truth: Truth, model: str, begin: int | None = None) -> Cause:
     """Return the least squares of a stated model, one of MODELS, without any search.
 
-    A delay that grows is that at the stamp `begin`, by default at the first one.
+    If the delay grows, `delay` is its value at the stamp `begin`, by default the first one.
 
-    Refused is a model with a delay or a clock that changes nothing but its other parameters: in a
-    sleeping top a delay is a heading.
+    A model is refused if its delay or its clock has the same effect as its other parameters: for a
+    sleeping top a delay is equivalent to a heading.
     """
     rotations, *names = model.split("+")
     fit = Alignment(truth.select(estimates).thin(MOST_SAMPLES), truth)

@@ -19,8 +19,9 @@ FEWEST = 0.5  # part of the estimates that is kept, at least
 def find_outliers(fit: Alignment, cause: Cause) -> Mask:
     """Return True (n,) for estimates with a residual that is large for the spread of the others.
 
-    In both frames: noise about an axis of one has a component in the other that swings, and is far
-    off its own median more often than normal numbers are.
+    The residual must be large in both frames. Noise about an axis of one frame has an oscillating
+    component in the other frame, and exceeds a multiple of its median there more often than normal
+    numbers do.
     """
     _, known = fit.exact(cause.offset)
     found = np.zeros(len(fit.some), dtype=bool)

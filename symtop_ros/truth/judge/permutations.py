@@ -69,9 +69,10 @@ def _join(names: list[str]) -> str:
 
 
 def list_permutations() -> list[Permutation]:
-    """Return one of each pair, that with fewer signs changed, without w's if both have two.
+    """Return one permutation of each pair: the one that changes fewer signs.
 
-    Half turns and those that have a name of their own are left out.
+    If both change two signs, it is the one that keeps the sign in the first column. Half turns and
+    permutations with a name of their own are left out.
     """
     left_out = _list_half_turns() | NAMED
     every = (Permutation(*each) for each in product(permutations(range(4)), _list_signs()))

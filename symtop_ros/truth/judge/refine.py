@@ -1,8 +1,9 @@
 """The least squares of a kind of cause next to an offset, with the weights of its noise.
 
-Least squares of errors that last are poor: at the frequency of a derivative there may be little of
-their power. So what is left is whitened by an autoregression, in the frame of the world or of the
-body, whichever it describes better, and the least squares of that have a deviation by the sandwich.
+Plain least squares are inexact for correlated errors, which may have little power at the frequency
+of a derivative. So residuals are whitened by an autoregression, in the frame of the world or of the
+body, whichever it describes better. The deviations of the whitened least squares come from the
+sandwich estimator.
 """
 
 import math
@@ -53,7 +54,7 @@ def make_sure(fit: Alignment, cause: Cause) -> Cause:
 def see(fit: Alignment, cause: Cause) -> Cause:
     """Return a cause with the changes of its numbers that have an effect as large as the residual.
 
-    They are no deviations: errors that last may hide more.
+    These are no deviations: correlated errors may hide larger changes.
     """
     columns = fit.derive_vectors(cause.offset, cause.columns)
     sizes = np.sqrt((columns**2).sum(axis=1).mean(axis=0)) + np.finfo(float).tiny

@@ -1,6 +1,6 @@
 """The relative pose error (RPE): errors of the rotation from each estimate to one a lag later.
 
-A constant rotation of the world is none of them, and a drift is one that does not grow (Sturm et
+A constant rotation of the world causes no such error, and a drift causes a constant one (Sturm et
 al. 2012). evo computes the same for a lag in whole estimates, with `--delta_unit f --all_pairs
 --pose_relation angle_rad`.
 """

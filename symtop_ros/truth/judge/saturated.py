@@ -14,7 +14,7 @@ from symtop_ros.words import write
 MOST = 20_000  # estimates that are looked at
 TURN = 1.5  # rad from one estimate to the next, beyond which turns may be missed
 USUAL = 0.9  # of the turns are at the limit
-BEYOND = 1.01  # limits that an exact rate is at least
+BEYOND = 1.01  # smallest exact rate, in limits
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Saturated:
     exact : float
         Median of the exact rate there, in rad/s.
     share : float
-        Of the estimates that are at the limit.
+        Share of the estimates that are at the limit.
     of : str
         "rates" or "turns".
     """

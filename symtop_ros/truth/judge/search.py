@@ -55,12 +55,13 @@ from symtop_ros.truth.topics.estimates import Estimates
 MOST_SAMPLES = 200_000  # estimates from which a cause that was found is estimated again
 TURNING = {"drift", "spin", "scale"}  # parameters with a direction in space
 TURNED = {"body", "both"}  # levels at which the body is turned
-SAME_VALUE = 4  # digits in which values of a parameter are one
+SAME_VALUE = 4  # values of a parameter that agree in so many digits count as one
 PERMUTED_LEVELS = CHANGES[next(iter(PERMUTED))][1]
 VALLEYS, FINER = 4, 31  # of each table that are refined, and values that are tried in each
 LINED = 16_384  # estimates in which lines are looked for, from the first on
-PROFILED = 10_000  # estimates; of more the minima of the delay are those of a search
-MOST_VALLEYS = 100  # of delays, of which the deepest are found in finer steps
+# largest number of estimates for which the minima of the delay are compared with all of them
+PROFILED = 10_000
+MOST_VALLEYS = 100  # valleys of a delay that are searched in finer steps for the deepest
 # Estimates that stay this close (rad) to one attitude do not move, and the exact attitudes move so
 # many times as far.
 STILL, MOVED = 0.05, 10.0
@@ -108,7 +109,7 @@ class Search:
         return replace(found, swing=find_swing(fit, found.said.offset))
 
     def _find_whole(self, found: Finding) -> Finding:
-        """Return a finding with what is left of all estimates."""
+        """Return a finding with the residuals of all estimates."""
         if len(self.run) == len(self.more):
             return found
         whole: dict[str, Any] = {
@@ -165,8 +166,8 @@ class Search:
     def profile(self, best: Cause) -> list[Cause]:
         """Return a cause and others with delays that fit equally well, the smallest delay first.
 
-        If the body is turned as well, and no delay at all leaves as little, the delay is unknown:
-        then it is the cause without one.
+        If a rotation of the body is fitted, too, and the residual without a delay is as small, the
+        delay is unknown: then the cause without a delay is returned.
         """
         if best.parameters != ("delay",):
             return [self._refine_again(best)]
@@ -257,7 +258,7 @@ class Search:
     def _list_periods(self, delay: float) -> list[float]:
         """Return a delay and those that differ by periods of the nutation, which are as good.
 
-        With two free rotations they are; without them one alone is.
+        With two free rotations all of them are equally good; otherwise only one is.
         """
         period = self.truth.period
         if period is None:
@@ -295,7 +296,8 @@ class Search:
         self, change: str, name: str, known: Offset = NONE, values: Real | None = None
     ) -> Iterator[Cause]:
         """Yield explanations with a change and a parameter, or none, next to those of an offset."""
-        # Those of a delay are as deep up to the nutation, and the steps hide which one is deepest.
+        # Valleys of a delay, a nutation apart, are nearly equally deep, and the coarse steps hide
+        # which is deepest.
         most = MOST_VALLEYS if name == "delay" else VALLEYS
         for level, valleys in self.find_valleys(change, name, known, values, most).items():
             for start in valleys[:VALLEYS]:
@@ -304,7 +306,7 @@ class Search:
     def find_valleys(
         self, change: str, name: str, known: Offset, values: Real | None, most: int
     ) -> dict[str, list[Offset]]:
-        """Return where little is left by levels, the deepest first, of at most so many."""
+        """Return values with small residuals by levels, the smallest first, at most `most`."""
         some, levels = self.fits[change].some, CHANGES[change][1]
         values, models = self.tables.tabulate(some, name, known, values)
         places = {

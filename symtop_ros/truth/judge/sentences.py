@@ -155,7 +155,7 @@ def _write_size(value: float) -> str:
 
 
 def _write_left(found: Finding) -> Iterator[str]:
-    """Yield how large what is left is, and its strongest line."""
+    """Yield the size of the residuals, and their strongest line."""
     said, swing = found.said, found.swing
     line = None
     if swing:

@@ -1,7 +1,7 @@
 """Stamps that are rounded or cut, for example to ms, recognised from errors of the attitude.
 
-Each time may be off by a step. What is left along the angular velocity is then time, as a clock
-shows it, and what is left across it is what remains.
+Each time may be wrong by a step. An error of a stamp causes an error of the attitude along the
+angular velocity only; the error across it remains.
 """
 
 from dataclasses import dataclass
@@ -12,10 +12,10 @@ from symtop_ros.truth.judge.alignment import DELAY, Alignment
 from symtop_ros.truth.judge.compare import Offset
 from symtop_ros.truth.residuals.sampling import find_time_step
 
-WITHIN = 0.55  # steps by which a time is off its mean, and by how many estimates at least
+WITHIN = 0.55  # largest error of a time, in steps, and the share of the estimates within it
 MOST = 0.99
-LEAST = 0.2  # steps of jitter, of which times in a step have 0.29, and times in two places 0.25
-ACROSS = 0.1  # part of the squares that is left across the angular velocity
+LEAST = 0.2  # least jitter, in steps: uniformly distributed times have 0.29 of a step
+ACROSS = 0.1  # largest part of the squares that may remain across the angular velocity
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Steps:
     jitter : float
         Deviation of the times from their mean delay, in s.
     left : float
-        Root mean square in rad of what the true times leave.
+        Root mean square in rad of the error that would remain with the true times.
     """
 
     step: float

@@ -12,10 +12,10 @@ from symtop_ros.truth.judge.alignment import Alignment
 from symtop_ros.truth.judge.compare import Offset
 from symtop_ros.truth.residuals.lines import find_lines
 
-SMALL = 0.3  # part of what is left, below which a line is not said
+SMALL = 0.3  # part of the residuals, below which a line is not named
 SLOW = np.arange(10, 40) / 8  # turns in the run of swings that are too slow for a test
 NEARLY_ALL = 0.7  # part of the power of a component that such a swing has
-# Components of what is left: in the frame of the body, then in the world.
+# Components of the residuals: in the frame of the body, then in the world.
 ABOUT = ("across_axis", "across_axis", "axis", "horizontal", "horizontal", "vertical")
 
 
@@ -78,7 +78,7 @@ def measure_swings(seconds: Real, left: Real, frequency: float) -> Real:
 def _find_slow(seconds: Real, left: Real) -> Iterator[float]:
     """Yield the frequency of a swing of fewer turns than a line needs, if it is nearly all.
 
-    Noise that lasts has swings of one or two turns as well: it is no test of a line.
+    Correlated noise has such oscillations, too, so this is no test for a line.
     """
     tried = SLOW / seconds[-1]
     sizes = np.array([measure_swings(seconds, left, each) for each in tried])

@@ -29,8 +29,8 @@ MOVING = 4 * HOPELESS  # mean square of half angles between the attitudes and th
 def read_times(table: AttitudeTable, truth: Truth, name: str, of_sensor: bool) -> Estimates:
     """Return the estimates of a table with the times that fit the run.
 
-    Refused are times of another age than the run, if no unit and no shift to its start explains
-    them.
+    Times that lie outside of the run are refused if no other unit and no shift to its start
+    explains them.
     """
     stated = replace(table.read(), of_sensor=of_sensor)
     if len(table.times) < FEWEST:

@@ -131,7 +131,7 @@ class Truth:
         return self._find(stamps, [each is None for each in self._segments])
 
     def find_repeated(self, stamps: Stamps) -> Mask:
-        """Return the mask of those of them at which more than one motion may hold."""
+        """Return the mask of those stamps at which more than one motion may hold."""
         return self._find(stamps, self._is_repeated)
 
     def _find(self, stamps: Stamps, wanted: Sequence[bool]) -> Mask:
@@ -141,7 +141,7 @@ class Truth:
         return is_there
 
     def _find_owners(self, stamps: Stamps) -> Places:
-        """Return the number of what holds at each stamp; -1: nothing, outside of the run."""
+        """Return the number of the segment that holds at each stamp; -1 outside of the run."""
         owners = np.searchsorted(self._begins, stamps, side="right") - 1
         end = np.iinfo(np.int64).max if self.end is None else self.end
         return np.where(stamps <= end, owners, -1)

@@ -1,8 +1,9 @@
 """The axis of a rotation that was found, in words that help a user to correct it.
 
 Mounts and conventions of axes differ by rotations that take the axes to each other: by a quarter or
-a half of a turn about one of them, a half about the middle of two, or a third about that of three.
-A rotation that agrees with one of these 23 within its deviation is called by its name.
+a half of a turn about an axis, by a half about the diagonal of two axes, or by a third about the
+diagonal of three. A rotation that agrees with one of these 23 within its deviation is called by its
+name.
 """
 
 import math

@@ -1,7 +1,7 @@
 """The gain of a fit by chance, from a block bootstrap of its residuals.
 
-Errors that last are no independent numbers, and a fit may follow them. Blocks of rows that are
-longer than they last are drawn with replacement (Kuensch, The jackknife and the bootstrap for
+Correlated errors are not independent, and a fit may follow them. Blocks of rows that are longer
+than the correlation are drawn with replacement (Kuensch, The jackknife and the bootstrap for
 general stationary observations, 1989), each with a sign by chance, and the fit is made again.
 """
 
@@ -15,16 +15,16 @@ FEWEST = 8  # blocks
 
 
 def draw_gains(columns: Real, left: Real, independent: float) -> Real:
-    """Return the squares that a fit explains of noise, for each square that it leaves, (draws,).
+    """Return ratios (draws,): squares of noise that a fit explains, to squares that it leaves.
 
     Parameters
     ----------
     columns : ndarray (n, r, p)
         Derivatives of the rows by the parameters.
     left : ndarray (n, r)
-        What the fit leaves.
+        Residuals of the fit.
     independent : float
-        Number of rows that are.
+        Number of independent rows.
 
     Notes
     -----

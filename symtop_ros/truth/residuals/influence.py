@@ -13,7 +13,7 @@ import numpy as np
 from symtop_ros.base.arrays import Real
 from symtop_ros.truth.residuals.correlation import find_covariances
 
-QUIET = 50  # a fiftieth of all lags without a correlation: there are no more
+QUIET = 50  # correlations end where a fiftieth of all lags in a row is uncorrelated
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,19 +22,19 @@ class Influences:
 
     values: Real
     free: int  # parameters that are fitted; the others do not change
-    independent: float  # number of estimates that are
+    independent: float  # number of independent estimates
 
     def find_deviation(self, slope: Real) -> float:
         """Return the standard deviation of a combination (p,) of the parameters.
 
-        The parameters make what is left smaller than the errors, and the variance is itself
-        uncertain: both are made good for, the latter as by Student's distribution.
+        Fitted parameters make the residuals smaller than the errors, and the variance itself is
+        uncertain. Both effects are corrected, the second one as by Student's distribution.
         """
         return float(np.sqrt(sum_influences(self.values @ slope, self.free, self.independent)))
 
 
 def find_influences(columns: Real, left: Real) -> Real:
-    """Return the changes (n, p) of parameters with derivatives (n, 3, p) by what is left (n, 3)."""
+    """Return the changes (n, p) of parameters by residuals (n, 3), with derivatives (n, 3, p)."""
     sizes = np.sqrt((columns**2).sum(axis=(0, 1))) + np.finfo(float).tiny
     columns = columns / sizes
     inverse = np.linalg.pinv(np.einsum("tij,tik->jk", columns, columns), hermitian=True)
@@ -42,7 +42,7 @@ def find_influences(columns: Real, left: Real) -> Real:
 
 
 def sum_influences(values: Real, parameters: int, independent: float) -> float:
-    """Return the variance of the sum of correlated numbers (n,), of which so many are free."""
+    """Return the variance of the sum of correlated numbers (n,), by how many are independent."""
     square = float(values @ values)
     if not square:
         return 0.0

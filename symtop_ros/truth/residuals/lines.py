@@ -1,6 +1,6 @@
 """Lines in the spectrum of residuals: oscillations of one frequency.
 
-An autoregression takes a line for noise that lasts, and whitens it away, so lines are tried before.
+An autoregression takes a line for correlated noise, and whitens it away, so lines are tested first.
 The test is Thomson's F-test for lines (Spectrum estimation and harmonic analysis, 1982, section
 XIII; Percival and Walden, Spectral Analysis for Physical Applications, 1993, section 10.11). It
 compares the power of a line in several tapered transforms with what the line leaves of them, all
@@ -39,11 +39,11 @@ class Line:
     Attributes
     ----------
     name : str
-        Of a frequency that was given; "" if it was found in a search.
+        Name of a given frequency; "" if the line was found in a search.
     frequency : float
         In Hz, below half of the sampling.
     column : int
-        Of the residuals.
+        Column of the residuals.
     size : float
         Root mean square of the swing.
     share : float
@@ -79,7 +79,7 @@ class Spectrum:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """The lowest and the highest frequency that can be tried: a band is off 0 and the fold."""
+        """Lowest and highest testable frequency: half a band from 0 and from half the sampling."""
         width = WIDTH * self.resolution
         return width, 0.5 / self.step - width
 

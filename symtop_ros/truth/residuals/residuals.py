@@ -18,8 +18,8 @@ from symtop_ros.truth.residuals.correlation import (
 )
 
 PER_PARAMETER = 10  # independent estimates for each parameter, at least
-# Noise makes the squares smaller by chance: by less than this, in units of the variance of one
-# independent number, of the thousands of values that are tried.
+# Thousands of values are tried, and each can make the sum of squares smaller by chance: by less
+# than this, in units of the variance of one independent number.
 CHANCE = 36.0
 WANDERING = 0.1  # part of the run; a longer correlation time is no noise
 # Ten squares of normal numbers add up to more than 40 once in 50 000 times.
@@ -77,7 +77,7 @@ class Residuals:
         return 2 * self._correlation * self.seconds / max(len(self.frames[0]) - 1, 1)
 
     def find_fault(self, count: int) -> str:
-        """Return why there are no deviations of so many parameters: "few", "wanders", or ""."""
+        """Return why `count` parameters have no deviations: "few", "wanders", or ""."""
         if self.correlation_time > WANDERING * self.seconds > 0:
             return "wanders"
         return "few" if self.independent < PER_PARAMETER * count else ""
@@ -102,7 +102,7 @@ class Residuals:
         return all(is_one_kind(part) for part in parts if float((part**2).mean()) > MINOR * square)
 
     def agrees_on(self, columns: Real) -> bool:
-        """True if all estimates agree on parameters with derivatives (n, 3, p), but for noise.
+        """True if all estimates agree on parameters with derivatives (n, 3, p), up to noise.
 
         If half of them are late, the mean is a delay that none of them has.
         """

@@ -19,8 +19,8 @@ def find_steps(values: Real, written: Real | None = None) -> Real:
         Steps of the last decimals of the text. The larger one holds: a sensor's counts may be
         written with many decimals.
 
-    A column that does not change shows no step: it has the smallest of the others. If they have
-    none, that of the text holds, or of numbers without a text that of the last decimal.
+    A column that does not change shows no step, so it gets the smallest step of the others. If
+    these have none, it gets the step of the text or, without a text, that of the last decimal.
     """
     steps = np.array([find_step(column) for column in values.T])
     still = np.ptp(values, axis=0) == 0

@@ -10,7 +10,8 @@ from symtop_ros.base.counts import write_count
 NANOSECONDS = 1_000_000_000
 FEWEST = 10  # steps that show it
 FINEST = 10_000  # ns; times that are rounded more finely are as good as exact
-WITHIN = 3  # steps of rounding in a step of time; of fewer a step is a row that is missing
+# least number of steps of rounding in a step of time; if there are fewer, rows may be missing
+WITHIN = 3
 
 
 def find_repeats(times: Real | Stamps, values: Real) -> Mask:
@@ -50,7 +51,7 @@ def find_time_step(stamps: Stamps) -> float:
     if len(steps) < FEWEST or not np.ptp(steps):
         return 0.0
     step = int(np.gcd.reduce(steps))
-    # none of two steps is a row that is missing: the rows would have had one in each of them
+    # if no step of time is one step of rounding, missing rows do not explain the steps
     is_coarse = step >= FINEST and (np.median(steps) >= WITHIN * step or steps.min() > step)
     return step / NANOSECONDS if is_coarse else 0.0
 

@@ -1,7 +1,7 @@
 """Columns at the limit of their sensor: numbers that are all the same at one end of a column.
 
-What a sensor cannot show it shows as its limit. Such a number is no measurement with noise, and a
-motion that was fitted to it is off by as much as is cut away.
+Beyond its range a sensor outputs the limit. Such a number is no measurement with noise, and a
+motion that is fitted to it is wrong by the part that was cut away.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from symtop_ros.base.arrays import Mask, Real
 # the last step of a sine has 1/(sqrt(2) - 1) times as many as the one before.
 HEAP = 5.0
 FEWEST = 12  # rows at a limit, and different numbers of a column that has one
-# Limits of sensors; their last count may be the one before, or that of a round factor.
+# Limits of sensors; a sensor may end one count earlier, or at a count of a rounded factor.
 RATES = np.radians([125.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0])  # rad/s
 FORCES = 9.80665 * np.array([2.0, 4.0, 8.0, 16.0, 32.0])  # m/s^2
 NEAR = 1.5e-3  # of a limit
@@ -33,8 +33,8 @@ class Saturation:
 def find_saturations(values: Real, ranges: Real) -> tuple[Saturation, ...]:
     """Return the limits that columns (n, m) reach.
 
-    `ranges` (k,) are limits of sensors in the unit of the columns: a column that is at one of them
-    in each row shows nothing, where any other number may be that of a steady motion.
+    `ranges` (k,) are limits of sensors in the unit of the columns: a column that has one of them in
+    each row is at its limit, while any other constant may come from a steady motion.
     """
     return tuple(
         Saturation(column, limit, int((numbers == limit).sum()))
@@ -46,8 +46,9 @@ def find_saturations(values: Real, ranges: Real) -> tuple[Saturation, ...]:
 def find_saturated(values: Real, found: tuple[Saturation, ...]) -> Mask:
     """Return True (n, m) for numbers of a sensor that are at a limit of any of its columns.
 
-    The axes of a sensor have one range, to both sides but for one count: where one of them has a
-    heap at the end, a number of another that is there a few times is at the limit, too.
+    All axes of a sensor have the same range, in both directions up to one count. So if one column
+    has a heap at a limit, the numbers of another column at this limit are saturated, too, even if
+    they are few.
     """
     ends = np.array([abs(each.limit) for each in found])
     sizes = np.abs(values)[..., np.newaxis]

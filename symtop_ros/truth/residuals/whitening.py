@@ -3,7 +3,7 @@
 The order of an autoregression is the one that Hannan and Quinn's criterion chooses. Flicker, whose
 power goes with 1/f, has no order: its slowest part would be taken for a tenth of its size. It is
 predicted as fractional noise (Granger and Joyeux 1980; Hosking 1981), if that is more likely. The
-first rows after a gap are predicted by those that there are. The fit and the judge whiten by
+first rows after a gap are predicted from the rows since the gap. The fit and the judge whiten by
 it. Noise of any other correlation is left to the sandwich of `influence.py`.
 """
 
@@ -23,8 +23,8 @@ CLEAR = 20.0
 POWERS = np.linspace(0.05, 0.49, 12)  # d of fractional noise, whose power goes with f^(-2 d)
 LONGEST, PER_LAG = 64, 4  # rows by which it is predicted, at most, and rows for each
 LARGEST = 0.9999  # partial autocorrelation
-# Deviation of a column without residuals, as one that an exact solution fits to the last bit, whose
-# logarithm is finite.
+# Deviation of a column whose residuals are all zero, because an exact solution fits it to the last
+# bit: its logarithm must be finite.
 TINY = 1e-150
 ALIKE = 0.1  # of the largest deviation of components
 
@@ -173,7 +173,7 @@ def find_flicker(left: Real, good: Mask, follows: Mask) -> Real:
 
 
 def measure_likelihood(noise: Noise, left: Real) -> float:
-    """Return twice the logarithm of the likelihood of normal noise, but for a constant."""
+    """Return twice the logarithm of the likelihood of normal noise, up to a constant."""
     return float(_measure_columns(noise, left).sum())
 
 

@@ -162,8 +162,8 @@ def find_flags(names: Row, places: Sequence[int]) -> tuple[int, ...]:
 def find_times(head: Head) -> tuple[tuple[int, ...], str]:
     """Return the places of the time, or () if there is none, and its unit.
 
-    These are one place, or two of s and ns. A stamp comes before seconds; of a message's stamp and
-    the time of its arrival it is the stamp. The unit is "" if the numbers have to show it.
+    There is one place, or two: of s and of ns. A stamp is preferred to seconds, and the stamp of a
+    message to the time of its arrival. The unit is "" if the numbers have to show it.
     """
     pairs = [*_list_pairs(head.names)]
     if pairs:

@@ -16,7 +16,7 @@ PACKED = {
     b"\xfd7zXZ\0": "xz -dc",
     b"PK\x03\x04": "unzip -p",
 }
-# What is a packed folder of its own, by a name within its first bytes.
+# Packed folders with a meaning of their own, by a name within their first bytes.
 WORKBOOKS = {
     b"[Content_Types].xml": "a workbook of Excel: save it as CSV",
     b"xl/": "a workbook of Excel: save it as CSV",
@@ -61,7 +61,8 @@ def read_start(path: Path) -> bytes:
 def is_table(path: Path) -> bool:
     """Return True for a file of text, False for a log or a folder; refuse what is packed or binary.
 
-    A file that is not there is a log if it ends so; the reader says that it is missing.
+    A missing file counts as a log if its name ends like one; the reader then reports that it is
+    missing.
     """
     if not path.is_file():
         return not path.is_dir() and path.suffix != ".mcap"

@@ -1,9 +1,9 @@
 """One reader of tables of text, for each program that takes one.
 
-It finds the names of columns within the first lines, with their units; of a form without names it
-knows them by its numbers. Then it reads the cells that a program wants, as they are written: times
-without the rounding of a double, and numbers with the step of their last decimal. Rows without a
-number where one is wanted are left out, and counted.
+It finds the names of columns within the first lines, with their units; in a form without names it
+knows the columns from the numbers. Then it reads the cells that a program wants, as they are
+written: times without the rounding of a double, and numbers with the step of their last decimal.
+Rows without a number where one is wanted are left out, and counted.
 """
 
 import csv

@@ -21,11 +21,11 @@ class Columns:
         What they are, in a word of the program.
     places : tuple of int
     factors : tuple of float
-        Of the units of each, or one of all.
+        Factors of the units, one for each column or one for all.
     notes : tuple of str
         What was assumed.
     unit : str
-        Of angles, if their names say it.
+        Unit of angles, if their names state it.
     """
 
     kind: str

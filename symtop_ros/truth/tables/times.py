@@ -32,7 +32,7 @@ class Times:
     whole : ndarray of int64 (n,)
         Whole units.
     rest : ndarray (n,)
-        What is more, from 0 to 1.
+        Fractions of a unit, from 0 to 1.
     unit : str
         A name of `SECONDS`.
     decimals : int

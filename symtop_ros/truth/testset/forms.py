@@ -95,7 +95,7 @@ def write_forms(top: Top, start: State, body: Body) -> dict[tuple[str, str], str
 
 
 def change(text: str, edits: Edits) -> str:
-    """Return a text with parts of it replaced, each of which it has once.
+    """Return a text in which parts are replaced; each must occur exactly once.
 
     Raises
     ------

@@ -41,22 +41,22 @@ QUATERNION = ("w", "x", "y", "z")
 RATES = ("wx", "wy", "wz")
 WORLD_RATES = ("omega_x", "omega_y", "omega_z")
 BOM = "\xef\xbb\xbf"  # of UTF-8, as Latin-1 reads it
-# Of the body: its frame turned, with a full tensor or with moments in an inertial frame; or with
-# its origin off the pivot; all or half of the mass in a fixed child.
+# Descriptions of the body: in a turned frame, with a full tensor or with moments in an inertial
+# frame; in a frame with its origin off the pivot; with all or half of the mass in a fixed child.
 DESCRIPTIONS = ("turned", "inertial", "offset", "nested", "nested_half")
-# One problem has its body in further words of the formats. README.md has a table of them.
+# One problem also has its body in other forms of the formats. README.md has a table of them.
 FORMED = "cusps"
 TURNED_FORMS = (
     *("euler", "degrees", "axisangle", "xyaxes", "zaxis", "quaternion"),
     *("solid", "ends", "inferred", "classes", "units"),
 )
 FORMS = (*TURNED_FORMS, "frames", "submodel")
-# The states of these are in the turned frame, those of the others as ever.
+# The states of these are in the turned frame, those of the others in the frame of the problem.
 TURNED = ("turned", "inertial", *TURNED_FORMS)
 # The rotation of a turned frame to the principal axes.
 TURN = (0.7, 0.1, 0.5, 0.5)
 SEPARATORS = (",", ";", "\t")  # else any white space
-LARGEST_NORM_ERROR = 0.01  # of a quaternion; a larger one is another error than that of a motion
+LARGEST_NORM_ERROR = 0.01  # of a quaternion; a larger one is no error of a motion
 # A row belongs to a time if it is this close to it, relatively: a clock that adds up its steps.
 SAME_TIME = 1e-9
 # A row at t = 0 agrees with the start, or with what a mistake makes of it, within this: in rad, and

@@ -26,9 +26,11 @@ from symtop_ros.truth.testset.tables import TABLES
 # the sign of an exponent belongs to the step.
 STEP = re.compile(r"(.+?)-(\d+(?:\.\d*)?(?:e[-+]?\d+)?)")
 SOLVED = 0.01  # rad; an attitude that is never further off
-APART = 3.0  # errors in two descriptions of a body: an engine takes them for two bodies
+# ratio of the errors in two descriptions of a body, above which an engine treats them differently
+APART = 3.0
 LEAST_ORDER = 0.5  # between the two smallest steps; Euler's method has 1
-SAME = 0.3  # of the error: errors that differ less between two steps are not those of the step
+# relative difference of the errors at two steps, below which the step does not cause the error
+SAME = 0.3
 # Limits of single precision: the rounding of inputs is about one at all steps, that of an engine's
 # own steps differs between them. g = 9.80665 is 90 or more off.
 SINGLE = 10.0

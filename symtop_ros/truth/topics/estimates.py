@@ -119,7 +119,7 @@ class Estimates:
         return replace(found, notes=(*self.notes, *notes))
 
     def _find_repeats(self) -> Mask:
-        """Return True (n,) for estimates, in order, that are those of a row before, but rounded."""
+        """Return True (n,) for sorted estimates that repeat an earlier row up to rounding."""
         again = np.zeros(len(self), dtype=bool)
         lag, q = 1, self.orientations
         while (same := self.stamps[lag:] == self.stamps[:-lag]).any():
@@ -131,9 +131,9 @@ class Estimates:
     def thin(self, most: int) -> Estimates:
         """Return estimates spread over the run: at least a number, less than twice as many.
 
-        One is drawn at random of each so many that follow each other: of two publishers that take
-        turns, every other estimate would be that of one. The first one is kept, as drifts count
-        from it.
+        One of each group of consecutive estimates is drawn at random. With a fixed step, all drawn
+        estimates could come from one of two publishers that take turns. The first one is kept, as
+        drifts count from it.
         """
         width = max(1, len(self) // most)
         if width == 1:

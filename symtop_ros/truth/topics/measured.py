@@ -58,7 +58,7 @@ def find_absent(values: Real) -> Mask:
 
 
 def _blank(form: Format, part: Decoded) -> Real:
-    """Return the numbers of messages of one layout, nan where they say that there are none."""
+    """Return the numbers of messages of one layout, nan for quantities marked as absent."""
     numbers = part.numbers.copy()
     for name, place in form.quantities.items():
         covariance = form.quantities.get(f"{name}{COVARIANCE}")

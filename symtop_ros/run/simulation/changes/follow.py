@@ -1,4 +1,4 @@
-"""The one rule by which an act changes a motion, in a run that continues and in one that is read.
+"""The rule by which an act changes a motion, the same in a running node and in a check of a log.
 
 An `Act` is what is done, and a `Change` what it led to; an event reports the change. A running node
 follows what it is asked. A check follows what the events of a log say was asked, and
@@ -50,7 +50,7 @@ class Act:
     start: State | None = None  # of a restart: initial conditions may come from parameters
     factor: float | None = None  # real-time factor, which the clock has with publish_clock
     told: Outcome | None = None  # where no motion shows the outcome, as the path of a log
-    left: Segment | None = None  # what an action has left that failed
+    left: Segment | None = None  # the segment that a failed action has left
     clamped: bool = False  # of a restart: whether a hand holds its precession
     solved: Solved | None = None  # of a restart from what is seen
 

@@ -32,7 +32,7 @@ ROUNDING = 1e-9  # of |Mgl|; a smaller change counts as none
 
 @dataclass(frozen=True, slots=True)
 class Neglected:
-    """The forces that act and of which a verdict knows nothing."""
+    """Forces that act, but that a verdict does not consider."""
 
     forces: Literal["friction", "torque", "both"]
 
@@ -50,8 +50,8 @@ class Start:
 
     motion: Kind
     neglected: Neglected | None  # None if only gravity acts
-    verdict: Verdict | None  # None of a motion whose precession is held
-    clamp: ClampVerdict | None = None  # of such a motion
+    verdict: Verdict | None  # None for a motion whose precession is held
+    clamp: ClampVerdict | None = None  # for a motion whose precession is held
     decay: Decay | None = None  # None if friction does not change the precession
     solved: Solved | None = None  # None if the start was not asked for by what is seen
 
@@ -93,12 +93,13 @@ class Gain:
 class Pushed:
     """Consequences of pushes on the axle, if nothing else happens until the last one.
 
-    Of a driven motion it is only said that there were pushes: friction and torques change the
-    energy and the turning angles, too.
+    For a driven motion the sentence only states that there were pushes, because friction and
+    torques change the energy and the turning angles, too.
     """
 
     number: int
-    duration: float | None  # s of the motion from the first to the last one; None of one push
+    # s of the motion from the first to the last push; None for a single push
+    duration: float | None
     driven: bool
     turning_angles: tuple[float, float] | None = None  # rad, after the last one
     former_angles: tuple[float, float] | None = None  # without them

@@ -108,7 +108,7 @@ def plan_kick(
         demand_tilted(state, kind)
     try:
         after = KICKS[kind](motion.top, state, amount, hold)
-    except ValueError:  # such an amount that the kernel has no state
+    except ValueError:  # the amount is too large for a state of the kernel
         raise _refuse_rates(kind, request) from None
     _limit_rates(kind, request, after)
     return motion.restart(after), hold
@@ -155,7 +155,8 @@ def plan_pushes(motion: Motion, state: State, request: Mapping[str, Any]) -> tup
     demand_tilted(state, "axle_impulse")
     first = push_axle(motion.top, state, pushes.impulse)
     pushed = Motion(motion.top, first, motion.friction, motion.applied_torque, pushes)
-    # Under gravity alone all pushes are tried; else it would take their time to reach the last.
+    # Under gravity alone all pushes are tried; a driven motion would have to be integrated up to
+    # the last one.
     end = ExactTimes(pushes.last_time)
     last = first if motion.is_driven else pushed.piece_at(end).motion.start
     _limit_rates("axle_impulse", request, last)

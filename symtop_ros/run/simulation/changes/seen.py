@@ -15,7 +15,7 @@ from symtop_ros.physics import QUESTIONS, Solution, State, Top, solve_start
 from symtop_ros.run.simulation.settings import MAX_ANGLE, MAX_RATE, InitialConditions
 
 KNOWN = tuple(dict.fromkeys(name for each in QUESTIONS for name in each.split()))
-# Of a tilt and a spin alone a start is asked for by angles and rates, but with `solution`.
+# A tilt and a spin alone are read as angles and rates, unless `solution` is given.
 PLAIN = ("theta", "psi_dot")
 SEEN = tuple(name for name in KNOWN if name not in PLAIN)
 SOLUTION = "solution"

@@ -41,7 +41,7 @@ EARTH: Vector = (0.0, 2e-5, -4.5e-5)
 MAX_FIELD = 1e3  # T
 EXACT_FIELD = 1e-30  # (1e-15 T)^2, the covariance of what is exact: zero would mean "unknown"
 MAGNETOMETER_NOISE = ("magnetometer_noise_density", "magnetometer_random_walk")
-# That of a good consumer part (Bosch BMM150: 0.3 uT at 20 Hz), in T/sqrt(Hz).
+# Noise density of a good consumer part (Bosch BMM150: 0.3 uT at 20 Hz), in T/sqrt(Hz).
 BMM150 = 6.7e-8
 FIRST_STREAM = 4 * AXES  # of numbers, after those of the gyroscope and the accelerometer
 
@@ -59,7 +59,7 @@ class Magnetometer:
     magnetometer_random_walk : float
         Random walk of the bias in T/s/sqrt(Hz).
     seed : int
-        Of the noise, >= 0.
+        Seed of the noise, >= 0.
 
     Raises
     ------
@@ -132,13 +132,13 @@ class Imu:
     gyroscope_resolution, accelerometer_resolution : float
         Step to which numbers are rounded, in rad/s and m/s^2; 0 for no rounding.
     seed : int
-        Of the noise, >= 0.
+        Seed of the noise, >= 0.
     rate : float
         Samples per second.
     begin : int
         Stamp in ns at which the biases are zero.
     magnetometer : Magnetometer or None
-        In the same frame.
+        A magnetometer in the frame of the IMU.
 
     Raises
     ------
