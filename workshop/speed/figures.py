@@ -21,7 +21,7 @@ from symtop_ros.physics.gpu.draw import draw_family
 from symtop_ros.truth.testset.score import measure_angles
 from workshop.speed.peers.peer import body_rates, normalize
 from workshop.speed.peers.turning_frame import frame_rates, turn_about_axis
-from workshop.speed.reference import EPS
+from workshop.speed.reference import EPS, Reference, ReferenceMotion
 
 ARTICLE = Top(0.000228, 0.0000572, 0.068)
 ROD = Top(0.000228, 0.0000114, 0.068)
@@ -32,6 +32,7 @@ RUNS = 30
 STATES = 1_000_000
 MANY = 10_000
 SEED, TOPS, SPAN = 20261126, 300, 10.0  # of tops that Runge and Kutta integrate, in s
+TOLERANCES = 1e-15, 1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 1e-6
 STEPS = 1000, 3000, 10_000, 30_000
 FIRST = """
 import time
@@ -46,7 +47,7 @@ print(time.perf_counter() - began)
 def print_figures(folder: object = None) -> None:
     """Print all figures; nothing is written."""
     del folder
-    for lines in (list_calls, list_long_times, list_threads, list_runge_kutta):
+    for lines in (list_calls, list_long_times, list_tolerances, list_threads, list_runge_kutta):
         for line in lines():
             print(line, flush=True)
 
@@ -91,6 +92,33 @@ def list_long_times() -> Iterator[str]:
             found = Motion(top, START, FRICTION).at(t).orientation
             error = float(measure_angles(found, exact, np.zeros(4)))
             yield f"under friction of 1e-300 after {t:g} s {name}: {error / EPS:.1g} eps"
+
+
+def list_tolerances() -> Iterator[str]:
+    """Yield errors and times of the report's driven motions with a tolerance."""
+    motions = Reference.read().driven
+    whole = [_time_driven(motion, 0.0) for motion in motions]
+    for tolerance in TOLERANCES:
+        errors = [_find_driven_error(motion, tolerance) for motion in motions]
+        seconds = [_time_driven(motion, tolerance) for motion in motions]
+        ratio = median(part / all_ for part, all_ in zip(seconds, whole, strict=True))
+        yield f"| {tolerance:.0e} | {ratio:.2f} | {median(errors):.0e} rad | {max(errors):.0e} rad |"
+
+
+def _make_driven(motion: ReferenceMotion, tolerance: float) -> Motion:
+    task = motion.task
+    acting = task.friction, task.applied_torque
+    return Motion(task.top, task.start, *acting, tolerance=tolerance)
+
+
+def _find_driven_error(motion: ReferenceMotion, tolerance: float) -> float:
+    found = _make_driven(motion, tolerance)
+    return max(motion.error(t, found.at(t).orientation) for t in motion.times)
+
+
+def _time_driven(motion: ReferenceMotion, tolerance: float) -> float:
+    t = motion.times[-1]
+    return min(repeat(lambda: _make_driven(motion, tolerance).at(t), number=1, repeat=7))
 
 
 def list_threads() -> Iterator[str]:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from statistics import median
 
 from workshop.speed.ahead import FRICTION, find_own
-from workshop.speed.benchmarks import DRIVEN_BEST, DRIVEN_PEER, SPAN, Results
+from workshop.speed.benchmarks import DRIVEN_BEST, DRIVEN_PEER, Results
 from workshop.speed.forms import LEVELS, Form, find_best, find_cheapest, find_program
 from workshop.speed.peers import CLOSED_FORM, TAYLOR
 from workshop.speed.publish import format_ms, format_table, group
@@ -22,7 +22,7 @@ def format_measured(results: Results, motion: ReferenceMotion) -> str:
     free = [curve for curve in results.curves if curve.motion == motion.name]
     driven = [curve for curve in results.curves if curve.motion == FRICTION]
     head = [
-        f"{SPAN:g} s of the article's top",
+        "",
         OWN,
         "most exact other program",
         f"fastest other program within {_LEVEL} rad",
