@@ -102,7 +102,8 @@ def list_tolerances() -> Iterator[str]:
         errors = [_find_driven_error(motion, tolerance) for motion in motions]
         seconds = [_time_driven(motion, tolerance) for motion in motions]
         ratio = median(part / all_ for part, all_ in zip(seconds, whole, strict=True))
-        yield f"| {tolerance:.0e} | {ratio:.2f} | {median(errors):.0e} rad | {max(errors):.0e} rad |"
+        middle, largest = median(errors), max(errors)
+        yield f"| {tolerance:.0e} | {ratio:.2f} | {middle:.0e} rad | {largest:.0e} rad |"
 
 
 def _make_driven(motion: ReferenceMotion, tolerance: float) -> Motion:
