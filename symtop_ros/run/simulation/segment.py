@@ -13,6 +13,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from symtop_ros.base.refusals import require
 from symtop_ros.physics import ExactTimes, Friction, Motion, State, Top
 from symtop_ros.run.simulation.sensor.imu import Rig
 from symtop_ros.run.wire.layout import NANOSECONDS
@@ -32,6 +33,10 @@ class Segment:
     factor: float  # real-time factor: seconds of the motion per second of the clock
     running: bool  # False while paused
     rig: Rig = NO_RIG  # gravity and the sensor on the top
+
+    def __post_init__(self) -> None:
+        """Refuse a motion with a tolerance: events contain none."""
+        require(not self.motion.tolerance, "tolerance", "0 in a run", self.motion.tolerance)
 
     @classmethod
     def begin(cls, motion: Motion, stamp: int, factor: float, rig: Rig = NO_RIG) -> "Segment":

@@ -40,6 +40,7 @@ def make(kind, **given):
     """
     parameters = dict(inspect.signature(kind).parameters)
     parameters.pop("clamped", None)  # nothing pushes a motion that is held
+    parameters.pop("tolerance", None)  # refused in a run
     sizes = {name: 1e-3 * number for number, name in enumerate(parameters, start=2)}
     values = {name: {**sizes, **VALUES, **given}[name] for name in parameters}
     assert all(values[name] != each.default for name, each in parameters.items())
@@ -61,6 +62,12 @@ def test_every_number_of_a_motion_and_of_its_sensor_comes_back_from_its_event():
         for number in inspect.signature(type(part)).parameters:
             found = getattr(getattr(again.motion, name), number)
             assert np.array_equal(found, getattr(part, number)), (name, number)
+
+
+def test_a_run_refuses_a_motion_whose_bits_its_events_do_not_have():
+    damped = Motion(ARTICLE, CUSPS, Friction(1e-6, 1e-6), tolerance=1e-9)
+    with pytest.raises(ValueError, match="tolerance must be 0 in a run, got 1e-09"):
+        Segment.begin(damped, BEGIN, 1.0)
 
 
 def test_a_clamp_comes_back_from_its_event_and_was_none_in_events_of_before():
