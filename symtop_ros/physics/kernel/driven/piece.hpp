@@ -24,8 +24,8 @@ struct Knot {
   double unit = 0.0;  // of the time of the step that follows, about its length; 0 if not known
 };
 
-// The terms in doubles that follow the first `EXACT`, divided by u^(EXACT + 1): as two series of the
-// square of u that do not wait for each other.
+// The terms in doubles that follow the first `EXACT`, divided by u^(EXACT + 1): as two series of
+// the square of u that do not wait for each other.
 template <int EXACT, int LAST>
 SYMTOP_INLINE Lanes sum_tail(const Lanes terms[][2], int half, double u, double square) {
   static_assert(LAST % 2 == 0 && EXACT % 2 == 0, "the tail has pairs of terms");

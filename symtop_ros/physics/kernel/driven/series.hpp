@@ -1,5 +1,6 @@
 // The coefficients of the Taylor series of a step, one order after the other: the first ones in
-// parts (parts.hpp) or as sums of two doubles, the others in doubles (derivation.md, section 15).
+// parts (parts.hpp) or as sums of two doubles, the others in doubles; with a tolerance all of them
+// are doubles (derivation.md, section 15).
 //
 // The derivatives are polynomials of degree 2 of the variables (equations.hpp), so coefficient k +
 // 1 of all variables follows from the products of coefficients 0 to k with those from k to 0: with
@@ -332,28 +333,21 @@ class TaylorSeries {
 
   // ---- All terms in doubles ----
 
-  // One order after the other. Of an order the next one's q needs the newest factors last: these
-  // are multiplied by terms of order 0 that are turned in advance, so that few operations wait.
+  // One order after the other: of each, first the products without its own q and omega, which have
+  // just been computed.
   template <int COUNT>
   SYMTOP_CLONES void compute_coarsely(Piece& piece) {
     last_turn_ = COARSE_TERMS;
     Lanes q = piece.terms[0][0], omega = piece.terms[0][1];
     put<COUNT>(q, omega, spread<OMEGA_Z>(omega) * share_.high, right_[0]);
-    const Lanes by_x = turn_by_x(q), by_y = turn_by_y(q), by_z = turn_by_z(q) * share_.high;
+    const Lanes first[3] = {turn_by_x(q), turn_by_y(q), turn_by_z(q) * share_.high};
     for (int n = 0; n < COARSE_TERMS; n++) {
       Lanes sums[COUNT] = {};
       add_inner<COUNT>(piece, n, sums);
-      SYMTOP_UNROLL
-      for (int v = WEIGHT; v < COUNT; v++) {
-        sums[v] += piece.terms[0][0] * right_[n][v];
-        if (n > 0) sums[v] += q * right_[0][v];
-      }
+      add_squares<COUNT>(piece, n, q, sums);
       Lanes turned = (turn_by_x(sums[0]) + turn_by_y(sums[1])) + turn_by_z(sums[TURN]);
-      turned += (spread<OMEGA_X>(omega) * by_x + spread<OMEGA_Y>(omega) * by_y) +
-                spread<OMEGA_Z>(omega) * by_z;
-      if (n > 0)
-        turned += (turn_by_x(q) * right_[0][0] + turn_by_y(q) * right_[0][1]) +
-                  turn_by_z(q) * right_[0][TURN];
+      turned += turn_first(first, omega);
+      if (n > 0) turned += turn_newest(q);
       const double inverse = INVERSES.high[n + 1];
       omega = find_acceleration<COUNT>(omega, sums) * inverse;
       q = turned * (0.5 * inverse);
@@ -361,6 +355,28 @@ class TaylorSeries {
       piece.terms[n + 1][1] = omega;
       put<COUNT>(q, omega, spread<OMEGA_Z>(omega) * share_.high, right_[n + 1]);
       note_last_turn<COUNT>(n + 1);
+    }
+  }
+
+  // q of order 0, which is turned in advance, times the newest omega: few operations wait for it.
+  static SYMTOP_INLINE Lanes turn_first(const Lanes first[3], Lanes omega) {
+    return (spread<OMEGA_X>(omega) * first[0] + spread<OMEGA_Y>(omega) * first[1]) +
+           spread<OMEGA_Z>(omega) * first[2];
+  }
+
+  // The newest q times omega of order 0.
+  SYMTOP_INLINE Lanes turn_newest(Lanes q) const {
+    return (turn_by_x(q) * right_[0][0] + turn_by_y(q) * right_[0][1]) +
+           turn_by_z(q) * right_[0][TURN];
+  }
+
+  // The products of the newest q and of q of order 0, for the weight and torques.
+  template <int COUNT>
+  SYMTOP_INLINE void add_squares(const Piece& piece, int n, Lanes q, Lanes sums[COUNT]) const {
+    SYMTOP_UNROLL
+    for (int v = WEIGHT; v < COUNT; v++) {
+      sums[v] += piece.terms[0][0] * right_[n][v];
+      if (n > 0) sums[v] += q * right_[0][v];
     }
   }
 
@@ -377,6 +393,7 @@ class TaylorSeries {
         sums[TURN] += piece.terms[n - m][0] * right_[m][TURN];
   }
 
+  // The derivative of omega.
   template <int COUNT>
   SYMTOP_INLINE Lanes find_acceleration(Lanes omega, const Lanes sums[COUNT]) const {
     const Lanes vertical = take_first(sums[WEIGHT]) + take_last(sums[WEIGHT]);
@@ -389,6 +406,8 @@ class TaylorSeries {
     return sum;
   }
 
+  // Without a torque omega_z decays by itself, and after few orders the turn has no digit that
+  // counts.
   template <int COUNT>
   SYMTOP_INLINE void note_last_turn(int n) {
     const bool counts = COUNT > 4 || std::fabs(right_[n][TURN][0]) >= LEAST_TURN;
