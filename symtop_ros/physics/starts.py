@@ -178,7 +178,9 @@ def _refuse(
     """Return the refusal in words: what the number, or the top, would have to be."""
     demand = DEMANDS[found.demand]
     if demand == "unequal":
-        return refuse("Ix", "other than Iz: else every tilt takes the same time", top.Ix)
+        return refuse(
+            "Ix", "other than Iz: else the time of one turn is the same at every tilt", top.Ix
+        )
     if demand == "weight":
         return refuse("Mgl", "other than 0 J: without weight the axis stays at rest", top.Mgl)
     name, value = names[int(found.which)], numbers[int(found.which)]

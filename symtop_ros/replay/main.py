@@ -156,7 +156,7 @@ def _find_points(log: TopLog) -> Points | None:
 def _write_mcap(paths: Sequence[Path], path: Path, rate: float) -> None:
     """Write the log that a node would have written of a run of the page."""
     if path.suffix != ".mcap" or not path.parent.is_dir():
-        raise LogError(f"--mcap must be a name that ends in .mcap in a folder, got {path}")
+        raise LogError(f"--mcap must be OUT.mcap in a folder that exists, got {path}")
     number("--rate", rate, "Hz", 1.0, MAX_PUBLISH_RATE)
     with log_errors("write", path):
         events, end, points = _read_run(paths)

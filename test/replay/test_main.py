@@ -114,7 +114,7 @@ def test_a_log_without_events_cannot_be_checked(tmp_path, capsys):
         (["{log}", "--save", "none/out.html"], "cannot write none/out.html: No such file or dir"),
         (["{log}", "--repair", "{log}"], "must not exist (nothing is overwritten)"),
         (["{log}", "--node", "/x", "--check"], "no run of a top /x in"),
-        (["{run}", "--mcap", "run.log"], "--mcap must be a name that ends in .mcap in a folder,"),
+        (["{run}", "--mcap", "run.log"], "--mcap must be OUT.mcap in a folder that exists,"),
         (["{run}", "--mcap", "run.mcap", "--rate", "5000"], "--rate must be 1 to 2000 Hz, got 5"),
         (["{run}", "x.mcap", "--mcap", "run.mcap"], "a run of the page must be one file, got 2"),
     ],

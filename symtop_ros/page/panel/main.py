@@ -1,8 +1,10 @@
 """Entry point of `top_panel`: the page to play with a top, as a file, served, or of a node."""
 
 import argparse
+import errno
 import os
 import signal
+import socket
 import sys
 import threading
 import time
@@ -85,7 +87,7 @@ def _run(options: argparse.Namespace, arguments: list[str]) -> int:
 def _write(path: Path, page: str) -> None:
     """Write the page."""
     if path.suffix != ".html" or not path.parent.is_dir():
-        raise ValueError(f"--write must be a name that ends in .html in a folder, got {path}")
+        raise ValueError(f"--write must be FILE.html in a folder that exists, got {path}")
     part = path.resolve().with_suffix(".part")  # what was there stays, if the disk is full
     try:
         part.write_text(page, encoding="utf-8")
@@ -130,6 +132,8 @@ def _serve(options: argparse.Namespace, page: str, name: str, node: Node | None 
         server = PageServer(host, port, page, node)
     except (OSError, TypeError) as error:  # the latter for a host that is no name at all
         code = getattr(error, "errno", None)
+        if isinstance(error, socket.gaierror) or code == errno.EADDRNOTAVAIL:
+            raise ValueError(f"--host must be an address of this machine, got {host}") from None
         reason = (os.strerror(code) if code else str(error)).lower()
         raise ValueError(
             f"port must be free on an address of this machine, got {host} port {port} ({reason}); "

@@ -68,7 +68,7 @@ def read_parts(word: str) -> "tuple[Part, ...]":
     names = [name for name in UNITS if name != "size" or kind in SIZES]
     texts = text.split(",")
     if kind not in (*SIZES, "point") or len(texts) != len(names):
-        kinds = f"point:MASS,DISTANCE or {', '.join(SIZES)}:MASS,SIZE,DISTANCE"
+        kinds = f"KIND:MASS,SIZE,DISTANCE (KIND: {', '.join(SIZES)}), point:MASS,DISTANCE,"
         known = [*SIZES, "point"] if ":" in word else [*BODIES]
         nearest = "" if kind in known else find_nearest(kind, known)
         hint = f" (the nearest is {nearest})" if nearest else ""

@@ -14,7 +14,9 @@ def make_parser() -> argparse.ArgumentParser:
         "Call the services of a running top_node; exit status 1 if it refuses.",
     )
     parser.add_argument("--node", default="/top", help="name of the node (default /top)")
-    parser.add_argument("--timeout", type=positive, default=5.0, help="seconds to wait (default 5)")
+    parser.add_argument(
+        "--timeout", type=positive, default=5.0, help="seconds to wait for an answer (default 5)"
+    )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     parsers = {
         service.command: commands.add_parser(service.command, help=service.help)
@@ -45,7 +47,13 @@ def make_parser() -> argparse.ArgumentParser:
         help="set a top made of parts: disc:170g,5.5cm,10.5cm point:0.9kg,-25.3cm (mass, size, "
         "distance from the pivot), or a known body such as bicycle_wheel; measured values may be "
         "added: gravity=9.8 Ix=1e-3 Iz=5e-4",
-    ).add_argument("parts", nargs="+", metavar="PART")
+    ).add_argument(
+        "parts",
+        nargs="+",
+        metavar="PART",
+        help="KIND:MASS,SIZE,DISTANCE (hoop, disc, ball, rod), point:MASS,DISTANCE, the name of a "
+        "known body, or a measured value such as Ix=1e-3",
+    )
     commands.add_parser("resume", help="continue the motion from where it stopped")
     commands.add_parser("keys", help="send requests by single keys: hurry, delay, pause, push")
     commands.add_parser(

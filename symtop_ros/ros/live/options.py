@@ -12,8 +12,8 @@ def make_parser() -> argparse.ArgumentParser:
     """Return the parser of the command line."""
     parser = new_parser(
         "top_live",
-        "Show a running top in the Rerun viewer that listens on the port (the viewer may "
-        "be restarted), or else in a new viewer.",
+        "Show a running top in the Rerun viewer that listens on --port, or in a new viewer if "
+        "none does. You may close the viewer and start it again.",
     )
     parser.add_argument("--node", default="/top", help="name of the node (default /top)")
     parser.add_argument(

@@ -271,7 +271,7 @@ def _check_change(node: Node, message: ParameterMessage) -> None:
     descriptor = node.describe_parameter(name)
     if descriptor.read_only:
         kept = node.get_parameter(name).value
-        condition = f"{show(kept)}, as only the start can set it"
+        condition = f"{show(kept)} (read-only after the start of the node)"
         raise refuse(name, condition, parameter_value_to_python(value))
     if not descriptor.dynamic_typing and value.type != descriptor.type:
         kind = Parameter.Type(descriptor.type).name.lower().replace("_", " ")

@@ -103,5 +103,5 @@ def _demand_fields(log: TopLog, catalog: Catalog) -> None:
         version = one_line(own or LAST_WITHOUT_FIELDS, 20)
         raise LogError(
             f"format of events must be {FORMAT} for a check, got {WITHOUT_FIELDS}: symtop_ros "
-            f"{version} has recorded {log.file.path} and checks it"
+            f"{version}, which has recorded {log.file.path}, can check it"
         )

@@ -46,7 +46,7 @@ STATUSES: dict[str, Callable[[Segment, int, int], Status]] = {
 }
 OTHER_VERSION = "it is of another version"
 REASONS = {
-    CLOCK.name: "a recorder gets it at other times than those that it names",
+    CLOCK.name: "a recorder receives these messages at times other than those in them",
     MARKERS.name: "markers are drawings of the samples before them",
     APPLIED_TORQUE.name: "it was received, and not computed",
     POINTS.name: "the points were measured, not computed",

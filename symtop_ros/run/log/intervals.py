@@ -20,10 +20,10 @@ from symtop_ros.run.simulation.events import MAX_STAMP, Event
 
 NOT_RECORDED = "the recording was off"
 NO_BEGINNING = "the beginning is missing"
-NO_PROOF = "nothing that follows proves that no event was lost"
+NO_PROOF = "an event may be lost, and no later event number shows otherwise"
 NO_NUMBERS = "the diagnostics of this log do not number the events"
 NO_EVENTS = "the log has no events"
-REPEATED = "the clock has shown these times more than once, and the log is not in that order"
+REPEATED = "the clock has shown these times more than once, and the log is not in the run's order"
 NOWHERE = 2**62  # a place after the end of every log
 
 

@@ -125,7 +125,7 @@ def pace_status(simulation: Simulation) -> Status:
             reason = f"the motion lacks CPU time: got {lack.got:.2g} % CPU, needs "
             reason += f"{lack.needed:.2g} % (one core)"
         if kept >= asked:
-            reason = f"the time waited {waits.latest:.3g} s for late samples"
+            reason = f"/clock waited {waits.latest:.3g} s for late samples"
         reached = kept * (1 - waits.share)
         message = f"{reason}: real-time factor {reached:.3g} instead of {asked:.3g}"
     return make_status(

@@ -117,8 +117,8 @@ class Waits:
             return None
         seconds, whole = self._waited / NANOSECONDS, self._ran / NANOSECONDS
         text = (
-            f"the time waited for late samples, {seconds:.3g} of the last {whole:.3g} s: {WHY_LATE}"
-            f"; real-time factor {self._advance / self._ran:.3g} instead of {asked:.3g}"
+            f"/clock waited for late samples for {seconds:.3g} of the last {whole:.3g} s: "
+            f"{WHY_LATE}; real-time factor {self._advance / self._ran:.3g} instead of {asked:.3g}"
         )
         self._quiet = PERIOD
         self._begin_count()

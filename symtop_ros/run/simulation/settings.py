@@ -198,7 +198,7 @@ PARAMETERS: dict[str, Parameter] = {
     "publish_tf": _flag(True, "publish world -> top on /tf"),
     "publish_clock": _flag(
         False,
-        "publish /clock: the elapsed time of the run, which all stamps are on",
+        "publish /clock, the elapsed time of the run; all stamps are in this time",
         read_only=True,
     ),
     "publish_markers": _flag(False, "publish ~/markers for rviz", read_only=True),
@@ -224,9 +224,13 @@ PARAMETERS: dict[str, Parameter] = {
     "imu.noise.accelerometer_noise_density": _noise("white noise", "m/s^2/sqrt(Hz)"),
     "imu.noise.accelerometer_random_walk": _noise("random walk of the bias", "m/s^3/sqrt(Hz)"),
     "imu.noise.seed": SEED,
-    "imu.limits.gyroscope_range": _limit("largest rate that is shown; 0: any", "rad/s"),
+    "imu.limits.gyroscope_range": _limit(
+        "largest rate that the sensor shows; 0: no limit", "rad/s"
+    ),
     "imu.limits.gyroscope_resolution": _limit("step of the rates; 0: none", "rad/s"),
-    "imu.limits.accelerometer_range": _limit("largest force that is shown; 0: any", "m/s^2"),
+    "imu.limits.accelerometer_range": _limit(
+        "largest specific force that the sensor shows; 0: no limit", "m/s^2"
+    ),
     "imu.limits.accelerometer_resolution": _limit("step of the forces; 0: none", "m/s^2"),
     "magnetic_field.enabled": _flag(False, "publish ~/magnetic_field", read_only=True),
     "magnetic_field.vector": _fix(_vector("magnetic field, world frame", 3, MAX_FIELD, "T")),

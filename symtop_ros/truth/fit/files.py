@@ -87,8 +87,10 @@ class WantedKind:
         """Return the refusal of a table without such columns."""
         kinds = (KINDS[name] for name in READ if self._takes(name))
         wanted = (", ".join(each.columns) for each in kinds)
-        names = " or ".join(wanted)
-        return f"{path} must have the columns t (s) or stamp (ns) and {names}, got {first}"
+        names = "; or ".join(wanted)
+        return (
+            f"{path} must have a column t (s) or stamp (ns), and the columns {names}; got {first}"
+        )
 
 
 def _name(name: str) -> str:

@@ -49,8 +49,8 @@ def _find_fault(options: argparse.Namespace, rest: list[str]) -> str | None:
             rest and not (options.live and rest[0] == "--ros-args")
         ),
         "--clock must be used with a recorded run, got --live": options.clock and options.live,
-        "LOG with --topic or --estimates, --scene with --estimates, or --live with --topic is "
-        "needed": not (estimates and run),
+        "a run and its estimates must be given: LOG with --topic, --estimates or --clock; --scene "
+        "with --estimates or --clock; or --live with --topic": not (estimates and run),
         "--live must be used with one --topic": options.live and len(options.topic) > 1,
         "--robust and --rpe must be used without --live and --clock": (
             (options.robust or options.rpe) and (options.live or options.clock)

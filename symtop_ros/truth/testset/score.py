@@ -491,7 +491,8 @@ def _find_absent(times: Real, tried: Real) -> None:
         if near is None or not abs(t - near) <= SAME_TIME * t:
             nearest = "there is no row" if near is None else f"the nearest is {near:.12g} s"
             raise ValueError(
-                f"trajectory must have a state at each time, got none at {t:.12g} s; {nearest}"
+                "trajectory must have a state at each time of the problem, got none at "
+                f"{t:.12g} s; {nearest}"
             )
 
 

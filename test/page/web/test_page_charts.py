@@ -148,7 +148,7 @@ def test_the_time_at_which_rounding_decides_is_one_of_the_run(open_page):
     for time, began in ((5.5, 5.0), (1.0, 0.0)):
         page.seek(time)
         said = f"from {began + shows_at:.3g} s on"
-        row = "rounding of the start decides"
+        row = "rounding of the start decides the motion"
         page.until(lambda: read_constants(page).get(row, "").startswith(said))  # noqa: B023
 
 

@@ -140,8 +140,8 @@ def test_all_solutions_are_listed_and_one_is_started(ctl):
             "precession must be given without dip, got both",
         ),
         ("start theta=9rpm", "theta must be a number in rad, °, deg or degrees, got '9rpm'"),
-        ("body wheel", "part must be point:MASS,DISTANCE or rod, hoop, disc, ball:MASS,SIZE,"),
-        ("body disk:170g,5cm,9cm", "part must be point:MASS,DISTANCE or rod, hoop, disc, ball:"),
+        ("body wheel", "part must be KIND:MASS,SIZE,DISTANCE (KIND: rod, hoop, disc, ball), "),
+        ("body disk:170g,5cm,9cm", "part must be KIND:MASS,SIZE,DISTANCE (KIND: rod, "),
         ("body disc:1kg,0,1m", "radius must be > 0 m, got 0"),
         ("body point:1kg,1m", "Ix must be > 0 kg m^2, got 0"),
         (

@@ -20,6 +20,7 @@ from symtop_ros.run.simulation.settings import PARAMETERS
 QOS = "qos_overrides./top/orientation.publisher"
 BAD = ("depth", -1), ("depth", "x"), ("reliability", "foo"), ("history", 3)
 CLOCKS = {"use_sim_time": True, "publish_clock": True}
+READ_ONLY = "(read-only after the start of the node)"
 UNKNOWN_NAME = "parameter name must be known (the nearest is {}), got '{}'"
 UNKNOWN_TYPE = "type of 'publish_rate' must be 0 to 9, got 77"
 ONE = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=1.0)
@@ -94,17 +95,16 @@ REFUSALS = {
     "text for a flag of ROS": ("use_sim_time", TEXT, "use_sim_time must be of type bool, got 'x'"),
     "no value of ROS": ("use_sim_time", NO_VALUE, "use_sim_time must be of type bool, got None"),
     "no value": ("publish_rate", NO_VALUE, "publish_rate must be 1 to 2000 Hz, got None"),
-    "fixed": ("scene", TEXT, "scene must be 'cusps', as only the start can set it, got 'x'"),
+    "fixed": ("scene", TEXT, f"scene must be 'cusps' {READ_ONLY}, got 'x'"),
     "fixed, ours": (
         "imu.enabled",
         ParameterValue(type=KIND.PARAMETER_BOOL, bool_value=True),
-        "imu.enabled must be False, as only the start can set it, got True",
+        f"imu.enabled must be False {READ_ONLY}, got True",
     ),
     "fixed QoS": (
         "qos_overrides./top/orientation.publisher.depth",
         ParameterValue(type=KIND.PARAMETER_INTEGER, integer_value=7),
-        "qos_overrides./top/orientation.publisher.depth must be 100, as only the start can set it, "
-        "got 7",
+        f"qos_overrides./top/orientation.publisher.depth must be 100 {READ_ONLY}, got 7",
     ),
     "unknown type": ("publish_rate", ParameterValue(type=77), UNKNOWN_TYPE),
 }

@@ -125,7 +125,7 @@ def test_a_log_without_fields_is_read_and_left_to_its_version(tmp_path, monkeypa
     with pytest.raises(LogError, match=r"format of events must be 3 for a check, got 2: symtop"):
         check_run(TopLog(McapFile(path)))
     assert main([str(path), "--check"]) == 1
-    assert f"symtop_ros test has recorded {path} and checks it" in capsys.readouterr().err
+    assert f"symtop_ros test, which has recorded {path}, can check it" in capsys.readouterr().err
 
 
 def test_a_sample_that_agrees_with_two_events_belongs_to_the_exact_one():

@@ -269,7 +269,7 @@ def test_waiting_for_late_samples_is_a_warning_with_the_pace():
     session.keep_up()
     status = pace_status(session.simulation)
     assert status.level == WARN
-    said = "the time waited 0.9 s for late samples: real-time factor 0.2 instead of 2"
+    said = "/clock waited 0.9 s for late samples: real-time factor 0.2 instead of 2"
     assert status.message == said
     assert float(status.values["waited"]) == 0.9
     assert float(status.values["real_time_factor.achieved"]) == pytest.approx(0.2, rel=1e-15)

@@ -99,7 +99,7 @@ def test_the_pace_that_is_reached_is_measured_and_waits_are_warned_of_once_a_min
         assert run.simulation.waits.total == pytest.approx(waits * 2.9, rel=1e-15)
         assert run.simulation.achieved == pytest.approx(2 * 1.105 / 4.005, rel=1e-15)
     (warning,) = run.sink.warnings
-    assert warning.startswith("the time waited for late samples, 2.9 of the last 4 s: the process ")
+    assert warning.startswith("/clock waited for late samples for 2.9 of the last 4 s: the ")
     assert warning.endswith("; real-time factor 0.552 instead of 2")
     run.advance(60.0)
     run.simulation.measure_pace()

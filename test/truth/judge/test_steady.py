@@ -87,7 +87,7 @@ def test_where_the_body_is_turned_too_the_known_combination_is_said(world):
     assert best.kind == ("", "both", ())
     assert judgement.facts()["found"]["delay"] is None
     found = re.search(
-        rf"heading less {NUMBER} rad/s x delay, .* axis of the body less {NUMBER} rad/s x delay",
+        rf"heading minus {NUMBER} rad/s x delay, .* axis of the body minus {NUMBER} rad/s x delay",
         text,
     )
     assert found, text

@@ -103,7 +103,10 @@ def test_a_score_says_how_large_errors_are_and_nothing_of_causes():
 
 NO_TRAJECTORIES = [
     ("a,b\n1,2\n", "must have the columns t, w, x, y, z, got the header a,b"),
-    ("t,w,x,y,z\n0.5,1,0,0,0\n", "a state at each time, got none at 1 s; the nearest is 0.5 s"),
+    (
+        "t,w,x,y,z\n0.5,1,0,0,0\n",
+        "state at each time of the problem, got none at 1 s; the nearest is 0.5 s",
+    ),
     ("t,w,x,y,z\n0.5,1,0,0\n", "line 2 must have all columns"),
     ("t,w,x,y,z\none,1,0,0,0\n", "line 2 must consist of numbers"),
     ("t,w,x,y,z\nnan,1,0,0,0\n", "got none at 0.5 s; there is no row"),
