@@ -1,7 +1,7 @@
 """Print what `top_judge --clock` says of look-ups in tf2, by the rate at which `/tf` is published.
 
 A look-up between two transforms follows the rule of tf2::BufferCore: a slerp of the transform
-before the time and the one after it. That of the latest transform takes the one before.
+before the time and the one after it. A look-up of the latest transform returns the one before.
 """
 
 import numpy as np
@@ -19,7 +19,7 @@ TRUTH = scene_truth("cusps")
 
 
 def look_up(rate: int, times: Stamps) -> tuple[Estimates, Estimates]:
-    """Return the interpolated and the latest transforms at times (ns), of a rate in Hz."""
+    """Return the interpolated and the latest transforms at times (ns), for a rate (Hz) of /tf."""
     stamps = np.arange(0, int(times[-1]) + 2 * SECOND // rate, SECOND // rate)
     known = TRUTH.states_at(stamps)[0]
     between = Slerp(stamps / SECOND, Rotation.from_quat(known[:, [1, 2, 3, 0]]))
@@ -29,7 +29,7 @@ def look_up(rate: int, times: Stamps) -> tuple[Estimates, Estimates]:
 
 
 def describe_delay(clock: Clock) -> str:
-    """Return how late transforms are; errors of interpolation are no noise to deviate by."""
+    """Return the delay, with its standard deviation if the errors are noise."""
     return f"late by {format_measured(clock.delay, clock.delay_deviation)} us"
 
 

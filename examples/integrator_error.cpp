@@ -1,4 +1,4 @@
-// How wrong is an integrator? Its states are compared with the exact ones of the same doubles.
+// How wrong is an integrator? Its states are compared with the exact states for the same start.
 #include <array>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // Ask a running top (top_node) for a start from what is seen, in C++ with rclcpp: let go at a tilt, it dips
-// by an angle. The node finds the spin, begins the motion and lists all that have it.
+// by an angle. The node finds the spin, begins the motion and lists all starts that have these properties.
 //
 // In a package of a workspace:
 //

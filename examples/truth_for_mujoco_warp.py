@@ -3,8 +3,8 @@
     pip install mujoco-warp
 
 MuJoCo Warp steps all tops together, on a GPU or on the processor. The exact states of all of them
-come from one call: on a GPU `symtop_ros.physics.gpu`, which reads Warp's arrays where they are, or
-else `symtop_ros.physics.Motions`. The largest errors of the attitudes are printed.
+come from one call of `symtop_ros.physics.gpu.Motions` on a GPU, or else of
+`symtop_ros.physics.Motions`. The median and the largest error of the attitudes are printed.
 """
 
 import argparse

@@ -326,7 +326,7 @@ class Motion:
         return Rates(0.0 * abs(theta_dot), theta_dot, held)
 
     def clamp_torque(self, state: State) -> Real:
-        """Return the torque of the hand that holds phi, in the body frame in N m.
+        """Return the torque of the clamp (hand and bearing), in the body frame in N m.
 
         Parameters
         ----------
@@ -337,6 +337,8 @@ class Motion:
         -------
         ndarray (..., 3)
             p_psi times the velocity of the unit vector along the axle (derivation.md, section 11).
+            The hand at the outer ring exerts the vertical part, and the bearing of the ring the
+            rest (`gimbal_shares`).
         """
         x, y, _ = np.moveaxis(state.angular_velocity, -1, 0)
         across = np.stack([y, -x, np.zeros_like(x)], axis=-1)  # of the axle, at 1 m

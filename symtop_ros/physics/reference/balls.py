@@ -37,8 +37,9 @@ class ProvedState(NamedTuple):
     angular_velocity : tuple of flint.arb
         Angular velocity in the body frame, in rad/s.
     size : flint.arb
-        The largest abs(omega_xy) of the motion in rad/s; with friction or a torque the fastest rate
-        of the start, or that of a swing.
+        The largest abs(omega_xy) of the motion in rad/s. With friction or a torque, a power of two
+        from a quarter to half of the fastest of these rates: omega at the start, the decay by
+        friction, and the square root of (|Mgl| + the largest component of the torque)/Ix.
     """
 
     orientation: tuple[Ball, ...]
