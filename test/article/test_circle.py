@@ -27,7 +27,7 @@ def test_the_numbers_of_the_article_are_those_of_the_motion():
     at_cusps = mean * math.sin(cusps.turning_angles[0])
     for text in (
         f"precession of {mean:.2f} rad/s",
-        f"cusps at {at_cusps:.2f} rad/s",
+        f"moves along at {at_cusps:.2f} rad/s",
         f"differ by {100 * (1 - at_cusps / round_it):.1f} %",
         f"radius {found.radius:.3f} rad",
         f"within {100 * off:.1f} %",

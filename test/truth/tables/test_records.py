@@ -95,7 +95,7 @@ def test_rows_with_an_empty_cell_are_left_out_and_counted(tmp_path):
         ("t (min),u,v\n0,1,2\n", "t in .* must be in s, ms, us, ns, got min"),
         ("t,theta (turns)\n0,1\n", "theta in .* must be in rad or degrees, got turns"),
         ("t,u,v\n0,1\n", "line 2 of .* must have all columns, got 0,1"),
-        ("a,b\n1,2\n", "must have the columns t .* got a,b"),
+        ("a,b\n1,2\n", "must have a column t .* got a,b"),
         ("", "got nothing"),
     ],
 )
@@ -127,7 +127,7 @@ def test_accelerations_of_a_phone_without_gravity_are_no_accelerometer(tmp_path)
     other = PHONE.format("Linear Acceleration")
     path = write_table(tmp_path / "b.csv", values, SOME, other, ",", ";")
     with pytest.raises(
-        RefusedError, match=r"must have the columns t .* and wx, wy, wz, fx, fy, fz"
+        RefusedError, match=r"must have a column t .* and the columns wx, wy, wz, fx, fy, fz"
     ):
         read_rows(path, "inertial")
 
