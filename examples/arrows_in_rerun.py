@@ -1,4 +1,4 @@
-"""Arrows of L, omega and the torque in plain Rerun, by its own reader of logs and its lenses.
+"""Arrows of L, omega and the torque in plain Rerun, drawn with Rerun's own log reader and lenses.
 
     pip install rerun-sdk
     python examples/arrows_in_rerun.py run.mcap run.rrd
@@ -15,7 +15,7 @@ import numpy as np
 import rerun as rr
 from rerun.chunk import DeriveLens, McapReader, Selector
 
-# For each topic the type, the field, and the metres of a unit, for a top like that of the article.
+# For each topic: the type, the field, and the metres per unit for a top like that of the article.
 VECTORS = {
     "angular_momentum": ("Vector3Stamped", "vector", 20.0),  # per kg m^2/s
     "angular_velocity": ("TwistStamped", "twist.angular", 1e-3),  # per rad/s

@@ -1,8 +1,8 @@
 """An attitude filter as a node: imu/data_raw and imu/mag in, imu/data out (REP-145).
 
-`pip install ahrs` first. It has the names of the filters of imu_tools, and filters by the same two
-methods: that of Madgwick (imu_filter_madgwick), and that of Valenti (imu_complementary_filter),
-which ahrs calls AQUA. Their world, x to the north, is turned into that of REP-103, x to the east.
+`pip install ahrs` first. Its topics have the names that imu_tools uses. Its two methods are those
+of imu_tools, too: Madgwick's (imu_filter_madgwick), and Valenti's (imu_complementary_filter), which
+ahrs calls AQUA. Their world, x to the north, is turned into that of REP-103, x to the east.
 """
 
 import sys

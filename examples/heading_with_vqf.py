@@ -1,7 +1,8 @@
 """The heading that VQF finds on a spinning top, with a magnetometer and without.
 
-pip install vqf (github.com/dlaidig/vqf) first. The numbers are root mean squares of the second ten
-seconds in rad; the top starts two radians off the heading with which a filter starts.
+pip install vqf (github.com/dlaidig/vqf) first. The numbers are root mean square errors in
+rad, over the second ten seconds. The top starts two radians off the heading with which a filter
+starts.
 """
 
 from dataclasses import replace

@@ -89,9 +89,11 @@ def open_client(scheduler: str | None, workers: int) -> Client:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description="Tilts of many tops, computed on Dask.")
     parser.add_argument(
-        "--motions", type=int, default=10_000_000, help="about so many, default 1e7"
+        "--motions", type=int, default=10_000_000, help="approximate number, default 1e7"
     )
-    parser.add_argument("--seconds", type=float, default=10.0, help="time of the tilts, default 10")
+    parser.add_argument(
+        "--seconds", type=float, default=10.0, help="time of the motion in s, default 10"
+    )
     parser.add_argument("--workers", type=int, default=2, help="on this machine, default 2")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="of a running cluster instead")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="the map, as .npy")

@@ -1,8 +1,8 @@
 """The rigid body of a top: its mass, the arm of its centre of mass, and the force on the pivot.
 
 The motion of a top depends on Ix, Iz and Mgl only. The force of the pivot depends on the mass and
-on the distance of its centre from the pivot (the arm) too, and these are not given. A body is
-chosen here that exists for every top for which any exists.
+on the distance of its centre from the pivot (the arm) too, and these are not given.
+`Body.from_top` chooses them, and finds a body for every top for which a rigid body exists.
 """
 
 import math

@@ -1,8 +1,8 @@
 """Energy and momenta that are exchanged in an interval of a motion, and their causes.
 
 The kernel forms changes between two states as products (`rule/exchange.hpp`), so that nothing is
-lost in large numbers that cancel. A ledger has the numbers; an exchange is the record of what is
-said of them, in which rounding counts as nothing.
+lost in large numbers that cancel. A ledger has the numbers. An exchange is the record from which
+the sentence is written; it leaves out changes that may be rounding errors.
 """
 
 import math
@@ -269,7 +269,7 @@ class Ledger:
 
 @dataclass(frozen=True, slots=True)
 class Share:
-    """Energy in mJ that a part of the energy gained or lost, or that a cause added or removed."""
+    """Energy in mJ that a part of the energy got or gave, or that a cause gave or took."""
 
     kind: Literal["gave", "got", "took"]
     who: Part | CauseName

@@ -112,7 +112,7 @@ class Motion:
         Local error that a step of the integration may have under friction or an applied torque, in
         rad and relative to omega: 1e-15 to 1e-6, or 0 (the default) for steps that are exact to
         rounding. A motion with a tolerance takes half of the time or less. The errors of the steps
-        add up: a step turns the axis by up to 4 rad about the angular momentum. Under gravity alone
+        add up. A step turns the axis by up to 4 rad about the angular momentum. Under gravity alone
         the closed form needs no steps, and the tolerance has no effect. It must be 0 with pushes or
         a clamp.
 
@@ -772,10 +772,11 @@ class Motion:
     def mean_cosine(self) -> float:
         """Mean of cos(theta) over the time of a nutation; times Mgl, the mean potential energy.
 
-        The axis spends more time near its upper turning point than near its lower one, so the mean
-        exceeds the middle of both heights (docs/derivation.md, section 7). For an asymptotic motion
-        it is cos(theta) of the pole. For a driven motion it is the mean without friction, torque
-        and pushes.
+        For Mgl > 0 the axis spends more time near its upper turning point than near its lower one,
+        so the mean exceeds the middle of both heights (docs/derivation.md, section 7). For Mgl < 0
+        it is below the middle, and for Mgl = 0 equal to it. For an asymptotic motion it is
+        cos(theta) of the pole. For a driven motion it is the mean without friction, torque and
+        pushes.
 
         Examples
         --------

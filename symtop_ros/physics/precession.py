@@ -124,7 +124,7 @@ def spread_tops(top: Top, *columns: Any) -> tuple[tuple[int, ...], list[Real]]:
 
 @bindings.compute_soundly
 def theta_torque(top: Top, theta: ArrayLike, phi_dot: ArrayLike, psi_dot: ArrayLike) -> Real:
-    """Return Ix theta''/sin(theta): zero where precession is regular, negative if the top rises.
+    """Return Ix theta''/sin(theta): zero in regular precession, negative if theta'' is.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """A series of equal pushes on the axle.
 
-When they come and what follows is in the kernel (`kernel/functions/pushes.hpp`).
+The kernel computes their times, and the motion between them (`kernel/functions/pushes.hpp`).
 """
 
 import math
@@ -69,5 +69,5 @@ class Pushes:
 
     @property
     def packed(self) -> bytes:
-        """The numbers, as `symtop_pushes` has them."""
+        """The numbers as bytes, in the layout of the kernel's struct `symtop_pushes`."""
         return pack("3d", *astuple(self))

@@ -478,8 +478,8 @@ class State(Generic[N]):
         Returns
         -------
         dict of str to ndarray (n,)
-            t; w, x, y, z (body to world); wx, wy, wz (body frame, rad/s), as the test set has
-            them; phi, theta, psi (rad); phi_dot, theta_dot, psi_dot (rad/s).
+            t; w, x, y, z (body to world); wx, wy, wz (body frame, rad/s), named as in the
+            files of `top_testset`; phi, theta, psi (rad); phi_dot, theta_dot, psi_dot (rad/s).
 
         Raises
         ------
