@@ -10,8 +10,8 @@ from symtop_ros.run.simulation.run_file import RATE
 def add_view_options(parser: argparse.ArgumentParser) -> None:
     """Add the options for parts of the scene: those of `ViewOptions`, which needs Rerun."""
     for option, text in (
-        ("--no-ghost", "do not draw the top without its last kick or clamp"),
-        ("--angles", "draw both frames and Euler's angles phi, theta, psi"),
+        ("--no-ghost", "do not draw the ghost (the same top without its last kick or clamp)"),
+        ("--angles", "draw the axes of world and body, and Euler's angles phi, theta, psi"),
         (
             "--torques",
             "draw dL/dt and the inertial torque, in the body frame and in the precessing frame",

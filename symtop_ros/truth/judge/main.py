@@ -113,8 +113,9 @@ def make_parser() -> argparse.ArgumentParser:
         "--aligned",
         choices=MODELS,
         metavar="MODEL",
-        help="align with the given model without looking for other causes: none, heading, world or "
-        "world-and-body; +delay, +clock or +delay+clock after it also fits the error of the stamps",
+        help="align with the given model, and look for no other causes of the error: none, "
+        "heading, world or world-and-body; +delay, +clock or +delay+clock after it also fits the "
+        "error of the stamps",
     )
     parser.add_argument(
         "--clock",
@@ -125,7 +126,8 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--robust",
         action="store_true",
-        help="leave outliers (more than five standard deviations off) out of causes and models",
+        help="ignore outliers (more than five standard deviations off) in the search for causes of "
+        "the error and in fits of models",
     )
     parser.add_argument(
         "--rpe",
@@ -139,7 +141,10 @@ def make_parser() -> argparse.ArgumentParser:
         "-o", "--output", type=Path, metavar="FOLDER", help="folder for JSON and plots"
     )
     parser.add_argument(
-        "--max-error", type=positive, metavar="RAD", help="status 1 if the attitude error is larger"
+        "--max-error",
+        type=positive,
+        metavar="RAD",
+        help="status 1 if the largest attitude error is above RAD",
     )
     parser.add_argument(
         "--live", action="store_true", help="judge a running node: one line each second"

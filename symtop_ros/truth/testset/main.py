@@ -57,7 +57,10 @@ def make_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--json", action="store_true", help="print the score as JSON")
     parser.add_argument(
-        "--max-error", type=positive, metavar="RAD", help="status 1 if the attitude error is larger"
+        "--max-error",
+        type=positive,
+        metavar="RAD",
+        help="status 1 if the largest attitude error is above RAD",
     )
     return parser
 
