@@ -111,7 +111,7 @@ class Motion:
     tolerance : float
         Local error that a step of the integration may have under friction or an applied torque, in
         rad and relative to omega: 1e-15 to 1e-6, or 0 (the default) for steps that are exact to
-        rounding. A motion with a tolerance takes half of the time or less. The errors of the steps
+        rounding. A motion with a tolerance takes about half of the time. The errors of the steps
         add up. A step turns the axis by up to 4 rad about the angular momentum. Under gravity alone
         the closed form needs no steps, and the tolerance has no effect. It must be 0 with pushes or
         a clamp.

@@ -134,10 +134,10 @@ SYMTOP_API symtop_status symtop_new_pushed(const symtop_start* start, const symt
  * momentum about the vertical is not constant. */
 SYMTOP_API symtop_status symtop_new_clamped(const symtop_start* start, symtop_motion** motion);
 
-/* Make a motion that may be less exact under friction or a torque, and takes less than half of the
- * time. `tolerance` is the local error of a step, in rad and relative to the angular velocity: 1e-15
- * to 1e-6, or 0 for a motion as symtop_new makes it. A step turns the axis by up to 4 rad about the
- * angular momentum; errors of steps add up. Without friction and torque it changes nothing. */
+/* Make a motion that is less exact under friction or a torque, and takes less time. `tolerance` is
+ * the local error of a step, in rad and relative to the angular velocity: 1e-15 to 1e-6, or 0 for a
+ * motion as symtop_new makes it. In a step the axis turns by up to 4 rad about the angular momentum;
+ * errors of steps add up. Without friction and torque the tolerance has no effect. */
 SYMTOP_API symtop_status symtop_new_coarse(const symtop_start* start, double tolerance,
                                            symtop_motion** motion);
 

@@ -600,7 +600,10 @@ def main(args: Sequence[str] | None = None) -> int:
     parser.add_argument("trajectory", nargs="?", type=Path, help="CSV: t, w, x, y, z, wx, wy, wz")
     parser.add_argument("--json", action="store_true", help="print JSON in place of text")
     parser.add_argument(
-        "--max-error", type=float, metavar="RAD", help="status 1 if the attitude error is larger"
+        "--max-error",
+        type=float,
+        metavar="RAD",
+        help="status 1 if the largest attitude error exceeds this",
     )
     options = parser.parse_args(args)
     try:
