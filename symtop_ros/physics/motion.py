@@ -110,11 +110,11 @@ class Motion:
 
     tolerance : float
         Local error that a step of the integration may have under friction or an applied torque, in
-        rad and relative to omega: 1e-15 to 1e-6, or 0 (the default) for steps that are exact to
-        rounding. A motion with a tolerance takes about half of the time. The errors of the steps
-        add up. A step turns the axis by up to 4 rad about the angular momentum. Under gravity alone
-        the closed form needs no steps, and the tolerance has no effect. It must be 0 with pushes or
-        a clamp.
+        rad for the attitude and relative to its size for omega: 1e-15 to 1e-6, or 0 (the default)
+        for steps that are exact to rounding. A motion with a tolerance takes about half of the
+        time. The errors of the steps add up. A step turns the axis by up to 4 rad about the angular
+        momentum. Under gravity alone the closed form needs no steps, and the tolerance has no
+        effect. It must be 0 with pushes or a clamp.
 
     Attributes
     ----------
@@ -349,8 +349,8 @@ class Motion:
     def engine(self) -> Engine:
         """Method of solution.
 
-        Elliptic functions; circular functions if Mgl is 0 or if the axis rests on the vertical;
-        with friction or an applied torque Taylor series in time.
+        "closed form" (elliptic functions), "free" (circular functions: Mgl is 0, or the axis rests
+        on the vertical) or "taylor" (Taylor series in time: friction or an applied torque acts).
         """
         return self._kernel.engine
 
@@ -371,7 +371,8 @@ class Motion:
         t : float, array_like (...) or ExactTimes
             Time since the start in s, of either sign, up to 1e15 turns of the fastest phase, or
             exact times in ns. A driven motion is integrated in steps of about 10 us of computing
-            time: a few seconds for six hours. A time that needs more than 1e7 steps is refused.
+            time: a few seconds for six hours of the article's top. A time that needs more than 1e7
+            steps is refused.
 
         Returns
         -------

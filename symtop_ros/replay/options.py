@@ -40,7 +40,7 @@ def make_parser() -> argparse.ArgumentParser:
         "top_replay",
         "Play a log of top_node, or a run of the page, in the Rerun viewer; or save, "
         "check, repair or convert it.",
-        epilog="Plain `rerun FILE.mcap` also draws the top, on the timeline that it selects.",
+        epilog="Plain `rerun FILE.mcap` also draws the top, on the timeline that Rerun selects.",
     )
     parser.add_argument(
         "files",

@@ -53,7 +53,7 @@ def make_parser() -> argparse.ArgumentParser:
         type=Path,
         metavar="FOLDER",
         help="write the problem into this folder; with all: each into its own folder; without a "
-        "name: the whole set",
+        "name: the whole set as one collection (tables, models, scorer)",
     )
     parser.add_argument("--json", action="store_true", help="print the score as JSON")
     parser.add_argument(
