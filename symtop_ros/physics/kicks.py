@@ -51,9 +51,9 @@ def set_precession_rate(state: State, phi_dot: ArrayLike, hold: Hold = "spin_rat
     Returns
     -------
     State
-        Its phi' differs from the new rate by at most 15 eps times the angular velocity (the larger
-        one of before and after) divided by sin(theta). So next to the vertical phi' may have few
-        correct digits.
+        Its phi' differs from the new rate by at most 15 eps (eps is 2^-52) times the angular
+        velocity (the larger one of before and after) divided by sin(theta). So next to the vertical
+        phi' may have few correct digits.
 
     Raises
     ------

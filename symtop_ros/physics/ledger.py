@@ -1,8 +1,8 @@
 """Energy and momenta that are exchanged in an interval of a motion, and their causes.
 
 The kernel forms changes between two states as products (`rule/exchange.hpp`), so that nothing is
-lost in large numbers that cancel. A ledger has the numbers. An exchange is the record from which
-the sentence is written; it leaves out changes that may be rounding errors.
+lost in large numbers that cancel. A ledger has these changes. An exchange is the record from which
+a sentence about them is written; it leaves out changes that may be rounding errors.
 """
 
 import math

@@ -719,11 +719,11 @@ class Motion:
     def rounding_shows_at(self) -> float:
         """Time in s from which on the rounding of the start decides where the axis is.
 
-        It is finite if two conditions hold: an asymptotic motion lies within 64 EPS of the start,
-        and a change of one number of the start in its last place turns the axis by 0.01 rad within
-        two nutations. Such a start is next to the separatrix, and in exact numbers its motion may
-        be of another kind. It is infinite otherwise, and for motions with friction, a torque,
-        pushes or a clamp.
+        It is finite if two conditions hold: an asymptotic motion lies within 64 EPS (EPS is 2^-52)
+        of the start, and a change of one number of the start in its last place turns the axis by
+        0.01 rad within two nutations. Such a start is next to the separatrix, and in exact numbers
+        its motion may be of another kind. It is infinite otherwise, and for motions with friction,
+        a torque, pushes or a clamp.
 
         Examples
         --------

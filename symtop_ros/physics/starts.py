@@ -102,11 +102,11 @@ def solve_start(
     -------
     tuple of Solution
         One to four solutions. The first ones have phi' > 0; for a top let go at rest, psi' > 0; for
-        given constants, the smaller theta. The error of each number is some EPS (2^-52) for exactly
-        the given numbers. A nutation period that is up to 16 EPS longer than the longest possible
-        one counts as the longest one. A period that is up to 16 EPS shorter than that of a
-        pendulum, the limit without spin, counts as the pendulum's. Constants whose energy differs
-        from the least possible energy by at most 64 EPS of its terms are those of a regular
+        given constants, the smaller theta. If the given numbers are taken as exact, the error of
+        each number is some EPS (2^-52). A nutation period that is up to 16 EPS longer than the
+        longest possible one counts as the longest one. A period that is up to 16 EPS shorter than
+        that of a pendulum, the limit without spin, counts as the pendulum's. Constants whose energy
+        differs from the least possible energy by at most 64 EPS of its terms are those of a regular
         precession.
 
     Raises

@@ -89,7 +89,13 @@ def make_parser() -> argparse.ArgumentParser:
         metavar=("X", "Y", "Z"),
         help="use the accelerometer as well; its position in the body frame, in m from the pivot",
     )
-    parser.add_argument("--pivot", type=decimal, nargs=2, metavar=("U", "V"), help="known pivot")
+    parser.add_argument(
+        "--pivot",
+        type=decimal,
+        nargs=2,
+        metavar=("U", "V"),
+        help="known position of the pivot in the picture",
+    )
     parser.add_argument("--scale", type=positive, metavar="PIXELS", help="known length of the axis")
     for name, of in CLICKED.items():
         parser.add_argument(

@@ -2,14 +2,14 @@
 
     python score.py                          # lists the problems
     python score.py cusps trajectory.csv     # scores a trajectory
-    python score.py cusps.turned turned.csv  # that of another description of the body
+    python score.py cusps.turned turned.csv  # the same problem, another description of the body
     python score.py cusps trajectory.csv --json --max-error 1e-6  # for continuous integration
 
 A trajectory is a table with the columns t, w, x, y, z, and wx, wy, wz if it has angular velocities
 in the body frame, or omega_x, omega_y, omega_z in the world frame, in any order. Commas,
 semicolons, tabs or spaces separate columns. A row at t = 0 is compared with the start as it was
-given; further columns and rows at other times are ignored. A line before the names of the columns
-may say what computed it, so that the score can be cited:
+given. Further columns, and rows at times that the problem does not have, are ignored. A line before
+the names of the columns may say what computed it, so that the score can be cited:
 
     # engine: MuJoCo 4.0.0, RK4, step 1e-4 s
 """
