@@ -34,7 +34,7 @@ MOST_PARTS = 30_000  # of a stretch with friction or a torque: some seconds
 SLIP = 1e-9  # of half a nutation, by which rounding may move a turning point
 HALVINGS = 80  # of the half nutation in which a turning point is found: down to rounding
 MILLI = 1e3
-ROUNDING = 1e-12  # of the sizes at both ends: ten times the promise of states; less is rounding
+ROUNDING = 1e-12  # of the sizes at both ends: far above the rounding of states; less is rounding
 
 Part = Literal["weight", "precession", "nutation", "spin"]
 CauseName = Literal["pushes", "clamp", "friction", "torque"]

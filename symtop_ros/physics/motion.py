@@ -84,7 +84,7 @@ class Motion:
 
     Without friction and applied torque it is exact at any time. With them it is integrated; turning
     angles, nutation period and mean rates are then those of the motion that would follow from the
-    start under gravity alone.
+    start under gravity alone (but `mean_precession_rate` is nan).
 
     `Motions` has many motions at once.
 
@@ -505,7 +505,7 @@ class Motion:
         return piece
 
     def _make_piece(self, found: PieceRecord) -> "Piece":
-        """Return a piece, which is kept: a driven one is integrated from its start on."""
+        """Return a piece for the caller to keep: a driven one is integrated from its start on."""
         _, start, *_ = read_start(np.frombuffer(found.start))
         motion = self.restart(self.start if found.number == 1 else start)
         return Piece(motion, int(found.begin), int(found.number))
@@ -744,9 +744,10 @@ class Motion:
 
     @property
     def mean_spin_rate(self) -> float:
-        """Mean psi' over a nutation in rad/s; nan if the mean phi' is nan.
+        """Mean psi' over a nutation in rad/s.
 
-        For a clamped motion it is p_psi/Iz.
+        For a clamped motion it is p_psi/Iz. Otherwise it is nan if the axis rests on the vertical
+        or passes through a pole. With friction or a torque it is that under gravity alone.
         """
         # psi' is omega_z as long as phi' is 0, and omega_z is constant.
         held = self.start.angular_velocity[2] if self.clamped else self._rates.mean_spin_rate
@@ -757,7 +758,8 @@ class Motion:
         """Precession in a nutation as a fraction of a turn, 2 pi rad.
 
         The trace of the axis is closed if this fraction is a ratio of integers. It is nan if the
-        mean phi' is nan, and for a motion that does not return.
+        axis rests on the vertical or passes through a pole, and for a clamped motion or one that
+        does not return. With friction or a torque it is that under gravity alone.
 
         Examples
         --------
@@ -771,7 +773,9 @@ class Motion:
 
     @property
     def mean_cosine(self) -> float:
-        """Mean of cos(theta) over the time of a nutation; times Mgl, the mean potential energy.
+        """Mean of cos(theta) over the time of a nutation.
+
+        Mgl times this mean is the mean potential energy.
 
         For Mgl > 0 the axis spends more time near its upper turning point than near its lower one,
         so the mean exceeds the middle of both heights (docs/derivation.md, section 7). For Mgl < 0
