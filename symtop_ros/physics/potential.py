@@ -66,8 +66,8 @@ class EffectivePotential:
         Parameters
         ----------
         theta : array_like (...)
-            Tilt in rad. On the vertical the potential is infinite, or Mgl cos(theta) if the axis
-            can reach the vertical.
+            Tilt in rad. On the vertical the potential is infinite, or Mgl cos(theta) if
+            p_phi = p_psi cos(theta) there.
 
         Examples
         --------

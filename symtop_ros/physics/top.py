@@ -211,7 +211,7 @@ class Top(_Numbers, Generic[N]):
 
     @bindings.compute_soundly
     def axial_momentum(self, state: State) -> Any:
-        """Return L_z = p_psi = Iz omega_z, (...), in N m s; constant without friction."""
+        """Return L_z = p_psi = Iz omega_z, (...), in N m s; constant under gravity alone."""
         return match(self.Iz, state) * state.angular_velocity[..., 2]
 
     @overload
@@ -225,7 +225,7 @@ class Top(_Numbers, Generic[N]):
 
     @bindings.compute_soundly
     def vertical_momentum(self, state: State) -> Any:
-        """Return L_z' = p_phi = L . z', (...), in N m s; constant without friction."""
+        """Return L_z' = p_phi = L . z', (...), in N m s; constant under gravity alone."""
         return (self.body_angular_momentum(state) * state.vertical).sum(axis=-1)
 
 

@@ -28,9 +28,9 @@ class MeanChange:
     ----------
     sense : {"along", "against"} or None
         "along": the kick changes phi' in the direction of the mean precession; "against": in the
-        opposite one. None if phi' does not change, or other rates change too, as by most angular
-        impulses; for Mgl = 0; and if a mean phi' is undefined, zero within its rounding, or of the
-        other sign with the kick.
+        opposite one. None if phi' does not change; for an angular impulse that is not a push along
+        the precession or against it; for Mgl = 0; and if a mean phi' is undefined, zero within its
+        rounding, or of the other sign with the kick.
     height : {"higher", "lower", "unchanged"}
         Change of the mean height of the axis. For Mgl < 0 the centre of mass moves the other way.
     rates : (float, float) or None

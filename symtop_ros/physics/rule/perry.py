@@ -76,7 +76,7 @@ class Place:
     kind : str
         "slow" or "fast": it is one of two; "between" or "outside" two; "only": it is the only one;
         "above" or "below" the only one; "none": no rate is regular; "every": every rate is. A
-        rate that is twice a root is the only one, and of two of one size both are slow.
+        double root is the only one. If two rates have the same size, both are slow.
     rate : float
         The rate in rad/s.
     regular_rates : (float, float)
