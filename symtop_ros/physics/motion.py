@@ -585,10 +585,11 @@ class Motion:
         Raises
         ------
         ValueError
-            If a time is refused by `at`, if double precision does not resolve the derivatives (the
-            start is within 1e-6 rad of the vertical or 1e-8 of the separatrix, the time is late and
-            the nutation far smaller than 1e-6 rad, or a driven motion comes back to an unstable
-            vertical), or if driven motions would take more than a minute.
+            If a time is refused by `at`, if the motion has pushes, a clamp or a tolerance, if
+            double precision does not resolve the derivatives (the start is within 1e-6 rad of the
+            vertical or 1e-8 of the separatrix, the time is late and the nutation far smaller than
+            1e-6 rad, or a driven motion comes back to an unstable vertical), or if driven motions
+            would take more than a minute.
 
         Examples
         --------
