@@ -16,7 +16,8 @@
  * those before the one that the status is about. What a function writes must not overlap what it
  * reads, nor another argument that it writes: the numbers would be wrong, without a word.
  *
- * All arguments are looked at before they are used, and each refusal has a status with a sentence:
+ * All arguments are looked at before they are used, and each refusal has a status with a sentence
+ * (symtop_find_kind and symtop_find_engine return their value for the unknown instead):
  * numbers that are not finite or out of range, orientations without norm 1, null pointers, and
  * enums that are none. Arrays without elements may be null. Only a handle that is neither null nor
  * a motion is not found. What was not computed is not written, but for the element that is refused.
@@ -136,15 +137,16 @@ SYMTOP_API symtop_status symtop_new_clamped(const symtop_start* start, symtop_mo
 
 /* Make a motion that is less exact under friction or a torque, and takes less time. `tolerance` is
  * the local error of a step, in rad and relative to the angular velocity: 1e-15 to 1e-6, or 0 for a
- * motion as symtop_new makes it. In a step the axis turns by up to 4 rad about the angular momentum;
- * errors of steps add up. Without friction and torque the tolerance has no effect. */
+ * motion as symtop_new makes it. In a step the axis turns by at most 4 rad about the angular
+ * momentum; errors of steps add up. Without friction and torque the tolerance has no effect. */
 SYMTOP_API symtop_status symtop_new_coarse(const symtop_start* start, double tolerance,
                                            symtop_motion** motion);
 
 SYMTOP_API void symtop_free(symtop_motion* motion); /* null is allowed */
 
-/* Make the motion that goes on from a time with another torque, such as a hand that begins to push,
- * and without further pushes. Its times count from there. */
+/* Make the motion that continues from a time with another torque, such as a hand that begins to
+ * push, and without further pushes. Its times count from there. It has the clamp and the tolerance
+ * of `motion`; with a clamp a torque is refused: SYMTOP_BAD_CLAMP. */
 SYMTOP_API symtop_status symtop_continue(symtop_motion* motion, double t, const double torque[3],
                                          symtop_motion** continued);
 
@@ -213,11 +215,12 @@ SYMTOP_API symtop_kind symtop_find_kind(symtop_motion* motion);
 /* The smallest and the largest angle theta in rad between the axis and the vertical. */
 SYMTOP_API symtop_status symtop_find_turning_angles(symtop_motion* motion, double angles[2]);
 
+/* The rates and the precession are NaN if the axis meets the vertical, and if phi is held. */
 typedef struct {
   double nutation_period;         /* s; infinite if theta does not return */
-  double mean_precession_rate;    /* mean phi' in rad/s; NaN if the axis meets the vertical */
-  double mean_spin_rate;          /* mean psi' in rad/s; NaN there as well */
-  double precession_per_nutation; /* in turns; NaN there, and if theta does not return */
+  double mean_precession_rate;    /* mean phi' in rad/s */
+  double mean_spin_rate;          /* mean psi' in rad/s */
+  double precession_per_nutation; /* in turns; NaN also if theta does not return */
   double mean_cosine; /* mean of cos(theta); that of the pole which theta approaches for ever */
   int spin_reverses;  /* 1 if psi' takes both signs */
 } symtop_rates;
@@ -491,8 +494,8 @@ typedef struct {
   double precession_period; /* s, of one turn at that rate; infinite if it is 0 */
   double turns;             /* precession in a nutation */
   double fast_top_rate;     /* Mgl/p_psi; NaN if p_psi = 0 */
-  int is_fast; /* 1 if p_psi^2 > 4 Ix |Mgl|, Mgl not 0, that is within 30 % of rate, and the top
-                  spins faster than it precesses, in the mean */
+  int is_fast; /* 1 if p_psi^2 > 4 Ix |Mgl|, Mgl is not 0, rate is within 30 % of fast_top_rate,
+                  and the top spins faster than it precesses, in the mean */
   int spin_reverses;
 } symtop_average;
 
@@ -529,7 +532,7 @@ typedef enum {
 
 /* What |phi'| does on all of the way to the next turning angle, if it changes by more than 5 %. */
 typedef enum {
-  SYMTOP_PACE_UNSAID, /* "": less, or one after the other */
+  SYMTOP_PACE_UNSAID, /* "": it changes by less, or it grows and falls on the way */
   SYMTOP_PACE_SPEEDS,
   SYMTOP_PACE_SLOWS
 } symtop_pace;
@@ -667,8 +670,8 @@ SYMTOP_API symtop_status symtop_explain_present(const symtop_start* start, symto
 
 /* Whether rounding decides the kind of a motion under gravity alone: within the rounding of its
  * start, 64 * 2^-52 of it, is an asymptotic motion, and one last place of one number of the start
- * turns the axis by 0.01 rad later on. *shows_at is the time of that in s; infinite without a
- * doubt. */
+ * turns the axis by 0.01 rad within two nutations. *shows_at is the time of that in s; infinite
+ * without a doubt. */
 SYMTOP_API symtop_status symtop_find_doubt(const symtop_start* start, double* shows_at);
 
 /* ---- Exchange ---- */

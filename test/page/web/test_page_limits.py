@@ -87,7 +87,7 @@ def test_a_question_of_the_lesson_is_asked_and_checked_in_the_unit_of_the_page(o
     for unit, size in (("rad", 1.0), ("deg", 180 / math.pi)):
         page.choose_unit(unit)
         page.open_tab("lesson")
-        within = re.search(rf"to {NUMBER}(°| rad)$", page.say("lesson-ask"))
+        within = re.search(rf"within {NUMBER}(°| rad)\)$", page.say("lesson-ask"))
         assert (within[2] == "°") == (unit == "deg")
         for share, word in ((0.98, "Right"), (1.02, "Not")):
             typed = answers[number] * size + share * float(within[1])
@@ -95,7 +95,7 @@ def test_a_question_of_the_lesson_is_asked_and_checked_in_the_unit_of_the_page(o
             page.tab.locator("#predicted-number").press("Enter")
             said = page.say("lesson-checked")
             assert said.startswith(word)
-            assert within[0] in said
+            assert f"within {within[1]}{within[2]}" in said
 
 
 def test_an_angle_that_is_typed_is_the_same_after_the_unit_has_changed(opened):

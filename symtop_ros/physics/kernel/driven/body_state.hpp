@@ -64,8 +64,8 @@ struct BodyState {
     for (int k = 0; k < 3; k++) omega[k] = {given.omega[k], 0.0};
   }
 
-  // From a state in the frame, in which the body is turned about the axis; `half` is of half the
-  // angle.
+  // From a state in the frame, in which the body is turned about the axis; `half` has cosine and
+  // sine of half the angle.
   BodyState(const Variables& now, const Unit& half) {
     const Double2 w = pick(now.q, W), x = pick(now.q, X), y = pick(now.q, Y), z = pick(now.q, Z);
     const Double2 omega_x = pick(now.rates, OMEGA_X), omega_y = pick(now.rates, OMEGA_Y);

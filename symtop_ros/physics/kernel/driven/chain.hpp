@@ -9,8 +9,8 @@
 
 namespace symtop {
 
-// What the last terms of a step leave out, and the rounding of those that are doubles, count in all
-// pieces that follow: of half a step it is a two-thousandth, some 1e-24.
+// The terms that a step leaves out, and the rounding of those that are doubles, count in all pieces
+// that follow. In half a step the first are smaller by 2^-34 and the second by 2^-11: some 1e-24.
 const double CARRIED_SHARE = 0.5;
 // rad of the fastest rate, some three steps, that take less time than a set-up. A longer way begins
 // with whole nutations.
@@ -25,8 +25,9 @@ inline Double2 to_double2(const Precise& x) {
   return {high, rest_of(x, high)};
 }
 
-// A state stays in the turning frame: the angle of spin, which grows, has its digits, and those of
-// its sine would be some less than 32.
+// A state stays in the turning frame, and the angle of spin is a number of its own with 32 digits.
+// In the frame of the body the sine of this angle would be needed, which has fewer digits, as the
+// angle grows.
 class Chain {
  public:
   explicit Chain(const DrivenArguments& top) { stepper_.equations.prepare(top); }

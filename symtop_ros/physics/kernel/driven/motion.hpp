@@ -58,7 +58,7 @@ class DrivenMotion {
     Trail* trail = find_trail(t);
     if (!trail) return HAS_NO_MEMORY;
     Progress progress;
-    // Who allows few steps knows what they take.
+    // A caller that allows few steps limits the time itself: for it no way is too long.
     const double longest = steps > LONGEST_WAY ? LONGEST_WAY : INFINITY;
     *reached = trail->reach(t, &steps, longest, &progress);
     return progress;

@@ -26,7 +26,7 @@ struct Inverses {
   constexpr Inverses() : high(), low() {
     for (int n = 1; n <= DRIVEN_TERMS; n++) {
       high[n] = 1.0 / n;
-      // 1 - n/n, in integers: the double of 1/n has no digit below 2^-58.
+      // 1 - n times the double of 1/n, in integers: the double has no digit below 2^-58.
       const int64_t digits = static_cast<int64_t>(high[n] * 0x1p58);
       low[n] = static_cast<double>((int64_t(1) << 58) - digits * n) * 0x1p-58 / n;
     }
@@ -71,8 +71,8 @@ class TaylorSeries {
   PartsOf<Lanes> friction_, weight_, torques_[SQUARES];
   Double2 share_;
   PartsOf<Lanes> share_in_parts_;
-  // Beyond these orders the turn of the frame has no digit that counts: by first terms, and by
-  // small ones.
+  // From these orders on, the turn of the frame has no digit that counts in the first terms (in
+  // parts), and in the others.
   int turning_orders_, last_turn_;
 
   template <int COUNT>

@@ -8,7 +8,7 @@
 namespace symtop {
 
 // Size of the last terms of a step, for variables of size 1. It is far below EPS, because what is
-// left out has the same sign in many steps, while rounding has not: with 1e-19 steps would be 8 %
+// left out has the same sign in many steps, while rounding has not: with 1e-19 steps would be 7 %
 // longer, and errors after a thousand seconds ten times as large.
 const double LAST = 1e-20;
 // The terms of an axis near the vertical may be larger than this by a factor, compared with its
