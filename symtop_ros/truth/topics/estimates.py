@@ -157,8 +157,8 @@ def _describe_norms(norms: Real) -> Iterator[str]:
         ends = dict.fromkeys(f"{float(each):.3g}" for each in (norms.min(), norms.max()))
         counted = f"{wrong} of {write_count(len(norms), 'quaternion')}"
         were = "was" if wrong == 1 else "were"
-        norms = f"norm{'s' if len(ends) > 1 else ''} {' to '.join(ends)}"
-        yield f"{counted} did not have the norm 1, and {were} divided by the norm ({norms})"
+        range_ = f"norm{'s' if len(ends) > 1 else ''} {' to '.join(ends)}"
+        yield f"{counted} did not have the norm 1, and {were} divided by the norm ({range_})"
 
 
 ATTITUDES, RATES = ("orientation", "rotation"), ("angular_velocity", "angular")
