@@ -19,6 +19,7 @@ from symtop_ros.base.arrays import Real
 from symtop_ros.physics import Friction, Motion, Motions, State, Top
 from symtop_ros.physics.gpu.draw import draw_family
 from symtop_ros.truth.testset.score import measure_angles
+from workshop.speed.peers import prepare
 from workshop.speed.peers.peer import body_rates, normalize
 from workshop.speed.peers.turning_frame import frame_rates, turn_about_axis
 from workshop.speed.reference import EPS, Reference, ReferenceMotion
@@ -97,29 +98,20 @@ def list_long_times() -> Iterator[str]:
 def list_tolerances() -> Iterator[str]:
     """Yield errors and times of the report's driven motions with a tolerance."""
     motions = Reference.read().driven
-    whole = [_time_driven(motion, 0.0) for motion in motions]
+    exact = [_measure_driven(motion, 0.0) for motion in motions]
     for tolerance in TOLERANCES:
-        errors = [_find_driven_error(motion, tolerance) for motion in motions]
-        seconds = [_time_driven(motion, tolerance) for motion in motions]
-        ratio = median(part / all_ for part, all_ in zip(seconds, whole, strict=True))
+        found = [_measure_driven(motion, tolerance) for motion in motions]
+        ratio = median(part[1] / whole[1] for part, whole in zip(found, exact, strict=True))
+        errors = [error for error, _ in found]
         middle, largest = median(errors), max(errors)
         yield f"| {tolerance:.0e} | {ratio:.2f} | {middle:.0e} rad | {largest:.0e} rad |"
 
 
-def _make_driven(motion: ReferenceMotion, tolerance: float) -> Motion:
-    task = motion.task
-    acting = task.friction, task.applied_torque
-    return Motion(task.top, task.start, *acting, tolerance=tolerance)
-
-
-def _find_driven_error(motion: ReferenceMotion, tolerance: float) -> float:
-    found = _make_driven(motion, tolerance)
-    return max(motion.error(t, found.at(t).orientation) for t in motion.times)
-
-
-def _time_driven(motion: ReferenceMotion, tolerance: float) -> float:
-    t = motion.times[-1]
-    return min(repeat(lambda: _make_driven(motion, tolerance).at(t), number=1, repeat=7))
+def _measure_driven(motion: ReferenceMotion, tolerance: float) -> tuple[float, float]:
+    """Return the largest error in rad and the shortest time in s of some runs."""
+    reach = prepare(motion.task, tolerance).reach
+    error = max(motion.error(t, reach(t)) for t in motion.times)
+    return error, min(repeat(partial(reach, motion.times[-1]), number=1, repeat=7))
 
 
 def list_threads() -> Iterator[str]:

@@ -108,6 +108,31 @@ def test_the_bits_are_the_same_on_every_machine(friction, torque, stored):
     assert [each.hex() for each in found] == stored.split()
 
 
+LEANING = 0.96875, 0.125, -0.15625, 0.140625  # a quaternion; it is normalised
+MIRROR = np.array([1, 1, -1, -1])  # of quaternions, in a vertical plane
+
+
+@pytest.mark.parametrize("tolerance", TOLERANCES)
+def test_twins_have_the_same_bits(tolerance):
+    """A heavier top, a faster one, and the mirror image."""
+
+    def find(top, omega, friction, t=5.0, q=LEANING):
+        return Motion(top, State(q, omega), friction, tolerance=tolerance).at(t).orientation
+
+    Ix, Iz, Mgl = ARTICLE.moments
+    across = 2.0**-18
+    found = find(ARTICLE, (1.0, -0.5, 200.0), Friction(2.0**-20, across))
+    heavier = Top(128 * Ix, 128 * Iz, 128 * Mgl)
+    assert np.array_equal(
+        find(heavier, (1.0, -0.5, 200.0), Friction(2.0**-13, 128 * across)), found
+    )
+    faster = find(Top(Ix, Iz, 4 * Mgl), (2.0, -1.0, 400.0), Friction(2.0**-19, 2 * across), 2.5)
+    assert np.array_equal(faster, found)
+    turned = tuple(MIRROR * LEANING)
+    mirrored = find(ARTICLE, (1.0, 0.5, -200.0), Friction(2.0**-20, across), q=turned)
+    assert np.array_equal(MIRROR * mirrored, found)
+
+
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 def test_without_friction_and_torque_no_bit_changes(tolerance):
     exact, coarse = Motion(ARTICLE, START), Motion(ARTICLE, START, tolerance=tolerance)
